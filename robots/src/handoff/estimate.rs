@@ -1,0 +1,95 @@
+//! What the vehicle believes: never the truth, and a type of its own so that they cannot be confused.
+
+use super::{ChemicalReading, GuidanceStatus};
+use bevy_ecs::prelude::Component;
+use nalgebra::{Vector2, Vector3};
+use world::area::Area;
+use world::units::Heading;
+
+/// Believed attitude.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Attitude {
+    /// Heading.
+    pub heading: Heading,
+    /// Roll, right side down positive, rad.
+    pub roll_rad: f64,
+    /// Pitch, nose *up* positive, rad.
+    pub pitch_rad: f64,
+    /// Angular rates in body axes (FLU), rad/s.
+    pub rates_rad_s: Vector3<f64>,
+}
+
+/// Believed flow at the vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowEstimate {
+    /// Velocity over ground (east, north), m/s; where the water goes.
+    pub velocity: Vector2<f64>,
+    /// Age of the newest measurement in it, s.
+    pub age_s: f64,
+}
+
+impl FlowEstimate {
+    /// Where the water goes.
+    #[must_use]
+    pub fn heading(&self) -> Heading {
+        Heading::of(self.velocity)
+    }
+
+    /// Where the water comes from.
+    #[must_use]
+    pub fn up_flow(&self) -> Heading {
+        self.heading().opposite()
+    }
+}
+
+/// Believed state of vehicle and water.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// Time it holds for, s.
+    pub t_s: f64,
+    /// Horizontal position (east, north), m.
+    pub position: Vector2<f64>,
+    /// Depth below the still surface, m.
+    pub depth_m: f64,
+    /// Height above the bed, m; `None` until the altimeter first heard the bed.
+    pub altitude_m: Option<f64>,
+    /// Attitude and rates.
+    pub attitude: Attitude,
+    /// Velocity over ground in body axes (FLU), m/s.
+    pub v_ground_body: Vector3<f64>,
+    /// Flow at the vehicle; `None` until first measured.
+    pub flow: Option<FlowEstimate>,
+    /// How far the newest position fix moved the estimate, m, in the tick in which it came; else zero.
+    pub fix_jump_m: f64,
+}
+
+impl Estimate {
+    /// Believed velocity over ground (east, north), m/s.
+    #[must_use]
+    pub fn v_ground(&self) -> Vector2<f64> {
+        let forward = self.attitude.heading.unit();
+        let left = self
+            .attitude
+            .heading
+            .turned(-std::f64::consts::FRAC_PI_2)
+            .unit();
+        forward * self.v_ground_body.x + left * self.v_ground_body.y
+    }
+}
+
+/// What a strategy sees in a tick.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Observation {
+    /// Time, s.
+    pub t_s: f64,
+    /// Believed state.
+    pub estimate: Estimate,
+    /// Chemical reading, if the sensor reported in this tick.
+    pub chemical: Option<ChemicalReading>,
+    /// How the guidance stands with the goal last given.
+    pub guidance: GuidanceStatus,
+    /// The operating area, known to the mission beforehand.
+    pub area: Area,
+    /// Where the vehicle was launched (its own first position), and where Go-Home leads.
+    pub home: Vector2<f64>,
+}

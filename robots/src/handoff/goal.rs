@@ -1,0 +1,78 @@
+//! What a strategy asks of the guidance, and what the guidance answers.
+
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector2;
+use world::units::Heading;
+
+/// Vertical part of a goal.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Vertical {
+    /// Keep this height above the bed, m.
+    Altitude(f64),
+    /// Keep this depth, m.
+    Depth(f64),
+}
+
+/// Horizontal part of a goal: P09's guidance modes, a plain course, or none.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Manoeuvre {
+    /// Head for a point (east, north); arrived within `radius_m`.
+    GoToPoint {
+        /// Destination, m.
+        point: Vector2<f64>,
+        /// Arrival radius, m; `None`: the guidance's own.
+        radius_m: Option<f64>,
+    },
+    /// Reach the start with the line's heading, then track the line to its end.
+    FollowLine {
+        /// Start, m.
+        from: Vector2<f64>,
+        /// End, m.
+        to: Vector2<f64>,
+    },
+    /// Reach a point with a heading along a Dubins path.
+    GoToPointWithHeading {
+        /// Destination, m.
+        point: Vector2<f64>,
+        /// Heading on arrival.
+        heading: Heading,
+    },
+    /// Move over ground in a direction, without end.
+    Course {
+        /// Direction over ground.
+        course: Heading,
+    },
+    /// Drive the actuators directly, bypassing guidance and autopilot.
+    Direct {
+        /// Rudder angle, rad (positive turns to starboard, as in the reference data).
+        rudder_rad: f64,
+        /// Stern plane angle, rad (positive pitches the nose down).
+        stern_rad: f64,
+        /// Propeller speed, rpm.
+        rpm: f64,
+    },
+}
+
+/// A goal; the guidance starts a manoeuvre afresh when `id` changes.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub struct Goal {
+    /// Number of the goal, growing by one with each new one.
+    pub id: u32,
+    /// Horizontal part.
+    pub manoeuvre: Manoeuvre,
+    /// Vertical part.
+    pub vertical: Vertical,
+    /// Speed over ground wished for, m/s.
+    pub speed_m_s: f64,
+}
+
+/// How the guidance stands with a goal.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct GuidanceStatus {
+    /// Which goal.
+    pub goal_id: u32,
+    /// It has been reached.
+    pub done: bool,
+    /// The cage gave the mission up: too far outside the area.
+    pub aborted: bool,
+}

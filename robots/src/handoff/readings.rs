@@ -1,0 +1,91 @@
+//! What the instruments said in this tick: `None` when one did not report.
+
+use bevy_ecs::prelude::Component;
+use nalgebra::{Vector2, Vector3};
+use world::units::Heading;
+
+/// Chemical sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ChemicalReading {
+    /// Output, V.
+    pub volts: f64,
+    /// The output as a share of full scale, 0–1.
+    pub of_full_scale: f64,
+    /// Above the detection threshold.
+    pub detected: bool,
+}
+
+/// Doppler log on bottom track.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DvlReading {
+    /// Velocity over ground in body axes (FLU), m/s.
+    pub v_body_m_s: Vector3<f64>,
+    /// False when bottom lock was lost: the velocity is then not to be used.
+    pub valid: bool,
+}
+
+/// One ADCP cell: water relative to the vehicle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AdcpReading {
+    /// Water velocity relative to the vehicle, in body axes (FLU), m/s.
+    pub v_body_m_s: Vector3<f64>,
+    /// Height of the cell's middle above the vehicle (negative: below), m.
+    pub above_m: f64,
+    /// False when the cell reaches past surface or bed.
+    pub valid: bool,
+}
+
+/// Compass and inertial unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AttitudeReading {
+    /// Compass heading.
+    pub heading: Heading,
+    /// Roll, right side down positive, rad.
+    pub roll_rad: f64,
+    /// Pitch, nose *up* positive, rad.
+    pub pitch_rad: f64,
+    /// Angular rates in body axes (FLU), rad/s.
+    pub rates_rad_s: Vector3<f64>,
+}
+
+/// Pressure sensor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DepthReading {
+    /// Depth below the still surface, m.
+    pub depth_m: f64,
+}
+
+/// Echo sounder looking down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AltimeterReading {
+    /// Height above the bed, m.
+    pub altitude_m: f64,
+    /// False beyond its range.
+    pub valid: bool,
+}
+
+/// Long-baseline position fix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LblFix {
+    /// Position (east, north), m.
+    pub position: Vector2<f64>,
+}
+
+/// All readings of one tick.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Readings {
+    /// Chemical sensor.
+    pub chemical: Option<ChemicalReading>,
+    /// Bottom track.
+    pub dvl: Option<DvlReading>,
+    /// Water track, the cell used for the flow.
+    pub adcp: Option<AdcpReading>,
+    /// Compass and inertial unit.
+    pub attitude: Option<AttitudeReading>,
+    /// Depth.
+    pub depth: Option<DepthReading>,
+    /// Altitude.
+    pub altimeter: Option<AltimeterReading>,
+    /// Position fix.
+    pub lbl: Option<LblFix>,
+}

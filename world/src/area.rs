@@ -1,0 +1,114 @@
+//! The operating area: a rectangle, turned to any heading, centred on the datum.
+
+use crate::units::Heading;
+use bevy_ecs::prelude::Resource;
+use nalgebra::Vector2;
+
+/// Rectangle of `length_m` along `axis` and `width_m` across it, centred at `centre` (east, north).
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Area {
+    /// Centre (east, north), m.
+    pub centre: Vector2<f64>,
+    /// Extent along the axis, m.
+    pub length_m: f64,
+    /// Extent across the axis, m.
+    pub width_m: f64,
+    /// Direction of the long axis.
+    pub axis: Heading,
+}
+
+impl Area {
+    /// (along, across) coordinates of a world point: along the axis, and to its right.
+    #[must_use]
+    pub fn local(&self, p: Vector2<f64>) -> Vector2<f64> {
+        let d = p - self.centre;
+        let a = self.axis.unit();
+        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit();
+        Vector2::new(d.dot(&a), d.dot(&r))
+    }
+
+    /// World point (east, north) of (along, across) coordinates.
+    #[must_use]
+    pub fn world(&self, local: Vector2<f64>) -> Vector2<f64> {
+        let a = self.axis.unit();
+        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit();
+        self.centre + a * local.x + r * local.y
+    }
+
+    /// Whether a point lies inside, edges included.
+    #[must_use]
+    pub fn contains(&self, p: Vector2<f64>) -> bool {
+        self.edge_distance(p).0 >= 0.0
+    }
+
+    /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
+    #[must_use]
+    pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
+        let q = self.local(p);
+        let (dx, dy) = (
+            self.length_m / 2.0 - q.x.abs(),
+            self.width_m / 2.0 - q.y.abs(),
+        );
+        let a = self.axis.unit() * q.x.signum();
+        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit() * q.y.signum();
+        if dx < 0.0 && dy < 0.0 {
+            let out = a * -dx + r * -dy;
+            let d = out.norm();
+            (-d, out / d)
+        } else if dx <= dy {
+            (dx, a)
+        } else {
+            (dy, r)
+        }
+    }
+
+    /// The four corners in world coordinates, in order round the rectangle.
+    #[must_use]
+    pub fn corners(&self) -> [Vector2<f64>; 4] {
+        let (l, w) = (self.length_m / 2.0, self.width_m / 2.0);
+        [(l, w), (l, -w), (-l, -w), (-l, w)].map(|(x, y)| self.world(Vector2::new(x, y)))
+    }
+
+    /// Axis-aligned bounds (min, max) in world coordinates.
+    #[must_use]
+    pub fn bounds(&self) -> (Vector2<f64>, Vector2<f64>) {
+        let c = self.corners();
+        let min = c.iter().fold(c[0], |m, p| m.inf(p));
+        let max = c.iter().fold(c[0], |m, p| m.sup(p));
+        (min, max)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn duck() -> Area {
+        Area {
+            centre: Vector2::zeros(),
+            length_m: 1094.0,
+            width_m: 367.0,
+            axis: Heading::from_deg(340.0),
+        }
+    }
+
+    #[test]
+    fn local_and_world_are_inverse() {
+        let a = duck();
+        let p = Vector2::new(-242.0, 414.0);
+        assert!((a.world(a.local(p)) - p).norm() < 1e-9);
+        assert!(a.contains(p));
+    }
+
+    #[test]
+    fn distance_is_signed_and_normal_points_out() {
+        let a = duck();
+        let inside = a.world(Vector2::new(540.0, 0.0));
+        let (d, n) = a.edge_distance(inside);
+        assert!((d - 7.0).abs() < 1e-9 && (n - a.axis.unit()).norm() < 1e-9);
+        let outside = a.world(Vector2::new(550.0, 187.5));
+        let (d, n) = a.edge_distance(outside);
+        assert!((d + 5.0).abs() < 1e-9);
+        assert!((a.edge_distance(outside - n * 5.001).0).abs() < 0.01);
+    }
+}

@@ -1,0 +1,65 @@
+//! Simulated time: a step count times a step, and stages that run every so many steps.
+
+use bevy_ecs::prelude::Resource;
+
+/// Simulated time. Time is always `step · dt`, never an accumulated sum.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Clock {
+    /// Steps done so far.
+    pub step: u64,
+    /// Length of a step, s.
+    pub dt_s: f64,
+}
+
+impl Clock {
+    /// A clock at zero.
+    #[must_use]
+    pub fn new(dt_s: f64) -> Self {
+        Self { step: 0, dt_s }
+    }
+
+    /// Simulated time, s.
+    #[must_use]
+    pub fn t_s(&self) -> f64 {
+        self.step as f64 * self.dt_s
+    }
+
+    /// Time at the end of the present step, s.
+    #[must_use]
+    pub fn t_next_s(&self) -> f64 {
+        (self.step + 1) as f64 * self.dt_s
+    }
+
+    /// One step on.
+    pub fn advance(&mut self) {
+        self.step += 1;
+    }
+}
+
+/// Runs something every `n` steps: slow stages divide the step, they never look at the wall clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Every {
+    /// Steps between two runs, at least 1.
+    pub steps: u64,
+}
+
+impl Every {
+    /// The divisor nearest to `period_s` for steps of `dt_s`.
+    #[must_use]
+    pub fn period(period_s: f64, dt_s: f64) -> Self {
+        let steps = (period_s / dt_s).round().max(1.0) as u64;
+        Self { steps }
+    }
+
+    /// Whether it runs in this step.
+    #[must_use]
+    pub fn due(self, clock: &Clock) -> bool {
+        clock.step.is_multiple_of(self.steps)
+    }
+
+    /// The period it really has, s.
+    #[must_use]
+    pub fn period_s(self, dt_s: f64) -> f64 {
+        self.steps as f64 * dt_s
+    }
+}

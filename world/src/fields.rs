@@ -1,0 +1,95 @@
+//! What fills the space: moving water and what is dissolved in it. The truth, whoever makes it.
+
+use nalgebra::{Matrix3, Vector3};
+
+/// Water at a point: velocity, its gradient, its rate of change and the density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WaterSample {
+    /// Velocity over ground, ENU, m/s; points where the water goes.
+    pub velocity: Vector3<f64>,
+    /// Gradient ∂u_i/∂x_j, 1/s.
+    pub gradient: Matrix3<f64>,
+    /// Local rate of change ∂u/∂t, m/s².
+    pub rate: Vector3<f64>,
+    /// Density, kg/m³.
+    pub density_kg_m3: f64,
+}
+
+/// Eddy diffusivities at a point, m²/s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Mixing {
+    /// Horizontal.
+    pub k_h_m2_s: f64,
+    /// Vertical.
+    pub k_z_m2_s: f64,
+}
+
+/// The water: one answer for the hull, the sensors, the plume and the reports.
+///
+/// `advance` is called with growing times before anything is asked at `t`; questions may be asked
+/// within a second or so after the latest `advance` (a flow with inner state interpolates).
+pub trait Flow: Send + Sync {
+    /// Brings inner state (meander, turbulence) up to `t_s`, s. The result must not depend on how
+    /// the way there is cut into calls.
+    fn advance(&mut self, _t_s: f64) {}
+
+    /// Velocity over ground at `p` (ENU, m) and time `t_s`, m/s.
+    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64>;
+
+    /// Density at `p`, kg/m³.
+    fn density(&self, _p: &Vector3<f64>, _t_s: f64) -> f64 {
+        1026.0
+    }
+
+    /// Eddy diffusivity at `p`, m²/s.
+    fn mixing(&self, _p: &Vector3<f64>, _t_s: f64) -> Mixing {
+        Mixing::default()
+    }
+
+    /// Velocity with gradient, rate of change and density; central differences unless overridden.
+    fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
+        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
+        const H: f64 = 1e-3;
+        let mut gradient = Matrix3::zeros();
+        for j in 0..3 {
+            let mut e = Vector3::zeros();
+            e[j] = H;
+            let d = (self.velocity(&(p + e), t_s) - self.velocity(&(p - e), t_s)) / (2.0 * H);
+            gradient.set_column(j, &d);
+        }
+        let rate = (self.velocity(p, t_s + H) - self.velocity(p, (t_s - H).max(0.0)))
+            / (t_s + H - (t_s - H).max(0.0));
+        WaterSample {
+            velocity: self.velocity(p, t_s),
+            gradient,
+            rate,
+            density_kg_m3: self.density(p, t_s),
+        }
+    }
+}
+
+/// Something dissolved in the water.
+pub trait Concentration: Send + Sync {
+    /// Concentration at `p` (ENU, m), kg/m³, now.
+    fn at(&self, p: &Vector3<f64>) -> f64;
+}
+
+/// Still water of constant density.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Still;
+
+impl Flow for Still {
+    fn velocity(&self, _p: &Vector3<f64>, _t_s: f64) -> Vector3<f64> {
+        Vector3::zeros()
+    }
+}
+
+/// Nothing dissolved.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Clean;
+
+impl Concentration for Clean {
+    fn at(&self, _p: &Vector3<f64>) -> f64 {
+        0.0
+    }
+}

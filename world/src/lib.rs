@@ -1,0 +1,18 @@
+//! What exists and how time passes: space, terrain, rigid bodies, clock, seeds, recording.
+//!
+//! Knows no plume and no robot. World frame: ENU (x east, y north, z up), z = 0 at the still
+//! surface; in a flume x runs down-stream, y left, z up. Body frame: FLU (REP 103). SI units, radians.
+
+pub mod area;
+pub mod clock;
+pub mod fields;
+pub mod frames;
+pub mod math;
+pub mod obstacles;
+pub mod physics;
+pub mod ranges;
+pub mod record;
+pub mod seeds;
+pub mod stage;
+pub mod terrain;
+pub mod units;

@@ -1,0 +1,49 @@
+//! Transcendental functions with the same bits on every machine.
+//!
+//! The platform's C library picks code by CPU and version, so `f64::sin` may differ in the last bit
+//! between machines and a chaotic run then parts ways. Everything inside a tick uses these
+//! (pure-Rust `libm`); clippy's `disallowed-methods` keeps it so. `sqrt` is exact everywhere.
+
+macro_rules! via_libm {
+    ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $libm:path;)*) => {
+        $($(#[$doc])* #[inline] #[must_use] pub fn $name($($arg: f64),+) -> f64 { $libm($($arg),+) })*
+    };
+}
+
+via_libm! {
+    /// Sine of an angle in radians.
+    sin(x) = libm::sin;
+    /// Cosine of an angle in radians.
+    cos(x) = libm::cos;
+    /// Tangent of an angle in radians.
+    tan(x) = libm::tan;
+    /// Arcsine, radians.
+    asin(x) = libm::asin;
+    /// Arccosine, radians.
+    acos(x) = libm::acos;
+    /// Arctangent, radians.
+    atan(x) = libm::atan;
+    /// Four-quadrant arctangent of y / x, radians.
+    atan2(y, x) = libm::atan2;
+    /// Natural exponential.
+    exp(x) = libm::exp;
+    /// Natural logarithm.
+    ln(x) = libm::log;
+    /// x to the power y.
+    powf(x, y) = libm::pow;
+    /// Hyperbolic tangent.
+    tanh(x) = libm::tanh;
+    /// Hyperbolic sine.
+    sinh(x) = libm::sinh;
+    /// Hyperbolic cosine.
+    cosh(x) = libm::cosh;
+    /// Error function.
+    erf(x) = libm::erf;
+}
+
+/// Sine and cosine of an angle in radians.
+#[inline]
+#[must_use]
+pub fn sin_cos(x: f64) -> (f64, f64) {
+    libm::sincos(x)
+}

@@ -1,0 +1,1 @@
+//! Solid things standing in the water.

@@ -1,0 +1,1 @@
+//! Rigid bodies and contacts, the only place that touches rapier3d.

@@ -1,0 +1,41 @@
+//! The tick's stages, in the order in which `scenarios/src/tick.rs` chains them.
+
+use bevy_ecs::prelude::SystemSet;
+
+/// One stage of the tick.
+#[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Stage {
+    /// Instruments read the truth, with their noise, rate and range.
+    Sense,
+    /// Readings become what the vehicle believes of itself and the water.
+    Estimate,
+    /// Belief about where the source may be.
+    Map,
+    /// A strategy chooses behaviour and goal.
+    Decide,
+    /// A goal becomes heading, speed and depth commands.
+    Guide,
+    /// Commands become actuator set-points.
+    Actuate,
+    /// Bodies move.
+    Physics,
+    /// Water and what is dissolved in it move.
+    Drift,
+    /// What happened is digested, recorded and published.
+    Report,
+}
+
+impl Stage {
+    /// All stages in order.
+    pub const ALL: [Stage; 9] = [
+        Stage::Sense,
+        Stage::Estimate,
+        Stage::Map,
+        Stage::Decide,
+        Stage::Guide,
+        Stage::Actuate,
+        Stage::Physics,
+        Stage::Drift,
+        Stage::Report,
+    ];
+}

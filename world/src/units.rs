@@ -1,0 +1,125 @@
+//! Angles and the one unit whose meaning can be mistaken: the compass heading.
+
+use crate::math;
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Standard gravity used throughout, m/s².
+pub const GRAVITY_M_S2: f64 = 9.81;
+
+/// kg/m³ in one µg/L.
+pub const KG_M3_PER_UG_L: f64 = 1e-6;
+
+/// Wraps an angle to (−π, π].
+#[must_use]
+pub fn wrap_pi(angle_rad: f64) -> f64 {
+    let a = angle_rad - TAU * (angle_rad / TAU).floor();
+    if a > PI { a - TAU } else { a }
+}
+
+/// Wraps an angle to [0, 2π).
+#[must_use]
+pub fn wrap_tau(angle_rad: f64) -> f64 {
+    let a = angle_rad - TAU * (angle_rad / TAU).floor();
+    if a >= TAU { 0.0 } else { a }
+}
+
+/// Compass direction: radians clockwise from north, kept in [0, 2π).
+///
+/// A flow's heading is where the water *goes*; up-flow is [`Heading::opposite`].
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Heading(f64);
+
+impl Heading {
+    /// From radians clockwise from north.
+    #[must_use]
+    pub fn from_rad(rad: f64) -> Self {
+        Self(wrap_tau(rad))
+    }
+
+    /// From degrees clockwise from north.
+    #[must_use]
+    pub fn from_deg(deg: f64) -> Self {
+        Self::from_rad(deg.to_radians())
+    }
+
+    /// From an ENU yaw (radians anticlockwise from east).
+    #[must_use]
+    pub fn from_yaw(yaw_rad: f64) -> Self {
+        Self::from_rad(FRAC_PI_2 - yaw_rad)
+    }
+
+    /// Direction of an (east, north) vector; north for the zero vector.
+    #[must_use]
+    pub fn of(v: Vector2<f64>) -> Self {
+        Self::from_rad(math::atan2(v.x, v.y))
+    }
+
+    /// Radians clockwise from north, in [0, 2π).
+    #[must_use]
+    pub fn rad(self) -> f64 {
+        self.0
+    }
+
+    /// Degrees clockwise from north, in [0, 360).
+    #[must_use]
+    pub fn deg(self) -> f64 {
+        self.0.to_degrees()
+    }
+
+    /// ENU yaw, radians anticlockwise from east, in (−π, π].
+    #[must_use]
+    pub fn yaw(self) -> f64 {
+        wrap_pi(FRAC_PI_2 - self.0)
+    }
+
+    /// Unit vector (east, north).
+    #[must_use]
+    pub fn unit(self) -> Vector2<f64> {
+        let (s, c) = math::sin_cos(self.0);
+        Vector2::new(s, c)
+    }
+
+    /// Turned clockwise by `rad` (anticlockwise if negative).
+    #[must_use]
+    pub fn turned(self, rad: f64) -> Self {
+        Self::from_rad(self.0 + rad)
+    }
+
+    /// The reverse direction.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        self.turned(PI)
+    }
+
+    /// Signed turn from `self` to `other`, clockwise positive, in (−π, π].
+    #[must_use]
+    pub fn turn_to(self, other: Self) -> f64 {
+        wrap_pi(other.0 - self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn heading_and_yaw_are_inverse() {
+        for deg in [0.0, 45.0, 90.0, 180.0, 270.0, 359.0] {
+            let h = Heading::from_deg(deg);
+            assert!(h.turn_to(Heading::from_yaw(h.yaw())).abs() < 1e-12);
+            assert!(h.turn_to(Heading::of(h.unit())).abs() < 1e-12);
+        }
+        assert!((Heading::from_deg(90.0).unit() - Vector2::new(1.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn turns_wrap_the_short_way() {
+        let turn = Heading::from_deg(350.0).turn_to(Heading::from_deg(20.0));
+        assert!((turn.to_degrees() - 30.0).abs() < 1e-9);
+        assert_eq!(wrap_pi(-PI), PI);
+        assert_eq!(wrap_tau(-1e-20), 0.0);
+    }
+}
