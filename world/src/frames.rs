@@ -6,7 +6,6 @@ use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// Position and attitude of a body frame (FLU) in the world (ENU).
-#[allow(non_snake_case)]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pose {
     /// Origin of B in W, m.
@@ -47,7 +46,6 @@ impl Pose {
 }
 
 /// The true state of a rigid body: what exists, never what a searcher knows.
-#[allow(non_snake_case)]
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Pose of the body frame.

@@ -1,0 +1,1 @@
+//! Live state over zenoh, the only place that touches it.
