@@ -4,6 +4,7 @@
 //! surface; in a flume x runs down-stream, y left, z up. Body frame: FLU (REP 103). SI units, radians.
 
 pub mod area;
+pub mod catalogue;
 pub mod clock;
 pub mod fields;
 pub mod frames;
