@@ -1,1 +1,6 @@
-//! w
+//! What drifts: flow, stratification, filament plumes. The truth; knows no robot.
+
+pub mod error;
+pub mod filaments;
+pub mod flow;
+pub mod release;

@@ -2,4 +2,13 @@
 //!
 //! Knows no plume: water and chemistry reach it through `world::fields` and its own sensors.
 
+pub mod actuate;
+pub mod behave;
+pub mod declare;
+pub mod error;
+pub mod estimate;
+pub mod guide;
 pub mod handoff;
+pub mod sense;
+pub mod strategy;
+pub mod vehicles;

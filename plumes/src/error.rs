@@ -1,0 +1,14 @@
+//! What can be wrong with water or sources before a run starts.
+
+/// Setup error, with the field it concerns.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum PlumeError {
+    /// A field is outside what the model can do.
+    #[error("{field}: {problem}")]
+    Invalid {
+        /// Path of the field, as in the scenario file.
+        field: String,
+        /// What is wrong and what would be legal.
+        problem: String,
+    },
+}

@@ -1,0 +1,1 @@
+//! Filaments: store, drift, concentration.

@@ -1,0 +1,1 @@
+//! The water: one file a flow, summed into one answer.

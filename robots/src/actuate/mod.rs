@@ -1,0 +1,1 @@
+//! Commands become actuator set-points.

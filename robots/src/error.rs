@@ -1,0 +1,22 @@
+//! What can be wrong with a robot before a run starts.
+
+/// Setup error.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum RobotError {
+    /// A file could not be read.
+    #[error("{path}: {problem}")]
+    File {
+        /// The file.
+        path: String,
+        /// What is wrong with it, naming the element.
+        problem: String,
+    },
+    /// A field is outside what the model can do.
+    #[error("{field}: {problem}")]
+    Invalid {
+        /// Path of the field, as in the scenario file.
+        field: String,
+        /// What is wrong and what would be legal.
+        problem: String,
+    },
+}

@@ -1,0 +1,1 @@
+//! Readings become what the vehicle believes.

@@ -1,0 +1,1 @@
+//! Goals become heading, speed and depth commands.

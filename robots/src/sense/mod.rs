@@ -1,0 +1,1 @@
+//! Instruments: the truth seen through noise, rate and range.

@@ -1,0 +1,1 @@
+//! Strategies: compositions of behaviours.

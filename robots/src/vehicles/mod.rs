@@ -1,0 +1,1 @@
+//! Bodies that move; the only place that touches urdf-rs.
