@@ -1,5 +1,6 @@
 //! What happens: scenarios, the tick, trials, and the command `rheotaxis`.
 
+pub mod cli;
 pub mod frame;
 pub mod live;
 pub mod report;

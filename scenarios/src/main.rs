@@ -1,2 +1,5 @@
-//! b
-fn main(){}
+//! The command `rheotaxis`; everything it does is in the library.
+
+fn main() -> std::process::ExitCode {
+    rheotaxis::cli::main()
+}

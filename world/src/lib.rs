@@ -6,6 +6,7 @@
 pub mod area;
 pub mod catalogue;
 pub mod clock;
+pub mod error;
 pub mod fields;
 pub mod frames;
 pub mod math;

@@ -1,1 +1,20 @@
 //! Filaments: store, drift, concentration.
+
+mod cells;
+mod index;
+mod kernel;
+mod leaf;
+mod noise;
+mod plume;
+mod quad;
+mod size;
+mod store;
+#[cfg(test)]
+mod tests_drift;
+#[cfg(test)]
+mod tests_mass;
+#[cfg(test)]
+mod tests_mean;
+
+pub use index::CUT_SIGMAS;
+pub use plume::{Plume, PlumeSettings};

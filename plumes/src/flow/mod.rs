@@ -1,1 +1,17 @@
 //! The water: one file a flow, summed into one answer.
+
+pub mod bed;
+pub mod catalogue;
+pub mod coloured_noise;
+pub mod grid;
+pub mod ground;
+pub mod layered;
+pub mod meander;
+pub mod mixing;
+mod solenoidal;
+pub mod uniform;
+pub mod water;
+
+pub use catalogue::{CATALOGUE, CurrentSpec};
+pub use grid::{FlowGrid, GridSample, GridShape};
+pub use water::{Water, WaterSpec};

@@ -1,1 +1,7 @@
 //! Sources and how they release filaments.
+
+mod source;
+mod times;
+
+pub use source::{ReleaseSpec, Source, SourceSpec, place};
+pub use times::ReleaseTimes;

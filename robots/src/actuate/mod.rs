@@ -1,1 +1,7 @@
 //! Commands become actuator set-points.
+
+mod autopilot;
+mod spec;
+
+pub use autopilot::Autopilot;
+pub use spec::{AutopilotSpec, CATALOGUE};

@@ -1,1 +1,11 @@
-//! Readings become what the vehicle believes.
+//! Readings become what the vehicle believes. One file an estimator.
+
+mod catalogue;
+mod dead_reckoning;
+mod estimator;
+#[cfg(test)]
+mod with_instruments;
+
+pub use catalogue::CATALOGUE;
+pub use dead_reckoning::{DeadReckoning, DeadReckoningSpec};
+pub use estimator::{Estimator, EstimatorSpec, Start};

@@ -1,1 +1,16 @@
 //! Goals become heading, speed and depth commands.
+
+mod cage;
+mod catalogue;
+mod dubins;
+mod flow_compensation;
+mod follow_line;
+mod go_to_point;
+mod guidance;
+mod rate_filter;
+mod spec;
+
+pub use catalogue::CATALOGUE;
+pub use dubins::{DubinsPath, Pose};
+pub use guidance::Guidance;
+pub use spec::GuidanceSpec;

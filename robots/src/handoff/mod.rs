@@ -1,16 +1,25 @@
 //! Plain data passed between the stages; a stage knows these and no other stage.
 
+mod behaviour;
 mod command;
 mod decision;
 mod estimate;
 mod goal;
+mod lost_points;
+mod places;
 mod readings;
 
+pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
 pub use command::{ActuatorCommand, Command, Setpoint};
 pub use decision::{Behaviour, Decision, Declaration, Outcome};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
+pub use lost_points::{LostPoint, LostPoints};
+pub use places::{edges, inside};
 pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, ChemicalReading, DepthReading, DvlReading,
     LblFix, Readings,
 };
+
+#[cfg(test)]
+pub(crate) mod testing;

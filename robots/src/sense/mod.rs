@@ -1,1 +1,24 @@
-//! Instruments: the truth seen through noise, rate and range.
+//! Instruments: the truth seen through noise, rate and range. One file each; the suite reads them all.
+
+mod adcp;
+mod altimeter;
+mod catalogue;
+mod compass;
+mod depth;
+mod dvl;
+mod fluorometer;
+mod lbl;
+mod suite;
+#[cfg(test)]
+mod testing;
+mod tools;
+
+pub use adcp::{Adcp, AdcpSpec, Look};
+pub use altimeter::{Altimeter, AltimeterSpec};
+pub use catalogue::CATALOGUE;
+pub use compass::{Compass, CompassSpec};
+pub use depth::{Depth, DepthSpec};
+pub use dvl::{Dvl, DvlSpec};
+pub use fluorometer::{Fluorometer, FluorometerSpec};
+pub use lbl::{Lbl, LblSpec};
+pub use suite::{SensorSuite, SensorsSpec};

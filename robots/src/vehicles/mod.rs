@@ -1,1 +1,16 @@
 //! Bodies that move; the only place that touches urdf-rs.
+
+mod actuators;
+mod coefficients;
+mod hydrodynamics;
+mod mesh;
+mod motion;
+mod spec;
+mod surface;
+mod urdf;
+mod vehicle;
+
+pub use coefficients::{Coefficients, Inflow, ParameterSet};
+pub use hydrodynamics::Actuators;
+pub use spec::{CATALOGUE, RemusSpec, VehicleSpec};
+pub use vehicle::Vehicle;

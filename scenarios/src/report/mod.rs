@@ -1,1 +1,18 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
+
+mod files;
+mod recorder;
+mod summary;
+mod summary_builder;
+mod track;
+mod write;
+
+pub use files::ReportError;
+pub use recorder::{Recorder, RunInfo};
+pub use summary::{
+    DeclarationSummary, MassBalance, Position, RobotSummary, RunOutcome, RunSummary, SourceError,
+    SourceSummary, Summary, Totals,
+};
+pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
+pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
+pub use write::{ObstacleOutline, RunReport, write_all};

@@ -1,1 +1,18 @@
-//! Scenario files: schema, loading, checking.
+//! Scenario files: schema, reading, checking; errors that point at the place.
+
+mod catalog;
+mod check;
+mod explain;
+mod fault;
+mod load;
+mod outline;
+mod schema;
+
+pub use catalog::{CATALOG, Template, template};
+pub use check::check;
+pub use fault::{Fault, Found, ScenarioError};
+pub use load::{Loaded, load, parse};
+pub use schema::{
+    AreaSpec, DeclaredSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec,
+    SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
+};

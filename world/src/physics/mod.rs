@@ -1,1 +1,9 @@
 //! Rigid bodies and contacts, the only place that touches rapier3d.
+
+mod convert;
+mod ground;
+mod shape;
+mod solid;
+
+pub use shape::Shape;
+pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};

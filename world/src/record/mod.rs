@@ -1,5 +1,14 @@
 //! What remains of a run: the digest of its whole state sequence, and the recording.
 
+mod cdr;
 mod digest;
+mod mcap;
+mod ros_messages;
+mod ros_schemas;
 
+pub use cdr::Cdr;
 pub use digest::Digest;
+pub use mcap::{FLUSH_NS, McapFile, RecordError, nanoseconds, temporary_name};
+pub use ros_messages::{
+    Kind, Odometry, clock, float64, point_cloud, pose_stamped, text, transforms, vector3_stamped,
+};

@@ -1,0 +1,163 @@
+//! The flow grid as the drift reads it: cell of a point, level of a height, bed and horizontal diffusivity in a cell.
+//!
+//! *Source*: the layout and the vertical map are those of `flow::grid`; this file only turns them into arithmetic
+//! without branches, for many filaments at once.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: bed and K_h within a cell are bilinear, written as c0 + c1·f + c2·g + c3·f·g so that one read gives all.
+
+use crate::flow::grid::FlowGrid;
+
+/// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
+pub(super) type Bilinear = [f32; 4];
+
+/// Scalars of the grid, and its columns as bilinear cells.
+#[derive(Clone, Debug)]
+pub(super) struct Cells {
+    origin: [f32; 2],
+    /// Axis i and axis j, divided by the spacing: cells per metre.
+    axes: [[f32; 2]; 2],
+    /// Last node along i, j as a number.
+    last: [f32; 2],
+    dims: [i32; 3],
+    stretch: f32,
+    bed: Vec<Bilinear>,
+    k_h: Vec<Bilinear>,
+    /// The one horizontal diffusivity, if it is the same everywhere.
+    pub(super) even_k_h: Option<f32>,
+}
+
+/// Where a point lies among the columns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Column {
+    /// Column of the cell's lower corner, i·ny + j.
+    pub(super) at: u32,
+    /// Parts of the cell passed along i and j.
+    pub(super) f: f32,
+    pub(super) g: f32,
+    /// Beyond the grid.
+    pub(super) outside: bool,
+}
+
+impl Cells {
+    pub(super) fn new(grid: &FlowGrid) -> Self {
+        let [nx, ny, nz] = grid.dims;
+        let per = |axis: [f32; 2], spacing: f32| axis.map(|v| v / spacing);
+        Self {
+            origin: grid.origin,
+            axes: [
+                per(grid.along, grid.spacing[0]),
+                per(grid.across, grid.spacing[1]),
+            ],
+            last: [(nx - 1) as f32, (ny - 1) as f32],
+            dims: [nx as i32, ny as i32, nz as i32],
+            stretch: grid.stretch,
+            bed: bilinear(&grid.bed, nx, ny),
+            k_h: bilinear(&grid.k_h, nx, ny),
+            even_k_h: None,
+        }
+    }
+
+    /// Takes over what a refresh of the grid has changed.
+    pub(super) fn refresh(&mut self, grid: &FlowGrid) {
+        let first = grid.k_h[0];
+        self.even_k_h = grid.k_h.iter().all(|k| *k == first).then_some(first);
+        if self.even_k_h.is_none() {
+            self.k_h = bilinear(&grid.k_h, grid.dims[0], grid.dims[1]);
+        }
+    }
+
+    /// Nodes in a column, and from one column to the next along i.
+    #[inline(always)]
+    pub(super) fn strides(&self) -> (usize, usize) {
+        let nz = self.dims[2] as usize;
+        (nz, nz * self.dims[1] as usize)
+    }
+
+    /// The column cell of a point; beyond the grid that of the nearest edge.
+    #[inline(always)]
+    pub(super) fn column(&self, x: f32, y: f32) -> Column {
+        let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
+        let c = dx * self.axes[0][0] + dy * self.axes[0][1];
+        let d = dx * self.axes[1][0] + dy * self.axes[1][1];
+        let (i, f) = split(c, self.last[0], self.dims[0]);
+        let (j, g) = split(d, self.last[1], self.dims[1]);
+        let inside = (c >= 0.0) & (c <= self.last[0]) & (d >= 0.0) & (d <= self.last[1]);
+        Column {
+            at: (i * self.dims[1] + j) as u32,
+            f,
+            g,
+            outside: !inside,
+        }
+    }
+
+    /// Level below a height and the part of the way to the next, over a bed at `bed`.
+    #[inline(always)]
+    pub(super) fn level(&self, z: f32, bed: f32) -> (u32, f32) {
+        let s = clamped(1.0 - z / bed, 1.0);
+        let a = self.stretch;
+        let b = 1.0 - a;
+        let last = (self.dims[2] - 1) as f32;
+        let (k, _) = split(2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last, last, self.dims[2]);
+        let h = 1.0 / last;
+        let xi = k as f32 * h;
+        let s0 = xi * (b + a * xi);
+        let ds = h * (b + a * (2.0 * xi + h));
+        // Rounding of the square root may name the neighbouring level; the clamp keeps it continuous.
+        (k as u32, clamped((s - s0) / ds, 1.0))
+    }
+
+    /// Height of the bed, m (negative).
+    #[inline(always)]
+    pub(super) fn bed(&self, c: Column) -> f32 {
+        value(&self.bed[c.at as usize], c)
+    }
+
+    /// Horizontal diffusivity (m²/s) and its gradient east and north (m/s).
+    #[inline(always)]
+    pub(super) fn k_h(&self, c: Column) -> (f32, [f32; 2]) {
+        let q = &self.k_h[c.at as usize];
+        let (di, dj) = (q[1] + q[3] * c.g, q[2] + q[3] * c.f);
+        let along = |d: usize| di * self.axes[0][d] + dj * self.axes[1][d];
+        (value(q, c), [along(0), along(1)])
+    }
+}
+
+#[inline(always)]
+fn value(q: &Bilinear, c: Column) -> f32 {
+    q[0] + c.g * q[2] + c.f * (q[1] + c.g * q[3])
+}
+
+/// Cell index in 0..n−1 and the part of the cell passed.
+#[inline(always)]
+fn split(c: f32, last: f32, n: i32) -> (i32, f32) {
+    let c = clamped(c, last);
+    // SAFETY: between 0 and the number of nodes, which fits; what is not a number has become 0.
+    let i = unsafe { c.to_int_unchecked::<i32>() };
+    let i = if i < n - 2 { i } else { n - 2 };
+    (i, c - i as f32)
+}
+
+/// Between 0 and `hi`; 0 for what is not a number. Written so that it is two instructions.
+#[inline(always)]
+pub(super) fn clamped(v: f32, hi: f32) -> f32 {
+    let v = if v > 0.0 { v } else { 0.0 };
+    if v < hi { v } else { hi }
+}
+
+fn bilinear(nodes: &[f32], nx: usize, ny: usize) -> Vec<Bilinear> {
+    let mut cells = vec![[0.0; 4]; nx * ny];
+    for i in 0..nx - 1 {
+        for j in 0..ny - 1 {
+            let n = |a: usize, b: usize| nodes[(i + a) * ny + j + b];
+            cells[i * ny + j] = [
+                n(0, 0),
+                n(1, 0) - n(0, 0),
+                n(0, 1) - n(0, 0),
+                n(1, 1) - n(1, 0) - n(0, 1) + n(0, 0),
+            ];
+        }
+    }
+    cells
+}

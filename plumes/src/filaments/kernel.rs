@@ -1,0 +1,322 @@
+//! Moves a block of filaments one step: carried by the mean flow, kicked by the eddies, turned back at bed and surface.
+//!
+//! *Source*: the random walk dx = (u + ∇K)dt + √(2K)dW that keeps a mixed cloud mixed (Thomson 1987, J. Fluid Mech.
+//! 180, 529; Visser 1997, Mar. Ecol. Prog. Ser. 158, 275), vertically in the form of LaBolle, Quastel, Fogg & Gravner
+//! 2000, Water Resour. Res. 36, 651, eq. 23: a trial kick √(2K(z)dt)ξ leads to z*, the kick taken is √(2K(z*)dt)ξ with
+//! the same ξ. Its mean is K'dt, it needs no gradient and holds where the gradient jumps, as it does at every level
+//! of a grid.
+//!
+//! *Parameters*: dt the step (s), different for filaments released within it; K_h, K_z, u from the flow grid.
+//!
+//! *Deviations*: u is the mean of its values at z and z* (trapezium), which makes the stretching of a cloud by vertical
+//! shear second order in dt; horizontally Euler, the flow's horizontal scales being long against a step. Where
+//! K_h varies its gradient is added as drift (Itô form).
+//!
+//! Everything is f32 and written once; the compiler makes of it a portable version and one for AVX2 (no fused
+//! multiply-add in either), which give the same bits.
+
+use super::cells::{Cells, Column, clamped};
+use super::noise::normals;
+use super::quad::Quad;
+
+/// Filaments a block.
+pub(super) const BLOCK: usize = 128;
+
+/// A block of filaments on its way through the step.
+#[derive(Clone)]
+pub(super) struct Block {
+    pub(super) x: [f32; BLOCK],
+    pub(super) y: [f32; BLOCK],
+    pub(super) z: [f32; BLOCK],
+    pub(super) bed: [f32; BLOCK],
+    pub(super) dt: [f32; BLOCK],
+    pub(super) number: [u32; BLOCK],
+    /// Set by the step: 1 if it has left the grid.
+    pub(super) outside: [u32; BLOCK],
+}
+
+/// Which version of the step the machine can run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Path {
+    /// What every machine of the target runs.
+    Portable,
+    /// AVX2.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+}
+
+impl Path {
+    /// The fastest this machine has.
+    pub(super) fn detect() -> Self {
+        #[cfg(target_arch = "x86_64")]
+        if std::arch::is_x86_feature_detected!("avx2") {
+            return Path::Avx2;
+        }
+        Path::Portable
+    }
+}
+
+/// Moves all filaments of the block by their `dt`.
+pub(super) fn step(path: Path, cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block) {
+    match path {
+        Path::Portable => body(cells, nodes, key, block),
+        // SAFETY: this variant is only made after the feature was detected.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block) {
+    body(cells, nodes, key, block);
+}
+
+#[inline(always)]
+fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
+    let mut noise = [[0.0_f32; BLOCK]; 3];
+    let mut column = Columns {
+        at: [0; BLOCK],
+        f: [0.0; BLOCK],
+        g: [0.0; BLOCK],
+    };
+    let (mut level, mut part) = ([0_u32; BLOCK], [0.0_f32; BLOCK]);
+    let mut here: Water = [[0.0; BLOCK]; 4];
+    let mut there: Water = [[0.0; BLOCK]; 4];
+
+    for l in 0..BLOCK {
+        let n = normals(b.number[l], key);
+        for d in 0..3 {
+            noise[d][l] = n[d];
+        }
+    }
+    for l in 0..BLOCK {
+        column.set(l, cells.column(b.x[l], b.y[l]));
+    }
+    for l in 0..BLOCK {
+        (level[l], part[l]) = cells.level(b.z[l], b.bed[l]);
+    }
+    fetch(cells, nodes, &column, (&level, &part), &mut here);
+    for l in 0..BLOCK {
+        let trial = b.z[l] + (2.0 * here[3][l] * b.dt[l]).sqrt() * noise[2][l];
+        (level[l], part[l]) = cells.level(folded(trial, b.bed[l]), b.bed[l]);
+    }
+    fetch(cells, nodes, &column, (&level, &part), &mut there);
+    if let Some(k_h) = cells.even_k_h {
+        for l in 0..BLOCK {
+            let kick = (2.0 * k_h * b.dt[l]).sqrt();
+            b.x[l] += kick * noise[0][l];
+            b.y[l] += kick * noise[1][l];
+        }
+    } else {
+        for l in 0..BLOCK {
+            let (k_h, gradient) = cells.k_h(column.get(l));
+            let kick = (2.0 * k_h * b.dt[l]).sqrt();
+            b.x[l] += kick * noise[0][l] + gradient[0] * b.dt[l];
+            b.y[l] += kick * noise[1][l] + gradient[1] * b.dt[l];
+        }
+    }
+    for l in 0..BLOCK {
+        let half = 0.5 * b.dt[l];
+        b.x[l] += half * (here[0][l] + there[0][l]);
+        b.y[l] += half * (here[1][l] + there[1][l]);
+        b.z[l] += half * (here[2][l] + there[2][l])
+            + (2.0 * there[3][l] * b.dt[l]).sqrt() * noise[2][l];
+    }
+    for l in 0..BLOCK {
+        let c = cells.column(b.x[l], b.y[l]);
+        b.outside[l] = u32::from(c.outside);
+        column.set(l, c);
+    }
+    for l in 0..BLOCK {
+        b.bed[l] = cells.bed(column.get(l));
+    }
+    for l in 0..BLOCK {
+        b.z[l] = folded(b.z[l], b.bed[l]);
+    }
+}
+
+/// The columns of a block, side by side.
+struct Columns {
+    at: [u32; BLOCK],
+    f: [f32; BLOCK],
+    g: [f32; BLOCK],
+}
+
+impl Columns {
+    #[inline(always)]
+    fn set(&mut self, l: usize, c: Column) {
+        (self.at[l], self.f[l], self.g[l]) = (c.at, c.f, c.g);
+    }
+
+    #[inline(always)]
+    fn get(&self, l: usize) -> Column {
+        Column {
+            at: self.at[l],
+            f: self.f[l],
+            g: self.g[l],
+            outside: false,
+        }
+    }
+}
+
+/// u, v, w and K_z of a block.
+type Water = [[f32; BLOCK]; 4];
+
+/// Fills in the water at the places of a block.
+#[inline(always)]
+fn fetch(
+    cells: &Cells,
+    nodes: &[[f32; 4]],
+    column: &Columns,
+    (level, part): (&[u32; BLOCK], &[f32; BLOCK]),
+    water: &mut Water,
+) {
+    for from in (0..BLOCK).step_by(4) {
+        let at = |l: usize| trilinear(cells, nodes, column.get(from + l), level[from + l], part[from + l]);
+        let four = Quad::columns([at(0), at(1), at(2), at(3)]);
+        for d in 0..4 {
+            water[d][from..from + 4].copy_from_slice(&four[d]);
+        }
+    }
+}
+
+/// `[u, v, w, K_z]` at a point of a column cell.
+#[inline(always)]
+fn trilinear(cells: &Cells, nodes: &[[f32; 4]], c: Column, level: u32, part: f32) -> Quad {
+    let (up_j, up_i) = cells.strides();
+    let at = c.at as usize * up_j + level as usize;
+    let node = |n: usize| {
+        debug_assert!(n < nodes.len());
+        // SAFETY: column and level are those of a cell's lower corner (`Cells::column`, `Cells::level`, for any input),
+        // so this node, its neighbours and those above them exist.
+        Quad::new(unsafe { nodes.get_unchecked(n) })
+    };
+    let (f0, g0) = (1.0 - c.f, 1.0 - c.g);
+    let (w00, w01, w10, w11) = (f0 * g0, f0 * c.g, c.f * g0, c.f * c.g);
+    let layer = |n: usize| {
+        let near = node(n).times(w00).add(node(n + up_j).times(w01));
+        let far = node(n + up_i).times(w10).add(node(n + up_i + up_j).times(w11));
+        near.add(far)
+    };
+    let (low, high) = (layer(at), layer(at + 1));
+    low.add(high.sub(low).times(part))
+}
+
+/// Mirrors a height into the water between `bed` (negative) and the surface at 0, as often as it takes.
+#[inline(always)]
+pub(super) fn folded(z: f32, bed: f32) -> f32 {
+    let depth = -bed;
+    let h = (z - bed).abs();
+    // Kicks of a million depths do not occur; the limit keeps the conversion cheap and defined.
+    let turns = clamped(h / (2.0 * depth), 1e6);
+    // SAFETY: between 0 and a million.
+    let h = h - 2.0 * depth * unsafe { turns.to_int_unchecked::<i32>() } as f32;
+    let h = if h > depth { 2.0 * depth - h } else { h };
+    let z = bed + clamped(h, depth);
+    if z < 0.0 { z } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::flow::grid::{FlowGrid, GridShape};
+    use nalgebra::{Vector2, Vector3};
+    use world::area::Area;
+    use world::fields::{Flow, Mixing};
+    use world::terrain::Terrain;
+    use world::units::Heading;
+
+    struct Swirl;
+
+    impl Flow for Swirl {
+        fn velocity(&self, p: &Vector3<f64>, _: f64) -> Vector3<f64> {
+            Vector3::new(0.1 - 0.01 * p.y, 0.01 * p.x, 1e-3 * p.z)
+        }
+        fn mixing(&self, p: &Vector3<f64>, _: f64) -> Mixing {
+            Mixing {
+                k_h_m2_s: 0.01 + 1e-4 * p.x.abs(),
+                k_z_m2_s: 1e-3 * -p.z,
+            }
+        }
+    }
+
+    fn scene(shape: GridShape) -> (FlowGrid, Cells) {
+        let area = Area {
+            centre: Vector2::new(3.0, -2.0),
+            length_m: 100.0,
+            width_m: 60.0,
+            axis: Heading::from_deg(340.0),
+        };
+        let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
+        let mut grid = FlowGrid::new(&area, &terrain, shape);
+        grid.refresh(&Swirl, 0.0);
+        let mut cells = Cells::new(&grid);
+        cells.refresh(&grid);
+        (grid, cells)
+    }
+
+    fn block(cells: &Cells) -> Block {
+        let spread = |n: usize, m: u32| (n as u32).wrapping_mul(m) as f32 / u32::MAX as f32;
+        let x: [f32; BLOCK] = std::array::from_fn(|n| 40.0 * (spread(n, 0x9e37_79b9) - 0.5));
+        let y: [f32; BLOCK] = std::array::from_fn(|n| 40.0 * (spread(n, 0x85eb_ca6b) - 0.5));
+        let bed: [f32; BLOCK] = std::array::from_fn(|n| cells.bed(cells.column(x[n], y[n])));
+        Block {
+            z: std::array::from_fn(|n| bed[n] * spread(n, 0xc2b2_ae35)),
+            x,
+            y,
+            bed,
+            dt: std::array::from_fn(|n| 0.5 + 0.001 * n as f32),
+            number: std::array::from_fn(|n| n as u32),
+            outside: [0; BLOCK],
+        }
+    }
+
+    #[test]
+    fn cells_read_the_grid_as_the_grid_reads_itself() {
+        for stretch in [0.0, 0.8] {
+            let (grid, cells) = scene(GridShape {
+                stretch,
+                ..GridShape::default()
+            });
+            let b = block(&cells);
+            for l in 0..BLOCK {
+                let c = cells.column(b.x[l], b.y[l]);
+                let (k, part) = cells.level(b.z[l], b.bed[l]);
+                let q = trilinear(&cells, &grid.data, c, k, part);
+                let got = Quad::columns([q; 4]).map(|v| v[0]);
+                let want = grid.at(b.x[l], b.y[l], b.z[l]);
+                for d in 0..3 {
+                    assert!((got[d] - want.velocity[d]).abs() < 1e-5);
+                }
+                assert!((got[3] - want.k_z).abs() < 1e-6);
+                assert!((b.bed[l] - want.bed_z).abs() < 1e-5);
+                assert!((cells.k_h(c).0 - want.k_h).abs() < 1e-6);
+            }
+        }
+    }
+
+    #[test]
+    fn both_versions_give_the_same_bits() {
+        let (grid, cells) = scene(GridShape::default());
+        let start = block(&cells);
+        let (mut a, mut b) = (start.clone(), start.clone());
+        for n in 0..200 {
+            step(Path::Portable, &cells, &grid.data, [n, 7], &mut a);
+            step(Path::detect(), &cells, &grid.data, [n, 7], &mut b);
+        }
+        let bits = |v: &[f32; BLOCK]| v.map(f32::to_bits);
+        assert_eq!(bits(&a.x), bits(&b.x));
+        assert_eq!(bits(&a.y), bits(&b.y));
+        assert_eq!(bits(&a.z), bits(&b.z));
+        assert_eq!(bits(&a.bed), bits(&b.bed));
+        assert_ne!(bits(&a.x), bits(&start.x));
+    }
+
+    #[test]
+    fn folding_mirrors_at_bed_and_surface() {
+        for (z, want) in [(-1.0, -1.0), (0.5, -0.5), (-4.5, -3.5), (4.5, -3.5), (-8.5, -0.5), (-8.0, 0.0), (9.0, -1.0)] {
+            assert!((folded(z, -4.0) - want).abs() < 1e-5, "{z}");
+        }
+    }
+}

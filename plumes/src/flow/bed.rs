@@ -1,0 +1,126 @@
+//! The boundary layer over a rough bed: the logarithmic law.
+//!
+//! *Source*: law of the wall, Schlichting, Boundary-Layer Theory, ch. 17; for the sea bed Soulsby 1997,
+//! Dynamics of Marine Sands, eq. 22: u(z′) = (u_*/κ) ln(z′/z0).
+//!
+//! *Parameters*: z0 `roughness_m` (m; 0.001 rippled sand, Soulsby table 7 within a factor of a few),
+//! δ `thickness_m` (m). Von Kármán's κ = 0.4.
+//!
+//! *Deviations*: the law multiplies whatever current flows above, u(z′) = U ln(z′/z0)/ln(δ/z0) below δ, so that
+//! the free current is met at δ; in water shallower than δ it is met at the surface. Zero below z0.
+
+use serde::{Deserialize, Serialize};
+use world::math;
+use world::ranges::Positive;
+
+use crate::error::PlumeError;
+
+/// Von Kármán's constant.
+pub const KARMAN: f64 = 0.4;
+
+/// A rough bed under the currents.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BedSpec {
+    /// Height at which the law reaches zero, m.
+    pub roughness_m: Positive,
+    /// Height at which it reaches the free current, m.
+    pub thickness_m: Positive,
+}
+
+impl BedSpec {
+    /// The boundary layer, checked.
+    ///
+    /// # Errors
+    /// If the roughness is not well below the thickness.
+    pub fn build(&self, field: &str) -> Result<BoundaryLayer, PlumeError> {
+        let (z0, delta) = (self.roughness_m.get(), self.thickness_m.get());
+        if delta < 3.0 * z0 {
+            return Err(PlumeError::Invalid {
+                field: format!("{field}.roughness_m"),
+                problem: format!(
+                    "must be > 0 and at most a third of thickness_m ({delta}), got {z0}"
+                ),
+            });
+        }
+        Ok(BoundaryLayer { z0, delta })
+    }
+}
+
+/// The logarithmic law, ready to use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BoundaryLayer {
+    z0: f64,
+    delta: f64,
+}
+
+impl BoundaryLayer {
+    /// Height at which the free current is met in water of this depth, m.
+    #[must_use]
+    pub fn top(&self, depth_m: f64) -> f64 {
+        self.delta.min(depth_m).max(3.0 * self.z0)
+    }
+
+    /// Part of the free current left at a height above the bed.
+    #[must_use]
+    pub fn factor(&self, height_m: f64, depth_m: f64) -> f64 {
+        let top = self.top(depth_m);
+        if height_m >= top {
+            1.0
+        } else if height_m <= self.z0 {
+            0.0
+        } else {
+            math::ln(height_m / self.z0) / math::ln(top / self.z0)
+        }
+    }
+
+    /// Friction velocity u_* under a free current of this speed, m/s.
+    #[must_use]
+    pub fn friction_velocity(&self, free_speed_m_s: f64, depth_m: f64) -> f64 {
+        KARMAN * free_speed_m_s / math::ln(self.top(depth_m) / self.z0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn layer() -> BoundaryLayer {
+        BedSpec {
+            roughness_m: Positive::new(0.001),
+            thickness_m: Positive::new(1.0),
+        }
+        .build("water.bed")
+        .unwrap()
+    }
+
+    #[test]
+    fn log_law_has_its_values() {
+        let l = layer();
+        // ln(10)/ln(1000) = 1/3, ln(100)/ln(1000) = 2/3.
+        assert!((l.factor(0.01, 5.0) - 1.0 / 3.0).abs() < 1e-12);
+        assert!((l.factor(0.1, 5.0) - 2.0 / 3.0).abs() < 1e-12);
+        assert_eq!(l.factor(1.0, 5.0), 1.0);
+        assert_eq!(l.factor(0.0005, 5.0), 0.0);
+        // In half a metre of water the free current is met at the surface.
+        assert_eq!(l.factor(0.5, 0.5), 1.0);
+    }
+
+    #[test]
+    fn friction_velocity_gives_the_profile_back() {
+        let l = layer();
+        let u_star = l.friction_velocity(0.3, 5.0);
+        let u = u_star / KARMAN * math::ln(0.2 / 0.001);
+        assert!((u - 0.3 * l.factor(0.2, 5.0)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn roughness_above_the_layer_is_refused() {
+        let bad = BedSpec {
+            roughness_m: Positive::new(0.5),
+            thickness_m: Positive::new(1.0),
+        };
+        let said = bad.build("water.bed").unwrap_err().to_string();
+        assert!(said.starts_with("water.bed.roughness_m: must be > 0 and at most"));
+    }
+}

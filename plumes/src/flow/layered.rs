@@ -1,0 +1,338 @@
+//! Currents in layers of different density, with thin interfaces that rise and sink as internal waves pass.
+//!
+//! *Source*: the two-layer flow off Duck, Pang 2009, section 6; tanh profiles across an interface, Hazel 1972,
+//! J. Fluid Mech. 51, 39; volume kept in each layer, Gill 1982, Atmosphere-Ocean Dynamics, section 6.2.
+//!
+//! *Parameters*: `layers` from the surface down: `speed_m_s`, `heading_deg`, `density_kg_m3`; `interfaces` between
+//! them, from the top: mean `depth_m`, `thickness_m` (change divided by steepest gradient), `waves` of the height:
+//! `amplitude_m`, `length_m`, `period_s`, `heading_deg` (where it travels), `phase_deg` (absent: drawn from the seed).
+//!
+//! *Deviations*: the paper only says that the interface's depth varies in place and time; the sum of travelling waves
+//! is ours. A wave of speed c towards e that thickens a layer by h′ sets its water moving by
+//! (c − U·e) e h′/h, what continuity asks to first order in h′/h; so the layer's volume is kept to second order.
+//! An interface keeps at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use world::math;
+use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::seeds::Stream;
+
+use crate::error::PlumeError;
+use crate::flow::ground::Floor;
+
+/// Most layers a water column may have: columns live on the stack.
+pub const MAX_LAYERS: usize = 4;
+const MAX_FACES: usize = MAX_LAYERS - 1;
+/// Least distance of an interface from its neighbours, as a part of the depth.
+const GAP: f64 = 0.02;
+
+/// Layers and the interfaces between them, from the surface down.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LayeredSpec {
+    /// One to four layers, top first.
+    pub layers: Vec<LayerSpec>,
+    /// One fewer than layers, top first.
+    #[serde(default)]
+    pub interfaces: Vec<InterfaceSpec>,
+}
+
+/// One layer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LayerSpec {
+    /// Speed over ground, m/s.
+    pub speed_m_s: NonNegative,
+    /// Where its water goes, degrees clockwise from north.
+    pub heading_deg: HeadingDeg,
+    /// Density, kg/m³.
+    pub density_kg_m3: Positive,
+}
+
+/// One interface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct InterfaceSpec {
+    /// Mean depth, m.
+    pub depth_m: Positive,
+    /// Change across it divided by the steepest gradient in it, m.
+    pub thickness_m: Positive,
+    /// Waves of its height, summed.
+    #[serde(default)]
+    pub waves: Vec<WaveSpec>,
+}
+
+/// One travelling wave of an interface's height.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct WaveSpec {
+    /// Half the height from trough to crest, m.
+    pub amplitude_m: NonNegative,
+    /// Wave length, m.
+    pub length_m: Positive,
+    /// Period at a fixed place, s.
+    pub period_s: Positive,
+    /// Where it travels, degrees clockwise from north.
+    pub heading_deg: HeadingDeg,
+    /// Phase at the datum at time zero, degrees; drawn from the seed if absent.
+    #[serde(default)]
+    pub phase_deg: Option<Finite>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Wave {
+    amplitude: f64,
+    k: Vector2<f64>,
+    omega: f64,
+    phase: f64,
+    travels: Vector2<f64>,
+    speed: f64,
+}
+
+#[derive(Clone, Debug)]
+struct Face {
+    z: f64,
+    thickness: f64,
+    waves: Vec<Wave>,
+    reach: f64,
+}
+
+/// The layered current, ready to use.
+#[derive(Clone, Debug)]
+pub struct Layered {
+    u: Vec<Vector2<f64>>,
+    density: Vec<f64>,
+    faces: Vec<Face>,
+}
+
+impl LayeredSpec {
+    /// The current, checked; absent phases come from the seed.
+    ///
+    /// # Errors
+    /// Names the field: no layers or too many, interfaces not one fewer, not deeper one by one, or density
+    /// that does not grow downwards.
+    pub fn build(&self, field: &str, seed: u64) -> Result<Layered, PlumeError> {
+        let bad = |sub: String, problem: String| PlumeError::Invalid {
+            field: format!("{field}.{sub}"),
+            problem,
+        };
+        let n = self.layers.len();
+        if n == 0 || n > MAX_LAYERS {
+            let problem = format!("needs from 1 to {MAX_LAYERS} layers, got {n}");
+            return Err(bad("layers".into(), problem));
+        }
+        if self.interfaces.len() != n - 1 {
+            let got = self.interfaces.len();
+            let problem = format!("{n} layers need {} interfaces, got {got}", n - 1);
+            return Err(bad("interfaces".into(), problem));
+        }
+        for (i, pair) in self.layers.windows(2).enumerate() {
+            let (upper, lower) = (pair[0].density_kg_m3.get(), pair[1].density_kg_m3.get());
+            if upper > lower {
+                return Err(bad(
+                    format!("layers[{}].density_kg_m3", i + 1),
+                    format!("must be >= {upper}, that of the layer above (lighter water floats), got {lower}"),
+                ));
+            }
+        }
+        for (i, pair) in self.interfaces.windows(2).enumerate() {
+            let (upper, lower) = (pair[0].depth_m.get(), pair[1].depth_m.get());
+            if lower <= upper {
+                return Err(bad(
+                    format!("interfaces[{}].depth_m", i + 1),
+                    format!("must be > {upper}, that of the interface above, got {lower}"),
+                ));
+            }
+        }
+        let mut rng = Stream::new(seed, field, "interface phases");
+        let faces = self.interfaces.iter().map(|f| f.build(&mut rng)).collect();
+        Ok(Layered {
+            u: (self.layers.iter())
+                .map(|l| l.heading_deg.heading().unit() * l.speed_m_s.get())
+                .collect(),
+            density: self.layers.iter().map(|l| l.density_kg_m3.get()).collect(),
+            faces,
+        })
+    }
+}
+
+impl InterfaceSpec {
+    fn build(&self, rng: &mut Stream) -> Face {
+        let waves = self.waves.iter().map(|w| {
+            // Drawn also when not used, so that stating one phase shifts no other.
+            let drawn = rng.uniform() * std::f64::consts::TAU;
+            let travels = w.heading_deg.heading().unit();
+            let (length, period) = (w.length_m.get(), w.period_s.get());
+            Wave {
+                amplitude: w.amplitude_m.get(),
+                k: travels * (std::f64::consts::TAU / length),
+                omega: std::f64::consts::TAU / period,
+                phase: w.phase_deg.map_or(drawn, |p| p.get().to_radians()),
+                travels,
+                speed: length / period,
+            }
+        });
+        Face {
+            z: -self.depth_m.get(),
+            thickness: self.thickness_m.get(),
+            waves: waves.collect(),
+            reach: self.waves.iter().map(|w| w.amplitude_m.get()).sum(),
+        }
+    }
+}
+
+/// Height of a surface that the water follows: level, slope and rate of rise.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Sheet {
+    /// Height, m.
+    pub z: f64,
+    /// Slope (east, north).
+    pub slope: Vector2<f64>,
+    /// Rate of rise at a fixed place, m/s.
+    pub rate: f64,
+}
+
+/// Velocity and density at one height, with their vertical gradients.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Profile {
+    /// Horizontal velocity, m/s.
+    pub u: Vector2<f64>,
+    /// Its vertical gradient, 1/s.
+    pub du_dz: Vector2<f64>,
+    /// Density, kg/m³.
+    pub density: f64,
+    /// Its vertical gradient, kg/m⁴ (never positive).
+    pub drho_dz: f64,
+}
+
+/// The layers at one place and time.
+#[derive(Clone, Copy, Debug)]
+pub struct LayeredColumn<'a> {
+    of: &'a Layered,
+    u: [Vector2<f64>; MAX_LAYERS],
+    faces: [Sheet; MAX_FACES],
+}
+
+impl Layered {
+    /// The layers over the floor at (east, north) `p` and time `t_s`.
+    #[must_use]
+    pub fn column(&self, p: Vector2<f64>, floor: &Floor, t_s: f64) -> LayeredColumn<'_> {
+        let n = self.u.len();
+        let mut column = LayeredColumn {
+            of: self,
+            u: [Vector2::zeros(); MAX_LAYERS],
+            faces: [Sheet::default(); MAX_FACES],
+        };
+        column.u[..n].copy_from_slice(&self.u);
+        let mut ceiling = 0.0;
+        for (i, face) in self.faces.iter().enumerate() {
+            // Mean thicknesses, kept above twice the waves' reach so that a thin layer does not race.
+            let below = self.faces.get(i + 1).map_or(floor.z, |f| f.z);
+            let above = if i == 0 { 0.0 } else { self.faces[i - 1].z };
+            let least = (2.0 * face.reach).max(GAP * -floor.z);
+            let (h_up, h_low) = ((above - face.z).max(least), (face.z - below).max(least));
+            let mut sheet = Sheet {
+                z: face.z,
+                ..Sheet::default()
+            };
+            for w in &face.waves {
+                let (s, c) = math::sin_cos(w.k.dot(&p) - w.omega * t_s + w.phase);
+                let rise = w.amplitude * s;
+                sheet.z += rise;
+                sheet.slope += w.k * (w.amplitude * c);
+                sheet.rate -= w.omega * w.amplitude * c;
+                let (up, low) = (self.u[i].dot(&w.travels), self.u[i + 1].dot(&w.travels));
+                column.u[i] -= w.travels * ((w.speed - up) * rise / h_up);
+                column.u[i + 1] += w.travels * ((w.speed - low) * rise / h_low);
+            }
+            // Room for this interface and those below it.
+            let lowest = 1.0 - GAP * (self.faces.len() - i) as f64;
+            let highest = ceiling + GAP;
+            let part = if sheet.z < lowest * floor.z {
+                Some(lowest)
+            } else if sheet.z > highest * floor.z {
+                Some(highest)
+            } else {
+                None
+            };
+            if let Some(part) = part {
+                sheet = Sheet {
+                    z: part * floor.z,
+                    slope: floor.slope * part,
+                    rate: 0.0,
+                };
+            }
+            ceiling = sheet.z / floor.z;
+            column.faces[i] = sheet;
+        }
+        column
+    }
+}
+
+impl LayeredColumn<'_> {
+    /// The interfaces, top first.
+    #[must_use]
+    pub fn faces(&self) -> &[Sheet] {
+        &self.faces[..self.of.faces.len()]
+    }
+
+    /// Height of the lowest interface across which density changes, m: the lid on the bed's turbulence.
+    #[must_use]
+    pub fn lid(&self) -> Option<f64> {
+        let rho = &self.of.density;
+        let lowest = (0..self.of.faces.len()).rev().find(|&i| rho[i] < rho[i + 1]);
+        lowest.map(|i| self.faces[i].z)
+    }
+
+    /// Velocity, density and gradients at a height, m.
+    #[must_use]
+    pub fn profile(&self, z: f64) -> Profile {
+        let n = self.of.u.len();
+        let mut p = Profile {
+            u: self.u[n - 1],
+            du_dz: Vector2::zeros(),
+            density: self.of.density[n - 1],
+            drho_dz: 0.0,
+        };
+        for (i, face) in self.of.faces.iter().enumerate() {
+            let th = math::tanh(2.0 * (z - self.faces[i].z) / face.thickness);
+            let (share, slope) = (0.5 * (1.0 + th), (1.0 - th * th) / face.thickness);
+            let du = self.u[i] - self.u[i + 1];
+            let drho = self.of.density[i] - self.of.density[i + 1];
+            p.u += du * share;
+            p.du_dz += du * slope;
+            p.density += drho * share;
+            p.drho_dz += drho * slope;
+        }
+        p
+    }
+
+    /// The layer-following surface through a height between the floor and the surface: linear between bed,
+    /// interfaces and surface.
+    #[must_use]
+    pub fn sheet(&self, z: f64, floor: &Floor) -> Sheet {
+        let mut upper = Sheet::default();
+        for lower in self.faces() {
+            if z >= lower.z {
+                return between(lower, &upper, z);
+            }
+            upper = *lower;
+        }
+        let bed = Sheet {
+            z: floor.z,
+            slope: floor.slope,
+            rate: 0.0,
+        };
+        between(&bed, &upper, z)
+    }
+}
+
+fn between(lower: &Sheet, upper: &Sheet, z: f64) -> Sheet {
+    let f = (z - lower.z) / (upper.z - lower.z);
+    Sheet {
+        z,
+        slope: lower.slope + (upper.slope - lower.slope) * f,
+        rate: lower.rate + (upper.rate - lower.rate) * f,
+    }
+}

@@ -1,0 +1,43 @@
+//! One velocity everywhere and always.
+//!
+//! *Source*: the mean flow of Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 3.
+//!
+//! *Parameters*: `speed_m_s` (m/s) and `heading_deg`, where the water goes (Farrell: 1 m/s).
+//!
+//! *Deviations*: none.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use world::ranges::{HeadingDeg, NonNegative};
+
+/// A horizontal velocity as a speed and the direction the water goes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct UniformSpec {
+    /// Speed over ground, m/s.
+    pub speed_m_s: NonNegative,
+    /// Where the water goes, degrees clockwise from north.
+    pub heading_deg: HeadingDeg,
+}
+
+impl UniformSpec {
+    /// (east, north), m/s.
+    #[must_use]
+    pub fn velocity(&self) -> Vector2<f64> {
+        self.heading_deg.heading().unit() * self.speed_m_s.get()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn water_goes_where_the_heading_points() {
+        let u = UniformSpec {
+            speed_m_s: NonNegative::new(0.5),
+            heading_deg: HeadingDeg::new(90.0),
+        };
+        assert!((u.velocity() - Vector2::new(0.5, 0.0)).norm() < 1e-15);
+    }
+}

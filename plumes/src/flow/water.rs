@@ -1,0 +1,287 @@
+//! The whole water: currents, bed, layers and mixing summed into one answer.
+//!
+//! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic
+//! condition w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
+//!
+//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise).
+//!
+//! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law; the vertical one follows
+//! the surfaces that lie linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each: water
+//! goes through neither bed, interface nor surface. What stays of divergence is u·∇H/H over a sloping bed (a
+//! current given as a speed is not a transport) and terms of second order in the interface's waves. Below the bed
+//! and above the surface the values at them hold.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::fields::{Flow, Mixing, WaterSample};
+use world::ranges::Positive;
+use world::terrain::Terrain;
+
+use crate::error::PlumeError;
+use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
+use crate::flow::catalogue::CurrentSpec;
+use crate::flow::grid::FlowGrid;
+use crate::flow::ground::{Floor, Ground};
+use crate::flow::layered::{Layered, LayeredColumn, Sheet};
+use crate::flow::meander::Meander;
+use crate::flow::mixing::{self, MixingSpec};
+
+/// The water of a scenario; by default still.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct WaterSpec {
+    /// Currents that add up; none is still water.
+    pub currents: Vec<CurrentSpec>,
+    /// Bed friction; absent: the currents slip.
+    pub bed: Option<BedSpec>,
+    /// Diffusivities.
+    pub mixing: MixingSpec,
+    /// Density where no layers give it, kg/m³.
+    pub density_kg_m3: Positive,
+}
+
+impl Default for WaterSpec {
+    fn default() -> Self {
+        Self {
+            currents: Vec::new(),
+            bed: None,
+            mixing: MixingSpec::default(),
+            density_kg_m3: Positive::new(1026.0),
+        }
+    }
+}
+
+/// The water, ready to be asked.
+#[derive(Clone, Debug)]
+pub struct Water {
+    ground: Ground,
+    uniform: Vector2<f64>,
+    meanders: Vec<Meander>,
+    layered: Option<Layered>,
+    bed: Option<BoundaryLayer>,
+    mixing: MixingSpec,
+    density: f64,
+}
+
+/// The water over one place at one time; cheap to ask at many heights.
+#[derive(Clone, Copy, Debug)]
+pub struct Column<'a> {
+    water: &'a Water,
+    floor: Floor,
+    // Part of the current that is the same at all heights.
+    plane: Vector2<f64>,
+    layers: Option<LayeredColumn<'a>>,
+}
+
+impl WaterSpec {
+    /// The water over a terrain, checked.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn build(&self, area: &Area, terrain: &Terrain, seed: u64) -> Result<Water, PlumeError> {
+        let bed = (self.bed.as_ref())
+            .map(|b| b.build("water.bed"))
+            .transpose()?;
+        let mut water = Water {
+            ground: Ground::new(terrain),
+            uniform: Vector2::zeros(),
+            meanders: Vec::new(),
+            layered: None,
+            bed,
+            mixing: self.mixing.clone(),
+            density: self.density_kg_m3.get(),
+        };
+        for (i, current) in self.currents.iter().enumerate() {
+            let field = format!("water.currents[{i}]");
+            match current {
+                CurrentSpec::Uniform(spec) => water.uniform += spec.velocity(),
+                CurrentSpec::Layered(spec) if water.layered.is_none() => {
+                    water.layered = Some(spec.build(&field, seed)?);
+                }
+                CurrentSpec::Layered(_) => {
+                    let problem = "only one Layered current can fix the water's layers; add the \
+                                   second one's layers to the first"
+                        .to_owned();
+                    return Err(PlumeError::Invalid { field, problem });
+                }
+                CurrentSpec::Meander(_) => {}
+            }
+        }
+        // Meanders last: they are carried by the mean of the others, wherever they stand in the list.
+        let carrier = water.depth_mean(area.centre);
+        for (i, current) in self.currents.iter().enumerate() {
+            if let CurrentSpec::Meander(spec) = current {
+                let field = format!("water.currents[{i}]");
+                let meander = spec.build(&field, area, carrier, seed)?;
+                water.meanders.push(meander);
+            }
+        }
+        water.advance(0.0);
+        Ok(water)
+    }
+}
+
+impl Water {
+    /// The water over (east, north) `p` at time `t_s`.
+    #[must_use]
+    pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
+        let floor = self.ground.floor(p);
+        let wandering = self.meanders.iter().map(|m| m.velocity(p, t_s));
+        Column {
+            water: self,
+            floor,
+            plane: wandering.fold(self.uniform, |sum, u| sum + u),
+            layers: self.layered.as_ref().map(|l| l.column(p, &floor, t_s)),
+        }
+    }
+
+    /// Mean over the depth of the current at a place at time zero, bed friction and meanders left out.
+    fn depth_mean(&self, p: Vector2<f64>) -> Vector2<f64> {
+        const N: usize = 50;
+        let column = self.column(p, 0.0);
+        let heights = (0..N).map(|k| column.floor.z * (k as f64 + 0.5) / N as f64);
+        heights.map(|z| column.free(z)).sum::<Vector2<f64>>() / N as f64
+    }
+
+    /// Fills a grid as [`FlowGrid::refresh`] does, with the same numbers at a third of the cost: what is the same at
+    /// all heights is worked out once a column.
+    pub fn lay_on(&self, grid: &mut FlowGrid, t_s: f64) {
+        grid.refresh_columns(t_s, |p, heights, out| {
+            let column = self.column(p, t_s);
+            let u_star = column.friction_velocity();
+            for (z, node) in heights.iter().zip(out) {
+                *node = (column.velocity(*z), column.mixing(*z, u_star));
+            }
+        });
+    }
+}
+
+impl Column<'_> {
+    /// Height of the bed, m.
+    #[must_use]
+    pub fn bed_z(&self) -> f64 {
+        self.floor.z
+    }
+
+    /// The interfaces between the layers, top first.
+    #[must_use]
+    pub fn interfaces(&self) -> &[Sheet] {
+        self.layers.as_ref().map_or(&[], LayeredColumn::faces)
+    }
+
+    /// Horizontal current as it would be without bed friction, m/s.
+    fn free(&self, z: f64) -> Vector2<f64> {
+        let layer = self.layers.as_ref().map(|l| l.profile(z).u);
+        self.plane + layer.unwrap_or_default()
+    }
+
+    fn inside(&self, z: f64) -> f64 {
+        z.clamp(self.floor.z, 0.0)
+    }
+
+    /// Velocity at a height, m/s.
+    #[must_use]
+    pub fn velocity(&self, z: f64) -> Vector3<f64> {
+        let z = self.inside(z);
+        let factor = self.water.bed.map_or(1.0, |bed| {
+            bed.factor(z - self.floor.z, -self.floor.z)
+        });
+        let u = self.free(z) * factor;
+        let (slope, rate) = match &self.layers {
+            Some(layers) => {
+                let sheet = layers.sheet(z, &self.floor);
+                (sheet.slope, sheet.rate)
+            }
+            None => (self.floor.slope * (z / self.floor.z), 0.0),
+        };
+        Vector3::new(u.x, u.y, rate + u.dot(&slope))
+    }
+
+    /// Density at a height, kg/m³.
+    #[must_use]
+    pub fn density(&self, z: f64) -> f64 {
+        let layers = self.layers.as_ref();
+        layers.map_or(self.water.density, |l| l.profile(self.inside(z)).density)
+    }
+
+    /// Friction velocity at the bed, m/s; zero without bed friction.
+    #[must_use]
+    pub fn friction_velocity(&self) -> f64 {
+        self.water.bed.map_or(0.0, |bed| {
+            let depth = -self.floor.z;
+            let speed = self.free(self.floor.z + bed.top(depth)).norm();
+            bed.friction_velocity(speed, depth)
+        })
+    }
+
+    /// Diffusivities at a height, given the column's friction velocity.
+    #[must_use]
+    pub fn mixing(&self, z: f64, u_star_m_s: f64) -> Mixing {
+        let z = self.inside(z);
+        let (height, depth) = (z - self.floor.z, -self.floor.z);
+        let reach = self.layers.as_ref().and_then(LayeredColumn::lid);
+        let reach = reach.map_or(depth, |lid| lid - self.floor.z);
+        let mut k_z = mixing::parabolic(u_star_m_s, height, reach);
+        if k_z > 0.0
+            && let Some(layers) = &self.layers
+        {
+            let p = layers.profile(z);
+            let wall = u_star_m_s / (KARMAN * height);
+            let shear2 = p.du_dz.norm_squared() + wall * wall;
+            k_z *= mixing::damping(mixing::richardson(p.drho_dz, p.density, shear2));
+        }
+        let spec = &self.water.mixing;
+        Mixing {
+            k_h_m2_s: spec.horizontal_m2_s.get() + spec.transverse.get() * u_star_m_s * depth,
+            k_z_m2_s: spec.background_vertical_m2_s.get() + k_z,
+        }
+    }
+}
+
+impl Flow for Water {
+    fn advance(&mut self, t_s: f64) {
+        for m in &mut self.meanders {
+            m.advance(t_s);
+        }
+    }
+
+    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        self.column(p.xy(), t_s).velocity(p.z)
+    }
+
+    fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        match &self.layered {
+            Some(_) => self.column(p.xy(), t_s).density(p.z),
+            None => self.density,
+        }
+    }
+
+    fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
+        let column = self.column(p.xy(), t_s);
+        column.mixing(p.z, column.friction_velocity())
+    }
+
+    fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
+        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
+        const H: f64 = 1e-3;
+        let column = |dx: f64, dy: f64, dt: f64| {
+            self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt)
+        };
+        let here = column(0.0, 0.0, 0.0);
+        let twice = 1.0 / (2.0 * H);
+        let across = |a: Column<'_>, b: Column<'_>| (a.velocity(p.z) - b.velocity(p.z)) * twice;
+        let back = H.min(t_s);
+        WaterSample {
+            velocity: here.velocity(p.z),
+            gradient: Matrix3::from_columns(&[
+                across(column(H, 0.0, 0.0), column(-H, 0.0, 0.0)),
+                across(column(0.0, H, 0.0), column(0.0, -H, 0.0)),
+                (here.velocity(p.z + H) - here.velocity(p.z - H)) * twice,
+            ]),
+            rate: (column(0.0, 0.0, H).velocity(p.z) - column(0.0, 0.0, -back).velocity(p.z))
+                / (H + back),
+            density_kg_m3: here.density(p.z),
+        }
+    }
+}

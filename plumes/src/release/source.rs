@@ -1,0 +1,239 @@
+//! A source of odour: where it is, how much it gives off, and in what portions.
+//!
+//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (release and growth of filaments).
+//!
+//! *Parameters*: `rate_g_s` mass given off (g/s); `release.rate_hz` filaments a second (1/s; 5 to 10);
+//! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001);
+//! `release.vertical_size_limit_m` greatest vertical size (m; none).
+//!
+//! *Deviations*: the paper counts molecules in arbitrary units, here it is mass. The vertical limit is not in the
+//! paper: in stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament
+//! cannot thicken further (Pearson, Puttock & Hunt 1983, J. Fluid Mech. 129, 219).
+
+use crate::error::PlumeError;
+use nalgebra::{Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::ranges::{Finite, NonNegative, Positive};
+use world::terrain::Terrain;
+
+/// A source, as the scenario file gives it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SourceSpec {
+    /// Name, unique in the scenario.
+    pub id: String,
+    /// East of the datum, m.
+    pub east_m: Finite,
+    /// North of the datum, m.
+    pub north_m: Finite,
+    /// Height above the bed, m; either this or `depth_m`.
+    #[serde(default)]
+    pub height_m: Option<Finite>,
+    /// Depth below the still surface, m; either this or `height_m`.
+    #[serde(default)]
+    pub depth_m: Option<Finite>,
+    /// Mass given off, g/s.
+    pub rate_g_s: Positive,
+    /// In what portions.
+    #[serde(default)]
+    pub release: ReleaseSpec,
+}
+
+/// How a source parts what it gives off into filaments.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ReleaseSpec {
+    /// Filaments a second, 1/s.
+    pub rate_hz: Positive,
+    /// Size (standard deviation of the kernel) at release, m.
+    pub initial_size_m: Positive,
+    /// Growth of the squared size, m²/s.
+    pub growth_m2_s: NonNegative,
+    /// Greatest vertical size, m; without it half the local depth.
+    pub vertical_size_limit_m: Option<Positive>,
+    /// At random times (true) or at equal intervals (false).
+    pub poisson: bool,
+}
+
+impl Default for ReleaseSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(5.0),
+            initial_size_m: Positive::new(0.031_622_776),
+            growth_m2_s: NonNegative::new(0.001),
+            vertical_size_limit_m: None,
+            poisson: true,
+        }
+    }
+}
+
+/// A source put into the water.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Source {
+    /// Name.
+    pub id: String,
+    /// Position, ENU, m.
+    pub p_W: Vector3<f64>,
+    /// Mass of one filament, kg.
+    pub filament_kg: f64,
+    /// In what portions.
+    pub release: ReleaseSpec,
+}
+
+/// Puts the sources into the water.
+///
+/// # Errors
+/// If a source lies outside the area, under the bed or above the surface, gives both or neither of
+/// `height_m` and `depth_m`, or has the name of another. The field is a path such as `sources[0].height_m`.
+pub fn place(
+    specs: &[SourceSpec],
+    area: &Area,
+    terrain: &Terrain,
+) -> Result<Vec<Source>, PlumeError> {
+    let mut sources: Vec<Source> = Vec::with_capacity(specs.len());
+    for (n, spec) in specs.iter().enumerate() {
+        if let Some(twin) = sources.iter().position(|s| s.id == spec.id) {
+            return Err(invalid(
+                n,
+                "id",
+                format!("\"{}\" is already the name of sources[{twin}]", spec.id),
+            ));
+        }
+        sources.push(Source {
+            id: spec.id.clone(),
+            p_W: position(n, spec, area, terrain)?,
+            filament_kg: 1e-3 * spec.rate_g_s.get() / spec.release.rate_hz.get(),
+            release: spec.release.clone(),
+        });
+    }
+    Ok(sources)
+}
+
+fn invalid(n: usize, field: &str, problem: String) -> PlumeError {
+    PlumeError::Invalid {
+        field: format!("sources[{n}].{field}"),
+        problem,
+    }
+}
+
+fn position(
+    n: usize,
+    spec: &SourceSpec,
+    area: &Area,
+    terrain: &Terrain,
+) -> Result<Vector3<f64>, PlumeError> {
+    let (e, north) = (spec.east_m.get(), spec.north_m.get());
+    let (distance, normal) = area.edge_distance(Vector2::new(e, north));
+    if distance < 0.0 {
+        let field = if normal.x.abs() > normal.y.abs() {
+            "east_m"
+        } else {
+            "north_m"
+        };
+        let problem = format!(
+            "source \"{}\" at east {e} m, north {north} m lies {:.1} m outside the area; bring it inside",
+            spec.id, -distance
+        );
+        return Err(invalid(n, field, problem));
+    }
+    let bed = terrain.bed_z(e, north);
+    let depth = -bed;
+    match (spec.height_m.map(Finite::get), spec.depth_m.map(Finite::get)) {
+        (Some(h), None) if h < 0.0 => Err(invalid(
+            n,
+            "height_m",
+            format!("source \"{}\" is {} m under the bottom; must be from 0 (on the bed) to {depth:.2} (the water's depth there)", spec.id, -h),
+        )),
+        (Some(h), None) if h > depth => Err(invalid(
+            n,
+            "height_m",
+            format!("source \"{}\" is {:.2} m above the surface; the water is {depth:.2} m deep there, so must be from 0 to {depth:.2}", spec.id, h - depth),
+        )),
+        (None, Some(d)) if d > depth => Err(invalid(
+            n,
+            "depth_m",
+            format!("source \"{}\" is {:.2} m under the bottom; must be from 0 (the surface) to {depth:.2} (the water's depth there)", spec.id, d - depth),
+        )),
+        (None, Some(d)) if d < 0.0 => Err(invalid(
+            n,
+            "depth_m",
+            format!("source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}", spec.id, -d),
+        )),
+        (Some(h), None) => Ok(Vector3::new(e, north, bed + h)),
+        (None, Some(d)) => Ok(Vector3::new(e, north, -d)),
+        (Some(_), Some(_)) => Err(invalid(
+            n,
+            "depth_m",
+            format!("source \"{}\" has both height_m and depth_m; give one of them", spec.id),
+        )),
+        (None, None) => Err(invalid(
+            n,
+            "height_m",
+            format!("source \"{}\" has neither height_m (above the bed) nor depth_m (below the surface); give one of them", spec.id),
+        )),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use world::units::Heading;
+
+    fn sea() -> (Area, Terrain) {
+        let area = Area {
+            centre: Vector2::zeros(),
+            length_m: 100.0,
+            width_m: 60.0,
+            axis: Heading::from_deg(0.0),
+        };
+        (area, Terrain::Level { depth_m: 6.0 })
+    }
+
+    fn spec(e: f64, n: f64, height: Option<f64>, depth: Option<f64>) -> SourceSpec {
+        SourceSpec {
+            id: "s1".into(),
+            east_m: Finite::new(e),
+            north_m: Finite::new(n),
+            height_m: height.map(Finite::new),
+            depth_m: depth.map(Finite::new),
+            rate_g_s: Positive::new(0.025),
+            release: ReleaseSpec::default(),
+        }
+    }
+
+    fn problem(spec: SourceSpec) -> String {
+        let (area, terrain) = sea();
+        place(&[spec], &area, &terrain).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn height_and_depth_name_the_same_place() {
+        let (area, terrain) = sea();
+        let a = place(&[spec(3.0, 4.0, Some(0.5), None)], &area, &terrain).unwrap();
+        let b = place(&[spec(3.0, 4.0, None, Some(5.5))], &area, &terrain).unwrap();
+        assert_eq!(a, b);
+        assert_eq!(a[0].p_W, Vector3::new(3.0, 4.0, -5.5));
+        assert!((a[0].filament_kg - 5e-6).abs() < 1e-18);
+    }
+
+    #[test]
+    fn what_cannot_be_is_said_with_its_place() {
+        assert_eq!(
+            problem(spec(0.0, 70.0, Some(0.2), None)),
+            "sources[0].north_m: source \"s1\" at east 0 m, north 70 m lies 20.0 m outside the area; bring it inside"
+        );
+        assert_eq!(
+            problem(spec(0.0, 0.0, Some(-0.5), None)),
+            "sources[0].height_m: source \"s1\" is 0.5 m under the bottom; must be from 0 (on the bed) to 6.00 (the water's depth there)"
+        );
+        assert!(problem(spec(0.0, 0.0, None, Some(6.5))).starts_with("sources[0].depth_m: source \"s1\" is 0.50 m under the bottom"));
+        assert!(problem(spec(0.0, 0.0, Some(7.0), None)).contains("1.00 m above the surface"));
+        assert!(problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m"));
+        assert!(problem(spec(0.0, 0.0, None, None)).contains("neither height_m"));
+        let (area, terrain) = sea();
+        let twins = [spec(0.0, 0.0, Some(1.0), None), spec(1.0, 0.0, Some(1.0), None)];
+        let said = place(&twins, &area, &terrain).unwrap_err().to_string();
+        assert_eq!(said, "sources[1].id: \"s1\" is already the name of sources[0]");
+    }
+}

@@ -1,0 +1,74 @@
+//! What a scenario may say of the autopilot.
+
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::ranges::{NonNegative, Positive};
+
+/// Gains and limits; the defaults are for the REMUS 100. Gains of fins hold at `design_speed_m_s`
+/// through the water and are scaled by the dynamic pressure from there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AutopilotSpec {
+    /// Turn rate asked per heading error, 1/s.
+    pub heading_gain_1_s: Positive,
+    /// Greatest turn rate asked, deg/s.
+    pub heading_rate_deg_s: Positive,
+    /// Rudder per turn rate in a steady turn, s.
+    pub rudder_per_rate_s: NonNegative,
+    /// Rudder per error in turn rate, s.
+    pub rate_gain_s: Positive,
+    /// Rudder per integrated heading error, 1/s.
+    pub heading_integral_1_s: NonNegative,
+    /// Pitch asked per error in depth or altitude, deg/m.
+    pub depth_gain_deg_m: Positive,
+    /// Pitch asked per integrated error in depth or altitude, deg/(m s).
+    pub depth_integral_deg_m_s: NonNegative,
+    /// Greatest pitch asked, deg.
+    pub pitch_limit_deg: Positive,
+    /// Stern plane per pitch asked in a steady dive: what the hull's righting moment takes.
+    pub stern_per_pitch: NonNegative,
+    /// Stern plane per error in pitch.
+    pub pitch_gain: Positive,
+    /// Stern plane per pitch rate, s.
+    pub pitch_rate_gain_s: NonNegative,
+    /// Propeller speed per speed through the water in steady motion, rpm s/m.
+    pub rpm_per_speed: Positive,
+    /// Propeller speed per integrated error in speed, rpm/m.
+    pub speed_integral_rpm_m: NonNegative,
+    /// Speed through the water at which the gains hold, m/s.
+    pub design_speed_m_s: Positive,
+    /// Greatest deflection of rudder and stern plane, deg.
+    pub fin_limit_deg: Positive,
+    /// Greatest propeller speed, rpm.
+    pub rpm_limit: Positive,
+}
+
+impl Default for AutopilotSpec {
+    fn default() -> Self {
+        Self {
+            heading_gain_1_s: Positive::new(0.5),
+            heading_rate_deg_s: Positive::new(10.0),
+            rudder_per_rate_s: NonNegative::new(1.4),
+            rate_gain_s: Positive::new(0.6),
+            heading_integral_1_s: NonNegative::new(0.02),
+            depth_gain_deg_m: Positive::new(6.0),
+            depth_integral_deg_m_s: NonNegative::new(0.2),
+            pitch_limit_deg: Positive::new(15.0),
+            stern_per_pitch: NonNegative::new(0.42),
+            pitch_gain: Positive::new(1.0),
+            pitch_rate_gain_s: NonNegative::new(0.3),
+            rpm_per_speed: Positive::new(597.2),
+            speed_integral_rpm_m: NonNegative::new(30.0),
+            design_speed_m_s: Positive::new(2.0),
+            fin_limit_deg: Positive::new(15.0),
+            rpm_limit: Positive::new(1525.0),
+        }
+    }
+}
+
+/// Autopilots that a scenario can set up.
+pub const CATALOGUE: &[Entry] = &[Entry {
+    name: "autopilot",
+    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by `autopilot: (...)`.",
+    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang 2009, section 6",
+}];

@@ -1,0 +1,258 @@
+//! Looks for the plume: across the flow, a little up or down it, reflected at the area's edges.
+//!
+//! *Source*: Pang 2009, section 5.2.
+//!
+//! *Parameters*: angle off the cross-flow direction, `off_across_deg`, °, 20; distance at which an edge
+//! counts as reached, `edge_m`, m (not printed), 15: outside the cage, and room for the turn.
+//!
+//! *Deviations*: the search starts where the vehicle is (`start: Here`) or goes to the most down-flow corner
+//! first (`DownFlowCorner`, the paper's plan). It begins with the one of the two up-flow leaning directions
+//! that runs longer before an edge. Of several directions that satisfy the rule at an edge the one
+//! nearest to a mirror reflection is taken. The paper says that a corner always has a solution; with an
+//! area turned against the flow it may have none: the vehicle then runs along the newly met edge. As long
+//! as no flow is known the vehicle keeps its heading and is reflected as by a mirror; the search proper
+//! begins with the first flow.
+
+use crate::error::RobotError;
+use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride, edges, inside};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
+use world::area::Area;
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// An edge is met by a course with a greater outward component than this (half a degree).
+const OUTWARD: f64 = 0.01;
+
+/// Where the search begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum From {
+    /// Where the vehicle is.
+    #[default]
+    Here,
+    /// At the most down-flow corner of the area, each time the search begins.
+    DownFlowCorner,
+}
+
+/// Parameters of the behaviour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// Where the search begins.
+    pub start: From,
+    /// Angle off the cross-flow direction, °, less than 90.
+    pub off_across_deg: NonNegative,
+    /// An edge counts as reached at this distance, m.
+    pub edge_m: Positive,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            start: From::Here,
+            off_across_deg: NonNegative::new(20.0),
+            edge_m: Positive::new(15.0),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// Nothing asked yet.
+    Begin,
+    /// On the way to the corner.
+    ToCorner,
+    /// No flow known yet.
+    Blind(Heading),
+    /// On one of the four directions.
+    Leg(Heading),
+    /// Along an edge, until one of the four satisfies the rule for `before`, the course that met it.
+    Along { course: Heading, before: Heading },
+}
+
+/// State of the behaviour.
+#[derive(Clone, Debug)]
+pub struct ZigZag {
+    start: From,
+    off_rad: f64,
+    edge_m: f64,
+    phase: Phase,
+}
+
+impl ZigZag {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the angle does not lead across the flow.
+    pub fn new(params: &Params) -> Result<Self, RobotError> {
+        if params.off_across_deg.get() >= 90.0 {
+            return Err(RobotError::Invalid {
+                field: "find.ZigZag.off_across_deg".into(),
+                problem: format!("must be < 90, got {}", params.off_across_deg.get()),
+            });
+        }
+        Ok(Self {
+            start: params.start,
+            off_rad: params.off_across_deg.get().to_radians(),
+            edge_m: params.edge_m.get(),
+            phase: Phase::Begin,
+        })
+    }
+
+    /// The four directions; the two that lean up-flow first.
+    fn four(&self, up_flow: Heading) -> [Heading; 4] {
+        let (a, b) = (FRAC_PI_2 - self.off_rad, FRAC_PI_2 + self.off_rad);
+        [a, -a, b, -b].map(|turn| up_flow.turned(turn))
+    }
+
+    /// The edges within reach that `course` runs against or along: outward normals, the nearest first.
+    fn reached(&self, area: &Area, p: Vector2<f64>) -> Vec<Vector2<f64>> {
+        let mut near: Vec<_> = edges(area, p)
+            .into_iter()
+            .filter(|(d, _)| *d < self.edge_m)
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0));
+        near.into_iter().map(|(_, n)| n).collect()
+    }
+
+    /// The one of the four that keeps the velocity along the edge and turns inward; in a corner, inward of both.
+    fn rule(&self, up_flow: Heading, before: Heading, near: &[Vector2<f64>]) -> Option<Heading> {
+        let was = before.unit();
+        let mirror = reflected(was, near);
+        let mut best: Option<(f64, Heading)> = None;
+        for candidate in self.four(up_flow) {
+            let c = candidate.unit();
+            let inward = near.iter().all(|n| c.dot(n) < 0.0);
+            let keeps = match near {
+                [n] => {
+                    let along = Vector2::new(-n.y, n.x);
+                    c.dot(&along) * was.dot(&along) >= 0.0
+                }
+                _ => true,
+            };
+            let likeness = c.dot(&mirror);
+            if inward && keeps && best.is_none_or(|(b, _)| likeness > b) {
+                best = Some((likeness, candidate));
+            }
+        }
+        best.map(|(_, h)| h)
+    }
+
+    /// What to do at the edges `near`, reached on `course`.
+    fn react(&self, up_flow: Heading, course: Heading, near: &[Vector2<f64>]) -> Phase {
+        if let Some(leg) = self.rule(up_flow, course, near) {
+            return Phase::Leg(leg);
+        }
+        let c = course.unit();
+        // The edge just met is the one the course runs against most.
+        let met = near
+            .iter()
+            .copied()
+            .max_by(|a, b| c.dot(a).total_cmp(&c.dot(b)))
+            .unwrap_or_else(Vector2::zeros);
+        let along = Vector2::new(-met.y, met.x);
+        let pull = near
+            .iter()
+            .filter(|n| n.dot(&met).abs() < 0.5)
+            .map(|n| -n.dot(&along))
+            .sum::<f64>();
+        let sign = if pull.abs() > 0.5 { pull } else { c.dot(&along) };
+        Phase::Along {
+            course: Heading::of(along * if sign < 0.0 { -1.0 } else { 1.0 }),
+            before: course,
+        }
+    }
+
+    fn begin(&self, seen: &Observation, up_flow: Option<Heading>) -> Phase {
+        let p = seen.estimate.position;
+        let Some(up_flow) = up_flow else {
+            return Phase::Blind(seen.estimate.attitude.heading);
+        };
+        let [right, left, _, _] = self.four(up_flow);
+        let (r, l) = (run_m(&seen.area, p, right), run_m(&seen.area, p, left));
+        Phase::Leg(if r >= l { right } else { left })
+    }
+}
+
+impl Behave for ZigZag {
+    fn enter(&mut self, _: &Observation, _: &PlumeMemory) {
+        self.phase = Phase::Begin;
+    }
+
+    fn step(
+        &mut self,
+        seen: &Observation,
+        arrived: bool,
+        memory: &mut PlumeMemory,
+        _: &mut Stream,
+    ) -> Stride {
+        let p = seen.estimate.position;
+        let near = self.reached(&seen.area, p);
+        let against = |c: Heading| near.iter().any(|n| c.unit().dot(n) > OUTWARD);
+        let next = match (self.phase, memory.up_flow) {
+            (Phase::Begin | Phase::Blind(_), Some(up)) if self.start == From::DownFlowCorner => {
+                self.phase = Phase::ToCorner;
+                return Stride::Start(Manoeuvre::GoToPoint {
+                    point: down_flow_corner(&seen.area, up, self.edge_m),
+                    radius_m: None,
+                });
+            }
+            (Phase::ToCorner, _) if !arrived => return Stride::Keep,
+            (Phase::Begin | Phase::ToCorner, up) => self.begin(seen, up),
+            (Phase::Blind(_), up @ Some(_)) => self.begin(seen, up),
+            (Phase::Blind(c), None) if against(c) => {
+                Phase::Blind(Heading::of(reflected(c.unit(), &near)))
+            }
+            (Phase::Leg(c), Some(up)) if against(c) => self.react(up, c, &near),
+            (Phase::Along { course, .. }, Some(up)) if against(course) => {
+                self.react(up, course, &near)
+            }
+            (Phase::Along { before, .. }, Some(up)) if !near.is_empty() => {
+                self.rule(up, before, &near).map_or(self.phase, Phase::Leg)
+            }
+            (same, _) => same,
+        };
+        let begins = matches!(self.phase, Phase::Begin);
+        if next == self.phase && !begins {
+            return Stride::Keep;
+        }
+        self.phase = next;
+        let course = match next {
+            Phase::Blind(c) | Phase::Leg(c) | Phase::Along { course: c, .. } => c,
+            Phase::Begin | Phase::ToCorner => seen.estimate.attitude.heading,
+        };
+        Stride::Start(Manoeuvre::Course { course })
+    }
+}
+
+/// Mirrored at every edge it runs against.
+fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
+    near.iter().fold(course, |c, n| {
+        let out = c.dot(n);
+        if out > 0.0 { c - n * (2.0 * out) } else { c }
+    })
+}
+
+/// How far a course runs before an edge, m.
+fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
+    let c = course.unit();
+    edges(area, p)
+        .into_iter()
+        .filter(|(_, n)| c.dot(n) > 1e-9)
+        .map(|(d, n)| d / c.dot(&n))
+        .fold(f64::INFINITY, f64::min)
+}
+
+/// The corner farthest down-flow, brought inside the reach of the edges.
+fn down_flow_corner(area: &Area, up_flow: Heading, margin_m: f64) -> Vector2<f64> {
+    let down = up_flow.opposite().unit();
+    let far = |p: &Vector2<f64>| (p - area.centre).dot(&down);
+    let corner = area
+        .corners()
+        .into_iter()
+        .max_by(|a, b| far(a).total_cmp(&far(b)));
+    inside(area, corner.unwrap_or(area.centre), margin_m)
+}
+
+#[cfg(test)]
+mod tests;

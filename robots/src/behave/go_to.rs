@@ -1,0 +1,52 @@
+//! Goes to a place.
+//!
+//! *Source*: Pang 2009, section 5.1: "directly executes the Go-To guidance command".
+//!
+//! *Parameters*: the place.
+//!
+//! *Deviations*: none. Whether detections count on the way is the strategy's matter.
+
+use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use nalgebra::Vector2;
+use world::seeds::Stream;
+
+/// State of a run to a place.
+#[derive(Clone, Copy, Debug)]
+pub struct GoTo {
+    point: Vector2<f64>,
+    begun: bool,
+}
+
+impl GoTo {
+    /// To `point` (east, north), m.
+    #[must_use]
+    pub fn new(point: Vector2<f64>) -> Self {
+        Self {
+            point,
+            begun: false,
+        }
+    }
+}
+
+impl Behave for GoTo {
+    fn enter(&mut self, _: &Observation, _: &PlumeMemory) {
+        self.begun = false;
+    }
+
+    fn step(
+        &mut self,
+        _: &Observation,
+        arrived: bool,
+        _: &mut PlumeMemory,
+        _: &mut Stream,
+    ) -> Stride {
+        if !self.begun {
+            self.begun = true;
+            return Stride::Start(Manoeuvre::GoToPoint {
+                point: self.point,
+                radius_m: None,
+            });
+        }
+        if arrived { Stride::Over } else { Stride::Keep }
+    }
+}

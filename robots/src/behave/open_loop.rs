@@ -1,0 +1,189 @@
+//! Drives the actuators from a time table: each row holds until the next, the last until the end.
+//!
+//! *Source*: open-loop vehicle trials (Prestero 2001, chapter 6).
+//!
+//! *Parameters*: rows of time, `t_s`, s from the first tick; rudder, `rudder_deg`, °, positive to
+//! starboard; stern plane, `stern_deg`, °, positive nose down; propeller, `rpm`; the end, `end_s`, s.
+//!
+//! *Deviations*: before the first row all is zero.
+
+use crate::error::RobotError;
+use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use serde::{Deserialize, Serialize};
+use world::ranges::{Finite, NonNegative, Positive};
+use world::seeds::Stream;
+
+/// A row of the table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimeTableRow {
+    /// From this time on, s.
+    pub t_s: NonNegative,
+    /// Rudder, °, positive to starboard.
+    #[serde(default = "zero")]
+    pub rudder_deg: Finite,
+    /// Stern plane, °, positive nose down.
+    #[serde(default = "zero")]
+    pub stern_deg: Finite,
+    /// Propeller, rpm.
+    pub rpm: Finite,
+}
+
+fn zero() -> Finite {
+    Finite::new(0.0)
+}
+
+/// The table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimeTableParams {
+    /// Rows in order of time.
+    pub table: Vec<TimeTableRow>,
+    /// The mission is completed at this time, s.
+    pub end_s: Positive,
+}
+
+/// State of a run through the table.
+#[derive(Clone, Debug)]
+pub struct TimeTable {
+    params: TimeTableParams,
+    began_s: f64,
+    /// Rows begun so far; `None` before the first tick.
+    row: Option<usize>,
+}
+
+impl TimeTable {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the rows' times do not grow or reach past the end.
+    pub fn new(params: &TimeTableParams) -> Result<Self, RobotError> {
+        let invalid = |problem: String| RobotError::Invalid {
+            field: "strategy.OpenLoop.table".into(),
+            problem,
+        };
+        if params.table.is_empty() {
+            return Err(invalid("is empty; give at least one row".into()));
+        }
+        for pair in params.table.windows(2) {
+            let (a, b) = (pair[0].t_s.get(), pair[1].t_s.get());
+            if b <= a {
+                return Err(invalid(format!(
+                    "t_s must grow from row to row, got {b} after {a}"
+                )));
+            }
+        }
+        let last = params.table.last().map_or(0.0, |row| row.t_s.get());
+        if last >= params.end_s.get() {
+            return Err(invalid(format!(
+                "the last row begins at {last} s, not before end_s = {}",
+                params.end_s.get()
+            )));
+        }
+        Ok(Self {
+            params: params.clone(),
+            began_s: 0.0,
+            row: None,
+        })
+    }
+}
+
+impl Behave for TimeTable {
+    fn enter(&mut self, seen: &Observation, _: &PlumeMemory) {
+        self.began_s = seen.t_s;
+        self.row = None;
+    }
+
+    fn step(
+        &mut self,
+        seen: &Observation,
+        _: bool,
+        _: &mut PlumeMemory,
+        _: &mut Stream,
+    ) -> Stride {
+        // A nanosecond of grace: the clock is a sum of steps, the table is written in decimals.
+        let t_s = seen.t_s - self.began_s + 1e-9;
+        if t_s >= self.params.end_s.get() {
+            return Stride::Over;
+        }
+        let begun = self
+            .params
+            .table
+            .iter()
+            .take_while(|r| r.t_s.get() <= t_s)
+            .count();
+        if self.row == Some(begun) {
+            return Stride::Keep;
+        }
+        self.row = Some(begun);
+        let row = begun.checked_sub(1).map(|i| &self.params.table[i]);
+        Stride::Start(Manoeuvre::Direct {
+            rudder_rad: row.map_or(0.0, |r| r.rudder_deg.get().to_radians()),
+            stern_rad: row.map_or(0.0, |r| r.stern_deg.get().to_radians()),
+            rpm: row.map_or(0.0, |r| r.rpm.get()),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::testing::seen;
+    use crate::handoff::{LostPoints, Side};
+    use nalgebra::Vector2;
+
+    fn row(t_s: f64, rudder_deg: f64, rpm: f64) -> TimeTableRow {
+        TimeTableRow {
+            t_s: NonNegative::new(t_s),
+            rudder_deg: Finite::new(rudder_deg),
+            stern_deg: zero(),
+            rpm: Finite::new(rpm),
+        }
+    }
+
+    #[test]
+    fn rows_hold_until_the_next_and_the_end_ends() {
+        let params = TimeTableParams {
+            table: vec![row(1.0, 0.0, 1500.0), row(3.0, 10.0, 1500.0)],
+            end_s: Positive::new(5.0),
+        };
+        let mut table = TimeTable::new(&params).expect("legal");
+        let mut memory = PlumeMemory {
+            up_flow: None,
+            last_detection: None,
+            leaves: Side::Left,
+            lost: LostPoints::new(std::num::NonZeroUsize::MIN),
+        };
+        let mut rng = Stream::new(1, "t", "t");
+        // The first tick comes at 100 s: the table counts from there.
+        let at = |t: f64| seen(100.0 + t, Vector2::zeros(), 0.0, None);
+        table.enter(&at(0.0), &memory);
+        let mut step = |t: f64| table.step(&at(t), false, &mut memory, &mut rng);
+        let direct = |rudder_deg: f64, rpm| {
+            Stride::Start(Manoeuvre::Direct {
+                rudder_rad: rudder_deg.to_radians(),
+                stern_rad: 0.0,
+                rpm,
+            })
+        };
+        assert_eq!(step(0.0), direct(0.0, 0.0));
+        assert_eq!(step(0.98), Stride::Keep);
+        assert_eq!(step(1.0), direct(0.0, 1500.0));
+        assert_eq!(step(2.98), Stride::Keep);
+        assert_eq!(step(3.0), direct(10.0, 1500.0));
+        assert_eq!(step(4.98), Stride::Keep);
+        assert_eq!(step(5.0), Stride::Over);
+    }
+
+    #[test]
+    fn times_must_grow_and_end_before_the_end() {
+        let with = |rows: Vec<TimeTableRow>, end_s| {
+            TimeTable::new(&TimeTableParams {
+                table: rows,
+                end_s: Positive::new(end_s),
+            })
+        };
+        assert!(with(vec![], 5.0).is_err());
+        assert!(with(vec![row(2.0, 0.0, 0.0), row(2.0, 1.0, 0.0)], 5.0).is_err());
+        assert!(with(vec![row(5.0, 0.0, 0.0)], 5.0).is_err());
+        assert!(with(vec![row(0.0, 0.0, 0.0)], 5.0).is_ok());
+    }
+}

@@ -1,0 +1,189 @@
+//! Goes up-flow in the plume, a little to one side, turning to the other at each detection.
+//!
+//! *Source*: Pang 2009, section 5.3, Table 1 (after Li 2001).
+//!
+//! *Parameters*: λ, `lambda_s`, s, 5.0; β, `beta_deg`, °, 20.
+//!
+//! *Deviations*: Table 1 compares ψ_v - ψ_f with 180 without wrapping: here the vehicle's heading is
+//! taken left or right of up-flow. Left of it: LHS = +1 (it would leave the plume on its left) and the
+//! course is up-flow + β, else up-flow - β; so each detection turns the vehicle to the other side, which is
+//! the counter-turn. LHS is set before the course, not after, which saves one sample of delay. Without any
+//! flow measured yet the vehicle's heading stands for up-flow.
+
+use crate::error::RobotError;
+use crate::handoff::{Behave, LostPoint, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// Parameters of the behaviour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// The plume counts as lost after this time without detection, s.
+    pub lambda_s: Positive,
+    /// Angle to up-flow, °, less than 90.
+    pub beta_deg: NonNegative,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            lambda_s: Positive::new(5.0),
+            beta_deg: NonNegative::new(20.0),
+        }
+    }
+}
+
+/// State of the behaviour.
+#[derive(Clone, Debug)]
+pub struct CounterTurn {
+    lambda_s: f64,
+    beta_rad: f64,
+    begun: bool,
+    last: LostPoint,
+}
+
+impl CounterTurn {
+    /// # Errors
+    /// [`RobotError::Invalid`] when β does not lead up-flow.
+    pub fn new(params: &Params) -> Result<Self, RobotError> {
+        if params.beta_deg.get() >= 90.0 {
+            return Err(RobotError::Invalid {
+                field: "track_in.CounterTurn.beta_deg".into(),
+                problem: format!("must be < 90, got {}", params.beta_deg.get()),
+            });
+        }
+        Ok(Self {
+            lambda_s: params.lambda_s.get(),
+            beta_rad: params.beta_deg.get().to_radians(),
+            begun: false,
+            last: LostPoint {
+                t_s: 0.0,
+                position: nalgebra::Vector2::zeros(),
+            },
+        })
+    }
+
+    fn turn(&self, seen: &Observation, up_flow: Heading, memory: &mut PlumeMemory) -> Manoeuvre {
+        let nose = Side::of(up_flow.turn_to(seen.estimate.attitude.heading));
+        memory.leaves = nose;
+        Manoeuvre::Course {
+            course: up_flow.turned(nose.other().sign() * self.beta_rad),
+        }
+    }
+}
+
+impl Behave for CounterTurn {
+    fn enter(&mut self, seen: &Observation, memory: &PlumeMemory) {
+        self.begun = false;
+        self.last = memory.last_detection.unwrap_or(LostPoint {
+            t_s: seen.t_s,
+            position: seen.estimate.position,
+        });
+    }
+
+    fn step(
+        &mut self,
+        seen: &Observation,
+        _: bool,
+        memory: &mut PlumeMemory,
+        _: &mut Stream,
+    ) -> Stride {
+        let up_flow = memory.up_flow_or_nose(seen);
+        if detects(seen) {
+            self.last = LostPoint {
+                t_s: seen.t_s,
+                position: seen.estimate.position,
+            };
+        } else if seen.t_s - self.last.t_s > self.lambda_s {
+            memory.lost.add(self.last, up_flow);
+            return Stride::Over;
+        } else if self.begun {
+            return Stride::Keep;
+        }
+        let course = self.turn(seen, up_flow, memory);
+        if self.begun {
+            Stride::Adjust(course)
+        } else {
+            self.begun = true;
+            Stride::Start(course)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::LostPoints;
+    use crate::handoff::testing::{seen, smelling};
+    use nalgebra::Vector2;
+    use std::num::NonZeroUsize;
+
+    fn memory(up_deg: Option<f64>) -> PlumeMemory {
+        PlumeMemory {
+            up_flow: up_deg.map(Heading::from_deg),
+            last_detection: None,
+            leaves: Side::Left,
+            lost: LostPoints::new(NonZeroUsize::MIN),
+        }
+    }
+
+    fn course(s: Stride) -> f64 {
+        match s {
+            Stride::Start(Manoeuvre::Course { course })
+            | Stride::Adjust(Manoeuvre::Course { course }) => course.deg(),
+            other => panic!("wanted a course, got {other:?}"),
+        }
+    }
+
+    #[test]
+    fn turns_to_the_other_side_of_up_flow() {
+        // Up-flow, nose, leaves on, course: all four ways round north.
+        for (up, nose, leaves, want) in [
+            (0.0, 350.0, Side::Left, 20.0),
+            (0.0, 10.0, Side::Right, 340.0),
+            (350.0, 5.0, Side::Right, 330.0),
+            (10.0, 355.0, Side::Left, 30.0),
+            (180.0, 170.0, Side::Left, 200.0),
+            (180.0, 190.0, Side::Right, 160.0),
+        ] {
+            let (mut b, mut m) = (
+                CounterTurn::new(&Params::default()).expect("legal"),
+                memory(Some(up)),
+            );
+            let o = smelling(seen(1.0, Vector2::zeros(), nose, None), true);
+            b.enter(&o, &m);
+            let s = b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t"));
+            assert!((course(s) - want).abs() < 1e-6, "up {up}, nose {nose}: {s:?}");
+            assert_eq!(m.leaves, leaves);
+        }
+    }
+
+    #[test]
+    fn lost_after_lambda_at_the_last_detection() {
+        let mut rng = Stream::new(1, "t", "t");
+        let (mut b, mut m) = (
+            CounterTurn::new(&Params::default()).expect("legal"),
+            memory(Some(0.0)),
+        );
+        let at = |t: f64, smells| smelling(seen(t, Vector2::new(0.0, t), 350.0, None), smells);
+        b.enter(&at(0.0, true), &m);
+        assert!(matches!(b.step(&at(0.0, true), false, &mut m, &mut rng), Stride::Start(_)));
+        assert!(matches!(b.step(&at(2.0, true), false, &mut m, &mut rng), Stride::Adjust(_)));
+        assert_eq!(b.step(&at(3.0, false), false, &mut m, &mut rng), Stride::Keep);
+        assert_eq!(b.step(&at(7.0, false), false, &mut m, &mut rng), Stride::Keep);
+        assert_eq!(b.step(&at(7.1, false), false, &mut m, &mut rng), Stride::Over);
+        assert_eq!(m.lost.first().map(|l| l.position), Some(Vector2::new(0.0, 2.0)));
+    }
+
+    #[test]
+    fn beta_must_lead_up_flow() {
+        let params = Params {
+            beta_deg: NonNegative::new(90.0),
+            ..Params::default()
+        };
+        assert!(CounterTurn::new(&params).is_err());
+    }
+}

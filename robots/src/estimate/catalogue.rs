@@ -1,0 +1,10 @@
+//! The estimators a scenario can choose.
+
+use world::catalogue::Entry;
+
+/// One row an estimator.
+pub const CATALOGUE: &[Entry] = &[Entry {
+    name: "DeadReckoning",
+    what: "Compass and Doppler log integrated, long-baseline fixes as jumps; flow as ground velocity plus relative water velocity, low-passed.",
+    source: "Pang 2009, sections 4 and 6",
+}];

@@ -1,0 +1,78 @@
+//! The estimator a scenario chose.
+
+use super::{DeadReckoning, DeadReckoningSpec};
+use crate::handoff::{Estimate, Readings};
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use world::clock::Clock;
+use world::units::Heading;
+
+/// Which estimator, with its parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum EstimatorSpec {
+    /// Compass, Doppler log and long-baseline jumps.
+    DeadReckoning(DeadReckoningSpec),
+}
+
+impl Default for EstimatorSpec {
+    fn default() -> Self {
+        Self::DeadReckoning(DeadReckoningSpec::default())
+    }
+}
+
+/// What the vehicle was told of itself when it was launched.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Start {
+    /// Position (east, north), m.
+    pub position: Vector2<f64>,
+    /// Heading.
+    pub heading: Heading,
+    /// Depth below the still surface, m.
+    pub depth_m: f64,
+}
+
+/// An estimator at work.
+#[derive(Component, Clone, Debug)]
+pub enum Estimator {
+    /// Compass, Doppler log and long-baseline jumps.
+    DeadReckoning(DeadReckoning),
+}
+
+impl Estimator {
+    /// An estimator that begins at `start` and steps by `dt_s`.
+    #[must_use]
+    pub fn new(spec: &EstimatorSpec, start: Start, dt_s: f64) -> Self {
+        match spec {
+            EstimatorSpec::DeadReckoning(s) => {
+                Self::DeadReckoning(DeadReckoning::new(s, start, dt_s))
+            }
+        }
+    }
+
+    /// What is believed at the clock's time, after the readings of this step.
+    pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
+        match self {
+            Self::DeadReckoning(e) => e.step(clock, readings),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    /// The types that a searcher is made of name nothing that exists, only what was read.
+    #[test]
+    fn no_truth_reaches_the_estimate() {
+        for (file, text) in [
+            ("dead_reckoning.rs", include_str!("dead_reckoning.rs")),
+            ("estimator.rs", include_str!("estimator.rs")),
+            ("readings.rs", include_str!("../handoff/readings.rs")),
+            ("estimate.rs", include_str!("../handoff/estimate.rs")),
+        ] {
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            for word in ["Truth", "world::frames", "world::fields", "world::terrain"] {
+                assert!(!code.contains(word), "{file} names {word}");
+            }
+        }
+    }
+}

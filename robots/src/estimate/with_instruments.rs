@@ -1,0 +1,96 @@
+//! The estimate closed with real instruments: what drifts, what bounds it, whose flow it believes.
+
+#[cfg(test)]
+mod tests {
+    use super::super::{DeadReckoning, DeadReckoningSpec, Start};
+    use crate::handoff::Estimate;
+    use crate::sense::{AdcpSpec, CompassSpec, DvlSpec, LblSpec, SensorSuite, SensorsSpec};
+    use nalgebra::{Vector2, Vector3};
+    use world::clock::Clock;
+    use world::fields::{Clean, Flow};
+    use world::frames::{Pose, Truth};
+    use world::terrain::Terrain;
+    use world::units::Heading;
+
+    const START: Vector2<f64> = Vector2::new(150.0, -500.0);
+
+    /// Southward below an interface 3 m down, northward above it.
+    struct TwoLayers;
+    impl Flow for TwoLayers {
+        fn velocity(&self, p: &Vector3<f64>, _t_s: f64) -> Vector3<f64> {
+            Vector3::new(0.0, if p.z > -3.0 { 0.22 } else { -0.11 }, 0.0)
+        }
+    }
+
+    /// An hour eastward at 2 m/s and 5 m depth or another, seen through real instruments.
+    fn an_hour(lbl: Option<LblSpec>, depth_m: f64) -> Vec<(Vector2<f64>, Estimate)> {
+        let spec = SensorsSpec {
+            dvl: Some(DvlSpec::default()),
+            adcp: Some(AdcpSpec::default()),
+            compass: Some(CompassSpec::default()),
+            lbl,
+            ..Default::default()
+        };
+        let east = Heading::from_deg(90.0);
+        let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
+        let dt_s = 0.04;
+        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let start = Start {
+            position: START,
+            heading: east,
+            depth_m,
+        };
+        let mut e = DeadReckoning::new(&DeadReckoningSpec::default(), start, dt_s);
+        let mut clock = Clock::new(dt_s);
+        let mut all = Vec::new();
+        for _ in 0..90_000 {
+            let p = START + Vector2::new(2.0 * clock.t_s(), 0.0);
+            let truth = Truth {
+                v_WB_B: Vector3::new(2.0, 0.0, 0.0),
+                ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, -depth_m), east))
+            };
+            let bed = Terrain::Level { depth_m: 8.0 };
+            let readings = suite.read(&clock, &truth, &TwoLayers, &Clean, &bed);
+            all.push((p, e.step(&clock, &readings)));
+            clock.advance();
+        }
+        all
+    }
+
+    #[test]
+    fn fixes_bound_what_dead_reckoning_lets_grow() {
+        let error = |(p, e): &(Vector2<f64>, Estimate)| (e.position - p).norm();
+        let alone = an_hour(None, 5.0);
+        let (half, whole) = (error(&alone[44_999]), error(&alone[89_999]));
+        // Bias and scale error are constant: the error grows with the way.
+        assert!(
+            whole > 20.0 && (whole / half - 2.0).abs() < 0.1,
+            "{half} m, {whole} m"
+        );
+        let fixed = an_hour(Some(LblSpec::default()), 5.0);
+        let after_fixes: Vec<f64> = (fixed.iter())
+            .filter(|(_, e)| e.fix_jump_m > 0.0)
+            .map(|x| error(x).powi(2))
+            .collect();
+        // Just after a fix the error is the fix's: 2 · 5² m² in the mean, five standard errors.
+        let n = after_fixes.len() as f64;
+        let mean = after_fixes.iter().sum::<f64>() / n;
+        assert!(
+            (mean / 50.0 - 1.0).abs() < 5.0 / n.sqrt(),
+            "{mean} m² over {n}"
+        );
+        // 1 in 4e5 fixes is off by more than 25 m; the drift since adds under 2 m a minute.
+        assert!(fixed.iter().map(error).fold(0.0, f64::max) < 25.0 + 10.0);
+    }
+
+    #[test]
+    fn near_the_interface_the_flow_believed_is_the_other_layers() {
+        for (depth_m, north_m_s) in [(3.6, 0.22), (5.0, -0.11)] {
+            let believed = an_hour(None, depth_m)[89_999].1.flow.unwrap().velocity;
+            // 0.02 m/s through 10 s of readings once a second: 0.02 · √(tanh(0.05)) = 0.0045 m/s;
+            // five of that, and 0.2 % of 2 m/s along the way, times five.
+            assert!((believed.y - north_m_s).abs() < 0.0225, "{believed:?}");
+            assert!(believed.x.abs() < 0.0425, "{believed:?}");
+        }
+    }
+}

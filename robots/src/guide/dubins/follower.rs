@@ -1,0 +1,148 @@
+//! Steers along a Dubins path and plans a new one when a navigation fix throws the vehicle off it.
+//!
+//! *Source*: Pang 2009, section 4.3 (the path); the tracking law is that of Follow Line, eq. 8, with the
+//! path's tangent in place of the line's direction.
+//!
+//! *Parameters*: gain and capture angle as in Follow Line; `replan_m`, m, 8; radius `turn_radius_m`, m, 15.
+//!
+//! *Deviations*: the paper does not say how the path is tracked. The place on the path only moves on,
+//! at most 20 m at once, so a crossing of the path with itself cannot be taken for progress. The mode ends
+//! at the path's end even if place or heading were missed, and at the latest after three times the first
+//! path's duration plus a minute (however often planned anew): it never circles for ever.
+
+use super::path::{DubinsPath, Pose};
+use nalgebra::Vector2;
+use world::units::Heading;
+
+/// How far the place on the path may move on in a step, m: a navigation fix and its margin.
+const WINDOW_M: f64 = 20.0;
+/// What is added to three times the first path's duration, s.
+const GRACE_S: f64 = 60.0;
+/// The vehicle looks this far ahead along the path for its tangent, s, to make up for its own lag.
+const LOOK_AHEAD_S: f64 = 0.5;
+
+/// The limits of the mode.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::guide) struct FollowerLimits {
+    /// Turning radius, m.
+    pub(in crate::guide) radius_m: f64,
+    /// Heading per metre off the path, rad/m.
+    pub(in crate::guide) gain_rad_m: f64,
+    /// Greatest angle to the path while closing it, rad.
+    pub(in crate::guide) capture_rad: f64,
+    /// Farther off than this a new path is planned, m.
+    pub(in crate::guide) replan_m: f64,
+}
+
+/// State of a run along a path.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::guide) struct Follower {
+    end: Pose,
+    limits: FollowerLimits,
+    path: DubinsPath,
+    s_m: f64,
+    left_s: f64,
+}
+
+impl Follower {
+    /// Plans the first path.
+    #[must_use]
+    pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, limits: FollowerLimits) -> Self {
+        let path = DubinsPath::shortest(from, end, limits.radius_m);
+        Self {
+            end,
+            limits,
+            path,
+            s_m: 0.0,
+            left_s: 3.0 * path.length_m() / speed_m_s.max(0.1) + GRACE_S,
+        }
+    }
+
+    /// Course to take, and whether the path (or the time for it) has come to its end.
+    pub(in crate::guide) fn step(&mut self, at: Pose, speed_m_s: f64, dt_s: f64) -> (Heading, bool) {
+        self.left_s -= dt_s;
+        self.s_m = self.path.nearest(at.position, self.s_m, self.s_m + WINDOW_M);
+        if (self.path.at(self.s_m).position - at.position).norm() > self.limits.replan_m {
+            self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
+            self.s_m = 0.0;
+        }
+        let l = &self.limits;
+        let turn = (l.gain_rad_m * self.off_m(at.position)).clamp(-l.capture_rad, l.capture_rad);
+        let ahead = self.path.at(self.s_m + LOOK_AHEAD_S * speed_m_s);
+        let at_end = self.s_m >= self.path.length_m() - 0.5;
+        (ahead.heading.turned(turn), at_end || self.left_s <= 0.0)
+    }
+
+    /// Distance off the path, positive to its left, m.
+    fn off_m(&self, position: Vector2<f64>) -> f64 {
+        let foot = self.path.at(self.s_m);
+        let (v, a) = (position - foot.position, foot.heading.unit());
+        a.x * v.y - a.y * v.x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::f64::consts::FRAC_PI_4;
+
+    fn limits() -> FollowerLimits {
+        FollowerLimits {
+            radius_m: 15.0,
+            gain_rad_m: 5f64.to_radians(),
+            capture_rad: FRAC_PI_4,
+            replan_m: 8.0,
+        }
+    }
+
+    /// Drives a vehicle limited to 10 deg/s at 2 m/s; returns (pose at the end, steps, finished).
+    fn drive(start: Pose, end: Pose, jumps: &[(usize, Vector2<f64>)]) -> (Pose, usize, bool) {
+        let mut f = Follower::new(start, end, 2.0, limits());
+        let mut at = start;
+        for k in 0..20_000 {
+            for (when, by) in jumps {
+                if *when == k {
+                    at.position += by;
+                }
+            }
+            let (want, done) = f.step(at, 2.0, 0.1);
+            if done {
+                return (at, k, true);
+            }
+            let most = 10f64.to_radians() * 0.1;
+            at.heading = at.heading.turned(at.heading.turn_to(want).clamp(-most, most));
+            at.position += at.heading.unit() * 0.2;
+        }
+        (at, 20_000, false)
+    }
+
+    proptest! {
+        #![proptest_config(crate::handoff::testing::fixed(256))]
+
+        #[test]
+        fn arrives_with_the_heading(
+            e in -80.0..80.0, n in -80.0..80.0, h1 in 0.0..360.0, h2 in 0.0..360.0,
+        ) {
+            let start = Pose { position: Vector2::zeros(), heading: Heading::from_deg(h1) };
+            let end = Pose { position: Vector2::new(e, n), heading: Heading::from_deg(h2) };
+            let (at, _, done) = drive(start, end, &[]);
+            prop_assert!(done);
+            prop_assert!((at.position - end.position).norm() < 3.0, "{at:?}");
+            prop_assert!(at.heading.turn_to(end.heading).abs() < 15f64.to_radians());
+        }
+
+        #[test]
+        fn fixes_do_not_make_it_circle(
+            e in -80.0..80.0, n in -80.0..80.0, h2 in 0.0..360.0,
+            k1 in 0usize..400, k2 in 0usize..400, j1 in 0.0..360.0, j2 in 0.0..360.0,
+        ) {
+            let start = Pose { position: Vector2::zeros(), heading: Heading::from_deg(0.0) };
+            let end = Pose { position: Vector2::new(e, n), heading: Heading::from_deg(h2) };
+            let jumps = [(k1, Heading::from_deg(j1).unit() * 10.0), (k2, Heading::from_deg(j2).unit() * 10.0)];
+            let (_, steps, done) = drive(start, end, &jumps);
+            let first = DubinsPath::shortest(start, end, 15.0).length_m();
+            prop_assert!(done && steps as f64 * 0.1 <= 3.0 * first / 2.0 + GRACE_S + 0.2);
+        }
+    }
+}

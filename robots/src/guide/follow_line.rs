@@ -1,0 +1,146 @@
+//! Tracks a straight line, once its start has been reached with its heading.
+//!
+//! *Source*: Pang 2009, section 4.2, eq. 7-10.
+//!
+//! *Parameters*: gain K, `line_gain_deg_m`, °/m, 5.0; capture angle, `line_capture_deg`, °, 45 (so
+//! d1 = 45/K = 9 m); start radius R, `line_start_m`, m, 10; start angle θ, `line_start_angle_deg`, °, 15;
+//! end radius R, `arrive_m`, m, 10; overshoot R_L, `line_overshoot_m`, m (not printed), 10.
+//!
+//! *Deviations*: eq. 8 is meant for |d| (as printed, a vehicle far right of the line would be given
+//! K · d without bound). The direction compared with θ is the course over ground, not the nose: across a
+//! flow the two differ by the crab angle, and a line could else never be entered.
+
+use nalgebra::Vector2;
+use world::units::Heading;
+
+/// The limits of the mode.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LineLimits {
+    pub(super) gain_rad_m: f64,
+    pub(super) capture_rad: f64,
+    pub(super) start_m: f64,
+    pub(super) start_angle_rad: f64,
+    pub(super) end_m: f64,
+    pub(super) overshoot_m: f64,
+}
+
+/// A line and how it is tracked.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FollowLine {
+    from: Vector2<f64>,
+    to: Vector2<f64>,
+    alpha: Heading,
+    limits: LineLimits,
+}
+
+impl FollowLine {
+    /// A line; its ends must be apart.
+    pub(super) fn new(from: Vector2<f64>, to: Vector2<f64>, limits: LineLimits) -> Self {
+        Self {
+            from,
+            to,
+            alpha: Heading::of(to - from),
+            limits,
+        }
+    }
+
+    /// Direction of the line (eq. 7).
+    pub(super) fn direction(&self) -> Heading {
+        self.alpha
+    }
+
+    /// Near enough to the start, in place and direction, to begin.
+    pub(super) fn entered(&self, position: Vector2<f64>, moving: Heading) -> bool {
+        (position - self.from).norm() < self.limits.start_m
+            && moving.turn_to(self.alpha).abs() < self.limits.start_angle_rad
+    }
+
+    /// Distance off the line, positive to its left, m.
+    fn off_m(&self, position: Vector2<f64>) -> f64 {
+        let (v, a) = (position - self.from, self.alpha.unit());
+        a.x * v.y - a.y * v.x
+    }
+
+    /// Course to take (eq. 8).
+    pub(super) fn course(&self, position: Vector2<f64>) -> Heading {
+        let l = &self.limits;
+        let turn = (l.gain_rad_m * self.off_m(position)).clamp(-l.capture_rad, l.capture_rad);
+        self.alpha.turned(turn)
+    }
+
+    /// At the end (eq. 6) or past it (eq. 10).
+    pub(super) fn finished(&self, position: Vector2<f64>) -> bool {
+        let v = position - self.to;
+        v.norm() < self.limits.end_m || v.dot(&self.alpha.unit()) > self.limits.overshoot_m
+    }
+}
+
+#[cfg(test)]
+pub(super) const TEST_LIMITS: LineLimits = LineLimits {
+    gain_rad_m: 5.0 * std::f64::consts::PI / 180.0,
+    capture_rad: std::f64::consts::FRAC_PI_4,
+    start_m: 10.0,
+    start_angle_rad: 15.0 * std::f64::consts::PI / 180.0,
+    end_m: 10.0,
+    overshoot_m: 10.0,
+};
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn north() -> FollowLine {
+        FollowLine::new(Vector2::zeros(), Vector2::new(0.0, 100.0), TEST_LIMITS)
+    }
+
+    #[test]
+    fn equation_8_by_hand() {
+        let l = north();
+        // Left (west) of a northward line: steer right.
+        assert!((l.course(Vector2::new(-2.0, 50.0)).deg() - 10.0).abs() < 1e-9);
+        assert!((l.course(Vector2::new(-9.0, 50.0)).deg() - 45.0).abs() < 1e-9);
+        assert!((l.course(Vector2::new(-80.0, 50.0)).deg() - 45.0).abs() < 1e-9);
+        // Right of it: the heading wraps below north.
+        assert!((l.course(Vector2::new(2.0, 50.0)).deg() - 350.0).abs() < 1e-9);
+        assert!((l.course(Vector2::new(80.0, 50.0)).deg() - 315.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn ends_near_the_end_or_past_it() {
+        let l = north();
+        assert!(!l.finished(Vector2::new(0.0, 89.0)));
+        assert!(l.finished(Vector2::new(0.0, 90.5)));
+        // A navigation fix put it 30 m aside: only the overshoot ends the mode.
+        assert!(!l.finished(Vector2::new(30.0, 109.0)));
+        assert!(l.finished(Vector2::new(30.0, 110.5)));
+    }
+
+    #[test]
+    fn entered_only_in_place_and_direction() {
+        let l = north();
+        let near = Vector2::new(3.0, -5.0);
+        assert!(l.entered(near, Heading::from_deg(350.0)));
+        assert!(!l.entered(near, Heading::from_deg(340.0)));
+        assert!(!l.entered(Vector2::new(3.0, -15.0), Heading::from_deg(0.0)));
+    }
+
+    proptest! {
+        #![proptest_config(crate::handoff::testing::fixed(256))]
+
+        #[test]
+        fn closes_the_line_at_any_angle(alpha in 0.0..360.0, aside in -60.0..60.0) {
+            let a = Heading::from_deg(alpha);
+            let l = FollowLine::new(Vector2::zeros(), a.unit() * 400.0, TEST_LIMITS);
+            let right = a.turned(std::f64::consts::FRAC_PI_2).unit();
+            let mut p = right * aside;
+            let mut h = a;
+            while !l.finished(p) {
+                let most = 10f64.to_radians() * 0.1;
+                h = h.turned(h.turn_to(l.course(p)).clamp(-most, most));
+                p += h.unit() * 0.2;
+            }
+            prop_assert!((p - a.unit() * 400.0).norm() <= 10.0 && l.off_m(p).abs() < 0.5);
+        }
+    }
+}

@@ -1,0 +1,214 @@
+//! The guidance: a mode makes a course, the cage corrects it, flow compensation and rate filter make the command.
+//!
+//! *Source*: Pang 2009, section 4.
+//!
+//! *Parameters*: see [`GuidanceSpec`].
+//!
+//! *Deviations*: those of the modes, each stated in its file. A line whose ends coincide is a point.
+
+use super::cage::{cage, lost};
+use super::dubins::{Follower, FollowerLimits, Pose};
+use super::flow_compensation::compensate;
+use super::follow_line::{FollowLine, LineLimits};
+use super::go_to_point::GoToPoint;
+use super::rate_filter::RateFilter;
+use super::spec::GuidanceSpec;
+use crate::handoff::{
+    ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, Setpoint,
+};
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector2;
+use world::area::Area;
+use world::units::Heading;
+
+/// A line shorter than this has no direction, m.
+const SHORTEST_LINE_M: f64 = 0.01;
+/// Slower than this over ground the nose is taken for the course, m/s.
+const SLOWEST_COURSE_M_S: f64 = 0.2;
+
+#[derive(Clone, Copy, Debug)]
+enum Mode {
+    Point(GoToPoint),
+    ToLine(Follower, FollowLine),
+    Line(FollowLine),
+    ToPose(Follower),
+    Free,
+}
+
+/// State of the guidance.
+#[derive(Component, Clone, Debug)]
+pub struct Guidance {
+    spec: GuidanceSpec,
+    filter: RateFilter,
+    mode: Mode,
+    goal_id: Option<u32>,
+    done: bool,
+    aborted: bool,
+}
+
+impl Guidance {
+    /// Guidance without a goal yet.
+    #[must_use]
+    pub fn new(spec: &GuidanceSpec) -> Self {
+        Self {
+            filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),
+            spec: spec.clone(),
+            mode: Mode::Free,
+            goal_id: None,
+            done: false,
+            aborted: false,
+        }
+    }
+
+    /// The command for this tick and how the goal stands. A new `goal.id` starts its manoeuvre afresh;
+    /// under the same id only a course may change.
+    pub fn step(
+        &mut self,
+        est: &Estimate,
+        goal: &Goal,
+        area: &Area,
+        dt_s: f64,
+    ) -> (Command, GuidanceStatus) {
+        if let Manoeuvre::Direct {
+            rudder_rad,
+            stern_rad,
+            rpm,
+        } = goal.manoeuvre
+        {
+            // Open loop: neither cage nor filter stands between the table and the actuators.
+            self.filter.reset();
+            self.goal_id = None;
+            self.done = false;
+            let actuators = ActuatorCommand {
+                rudder_rad,
+                stern_rad,
+                rpm,
+            };
+            return (Command::Direct(actuators), self.status(goal.id));
+        }
+
+        let moving = course_over_ground(est);
+        if self.goal_id != Some(goal.id) {
+            self.goal_id = Some(goal.id);
+            self.done = false;
+            self.mode = self.start(est, goal, moving);
+        }
+        let wanted = self.course(est, goal, moving, dt_s);
+        self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
+        let course = cage(wanted, est.position, area, self.spec.cage_m.get());
+        let flow = est.flow.map_or_else(Vector2::zeros, |f| f.velocity);
+        let limit = self.spec.water_speed_limit_m_s.get();
+        let (heading, water_speed_m_s) = compensate(course, goal.speed_m_s, flow, limit);
+        let setpoint = Setpoint {
+            heading: self.filter.step(heading, est.attitude.heading, dt_s),
+            water_speed_m_s,
+            vertical: goal.vertical,
+        };
+        (Command::Steer(setpoint), self.status(goal.id))
+    }
+
+    fn status(&self, goal_id: u32) -> GuidanceStatus {
+        GuidanceStatus {
+            goal_id,
+            done: self.done,
+            aborted: self.aborted,
+        }
+    }
+
+    fn start(&self, est: &Estimate, goal: &Goal, moving: Heading) -> Mode {
+        let s = &self.spec;
+        let gain_rad_m = s.line_gain_deg_m.get().to_radians();
+        let capture_rad = s.line_capture_deg.get().to_radians();
+        let to_pose = |end: Pose| {
+            let from = Pose {
+                position: est.position,
+                heading: moving,
+            };
+            let limits = FollowerLimits {
+                radius_m: s.turn_radius_m.get(),
+                gain_rad_m,
+                capture_rad,
+                replan_m: s.replan_m.get(),
+            };
+            Follower::new(from, end, goal.speed_m_s, limits)
+        };
+        let to_point = |point, radius: Option<f64>| {
+            let radius_m = radius.unwrap_or(s.arrive_m.get());
+            Mode::Point(GoToPoint::new(point, radius_m, s.turn_radius_m.get()))
+        };
+        match goal.manoeuvre {
+            Manoeuvre::GoToPoint { point, radius_m } => to_point(point, radius_m),
+            Manoeuvre::FollowLine { from, to } if (to - from).norm() < SHORTEST_LINE_M => {
+                to_point(to, None)
+            }
+            Manoeuvre::FollowLine { from, to } => {
+                let limits = LineLimits {
+                    gain_rad_m,
+                    capture_rad,
+                    start_m: s.line_start_m.get(),
+                    start_angle_rad: s.line_start_angle_deg.get().to_radians(),
+                    end_m: s.arrive_m.get(),
+                    overshoot_m: s.line_overshoot_m.get(),
+                };
+                let line = FollowLine::new(from, to, limits);
+                let end = Pose {
+                    position: from,
+                    heading: line.direction(),
+                };
+                Mode::ToLine(to_pose(end), line)
+            }
+            Manoeuvre::GoToPointWithHeading { point, heading } => Mode::ToPose(to_pose(Pose {
+                position: point,
+                heading,
+            })),
+            Manoeuvre::Course { .. } | Manoeuvre::Direct { .. } => Mode::Free,
+        }
+    }
+
+    fn course(&mut self, est: &Estimate, goal: &Goal, moving: Heading, dt_s: f64) -> Heading {
+        let at = Pose {
+            position: est.position,
+            heading: moving,
+        };
+        // The way to a line's start gives place to the line itself, in the same tick.
+        if let Mode::ToLine(follower, line) = &mut self.mode {
+            let (course, over) = follower.step(at, goal.speed_m_s, dt_s);
+            if !over && !line.entered(est.position, moving) {
+                return course;
+            }
+            self.mode = Mode::Line(*line);
+        }
+        match &mut self.mode {
+            Mode::Point(point) => {
+                let (course, arrived) = point.step(est.position, moving);
+                self.done |= arrived;
+                course
+            }
+            Mode::Line(line) => {
+                self.done |= line.finished(est.position);
+                line.course(est.position)
+            }
+            Mode::ToPose(follower) | Mode::ToLine(follower, _) => {
+                let (course, over) = follower.step(at, goal.speed_m_s, dt_s);
+                self.done |= over;
+                course
+            }
+            Mode::Free => match goal.manoeuvre {
+                Manoeuvre::Course { course } => course,
+                _ => moving,
+            },
+        }
+    }
+}
+
+fn course_over_ground(est: &Estimate) -> Heading {
+    let v = est.v_ground();
+    if v.norm() > SLOWEST_COURSE_M_S {
+        Heading::of(v)
+    } else {
+        est.attitude.heading
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,54 @@
+//! What a scenario says about the guidance.
+
+use serde::{Deserialize, Serialize};
+use world::ranges::Positive;
+
+/// Guidance parameters; the defaults are Pang 2009, section 4 and Table 4, or the choice stated at the field.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GuidanceSpec {
+    /// Greatest rate of the commanded heading, °/s (section 4: 10).
+    pub heading_rate_deg_s: Positive,
+    /// Greatest speed through the water, m/s (section 4: 2).
+    pub water_speed_limit_m_s: Positive,
+    /// R of eq. 6: arrived at a point, or at the end of a line, within this distance, m (Table 4: 10).
+    pub arrive_m: Positive,
+    /// K of eq. 8, degrees of heading per metre off the line (Table 4: 5.0).
+    pub line_gain_deg_m: Positive,
+    /// Greatest angle to the line while closing it, ° (eq. 8: 45).
+    pub line_capture_deg: Positive,
+    /// A line is entered within this distance of its start, m (section 4.2: R = 10).
+    pub line_start_m: Positive,
+    /// θ of section 4.2: a line is entered within this angle of its direction, ° (Fig. 3: 15).
+    pub line_start_angle_deg: Positive,
+    /// R_L of eq. 10: a line is left when its end is overshot by more than this, m (not printed; R taken).
+    pub line_overshoot_m: Positive,
+    /// R_m of section 4.3, m (not printed; a margin over the 11.5 m that 2 m/s at 10 °/s give).
+    pub turn_radius_m: Positive,
+    /// A Dubins path is planned anew when the vehicle is farther off it than this, m (not printed; just
+    /// under the 10 m of a navigation fix, so that a fix makes a new path and noise does not).
+    pub replan_m: Positive,
+    /// The cage turns the command from this distance to the edge on, m (eq. 12: 5).
+    pub cage_m: Positive,
+    /// Farther outside than this the mission is aborted, m (section 4.4: 30).
+    pub abort_outside_m: Positive,
+}
+
+impl Default for GuidanceSpec {
+    fn default() -> Self {
+        Self {
+            heading_rate_deg_s: Positive::new(10.0),
+            water_speed_limit_m_s: Positive::new(2.0),
+            arrive_m: Positive::new(10.0),
+            line_gain_deg_m: Positive::new(5.0),
+            line_capture_deg: Positive::new(45.0),
+            line_start_m: Positive::new(10.0),
+            line_start_angle_deg: Positive::new(15.0),
+            line_overshoot_m: Positive::new(10.0),
+            turn_radius_m: Positive::new(15.0),
+            replan_m: Positive::new(8.0),
+            cage_m: Positive::new(5.0),
+            abort_outside_m: Positive::new(30.0),
+        }
+    }
+}

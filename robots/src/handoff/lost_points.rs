@@ -1,0 +1,99 @@
+//! Where the plume was lost: the list that Track-In writes and Track-Out, Reacquire and the declaration read.
+
+use nalgebra::Vector2;
+use std::num::NonZeroUsize;
+use world::units::Heading;
+
+/// A last detection point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LostPoint {
+    /// When chemical was last detected there, s.
+    pub t_s: f64,
+    /// Where, as the vehicle believed (east, north), m.
+    pub position: Vector2<f64>,
+}
+
+/// The lost points, most up-flow first; a full list drops its most down-flow point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LostPoints {
+    points: Vec<LostPoint>,
+    most: usize,
+}
+
+impl LostPoints {
+    /// An empty list for `most` points.
+    #[must_use]
+    pub fn new(most: NonZeroUsize) -> Self {
+        Self {
+            points: Vec::new(),
+            most: most.get(),
+        }
+    }
+
+    /// Adds a point, in the order along the present flow.
+    pub fn add(&mut self, point: LostPoint, up_flow: Heading) {
+        self.points.push(point);
+        self.sort(up_flow);
+        self.points.truncate(self.most);
+    }
+
+    /// Puts the points in the order along the present flow, most up-flow first; equal ones in order of time.
+    pub fn sort(&mut self, up_flow: Heading) {
+        let up = up_flow.unit();
+        self.points.sort_by(|a, b| {
+            let (a_up, b_up) = (a.position.dot(&up), b.position.dot(&up));
+            b_up.total_cmp(&a_up).then(a.t_s.total_cmp(&b.t_s))
+        });
+    }
+
+    /// Takes the first point off the list.
+    pub fn drop_first(&mut self) {
+        if !self.points.is_empty() {
+            self.points.remove(0);
+        }
+    }
+
+    /// The most up-flow point, by the flow of the last sorting.
+    #[must_use]
+    pub fn first(&self) -> Option<LostPoint> {
+        self.points.first().copied()
+    }
+
+    /// All points, most up-flow first.
+    #[must_use]
+    pub fn all(&self) -> &[LostPoint] {
+        &self.points
+    }
+
+    /// Forgets all points.
+    pub fn clear(&mut self) {
+        self.points.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(t_s: f64, north: f64) -> LostPoint {
+        LostPoint {
+            t_s,
+            position: Vector2::new(0.0, north),
+        }
+    }
+
+    #[test]
+    fn keeps_the_most_up_flow_and_turns_with_the_flow() {
+        let mut list = LostPoints::new(NonZeroUsize::new(3).expect("3 > 0"));
+        let north = Heading::from_deg(0.0);
+        for (t, n) in [(0.0, 5.0), (1.0, 20.0), (2.0, 10.0), (3.0, 15.0)] {
+            list.add(at(t, n), north);
+        }
+        let norths = |l: &LostPoints| l.all().iter().map(|p| p.position.y).collect::<Vec<_>>();
+        assert_eq!(norths(&list), [20.0, 15.0, 10.0]);
+        list.sort(north.opposite());
+        assert_eq!(norths(&list), [10.0, 15.0, 20.0]);
+        list.drop_first();
+        assert_eq!(norths(&list), [15.0, 20.0]);
+    }
+}

@@ -1,0 +1,70 @@
+//! Observations written by hand, for tests.
+
+use super::{Attitude, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation};
+use nalgebra::{Vector2, Vector3};
+use world::area::Area;
+use world::units::Heading;
+
+/// 600 m north-south by 400 m east-west round the origin.
+pub(crate) fn area() -> Area {
+    Area {
+        centre: Vector2::zeros(),
+        length_m: 600.0,
+        width_m: 400.0,
+        axis: Heading::from_deg(0.0),
+    }
+}
+
+/// A vehicle at 2 m/s over ground, with no chemical reading.
+pub(crate) fn seen(
+    t_s: f64,
+    position: Vector2<f64>,
+    heading_deg: f64,
+    flow: Option<Vector2<f64>>,
+) -> Observation {
+    Observation {
+        t_s,
+        estimate: Estimate {
+            t_s,
+            position,
+            depth_m: 3.0,
+            altitude_m: Some(2.0),
+            attitude: Attitude {
+                heading: Heading::from_deg(heading_deg),
+                roll_rad: 0.0,
+                pitch_rad: 0.0,
+                rates_rad_s: Vector3::zeros(),
+            },
+            v_ground_body: Vector3::new(2.0, 0.0, 0.0),
+            flow: flow.map(|velocity| FlowEstimate {
+                velocity,
+                age_s: 0.0,
+            }),
+            fix_jump_m: 0.0,
+        },
+        chemical: None,
+        guidance: GuidanceStatus::default(),
+        area: area(),
+        home: Vector2::new(10.0, -250.0),
+    }
+}
+
+/// The same with a chemical reading.
+pub(crate) fn smelling(mut o: Observation, detected: bool) -> Observation {
+    o.chemical = Some(ChemicalReading {
+        volts: if detected { 1.0 } else { 0.0 },
+        of_full_scale: if detected { 0.2 } else { 0.0 },
+        detected,
+    });
+    o
+}
+
+/// Property tests with the same cases in every run, and no files written beside the sources.
+pub(crate) fn fixed(cases: u32) -> proptest::test_runner::Config {
+    proptest::test_runner::Config {
+        cases,
+        rng_seed: proptest::test_runner::RngSeed::Fixed(20_090_601),
+        failure_persistence: None,
+        ..Default::default()
+    }
+}

@@ -1,0 +1,270 @@
+//! Acoustic Doppler current profiler: water relative to the vehicle in the first cell beyond the dead zone.
+//!
+//! *Source:* Pang 2009, section 6 (up- and down-looking ADCP on the REMUS, dead zone about 0.75 m, so
+//! that it may read another layer than the one the vehicle is in); triangular weight of a depth cell
+//! and the side-lobe limit: RD Instruments, ADCP Principles of Operation: A Practical Primer (1996).
+//!
+//! *Parameters:* `look` Up; rate `rate_hz` 1 Hz; dead zone `dead_zone_m` 0.75 m; cell `cell_m` 0.5 m;
+//! noise per axis `noise_m_s` 0.02 m/s (typical of an ensemble of some pings in cells of half a
+//! metre at 1200 kHz); beams `beam_angle_deg` 20° from the axis.
+//!
+//! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
+//! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
+
+use crate::error::RobotError;
+use crate::handoff::AdcpReading;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::fields::Flow;
+use world::frames::Truth;
+use world::math;
+use world::ranges::{Finite, NonNegative, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Which way the instrument looks along the body's z axis.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Look {
+    /// To the surface.
+    #[default]
+    Up,
+    /// To the bed.
+    Down,
+}
+
+/// What a scenario may say of the current profiler.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AdcpSpec {
+    /// Where it looks.
+    pub look: Look,
+    /// Readings a second, Hz.
+    pub rate_hz: Positive,
+    /// Range without measurement, m.
+    pub dead_zone_m: NonNegative,
+    /// Length of the cell behind it, m.
+    pub cell_m: Positive,
+    /// Standard deviation of the noise on each axis, m/s.
+    pub noise_m_s: NonNegative,
+    /// Angle between the beams and the axis, degrees, below 60.
+    pub beam_angle_deg: Finite,
+}
+
+impl Default for AdcpSpec {
+    fn default() -> Self {
+        Self {
+            look: Look::Up,
+            rate_hz: Positive::new(1.0),
+            dead_zone_m: NonNegative::new(0.75),
+            cell_m: Positive::new(0.5),
+            noise_m_s: NonNegative::new(0.02),
+            beam_angle_deg: Finite::new(20.0),
+        }
+    }
+}
+
+/// A current profiler on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Adcp {
+    every: Every,
+    p_BS: Vector3<f64>,
+    /// Axis in the body: up or down.
+    axis_B: Vector3<f64>,
+    dead_zone_m: f64,
+    cell_m: f64,
+    noise_m_s: f64,
+    /// Share of the way to a boundary that its side-lobe echo leaves usable.
+    usable: f64,
+    rng: Stream,
+}
+
+impl Adcp {
+    /// A current profiler at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step or the beam angle is not that of an instrument.
+    pub fn new(
+        spec: &AdcpSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let angle = spec.beam_angle_deg.get();
+        if !(0.0..60.0).contains(&angle) {
+            return Err(RobotError::Invalid {
+                field: "sensors.adcp.beam_angle_deg".into(),
+                problem: format!("must be from 0 to below 60 degrees, got {angle}"),
+            });
+        }
+        Ok(Self {
+            every: super::tools::every("sensors.adcp.rate_hz", spec.rate_hz.get(), dt_s)?,
+            p_BS,
+            axis_B: match spec.look {
+                Look::Up => Vector3::z(),
+                Look::Down => -Vector3::z(),
+            },
+            dead_zone_m: spec.dead_zone_m.get(),
+            cell_m: spec.cell_m.get(),
+            noise_m_s: spec.noise_m_s.get(),
+            usable: math::cos(angle.to_radians()),
+            rng: Stream::new(seed, robot_id, "adcp"),
+        })
+    }
+
+    /// The reading of this step, if one is due.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        flow: &dyn Flow,
+        terrain: &Terrain,
+    ) -> Option<AdcpReading> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        // Drawn also when invalid, so that a lost cell does not shift the later ones.
+        let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
+        let p = truth.pose.point(self.p_BS);
+        let axis = truth.pose.R_WB * self.axis_B;
+        let middle_m = self.dead_zone_m + self.cell_m / 2.0;
+        let end_m = self.dead_zone_m + self.cell_m;
+        let valid = water_along(terrain, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
+        let v_body_m_s = if valid {
+            // The cell weighs ranges by a triangle a cell length to either side of its middle:
+            // 1 : 2 : 1 at the half cells has the same mean and all but the same spread.
+            let water: Vector3<f64> = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)]
+                .map(|(cells, weight)| {
+                    let at = p + axis * (middle_m + cells * self.cell_m);
+                    flow.velocity(&at, clock.t_s()) * weight
+                })
+                .iter()
+                .sum();
+            assert!(
+                water.iter().all(|v| v.is_finite()),
+                "the flow at {p:?} is not a finite number: the water model or the vehicle's position broke before the ADCP"
+            );
+            truth.pose.R_WB.inverse() * water - truth.v_WB_B + noise
+        } else {
+            Vector3::zeros()
+        };
+        Some(AdcpReading {
+            v_body_m_s,
+            above_m: self.p_BS.z + self.axis_B.z * middle_m,
+            valid,
+        })
+    }
+}
+
+/// Way through the water along a beam axis to the surface or the bed, m; `None` out of the water or
+/// when the vehicle lies on its side.
+fn water_along(terrain: &Terrain, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
+    const LEAST_COS: f64 = 0.5;
+    if p.z >= 0.0 {
+        None
+    } else if axis.z >= LEAST_COS {
+        Some(-p.z / axis.z)
+    } else {
+        super::tools::range_to_bed(terrain, p, axis)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{BED, assert_normal, at, nose_up, run};
+    use super::*;
+
+    /// Northward above an interface 3 m down, southward below it.
+    struct TwoLayers;
+    const UPPER: Vector3<f64> = Vector3::new(0.0, 0.22, 0.0);
+    const LOWER: Vector3<f64> = Vector3::new(0.05, -0.11, 0.0);
+    impl Flow for TwoLayers {
+        fn velocity(&self, p: &Vector3<f64>, _t_s: f64) -> Vector3<f64> {
+            if p.z > -3.0 { UPPER } else { LOWER }
+        }
+    }
+
+    fn spec(look: Look, noise_m_s: f64) -> AdcpSpec {
+        AdcpSpec {
+            look,
+            noise_m_s: NonNegative::new(noise_m_s),
+            ..Default::default()
+        }
+    }
+
+    fn read(truth: Truth, look: Look) -> AdcpReading {
+        let mut a = Adcp::new(&spec(look, 0.0), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &BED))[0]
+    }
+
+    /// The water it finds: relative velocity and own velocity, in world axes.
+    fn water(truth: Truth, look: Look) -> Vector3<f64> {
+        let r = read(truth, look);
+        assert!(r.valid, "{truth:?}");
+        truth.pose.R_WB * (r.v_body_m_s + truth.v_WB_B)
+    }
+
+    fn sailing(z: f64) -> Truth {
+        let mut t = at(3.0, 4.0, z);
+        t.v_WB_B = Vector3::new(1.8, 0.2, -0.1);
+        t
+    }
+
+    #[test]
+    fn looking_up_it_reads_the_layer_beyond_its_dead_zone() {
+        // The cell spans 0.75 to 1.25 m above: wholly over the interface from 3.75 m depth up.
+        assert!((water(sailing(-3.6), Look::Up) - UPPER).norm() < 1e-12);
+        assert!((water(sailing(-4.5), Look::Up) - LOWER).norm() < 1e-12);
+        assert!((water(sailing(-3.6), Look::Down) - LOWER).norm() < 1e-12);
+        // With the interface in its middle it reads something between.
+        let mixed = water(sailing(-3.99), Look::Up).y;
+        assert!(mixed > LOWER.y && mixed < UPPER.y, "{mixed}");
+    }
+
+    #[test]
+    fn the_cell_stands_where_it_says() {
+        assert!((read(sailing(-4.0), Look::Up).above_m - 1.0).abs() < 1e-12);
+        assert!((read(sailing(-4.0), Look::Down).above_m + 1.0).abs() < 1e-12);
+        // Pitched by 45 degrees the cell is lower, 0.71 m above, and below the interface.
+        assert!((water(nose_up(sailing(-4.0), 45.0), Look::Up) - LOWER).norm() < 1e-9);
+    }
+
+    #[test]
+    fn cells_that_reach_surface_or_bed_are_invalid() {
+        // Side lobes leave cos 20° of the way: 1.25 m need 1.33 m.
+        let valid = |z, look| read(sailing(z), look).valid;
+        assert!(valid(-1.34, Look::Up) && !valid(-1.32, Look::Up));
+        assert!(valid(-6.66, Look::Down) && !valid(-6.68, Look::Down));
+        assert!(!valid(0.1, Look::Up) && !valid(0.1, Look::Down));
+        assert!(!read(nose_up(sailing(-4.0), 80.0), Look::Up).valid);
+        let r = read(sailing(-1.0), Look::Up);
+        assert_eq!(r.v_body_m_s, Vector3::zeros());
+    }
+
+    #[test]
+    fn reads_once_a_second_with_its_noise() {
+        let mut a = Adcp::new(&spec(Look::Up, 0.02), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let t = sailing(-5.0);
+        let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &BED));
+        assert_eq!(v.len(), 2000);
+        let want = t.pose.R_WB.inverse() * LOWER - t.v_WB_B;
+        for axis in 0..3 {
+            let got: Vec<f64> = v.iter().map(|r| r.v_body_m_s[axis]).collect();
+            assert_normal(&got, want[axis], 0.02);
+        }
+    }
+
+    #[test]
+    fn impossible_beams_are_refused() {
+        let bad = AdcpSpec {
+            beam_angle_deg: Finite::new(75.0),
+            ..Default::default()
+        };
+        let e = Adcp::new(&bad, Vector3::zeros(), "a", 1, 0.02).expect_err("75 degrees");
+        assert_eq!(
+            e.to_string(),
+            "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75"
+        );
+    }
+}

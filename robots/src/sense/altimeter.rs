@@ -1,0 +1,169 @@
+//! Altimeter: height above the bed by an echo along the body's down axis.
+//!
+//! *Source:* echo sounders of coastal AUVs (500 kHz class: some centimetres of noise, blind below
+//! half a metre, some tens of metres of range); Pang 2009, section 6, flies at 1.5–2 m altitude.
+//!
+//! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to
+//! `max_range_m` 30 m.
+//!
+//! *Deviations:* a beam without width, which sees the bed and no obstacle. The slant range is turned
+//! into height with the vehicle's tilt, here without the tilt's small noise.
+
+use crate::error::RobotError;
+use crate::handoff::AltimeterReading;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// What a scenario may say of the altimeter.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct AltimeterSpec {
+    /// Readings a second, Hz.
+    pub rate_hz: Positive,
+    /// Standard deviation of the noise, m.
+    pub noise_m: NonNegative,
+    /// Least range, m.
+    pub min_range_m: NonNegative,
+    /// Greatest range, m.
+    pub max_range_m: Positive,
+}
+
+impl Default for AltimeterSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(5.0),
+            noise_m: NonNegative::new(0.02),
+            min_range_m: NonNegative::new(0.3),
+            max_range_m: Positive::new(30.0),
+        }
+    }
+}
+
+/// An altimeter on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Altimeter {
+    every: Every,
+    p_BS: Vector3<f64>,
+    noise_m: f64,
+    range_m: std::ops::RangeInclusive<f64>,
+    rng: Stream,
+}
+
+impl Altimeter {
+    /// An altimeter at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step or the range is empty.
+    pub fn new(
+        spec: &AltimeterSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let range_m = spec.min_range_m.get()..=spec.max_range_m.get();
+        if range_m.is_empty() {
+            return Err(RobotError::Invalid {
+                field: "sensors.altimeter.max_range_m".into(),
+                problem: format!("must be at least min_range_m, {} m", range_m.start()),
+            });
+        }
+        Ok(Self {
+            every: super::tools::every("sensors.altimeter.rate_hz", spec.rate_hz.get(), dt_s)?,
+            p_BS,
+            noise_m: spec.noise_m.get(),
+            range_m,
+            rng: Stream::new(seed, robot_id, "altimeter"),
+        })
+    }
+
+    /// The reading of this step, if one is due.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        terrain: &Terrain,
+    ) -> Option<AltimeterReading> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        // Drawn also without echo, so that a lost ping does not shift the later ones.
+        let noise = self.noise_m * self.rng.normal();
+        let p = truth.pose.point(self.p_BS);
+        let down = truth.pose.R_WB * -Vector3::z();
+        let echo = super::tools::range_to_bed(terrain, &p, &down)
+            .filter(|range| self.range_m.contains(range));
+        Some(match echo {
+            Some(range) => AltimeterReading {
+                altitude_m: (range + noise) * -down.z,
+                valid: true,
+            },
+            None => AltimeterReading {
+                altitude_m: 0.0,
+                valid: false,
+            },
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{BED, assert_normal, at, nose_up, run};
+    use super::*;
+    use nalgebra::Vector2;
+    use world::units::Heading;
+
+    fn altimeter(noise_m: f64) -> Altimeter {
+        let spec = AltimeterSpec {
+            noise_m: NonNegative::new(noise_m),
+            ..Default::default()
+        };
+        Altimeter::new(&spec, Vector3::new(0.0, 0.0, -0.1), "auv0", 1, 0.02).unwrap()
+    }
+
+    fn read(t: Truth, bed: &Terrain) -> AltimeterReading {
+        altimeter(0.0).read(&Clock::new(0.02), &t, bed).unwrap()
+    }
+
+    #[test]
+    fn reads_height_with_its_noise() {
+        let mut a = altimeter(0.02);
+        let t = at(0.0, 0.0, -6.0);
+        let v = run(50_000, 0.02, |c| a.read(c, &t, &BED));
+        assert_eq!(v.len(), 5_000);
+        let got: Vec<f64> = v.iter().map(|r| r.altitude_m).collect();
+        assert_normal(&got, 1.9, 0.02);
+    }
+
+    #[test]
+    fn is_valid_within_its_range_only() {
+        let deep = Terrain::Level { depth_m: 40.0 };
+        assert!(read(at(0.0, 0.0, -9.95), &deep).valid && !read(at(0.0, 0.0, -9.85), &deep).valid);
+        assert!(read(at(0.0, 0.0, -7.55), &BED).valid && !read(at(0.0, 0.0, -7.65), &BED).valid);
+        assert!(!read(nose_up(at(0.0, 0.0, -6.0), 70.0), &BED).valid);
+    }
+
+    /// Nose up over a bed rising northward the beam, looking forward and down, hits where the bed is higher.
+    #[test]
+    fn on_a_slope_the_beam_ends_on_the_bed() {
+        let slope = Terrain::Slope {
+            middle: Vector2::zeros(),
+            shoreward: Heading::from_deg(0.0),
+            shallow_m: 4.0,
+            deep_m: 14.0,
+            run_m: 100.0,
+        };
+        let t = nose_up(at(0.0, 0.0, -5.0), 20.0);
+        let p = t.pose.point(Vector3::new(0.0, 0.0, -0.1));
+        let down = t.pose.R_WB * -Vector3::z();
+        let got = read(t, &slope);
+        let end = p + down * (got.altitude_m / -down.z);
+        assert!((end.z - slope.bed_z(end.x, end.y)).abs() < 1e-6, "{end:?}");
+        assert!(end.y > 0.5, "the beam leads forward: {end:?}");
+    }
+}

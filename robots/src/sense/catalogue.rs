@@ -1,0 +1,42 @@
+//! The instruments a scenario can fit.
+
+use world::catalogue::Entry;
+
+/// One row an instrument, named as the field of `sensors` in RON.
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "fluorometer",
+        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection threshold.",
+        source: "Turner Designs Cyclops-7 (Sea-Bird application note 74); Pang 2009, section 6",
+    },
+    Entry {
+        name: "dvl",
+        what: "Velocity over ground by bottom track: noise, scale error, bottom lock by range.",
+        source: "Teledyne RD Instruments, Workhorse Navigator 1200 kHz data sheet",
+    },
+    Entry {
+        name: "adcp",
+        what: "Water relative to the vehicle in the first cell beyond the dead zone, looking up or down.",
+        source: "Pang 2009, section 6; RD Instruments, ADCP Principles of Operation (1996)",
+    },
+    Entry {
+        name: "compass",
+        what: "Heading with noise and bias, roll, pitch and rates.",
+        source: "Electronic compasses of the class of PNI's TCM2",
+    },
+    Entry {
+        name: "depth",
+        what: "Depth below the still surface from pressure.",
+        source: "Strain-gauge pressure sensors, 0.01 % of full scale",
+    },
+    Entry {
+        name: "altimeter",
+        what: "Height above the bed by an echo along the body's down axis.",
+        source: "500 kHz echo sounder class; Pang 2009, section 6",
+    },
+    Entry {
+        name: "lbl",
+        what: "Position fixes from a long acoustic baseline: period, noise, drop-outs.",
+        source: "Pang 2009, sections 4 and 5.6",
+    },
+];

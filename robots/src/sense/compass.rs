@@ -1,0 +1,168 @@
+//! Compass and inertial unit: heading, roll, pitch and rates.
+//!
+//! *Source:* electronic compasses of the class of PNI's TCM2: heading within 1°, tilt within 0.2°;
+//! values typical of the class, the paper's vehicle being unspecified.
+//!
+//! *Parameters:* rate `rate_hz` 25 Hz; heading noise `noise_deg` 0.3°; heading bias `bias_deg` 1.0°,
+//! the standard deviation of an angle drawn once a run; `tilt_noise_deg` 0.2°; `gyro_noise_deg_s` 0.1 °/s.
+//!
+//! *Deviations:* the bias is the same on all headings; gyros have no bias.
+
+use crate::error::RobotError;
+use crate::handoff::AttitudeReading;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+
+/// What a scenario may say of the compass.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CompassSpec {
+    /// Readings a second, Hz.
+    pub rate_hz: Positive,
+    /// Standard deviation of the heading noise, degrees.
+    pub noise_deg: NonNegative,
+    /// Standard deviation of the heading bias, drawn once a run, degrees.
+    pub bias_deg: NonNegative,
+    /// Standard deviation of the noise of roll and pitch, degrees.
+    pub tilt_noise_deg: NonNegative,
+    /// Standard deviation of the noise of each rate, degrees/s.
+    pub gyro_noise_deg_s: NonNegative,
+}
+
+impl Default for CompassSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(25.0),
+            noise_deg: NonNegative::new(0.3),
+            bias_deg: NonNegative::new(1.0),
+            tilt_noise_deg: NonNegative::new(0.2),
+            gyro_noise_deg_s: NonNegative::new(0.1),
+        }
+    }
+}
+
+/// A compass with inertial unit on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Compass {
+    every: Every,
+    noise_rad: f64,
+    bias_rad: f64,
+    tilt_noise_rad: f64,
+    gyro_noise_rad_s: f64,
+    rng: Stream,
+}
+
+impl Compass {
+    /// A compass of the robot `robot_id`; its place does not matter.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step.
+    pub fn new(
+        spec: &CompassSpec,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let mut rng = Stream::new(seed, robot_id, "compass");
+        let bias_rad = spec.bias_deg.get().to_radians() * rng.normal();
+        Ok(Self {
+            every: super::tools::every("sensors.compass.rate_hz", spec.rate_hz.get(), dt_s)?,
+            noise_rad: spec.noise_deg.get().to_radians(),
+            bias_rad,
+            tilt_noise_rad: spec.tilt_noise_deg.get().to_radians(),
+            gyro_noise_rad_s: spec.gyro_noise_deg_s.get().to_radians(),
+            rng,
+        })
+    }
+
+    /// The reading of this step, if one is due.
+    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<AttitudeReading> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        let turn = self.bias_rad + self.noise_rad * self.rng.normal();
+        let (roll, pitch_down) = truth.pose.roll_pitch();
+        Some(AttitudeReading {
+            heading: truth.pose.heading().turned(turn),
+            roll_rad: roll + self.tilt_noise_rad * self.rng.normal(),
+            // The world's FLU pitch is nose down positive, a vehicle's nose up.
+            pitch_rad: -pitch_down + self.tilt_noise_rad * self.rng.normal(),
+            rates_rad_s: truth.w_WB_B + super::tools::normal3(&mut self.rng, self.gyro_noise_rad_s),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_normal, at, nose_up, run};
+    use super::*;
+    use nalgebra::{UnitQuaternion, Vector3};
+    use world::units::Heading;
+
+    fn compass(seed: u64) -> Compass {
+        Compass::new(&CompassSpec::default(), "auv0", seed, 0.02).unwrap()
+    }
+
+    #[test]
+    fn noise_is_as_specified_about_one_bias() {
+        let mut c = compass(2);
+        let mut t = nose_up(at(0.0, 0.0, -5.0), 10.0);
+        t.w_WB_B = Vector3::new(0.01, -0.02, 0.1);
+        let v = run(20_000, 0.02, |clock| c.read(clock, &t));
+        assert_eq!(v.len(), 10_000);
+        let of = |f: &dyn Fn(&AttitudeReading) -> f64| v.iter().map(f).collect::<Vec<f64>>();
+        let north = Heading::from_deg(0.0);
+        assert_normal(
+            &of(&|r| north.turn_to(r.heading)),
+            c.bias_rad,
+            0.3_f64.to_radians(),
+        );
+        assert_normal(&of(&|r| r.roll_rad), 0.0, 0.2_f64.to_radians());
+        assert_normal(
+            &of(&|r| r.pitch_rad),
+            10_f64.to_radians(),
+            0.2_f64.to_radians(),
+        );
+        for axis in 0..3 {
+            assert_normal(
+                &of(&|r| r.rates_rad_s[axis]),
+                t.w_WB_B[axis],
+                0.1_f64.to_radians(),
+            );
+        }
+    }
+
+    #[test]
+    fn biases_of_many_runs_have_the_specified_spread() {
+        let biases: Vec<f64> = (0..1000).map(|seed| compass(seed).bias_rad).collect();
+        assert_normal(&biases, 0.0, 1_f64.to_radians());
+    }
+
+    #[test]
+    fn signs_are_the_vehicles() {
+        let none = NonNegative::new(0.0);
+        let exact = CompassSpec {
+            noise_deg: none,
+            bias_deg: none,
+            tilt_noise_deg: none,
+            gyro_noise_deg_s: none,
+            ..Default::default()
+        };
+        let mut c = Compass::new(&exact, "auv0", 1, 0.02).unwrap();
+        let mut t = at(0.0, 0.0, -5.0);
+        // East, nose 15° up, right side 5° down.
+        let (roll, pitch) = (5_f64.to_radians(), 15_f64.to_radians());
+        t.pose.R_WB = UnitQuaternion::from_euler_angles(roll, -pitch, 0.0);
+        assert!((t.pose.R_WB * Vector3::x()).z > 0.25, "the nose is up");
+        assert!(
+            (t.pose.R_WB * -Vector3::y()).z < -0.08,
+            "the right side is down"
+        );
+        let r = c.read(&Clock::new(0.02), &t).unwrap();
+        assert!((r.heading.deg() - 90.0).abs() < 1e-9);
+        assert!((r.pitch_rad - pitch).abs() < 1e-12 && (r.roll_rad - roll).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,94 @@
+//! Depth: the pressure at its mount, as metres below the still surface.
+//!
+//! *Source:* strain-gauge pressure sensors of coastal AUVs: 0.01 % of 100 m full scale.
+//!
+//! *Parameters:* rate `rate_hz` 25 Hz; noise `noise_m` 0.01 m.
+//!
+//! *Deviations:* pressure under waves and the density profile are not turned into depth errors.
+
+use crate::error::RobotError;
+use crate::handoff::DepthReading;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+
+/// What a scenario may say of the depth sensor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct DepthSpec {
+    /// Readings a second, Hz.
+    pub rate_hz: Positive,
+    /// Standard deviation of the noise, m.
+    pub noise_m: NonNegative,
+}
+
+impl Default for DepthSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(25.0),
+            noise_m: NonNegative::new(0.01),
+        }
+    }
+}
+
+/// A depth sensor on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Depth {
+    every: Every,
+    p_BS: Vector3<f64>,
+    noise_m: f64,
+    rng: Stream,
+}
+
+impl Depth {
+    /// A depth sensor at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step.
+    pub fn new(
+        spec: &DepthSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        Ok(Self {
+            every: super::tools::every("sensors.depth.rate_hz", spec.rate_hz.get(), dt_s)?,
+            p_BS,
+            noise_m: spec.noise_m.get(),
+            rng: Stream::new(seed, robot_id, "depth"),
+        })
+    }
+
+    /// The reading of this step, if one is due.
+    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<DepthReading> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        let z = truth.pose.point(self.p_BS).z;
+        Some(DepthReading {
+            depth_m: -z + self.noise_m * self.rng.normal(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_normal, at, nose_up, run};
+    use super::*;
+
+    #[test]
+    fn reads_the_depth_of_its_mount_with_its_noise() {
+        let nose = Vector3::new(0.5, 0.0, 0.1);
+        let mut d = Depth::new(&DepthSpec::default(), nose, "auv0", 1, 0.02).unwrap();
+        let t = nose_up(at(0.0, 0.0, -5.0), 30.0);
+        let v = run(20_000, 0.02, |c| d.read(c, &t));
+        assert_eq!(v.len(), 10_000);
+        let got: Vec<f64> = v.iter().map(|r| r.depth_m).collect();
+        let rise = 0.5 * 0.5 + 0.1 * 0.75_f64.sqrt();
+        assert_normal(&got, 5.0 - rise, 0.01);
+    }
+}

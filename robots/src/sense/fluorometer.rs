@@ -1,0 +1,294 @@
+//! Fluorometer: dye concentration at its mount as a voltage, with response time, noise, quantisation and saturation.
+//!
+//! *Source:* Turner Designs Cyclops-7: 0–5 V for 0–10 µg/L rhodamine WT at gain ×100 (Sea-Bird
+//! application note 74); read at 10 Hz and thresholded at 4 % of full scale: Pang 2009, section 6.
+//!
+//! *Parameters:* rate `rate_hz` 10 Hz; full scale `full_scale_ug_l` 10 µg/L ↔ `full_scale_v` 5 V;
+//! threshold `threshold` 0.04 of full scale (0.2 V); time constant `response_s`; output noise
+//! `noise_v`, one standard deviation; converter `adc_bits` over full scale. The last three are not
+//! published for the vehicle: 0.2 s, 0.02 V and 12 bits, values typical of the type.
+//!
+//! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ solved exactly with the
+//! concentration running straight between two samples. Power-up time and blank drift are left out.
+
+use crate::error::RobotError;
+use crate::handoff::ChemicalReading;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::fields::Concentration;
+use world::frames::Truth;
+use world::math;
+use world::ranges::{Fraction, NonNegative, Positive};
+use world::seeds::Stream;
+use world::units::KG_M3_PER_UG_L;
+
+/// What a scenario may say of the fluorometer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct FluorometerSpec {
+    /// Readings a second, Hz.
+    pub rate_hz: Positive,
+    /// Concentration at full scale, µg/L.
+    pub full_scale_ug_l: Positive,
+    /// Output at full scale, V.
+    pub full_scale_v: Positive,
+    /// Detection threshold, as a share of full scale.
+    pub threshold: Fraction,
+    /// Time constant of the first-order response, s.
+    pub response_s: NonNegative,
+    /// Standard deviation of the output noise, V.
+    pub noise_v: NonNegative,
+    /// Bits of the converter.
+    pub adc_bits: u8,
+}
+
+impl Default for FluorometerSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(10.0),
+            full_scale_ug_l: Positive::new(10.0),
+            full_scale_v: Positive::new(5.0),
+            threshold: Fraction::new(0.04),
+            response_s: NonNegative::new(0.2),
+            noise_v: NonNegative::new(0.02),
+            adc_bits: 12,
+        }
+    }
+}
+
+/// A fluorometer on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Fluorometer {
+    every: Every,
+    /// Place in body axes, m.
+    p_BS: Vector3<f64>,
+    full_scale_kg_m3: f64,
+    full_scale_v: f64,
+    threshold: f64,
+    noise_v: f64,
+    levels: f64,
+    response: Response,
+    rng: Stream,
+}
+
+/// First-order response, exact for an input that runs straight between samples.
+#[derive(Clone, Debug)]
+struct Response {
+    period_s: f64,
+    tau_s: f64,
+    /// Newest input and output.
+    state: Option<(f64, f64)>,
+}
+
+impl Response {
+    fn next(&mut self, input: f64) -> f64 {
+        let output = match self.state {
+            Some((before, y)) if self.tau_s > 0.0 => {
+                let lag = (input - before) / self.period_s * self.tau_s;
+                let decay = math::exp(-self.period_s / self.tau_s);
+                input - lag + (y - before + lag) * decay
+            }
+            _ => input,
+        };
+        self.state = Some((input, output));
+        output
+    }
+}
+
+impl Fluorometer {
+    /// A fluorometer at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step or the converter has no or too many bits.
+    pub fn new(
+        spec: &FluorometerSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        if !(1..=24).contains(&spec.adc_bits) {
+            return Err(RobotError::Invalid {
+                field: "sensors.fluorometer.adc_bits".into(),
+                problem: format!("must be from 1 to 24, got {}", spec.adc_bits),
+            });
+        }
+        let rate = spec.rate_hz.get();
+        let every = super::tools::every("sensors.fluorometer.rate_hz", rate, dt_s)?;
+        Ok(Self {
+            every,
+            p_BS,
+            full_scale_kg_m3: spec.full_scale_ug_l.get() * KG_M3_PER_UG_L,
+            full_scale_v: spec.full_scale_v.get(),
+            threshold: spec.threshold.get(),
+            noise_v: spec.noise_v.get(),
+            levels: f64::from((1_u32 << spec.adc_bits) - 1),
+            response: Response {
+                period_s: every.period_s(dt_s),
+                tau_s: spec.response_s.get(),
+                state: None,
+            },
+            rng: Stream::new(seed, robot_id, "fluorometer"),
+        })
+    }
+
+    /// The reading of this step, if one is due.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        dye: &dyn Concentration,
+    ) -> Option<ChemicalReading> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        let p = truth.pose.point(self.p_BS);
+        let c = dye.at(&p);
+        assert!(
+            c.is_finite(),
+            "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke before the fluorometer"
+        );
+        let clean = self.response.next(c / self.full_scale_kg_m3) * self.full_scale_v;
+        let noisy = clean + self.noise_v * self.rng.normal();
+        let share = (noisy / self.full_scale_v).clamp(0.0, 1.0);
+        let of_full_scale = (share * self.levels).round() / self.levels;
+        Some(ChemicalReading {
+            volts: of_full_scale * self.full_scale_v,
+            of_full_scale,
+            detected: of_full_scale > self.threshold,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_normal, at, run};
+    use super::*;
+
+    /// The same concentration everywhere, µg/L.
+    struct Even(f64);
+    impl Concentration for Even {
+        fn at(&self, _p: &Vector3<f64>) -> f64 {
+            self.0 * KG_M3_PER_UG_L
+        }
+    }
+
+    fn fluorometer(spec: FluorometerSpec) -> Fluorometer {
+        Fluorometer::new(&spec, Vector3::new(0.8, 0.0, 0.0), "auv0", 1, 0.02).unwrap()
+    }
+
+    fn quiet(response_s: f64) -> FluorometerSpec {
+        FluorometerSpec {
+            noise_v: NonNegative::new(0.0),
+            response_s: NonNegative::new(response_s),
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn reads_ten_times_a_second_with_its_noise() {
+        let mut f = fluorometer(FluorometerSpec::default());
+        let v = run(100_000, 0.02, |c| {
+            f.read(c, &at(0.0, 0.0, -5.0), &Even(5.0))
+        });
+        assert_eq!(v.len(), 20_000);
+        let volts: Vec<f64> = v.iter().map(|r| r.volts).collect();
+        // Rounding to 5 V / 4095 adds a deviation of 0.35 mV, 0.02 % of the noise's square.
+        assert_normal(&volts, 2.5, 0.02);
+    }
+
+    #[test]
+    fn rounds_to_the_converter_and_saturates() {
+        let step = 5.0 / 4095.0;
+        for (ug_l, volts) in [(0.0, 0.0), (1.234, 0.617), (7.7, 3.85), (25.0, 5.0)] {
+            let mut f = fluorometer(quiet(0.0));
+            let r = run(1, 0.02, |c| f.read(c, &at(0.0, 0.0, -5.0), &Even(ug_l)))[0];
+            assert!(
+                (r.volts - volts).abs() <= step / 2.0 + 1e-12,
+                "{ug_l} µg/L: {}",
+                r.volts
+            );
+            assert!((r.volts / step - (r.volts / step).round()).abs() < 1e-9);
+            assert!((r.of_full_scale - r.volts / 5.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn detects_above_a_fifth_of_a_volt() {
+        for (ug_l, detected) in [(0.39, false), (0.41, true)] {
+            let mut f = fluorometer(quiet(0.0));
+            let r = run(1, 0.02, |c| f.read(c, &at(0.0, 0.0, -5.0), &Even(ug_l)))[0];
+            assert_eq!(r.detected, detected, "{ug_l} µg/L, {} V", r.volts);
+        }
+    }
+
+    /// Against the response's differential equation in steps ten thousand times finer.
+    #[test]
+    fn responds_with_its_time_constant() {
+        let (period, tau) = (0.1, 0.2);
+        let mut f = fluorometer(quiet(tau));
+        let inputs = [0.0, 0.0, 4.0, 4.0, 4.0, 1.0, 2.5, 2.5, 2.5, 0.0];
+        let got = run(50, 0.02, |c| {
+            let now = inputs[(c.step / 5) as usize];
+            f.read(c, &at(0.0, 0.0, -5.0), &Even(now))
+        });
+        let (fine, mut y) = (10_000, 0.0);
+        for k in 1..inputs.len() {
+            for i in 0..fine {
+                let share = (f64::from(i) + 0.5) / f64::from(fine);
+                let c = inputs[k - 1] + (inputs[k] - inputs[k - 1]) * share;
+                y += (c - y) / tau * period / f64::from(fine);
+            }
+            // Half a step of the converter, and the fine integration's own 1e-4.
+            let want = y * 0.5;
+            assert!(
+                (got[k].volts - want).abs() < 0.5 * 5.0 / 4095.0 + 1e-4,
+                "sample {k}"
+            );
+        }
+    }
+
+    /// Dye in the eastern half only.
+    struct East;
+    impl Concentration for East {
+        fn at(&self, p: &Vector3<f64>) -> f64 {
+            if p.x > 0.0 { 5.0 * KG_M3_PER_UG_L } else { 0.0 }
+        }
+    }
+
+    #[test]
+    fn smells_at_its_mount_not_at_the_middle() {
+        let mut t = at(-0.5, 0.0, -5.0);
+        t.pose.R_WB = nalgebra::UnitQuaternion::identity();
+        let read = |t: Truth| {
+            let mut f = fluorometer(quiet(0.0));
+            run(1, 0.02, |c| f.read(c, &t, &East))[0].volts
+        };
+        assert!(read(t) > 2.4, "the nose, 0.8 m east, is in the dye");
+        assert_eq!(read(at(-0.5, 0.0, -5.0)), 0.0, "heading north it is not");
+    }
+
+    #[test]
+    fn impossible_instruments_are_refused() {
+        let new = |spec: FluorometerSpec| Fluorometer::new(&spec, Vector3::zeros(), "a", 1, 0.02);
+        let none = FluorometerSpec {
+            adc_bits: 0,
+            ..Default::default()
+        };
+        let e = new(none).expect_err("no bits").to_string();
+        assert_eq!(
+            e,
+            "sensors.fluorometer.adc_bits: must be from 1 to 24, got 0"
+        );
+        let fast = FluorometerSpec {
+            rate_hz: Positive::new(100.0),
+            ..Default::default()
+        };
+        let e = new(fast).expect_err("too fast").to_string();
+        assert_eq!(
+            e,
+            "sensors.fluorometer.rate_hz: 100 Hz is more than one reading a step; at most 50 Hz with steps of 0.02 s"
+        );
+    }
+}

@@ -1,0 +1,210 @@
+//! All instruments of a robot, read in one go.
+
+use super::{
+    Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Depth, DepthSpec, Dvl, DvlSpec,
+    Fluorometer, FluorometerSpec, Lbl, LblSpec,
+};
+use crate::error::RobotError;
+use crate::handoff::Readings;
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::Clock;
+use world::fields::{Concentration, Flow};
+use world::frames::{Pose, Truth};
+use world::terrain::Terrain;
+
+/// The instruments a scenario fits to a robot; one left out is not on board.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SensorsSpec {
+    /// Chemical sensor.
+    pub fluorometer: Option<FluorometerSpec>,
+    /// Bottom track.
+    pub dvl: Option<DvlSpec>,
+    /// Water track.
+    pub adcp: Option<AdcpSpec>,
+    /// Compass and inertial unit.
+    pub compass: Option<CompassSpec>,
+    /// Depth.
+    pub depth: Option<DepthSpec>,
+    /// Altitude.
+    pub altimeter: Option<AltimeterSpec>,
+    /// Position fixes.
+    pub lbl: Option<LblSpec>,
+}
+
+/// The instruments of a robot.
+#[derive(Component, Clone, Debug)]
+pub struct SensorSuite {
+    fluorometer: Option<Fluorometer>,
+    dvl: Option<Dvl>,
+    adcp: Option<Adcp>,
+    compass: Option<Compass>,
+    depth: Option<Depth>,
+    altimeter: Option<Altimeter>,
+    lbl: Option<Lbl>,
+}
+
+impl SensorSuite {
+    /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
+    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `altimeter`; compass and baseline need none).
+    ///
+    /// # Errors
+    /// When a mount is missing or an instrument cannot be as described.
+    pub fn new(
+        spec: &SensorsSpec,
+        mounts: &dyn Fn(&str) -> Option<Pose>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let place = |name: &str| -> Result<Vector3<f64>, RobotError> {
+            mounts(name)
+                .map(|pose| pose.p_WB)
+                .ok_or_else(|| RobotError::Invalid {
+                    field: format!("sensors.{name}"),
+                    problem: format!("the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"),
+                })
+        };
+        Ok(Self {
+            fluorometer: (spec.fluorometer.as_ref())
+                .map(|s| Fluorometer::new(s, place("fluorometer")?, robot_id, seed, dt_s))
+                .transpose()?,
+            dvl: (spec.dvl.as_ref())
+                .map(|s| Dvl::new(s, place("dvl")?, robot_id, seed, dt_s))
+                .transpose()?,
+            adcp: (spec.adcp.as_ref())
+                .map(|s| Adcp::new(s, place("adcp")?, robot_id, seed, dt_s))
+                .transpose()?,
+            compass: (spec.compass.as_ref())
+                .map(|s| Compass::new(s, robot_id, seed, dt_s))
+                .transpose()?,
+            depth: (spec.depth.as_ref())
+                .map(|s| Depth::new(s, place("depth")?, robot_id, seed, dt_s))
+                .transpose()?,
+            altimeter: (spec.altimeter.as_ref())
+                .map(|s| Altimeter::new(s, place("altimeter")?, robot_id, seed, dt_s))
+                .transpose()?,
+            lbl: (spec.lbl.as_ref())
+                .map(|s| Lbl::new(s, robot_id, seed, dt_s))
+                .transpose()?,
+        })
+    }
+
+    /// What the instruments say in this step.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        flow: &dyn Flow,
+        dye: &dyn Concentration,
+        terrain: &Terrain,
+    ) -> Readings {
+        Readings {
+            chemical: (self.fluorometer.as_mut()).and_then(|s| s.read(clock, truth, dye)),
+            dvl: (self.dvl.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
+            adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, terrain)),
+            attitude: (self.compass.as_mut()).and_then(|s| s.read(clock, truth)),
+            depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth)),
+            altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
+            lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{BED, at, run};
+    use super::*;
+    use world::fields::{Clean, Still};
+
+    fn all() -> SensorsSpec {
+        SensorsSpec {
+            fluorometer: Some(FluorometerSpec::default()),
+            dvl: Some(DvlSpec::default()),
+            adcp: Some(AdcpSpec::default()),
+            compass: Some(CompassSpec::default()),
+            depth: Some(DepthSpec::default()),
+            altimeter: Some(AltimeterSpec::default()),
+            lbl: Some(LblSpec::default()),
+        }
+    }
+
+    fn readings(spec: &SensorsSpec, robot_id: &str) -> Vec<Readings> {
+        let mounts = |_: &str| {
+            Some(Pose::level(
+                Vector3::zeros(),
+                world::units::Heading::from_deg(90.0),
+            ))
+        };
+        let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
+        let t = at(0.0, 0.0, -5.0);
+        run(5_000, 0.02, |c| {
+            Some(suite.read(c, &t, &Still, &Clean, &BED))
+        })
+    }
+
+    #[test]
+    fn taking_an_instrument_off_shifts_no_other() {
+        let whole = readings(&all(), "auv0");
+        let mut lost = 0;
+        for name in [
+            "fluorometer",
+            "dvl",
+            "adcp",
+            "compass",
+            "depth",
+            "altimeter",
+            "lbl",
+        ] {
+            let (mut spec, mut want) = (all(), whole.clone());
+            match name {
+                "fluorometer" => spec.fluorometer = None,
+                "dvl" => spec.dvl = None,
+                "adcp" => spec.adcp = None,
+                "compass" => spec.compass = None,
+                "depth" => spec.depth = None,
+                "altimeter" => spec.altimeter = None,
+                _ => spec.lbl = None,
+            }
+            for r in &mut want {
+                let before = *r;
+                match name {
+                    "fluorometer" => r.chemical = None,
+                    "dvl" => r.dvl = None,
+                    "adcp" => r.adcp = None,
+                    "compass" => r.attitude = None,
+                    "depth" => r.depth = None,
+                    "altimeter" => r.altimeter = None,
+                    _ => r.lbl = None,
+                }
+                lost += usize::from(*r != before);
+            }
+            assert!(readings(&spec, "auv0") == want, "without {name}");
+        }
+        // 100 s at 10, 5, 1, 25, 25 and 5 Hz, and what came through of 3 fixes.
+        let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
+        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 500 + fixes);
+    }
+
+    #[test]
+    fn two_robots_have_noise_of_their_own() {
+        let (a, b) = (readings(&all(), "auv0"), readings(&all(), "auv1"));
+        assert_ne!(a[0].depth, b[0].depth);
+        assert_eq!(a, readings(&all(), "auv0"));
+    }
+
+    #[test]
+    fn a_missing_mount_is_named() {
+        let none = |name: &str| {
+            (name != "adcp")
+                .then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)))
+        };
+        let e = SensorSuite::new(&all(), &none, "auv0", 1, 0.02).expect_err("no adcp mount");
+        assert_eq!(
+            e.to_string(),
+            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the sensor out"
+        );
+    }
+}

@@ -1,0 +1,251 @@
+//! The adaptive mission planner: which behaviour acts, and when another takes over.
+//!
+//! *Source*: Pang 2009, section 5, Fig. 5.
+//!
+//! *Parameters*: see [`AmpSpec`].
+//!
+//! *Deviations*: none in the switching. The post-declaration survey with sidescan sonar is not flown: after
+//! the declaration the vehicle goes home, and the mission is completed there. A cage abort ends the
+//! mission at once.
+
+use super::super::spec::Strategy;
+use super::spec::{AfterDeclaration, AmpSpec, Detections};
+use crate::behave::{GoHome, GoTo};
+use crate::declare::DeclareSpec;
+use crate::error::RobotError;
+use crate::handoff::{
+    Behave, Behaviour, Decision, Declaration, Goal, LostPoint, LostPoints, Manoeuvre, Observation,
+    Outcome, PlumeMemory, Side, Stride, Vertical, detects,
+};
+use nalgebra::Vector2;
+use world::seeds::Stream;
+
+/// The behaviours it is composed of.
+#[derive(Debug)]
+struct Behaviours {
+    go_to: Option<GoTo>,
+    find: Box<dyn Behave>,
+    track_in: Box<dyn Behave>,
+    track_out: Box<dyn Behave>,
+    reacquire: Box<dyn Behave>,
+    go_home: GoHome,
+}
+
+impl Behaviours {
+    fn get(&mut self, which: Behaviour) -> Option<&mut dyn Behave> {
+        match which {
+            Behaviour::GoTo => self.go_to.as_mut().map(|g| g as &mut dyn Behave),
+            Behaviour::Find => Some(self.find.as_mut()),
+            Behaviour::TrackIn => Some(self.track_in.as_mut()),
+            Behaviour::TrackOut => Some(self.track_out.as_mut()),
+            Behaviour::Reacquire => Some(self.reacquire.as_mut()),
+            Behaviour::GoHome => Some(&mut self.go_home),
+            Behaviour::Idle | Behaviour::OpenLoop | Behaviour::Done => None,
+        }
+    }
+}
+
+/// State of the planner.
+#[derive(Debug)]
+pub struct Amp {
+    speed_m_s: f64,
+    vertical: Vertical,
+    rule: DeclareSpec,
+    after: AfterDeclaration,
+    heeds_on_the_way: bool,
+    behaviours: Behaviours,
+    memory: PlumeMemory,
+    now: Behaviour,
+    goal: Goal,
+    outcome: Option<Outcome>,
+}
+
+impl Amp {
+    /// # Errors
+    /// [`RobotError::Invalid`] when a behaviour's parameters make no sense.
+    pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
+        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
+        Ok(Self {
+            speed_m_s,
+            vertical,
+            rule: spec.declare.clone(),
+            after: spec.after_declaration,
+            heeds_on_the_way: spec
+                .start_at
+                .as_ref()
+                .is_some_and(|s| s.detections == Detections::Heeded),
+            behaviours: Behaviours {
+                go_to: spec
+                    .start_at
+                    .as_ref()
+                    .map(|s| GoTo::new(Vector2::new(s.east_m.get(), s.north_m.get()))),
+                find: spec.find.build()?,
+                track_in: spec.track_in.build()?,
+                track_out: spec.track_out.build()?,
+                reacquire: spec.reacquire.build()?,
+                go_home: GoHome::default(),
+            },
+            memory: PlumeMemory {
+                up_flow: None,
+                last_detection: None,
+                leaves: Side::Left,
+                lost: LostPoints::new(spec.lost_points),
+            },
+            now: Behaviour::Idle,
+            goal: Goal {
+                id: 0,
+                manoeuvre: Manoeuvre::GoToPoint {
+                    point: Vector2::zeros(),
+                    radius_m: None,
+                },
+                vertical,
+                speed_m_s,
+            },
+            outcome: None,
+        })
+    }
+
+    /// The switches of Fig. 5 that do not wait for a behaviour's end.
+    fn switch(&self, detected: bool) -> Option<Behaviour> {
+        match self.now {
+            Behaviour::Idle if self.behaviours.go_to.is_some() && !(detected && self.heeds_on_the_way) => {
+                Some(Behaviour::GoTo)
+            }
+            Behaviour::Idle if detected => Some(Behaviour::TrackIn),
+            Behaviour::Idle => Some(Behaviour::Find),
+            Behaviour::GoTo if detected && self.heeds_on_the_way => Some(Behaviour::TrackIn),
+            Behaviour::Find | Behaviour::Reacquire if detected => Some(Behaviour::TrackIn),
+            _ => None,
+        }
+    }
+
+    /// The behaviour after one that came to its end without detection.
+    fn after_end(&self) -> Behaviour {
+        match self.now {
+            Behaviour::TrackIn => Behaviour::TrackOut,
+            Behaviour::TrackOut => Behaviour::Reacquire,
+            Behaviour::GoHome | Behaviour::Done => Behaviour::Done,
+            _ => Behaviour::Find,
+        }
+    }
+
+    fn turn_to(&mut self, next: Behaviour, seen: &Observation) {
+        self.now = next;
+        if next == Behaviour::Done {
+            self.outcome.get_or_insert(Outcome::Completed);
+        }
+        if let Some(behaviour) = self.behaviours.get(next) {
+            behaviour.enter(seen, &self.memory);
+        }
+    }
+
+    /// One step of the acting behaviour; true when it came to its end.
+    fn act(&mut self, seen: &Observation, arrived: bool, rng: &mut Stream) -> bool {
+        let stride = match self.behaviours.get(self.now) {
+            Some(behaviour) => behaviour.step(seen, arrived, &mut self.memory, rng),
+            None => Stride::Keep,
+        };
+        match stride {
+            Stride::Start(manoeuvre) => {
+                self.goal = Goal {
+                    id: self.goal.id + 1,
+                    manoeuvre,
+                    vertical: self.vertical,
+                    speed_m_s: self.speed_m_s,
+                }
+            }
+            Stride::Adjust(manoeuvre) => self.goal.manoeuvre = manoeuvre,
+            Stride::Keep => {}
+            Stride::Over => return true,
+        }
+        false
+    }
+
+    /// The declaration test at the end of Track-Out (section 5.6).
+    fn test(&self, seen: &Observation) -> Option<Declaration> {
+        let points: Vec<_> = self.memory.lost.all().iter().map(|l| l.position).collect();
+        let position = self
+            .rule
+            .declare(&points, self.memory.up_flow_or_nose(seen))?;
+        Some(Declaration {
+            t_s: seen.t_s,
+            position,
+            rule: self.rule.name(),
+        })
+    }
+
+    fn after_declaration(&self) -> Behaviour {
+        match self.after {
+            AfterDeclaration::GoHome => Behaviour::GoHome,
+            AfterDeclaration::Stop => Behaviour::Done,
+        }
+    }
+
+    fn observe(&mut self, seen: &Observation) -> bool {
+        if let Some(flow) = seen.estimate.flow {
+            self.memory.up_flow = Some(flow.up_flow());
+        }
+        let heeded = match self.now {
+            Behaviour::GoHome | Behaviour::Done => false,
+            Behaviour::Idle | Behaviour::GoTo => self.behaviours.go_to.is_none() || self.heeds_on_the_way,
+            _ => true,
+        };
+        let detected = heeded && detects(seen);
+        if detected {
+            self.memory.last_detection = Some(LostPoint {
+                t_s: seen.t_s,
+                position: seen.estimate.position,
+            });
+        }
+        detected
+    }
+}
+
+impl Strategy for Amp {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        let detected = self.observe(seen);
+        let mut declared = None;
+        if seen.guidance.aborted && self.outcome.is_none() {
+            self.outcome = Some(Outcome::Aborted);
+            self.turn_to(Behaviour::Done, seen);
+        }
+        if let Some(next) = self.switch(detected) {
+            self.turn_to(next, seen);
+        }
+        let mut arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
+        // A behaviour that ends gives way within the tick; none but the empty ones end twice, so a
+        // handful of turns always suffices.
+        for _ in 0..4 {
+            let out = self.now == Behaviour::TrackOut;
+            let over = if out && detected {
+                true
+            } else {
+                self.act(seen, arrived, rng)
+            };
+            if !over {
+                break;
+            }
+            arrived = false;
+            let next = if out {
+                declared = self.test(seen);
+                if declared.is_some() {
+                    self.after_declaration()
+                } else if detected {
+                    Behaviour::TrackIn
+                } else {
+                    self.after_end()
+                }
+            } else {
+                self.after_end()
+            };
+            self.turn_to(next, seen);
+        }
+        Decision {
+            behaviour: self.now,
+            goal: self.goal,
+            declared,
+            lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
+            outcome: self.outcome,
+        }
+    }
+}

@@ -1,0 +1,12 @@
+//! Pang's adaptive mission planner: what a scenario says of it, and its switching.
+
+mod machine;
+mod spec;
+
+pub use machine::Amp;
+pub use spec::{AfterDeclaration, AmpSpec, Detections, StartAt};
+
+#[cfg(test)]
+mod switch_tests;
+#[cfg(test)]
+mod trial_tests;

@@ -1,0 +1,84 @@
+//! What a scenario says about the adaptive mission planner.
+
+use super::super::spec::VerticalSpec;
+use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
+use crate::declare::DeclareSpec;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::{Finite, Positive};
+
+/// Composition and parameters; every default is the paper's.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AmpSpec {
+    /// Speed over ground, m/s (section 6: 2).
+    pub speed_m_s: Positive,
+    /// Altitude or depth (section 6: 2 m above the bed in the single-source mission).
+    pub vertical: VerticalSpec,
+    /// Where to go first; the search begins at once without it.
+    pub start_at: Option<StartAt>,
+    /// Looking for the plume.
+    pub find: FindSpec,
+    /// In the plume.
+    pub track_in: TrackInSpec,
+    /// Just out of it.
+    pub track_out: TrackOutSpec,
+    /// Round the points where it was lost.
+    pub reacquire: ReacquireSpec,
+    /// When to declare.
+    pub declare: DeclareSpec,
+    /// Length of the lost-points list (section 5.3: 6).
+    pub lost_points: NonZeroUsize,
+    /// What follows the declaration.
+    pub after_declaration: AfterDeclaration,
+}
+
+impl Default for AmpSpec {
+    fn default() -> Self {
+        Self {
+            speed_m_s: Positive::new(2.0),
+            vertical: VerticalSpec::Altitude(Positive::new(2.0)),
+            start_at: None,
+            find: FindSpec::default(),
+            track_in: TrackInSpec::default(),
+            track_out: TrackOutSpec::default(),
+            reacquire: ReacquireSpec::default(),
+            declare: DeclareSpec::default(),
+            lost_points: NonZeroUsize::new(6).expect("6 is not zero"),
+            after_declaration: AfterDeclaration::default(),
+        }
+    }
+}
+
+/// A place to go to before the search.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StartAt {
+    /// East, m.
+    pub east_m: Finite,
+    /// North, m.
+    pub north_m: Finite,
+    /// What detections on the way count.
+    #[serde(default)]
+    pub detections: Detections,
+}
+
+/// What detections count while going to the start.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Detections {
+    /// Nothing: the rule for transits (section 6).
+    #[default]
+    Ignored,
+    /// The first one begins the tracing, wherever it comes.
+    Heeded,
+}
+
+/// What follows the declaration.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum AfterDeclaration {
+    /// Home, and the mission is completed there.
+    #[default]
+    GoHome,
+    /// The mission is completed on the spot.
+    Stop,
+}

@@ -1,0 +1,17 @@
+//! The strategies by name.
+
+use world::catalogue::Entry;
+
+/// Strategies.
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "Amp",
+        what: "adaptive mission planner: find, track in, track out, reacquire, declare, go home",
+        source: "Pang 2009, section 5, Fig. 5",
+    },
+    Entry {
+        name: "OpenLoop",
+        what: "rudder, stern plane and propeller from a time table",
+        source: "open-loop vehicle trials (Prestero 2001, chapter 6)",
+    },
+];

@@ -1,0 +1,94 @@
+//! The open-loop strategy: a time table drives the actuators until its end.
+//!
+//! *Source*: open-loop vehicle trials (Prestero 2001, chapter 6).
+//!
+//! *Parameters*: see [`crate::behave::TimeTable`].
+//!
+//! *Deviations*: none.
+
+use super::spec::Strategy;
+use crate::behave::TimeTable;
+use crate::error::RobotError;
+use crate::handoff::{
+    Behave, Behaviour, Decision, Goal, LostPoints, Manoeuvre, Observation, Outcome, PlumeMemory,
+    Side, Stride, Vertical,
+};
+use std::num::NonZeroUsize;
+use world::seeds::Stream;
+
+/// The time table.
+pub type OpenLoopSpec = crate::behave::TimeTableParams;
+
+/// State of the open-loop strategy.
+#[derive(Debug)]
+pub struct OpenLoop {
+    table: TimeTable,
+    memory: PlumeMemory,
+    goal: Option<Goal>,
+    over: bool,
+}
+
+impl OpenLoop {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the table's times are not in order.
+    pub fn new(spec: &OpenLoopSpec) -> Result<Self, RobotError> {
+        Ok(Self {
+            table: TimeTable::new(spec)?,
+            memory: PlumeMemory {
+                up_flow: None,
+                last_detection: None,
+                leaves: Side::Left,
+                lost: LostPoints::new(NonZeroUsize::MIN),
+            },
+            goal: None,
+            over: false,
+        })
+    }
+}
+
+impl Strategy for OpenLoop {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        if self.goal.is_none() {
+            self.table.enter(seen, &self.memory);
+        }
+        let stride = if self.over {
+            Stride::Keep
+        } else {
+            self.table.step(seen, false, &mut self.memory, rng)
+        };
+        let last_id = self.goal.map_or(0, |g| g.id);
+        match stride {
+            Stride::Start(manoeuvre) | Stride::Adjust(manoeuvre) => {
+                self.goal = Some(direct(last_id + 1, manoeuvre, seen));
+            }
+            Stride::Over => self.over = true,
+            Stride::Keep => {}
+        }
+        let still = Manoeuvre::Direct {
+            rudder_rad: 0.0,
+            stern_rad: 0.0,
+            rpm: 0.0,
+        };
+        Decision {
+            behaviour: if self.over {
+                Behaviour::Done
+            } else {
+                Behaviour::OpenLoop
+            },
+            goal: self.goal.unwrap_or_else(|| direct(0, still, seen)),
+            declared: None,
+            lost_points: Vec::new(),
+            outcome: self.over.then_some(Outcome::Completed),
+        }
+    }
+}
+
+/// A direct goal; its depth and speed are what the vehicle has, and nobody steers by them.
+fn direct(id: u32, manoeuvre: Manoeuvre, seen: &Observation) -> Goal {
+    Goal {
+        id,
+        manoeuvre,
+        vertical: Vertical::Depth(seen.estimate.depth_m),
+        speed_m_s: seen.estimate.v_ground_body.x.max(0.0),
+    }
+}

@@ -1,0 +1,57 @@
+//! What a scenario says about the strategy.
+
+use super::amp::{Amp, AmpSpec};
+use super::open_loop::{OpenLoop, OpenLoopSpec};
+use crate::error::RobotError;
+use crate::handoff::{Decision, Observation, Vertical};
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+
+/// A strategy: sees an observation a tick and decides what to ask of the guidance.
+pub trait Strategy: std::fmt::Debug + Send + Sync {
+    /// One tick.
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
+}
+
+/// The strategies a scenario can ask for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum StrategySpec {
+    /// Pang's adaptive mission planner: find, track in, track out, reacquire, declare.
+    Amp(AmpSpec),
+    /// Actuators from a time table.
+    OpenLoop(OpenLoopSpec),
+}
+
+impl StrategySpec {
+    /// The strategy, ready for its first tick.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when fields contradict each other.
+    pub fn build(&self) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(match self {
+            StrategySpec::Amp(spec) => Box::new(Amp::new(spec)?),
+            StrategySpec::OpenLoop(spec) => Box::new(OpenLoop::new(spec)?),
+        })
+    }
+}
+
+/// Vertical part of a strategy's goals.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum VerticalSpec {
+    /// Height above the bed, m.
+    Altitude(Positive),
+    /// Depth below the surface, m.
+    Depth(NonNegative),
+}
+
+impl From<VerticalSpec> for Vertical {
+    fn from(v: VerticalSpec) -> Self {
+        match v {
+            VerticalSpec::Altitude(m) => Vertical::Altitude(m.get()),
+            VerticalSpec::Depth(m) => Vertical::Depth(m.get()),
+        }
+    }
+}

@@ -1,0 +1,77 @@
+//! Fins and propeller follow their set-points with a lag, within their limits.
+//!
+//! *Source:* first-order lags of the REMUS 100 model (Fossen 2021; see `coefficients.rs`).
+//!
+//! *Parameters:* T_fin `fin_lag_s` 0.1 s; T_propeller `propeller_lag_s` 1 s; 15°; 1525 rpm.
+//!
+//! *Deviations:* none.
+
+use super::coefficients::Coefficients;
+use super::hydrodynamics::Actuators;
+use crate::handoff::ActuatorCommand;
+
+impl Actuators {
+    /// Within what the vehicle's actuators can do.
+    pub(super) fn limited(self, c: &Coefficients) -> Self {
+        let fin = c.fin_limit_rad;
+        Self {
+            rudder_rad: self.rudder_rad.clamp(-fin, fin),
+            stern_rad: self.stern_rad.clamp(-fin, fin),
+            rpm: self.rpm.clamp(-c.rpm_limit, c.rpm_limit),
+        }
+    }
+
+    /// What is asked of them, limited unless the limits act on the state.
+    pub(super) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
+        let asked = Self {
+            rudder_rad: command.rudder_rad,
+            stern_rad: command.stern_rad,
+            rpm: command.rpm,
+        };
+        if c.limits_on_state {
+            asked
+        } else {
+            asked.limited(c)
+        }
+    }
+
+    /// Rate of change towards what is asked, 1/s of each.
+    pub(super) fn rate(&self, asked: &Self, c: &Coefficients) -> Self {
+        Self {
+            rudder_rad: (asked.rudder_rad - self.rudder_rad) / c.fin_lag_s,
+            stern_rad: (asked.stern_rad - self.stern_rad) / c.fin_lag_s,
+            rpm: (asked.rpm - self.rpm) / c.propeller_lag_s,
+        }
+    }
+
+    /// Moved by a rate for `h` seconds.
+    pub(super) fn moved(&self, rate: &Self, h: f64) -> Self {
+        Self {
+            rudder_rad: self.rudder_rad + rate.rudder_rad * h,
+            stern_rad: self.stern_rad + rate.stern_rad * h,
+            rpm: self.rpm + rate.rpm * h,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::coefficients::ParameterSet;
+    use super::*;
+
+    #[test]
+    fn commands_beyond_the_limits_are_cut() {
+        let c = Coefficients::of(ParameterSet::Remus100);
+        let asked = Actuators::asked(
+            &ActuatorCommand {
+                rudder_rad: 1.0,
+                stern_rad: -1.0,
+                rpm: 9000.0,
+            },
+            &c,
+        );
+        assert!((asked.rudder_rad.to_degrees() - 15.0).abs() < 1e-12);
+        assert!((asked.stern_rad.to_degrees() + 15.0).abs() < 1e-12);
+        assert_eq!(asked.rpm, 1525.0);
+    }
+}

@@ -1,0 +1,322 @@
+//! The numbers of a torpedo-shaped hull, and the two sets of them that a scenario can ask for.
+//!
+//! *Source:* T. I. Fossen, "Handbook of Marine Craft Hydrodynamics and Motion Control", 2nd ed. 2021,
+//! chapters 3, 6 and 8, in its open implementation for the REMUS 100 (Python Vehicle Simulator,
+//! commit c717e073), whose drag and propeller are calibrated to Allen, Vorus & Prestero, "Propulsion
+//! system performance enhancements on REMUS AUVs", OCEANS 2000. Added mass: Lamb's k-factors of a
+//! prolate spheroid (Fossen 8.4).
+//!
+//! *Parameters:* beside each field.
+//!
+//! *Deviations:* [`ParameterSet::Remus100`] differs from the published set, [`ParameterSet::Reference`], in these,
+//! because the published choice is a quirk of that code and not of the vehicle:
+//!
+//! | what | `reference` | `remus100` |
+//! |---|---|---|
+//! | propeller inflow | speed through the water in any direction | axial speed through the water, not below 0 |
+//! | current | horizontal, turned by yaw only | three components, turned by the whole attitude, with its gradient along the hull |
+//! | accelerating water | no force | Froude-Krylov force and ċ of the added mass |
+//! | cross-flow drag | sway only, coefficient 1.19772883, 21 stations at full weight (5 % too long) | sway and heave alike, cylinder coefficient 1.1 (Hoerner 1965), 20 stations of L/20 |
+//! | hull lift | heave only | in the plane of incidence, whichever it is |
+//! | fins | angle is the deflection | angle of attack of the water at the fin, turning included |
+//! | yaw damping | linear, time constant 1 s | what the fins and the cross-flow give |
+//! | linear heave damping | at all speeds | fades with speed as in surge and sway |
+//! | limits of the actuators | on their state | on the command |
+
+use nalgebra::{Matrix6, Vector3};
+use serde::{Deserialize, Serialize};
+use world::math;
+use world::units::GRAVITY_M_S2;
+
+/// A set of hull parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum ParameterSet {
+    /// What the simulator ships: the published set without its quirks.
+    #[default]
+    #[serde(rename = "remus100")]
+    Remus100,
+    /// The published set, quirk by quirk, to compare with its trajectories.
+    #[serde(rename = "reference")]
+    Reference,
+}
+
+/// Where the propeller's inflow comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inflow {
+    /// Speed over ground (as first published).
+    Ground,
+    /// Speed through the water in any direction (as published later).
+    Water,
+    /// Speed through the water along the shaft, not below 0.
+    Axial,
+}
+
+/// All numbers of a hull. Frames FRD, moments about the centre of buoyancy CO.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coefficients {
+    /// Length, m.
+    pub length_m: f64,
+    /// Diameter, m.
+    pub diameter_m: f64,
+    /// Density of the water the hull is ballasted for, kg/m³.
+    pub ballast_density_kg_m3: f64,
+    /// Mass, kg: that of the water displaced.
+    pub mass_kg: f64,
+    /// Displaced volume, m³.
+    pub volume_m3: f64,
+    /// Centre of gravity below CO, m.
+    pub z_g_m: f64,
+    /// Inertia about the centre of gravity, kg m².
+    pub inertia_kg_m2: Vector3<f64>,
+    /// Added mass (kg) and inertia (kg m²), diagonal.
+    pub added: [f64; 6],
+    /// Linear damping, diagonal, at rest, N s/m and N m s.
+    pub damping: [f64; 6],
+    /// Which of the linear damping fades as exp(−3 U_r).
+    pub damping_fades: [bool; 3],
+    /// Reference area of hull lift and drag, m².
+    pub area_m2: f64,
+    /// Drag coefficient at no incidence, on that area.
+    pub drag_0: f64,
+    /// Lift slope of the hull, 1/rad.
+    pub lift_slope: f64,
+    /// π e AR: the induced drag is C_L² divided by it.
+    pub induced: f64,
+    /// Lift in the plane of incidence (true) or in heave only.
+    pub lift_any_plane: bool,
+    /// Cross-flow drag coefficient.
+    pub cross_flow: f64,
+    /// Stations of the cross-flow integral: x (m), length dx (m), the same for all.
+    pub stations_m: (Vec<f64>, f64),
+    /// Cross-flow in sway and heave (true) or in sway only.
+    pub cross_flow_both: bool,
+    /// Area of a pair of fins, m².
+    pub fin_area_m2: f64,
+    /// Where the fins are, x, m.
+    pub fin_x_m: f64,
+    /// Lift slopes of rudder and stern plane, 1/rad.
+    pub fin_slope: [f64; 2],
+    /// Fins feel the water at the fin (true) or their deflection only.
+    pub fin_incidence: bool,
+    /// Propeller diameter, m.
+    pub propeller_m: f64,
+    /// Share of the thrust that reaches the hull, 1 − t.
+    pub thrust_share: f64,
+    /// Share of the speed that reaches the propeller, 1 − w.
+    pub wake_share: f64,
+    /// Share of the shaft torque that rolls the hull.
+    pub torque_share: f64,
+    /// Thrust coefficient at rest and its slope by advance ratio.
+    pub thrust: [f64; 2],
+    /// Torque coefficient at rest and its slope by advance ratio.
+    pub torque: [f64; 2],
+    /// Where the propeller's inflow comes from.
+    pub inflow: Inflow,
+    /// Current turned by yaw only (quirk) or by the whole attitude.
+    pub current_by_yaw_only: bool,
+    /// Greatest fin deflection, rad.
+    pub fin_limit_rad: f64,
+    /// Greatest propeller speed, rpm.
+    pub rpm_limit: f64,
+    /// Limits act on the actuators' state (quirk) or on the command.
+    pub limits_on_state: bool,
+    /// Lag of the fins, s.
+    pub fin_lag_s: f64,
+    /// Lag of the propeller, s.
+    pub propeller_lag_s: f64,
+}
+
+impl Coefficients {
+    /// The numbers of a set.
+    #[must_use]
+    pub fn of(set: ParameterSet) -> Self {
+        match set {
+            ParameterSet::Reference => Self::reference(),
+            ParameterSet::Remus100 => Self::remus100(),
+        }
+    }
+
+    fn reference() -> Self {
+        use std::f64::consts::PI;
+        let (length_m, diameter_m, rho) = (1.6, 0.19, 1026.0);
+        let (a, b): (f64, f64) = (length_m / 2.0, diameter_m / 2.0);
+        let volume_m3 = 4.0 / 3.0 * PI * a * b * b;
+        let mass_kg = rho * volume_m3;
+        let z_g_m = 0.02;
+        let ix = 0.4 * mass_kg * b * b;
+        let iy = 0.2 * mass_kg * (a * a + b * b);
+
+        // Lamb's k-factors.
+        let e = (1.0 - (b / a) * (b / a)).sqrt();
+        let log = math::ln((1.0 + e) / (1.0 - e));
+        let alpha0 = 2.0 * (1.0 - e * e) / (e * e * e) * (0.5 * log - e);
+        let beta0 = 1.0 / (e * e) - (1.0 - e * e) / (2.0 * e * e * e) * log;
+        let k1 = alpha0 / (2.0 - alpha0);
+        let k2 = beta0 / (2.0 - beta0);
+        let e2 = e * e;
+        let k_turn = e2 * e2 * (beta0 - alpha0)
+            / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
+        let added = [
+            mass_kg * k1,
+            mass_kg * k2,
+            mass_kg * k2,
+            0.3 * ix,
+            k_turn * iy,
+            k_turn * iy,
+        ];
+
+        let weight = mass_kg * GRAVITY_M_S2;
+        // Total mass at CO: the centre of gravity adds m z_g² to roll and pitch.
+        let shift = mass_kg * z_g_m * z_g_m;
+        let m = [
+            mass_kg + added[0],
+            mass_kg + added[1],
+            mass_kg + added[2],
+            ix + shift + added[3],
+            iy + shift + added[4],
+            iy + added[5],
+        ];
+        let swing = |inertia: f64| (weight * z_g_m / inertia).sqrt();
+        let damping = [
+            m[0] / 20.0,
+            m[1] / 20.0,
+            m[2] / 20.0,
+            2.0 * 0.3 * swing(m[3]) * m[3],
+            2.0 * 0.8 * swing(m[4]) * m[4],
+            m[5] / 1.0,
+        ];
+
+        let area_m2 = 0.7 * length_m * diameter_m;
+        let aspect = diameter_m * diameter_m / area_m2;
+        let dx = length_m / 20.0;
+        let fin_m2 = 0.00665;
+        let advance_max = 0.6632;
+        Self {
+            length_m,
+            diameter_m,
+            ballast_density_kg_m3: rho,
+            mass_kg,
+            volume_m3,
+            z_g_m,
+            inertia_kg_m2: Vector3::new(ix, iy, iy),
+            added,
+            damping,
+            damping_fades: [true, true, false],
+            area_m2,
+            drag_0: 0.42 * PI * b * b / area_m2,
+            lift_slope: PI * aspect / (1.0 + (1.0 + aspect * aspect / 4.0).sqrt()),
+            induced: PI * 0.7 * aspect,
+            lift_any_plane: false,
+            // Hoerner's curve for surface hulls at B/2T = 0.5.
+            cross_flow: HOERNER_AT_HALF,
+            stations_m: ((0..=20).map(|i| -a + f64::from(i) * dx).collect(), dx),
+            cross_flow_both: false,
+            fin_area_m2: 2.0 * fin_m2,
+            fin_x_m: -a,
+            fin_slope: [0.5, 0.7],
+            fin_incidence: false,
+            propeller_m: 0.14,
+            thrust_share: 0.9,
+            wake_share: 0.944,
+            torque_share: 0.1,
+            thrust: [0.4566, (0.1798 - 0.4566) / advance_max],
+            torque: [0.0700, (0.0312 - 0.0700) / advance_max],
+            inflow: Inflow::Water,
+            current_by_yaw_only: true,
+            fin_limit_rad: 15f64.to_radians(),
+            rpm_limit: 1525.0,
+            limits_on_state: true,
+            fin_lag_s: 0.1,
+            propeller_lag_s: 1.0,
+        }
+    }
+
+    fn remus100() -> Self {
+        let published = Self::reference();
+        let dx = published.length_m / 20.0;
+        let nose = published.length_m / 2.0;
+        let mut damping = published.damping;
+        damping[5] = 0.0;
+        Self {
+            damping,
+            damping_fades: [true; 3],
+            lift_any_plane: true,
+            cross_flow: 1.1,
+            stations_m: (
+                (0..20).map(|i| -nose + (f64::from(i) + 0.5) * dx).collect(),
+                dx,
+            ),
+            cross_flow_both: true,
+            fin_incidence: true,
+            inflow: Inflow::Axial,
+            current_by_yaw_only: false,
+            limits_on_state: false,
+            ..published
+        }
+    }
+
+    /// Rigid-body mass matrix about CO, FRD.
+    #[must_use]
+    pub fn rigid_mass(&self) -> Matrix6<f64> {
+        let (m, z) = (self.mass_kg, self.z_g_m);
+        let i = self.inertia_kg_m2;
+        let mut M = Matrix6::from_diagonal(&nalgebra::Vector6::new(
+            m,
+            m,
+            m,
+            i.x + m * z * z,
+            i.y + m * z * z,
+            i.z,
+        ));
+        M[(0, 4)] = m * z;
+        M[(4, 0)] = m * z;
+        M[(1, 3)] = -m * z;
+        M[(3, 1)] = -m * z;
+        M
+    }
+
+    /// Added mass matrix, FRD.
+    #[must_use]
+    pub fn added_mass(&self) -> Matrix6<f64> {
+        Matrix6::from_diagonal(&nalgebra::Vector6::from_row_slice(&self.added))
+    }
+}
+
+/// Cross-flow drag coefficient interpolated in Hoerner's table at B/2T = 0.5, with the digits that
+/// the published derivatives have in them.
+const HOERNER_AT_HALF: f64 = 1.197_728_834_355_83;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Against the numbers printed by the published code.
+    #[test]
+    fn constants_are_the_published_ones() {
+        let c = Coefficients::of(ParameterSet::Reference);
+        let close = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 5e-8, "{a} is not {b}");
+        close(c.mass_kg, 31.029385);
+        close(c.inertia_kg_m2.x, 0.11201608);
+        close(c.inertia_kg_m2.y, 4.0277693);
+        close(c.added[0], 0.83890859);
+        close(c.added[1], 29.437637);
+        close(c.added[3], 0.033604824);
+        close(c.added[5], 3.4262101);
+        close(c.drag_0, 0.055959619);
+        close(c.lift_slope, 0.26599679);
+        close(c.rigid_mass()[(3, 3)], 0.12442783);
+        close(c.rigid_mass()[(0, 4)], 0.6205877);
+    }
+
+    #[test]
+    fn lagged_added_mass_would_diverge_on_this_hull() {
+        let c = Coefficients::of(ParameterSet::Remus100);
+        let lag = c.rigid_mass().try_inverse().expect("mass") * c.added_mass();
+        let rho = lag
+            .complex_eigenvalues()
+            .iter()
+            .map(|l| l.norm())
+            .fold(0.0, f64::max);
+        assert!((rho - 1.09).abs() < 0.01, "spectral radius {rho}");
+    }
+}

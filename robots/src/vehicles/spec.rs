@@ -1,0 +1,36 @@
+//! What a scenario says of a vehicle.
+
+use super::coefficients::ParameterSet;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+
+/// Which vehicle.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum VehicleSpec {
+    /// REMUS 100.
+    Remus100(RemusSpec),
+}
+
+impl Default for VehicleSpec {
+    fn default() -> Self {
+        VehicleSpec::Remus100(RemusSpec::default())
+    }
+}
+
+/// A REMUS 100.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct RemusSpec {
+    /// Hull parameters: `remus100` or `reference`.
+    pub parameters: ParameterSet,
+    /// URDF file, relative to the scenario file; `None`: the one built in.
+    pub urdf: Option<String>,
+}
+
+/// Vehicles that a scenario can ask for.
+pub const CATALOGUE: &[Entry] = &[Entry {
+    name: "Remus100",
+    what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
+    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI 2001",
+}];

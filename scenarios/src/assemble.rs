@@ -1,0 +1,240 @@
+//! From a scenario to a world that ticks: everything that lives in it, put in its place.
+
+use crate::scenario::{RobotSpec, Scenario};
+use crate::system::{
+    Dye, Helm, Hull, Instruments, Log, Mind, Navigator, Outbox, Pilotage, RobotId, Water,
+};
+use crate::tick::tick;
+use bevy_ecs::prelude::{Schedule, World};
+use nalgebra::Vector3;
+use plumes::error::PlumeError;
+use plumes::filaments::{Plume, PlumeSettings};
+use robots::actuate::Autopilot;
+use robots::error::RobotError;
+use robots::estimate::{Estimator, Start};
+use robots::guide::Guidance;
+use robots::handoff::{
+    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Outcome,
+    Readings, Vertical,
+};
+use robots::sense::SensorSuite;
+use robots::vehicles::Vehicle;
+use std::path::Path;
+use world::area::Area;
+use world::clock::{Clock, Every};
+use world::error::WorldError;
+use world::fields::Flow;
+use world::frames::{Pose, Truth};
+use world::obstacles::{Obstacle, Obstacles};
+use world::physics::Physics;
+use world::record::Digest;
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Why a scenario that could be read cannot be assembled.
+#[derive(Debug, thiserror::Error)]
+pub enum AssembleError {
+    /// Terrain or obstacles.
+    #[error(transparent)]
+    World(#[from] WorldError),
+    /// Water or sources.
+    #[error(transparent)]
+    Plume(#[from] PlumeError),
+    /// A robot.
+    #[error("robot {id}: {source}")]
+    Robot {
+        /// Which.
+        id: String,
+        /// What is wrong.
+        source: RobotError,
+    },
+}
+
+/// A scenario brought to life: the ECS world and the tick that moves it.
+pub struct Simulation {
+    /// All entities and resources.
+    pub world: World,
+    tick: Schedule,
+    spin_up_s: f64,
+    spin_up_period_s: f64,
+}
+
+impl Simulation {
+    /// Puts everything in its place; mission time is zero, the plume not yet released.
+    ///
+    /// # Errors
+    /// When a part of the scenario cannot be built; what [`crate::scenario::check`] passes can.
+    pub fn assemble(
+        scenario: &Scenario,
+        base_dir: &Path,
+        seed: u64,
+    ) -> Result<Self, AssembleError> {
+        let dt_s = scenario.time.step_s.get();
+        let area = scenario.area.build();
+        let terrain = scenario.terrain.build(&area);
+        let obstacles = (scenario.obstacles.iter())
+            .map(|spec| Obstacle::build(spec, &terrain, base_dir))
+            .collect::<Result<Vec<_>, _>>()?;
+        let flow = scenario.water.build(&area, &terrain, seed)?;
+        let plume = Plume::new(
+            &scenario.sources,
+            &area,
+            &terrain,
+            seed,
+            PlumeSettings::default(),
+        )?;
+        let mut physics = Physics::new(dt_s);
+        physics.add_terrain(&terrain, &area);
+        for obstacle in &obstacles {
+            physics.add_fixed(&obstacle.pose, obstacle.shape.clone());
+        }
+
+        let mut world = World::new();
+        for spec in &scenario.robots {
+            spawn(&mut world, &mut physics, spec, &terrain, base_dir, seed, dt_s).map_err(
+                |source| AssembleError::Robot {
+                    id: spec.id.as_str().to_string(),
+                    source,
+                },
+            )?;
+        }
+        let spin_up_s = scenario.time.spin_up_s.get();
+        let every = |period_s: f64| Every::period(period_s, dt_s);
+        world.insert_resource(Clock::new(dt_s));
+        world.insert_resource(area);
+        world.insert_resource(Obstacles(obstacles));
+        world.insert_resource(Water {
+            flow: Box::new(flow),
+            t0_s: spin_up_s,
+        });
+        world.insert_resource(Dye {
+            plume,
+            every: every(scenario.time.drift_period_s.get()),
+        });
+        world.insert_resource(Outbox {
+            frame: None,
+            plume: None,
+            frame_every: every(scenario.record.frame_period_s.get()),
+            plume_every: every(scenario.record.plume_period_s.get()),
+            plume_points: scenario.record.plume_points as usize,
+        });
+        world.insert_resource(terrain);
+        world.insert_resource(physics);
+        world.insert_resource(Digest::default());
+        Ok(Self {
+            world,
+            tick: tick(),
+            spin_up_s,
+            spin_up_period_s: scenario.time.spin_up_period_s.get(),
+        })
+    }
+
+    /// Lets the plume develop before the mission. `heard` is told the share done after every drift
+    /// and may end it early by answering `false`.
+    pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
+        if self.world.resource::<Dye>().plume.sources().is_empty() {
+            let mut water = self.world.resource_mut::<Water>();
+            water.flow.advance(self.spin_up_s);
+            return;
+        }
+        let steps = (self.spin_up_s / self.spin_up_period_s).ceil();
+        let dt_s = self.spin_up_s / steps;
+        for n in 0..steps as u64 {
+            let (t0, t1) = (n as f64 * dt_s, (n + 1) as f64 * dt_s);
+            self.world.resource_scope::<Water, ()>(|world, mut water| {
+                water.flow.advance(t1);
+                world.resource_mut::<Dye>().plume.drift(&*water.flow, t0, t1);
+            });
+            if !heard((n + 1) as f64 / steps) {
+                return;
+            }
+        }
+    }
+
+    /// One tick.
+    pub fn tick(&mut self) {
+        self.tick.run(&mut self.world);
+    }
+
+    /// Mission time, s.
+    #[must_use]
+    pub fn t_s(&self) -> f64 {
+        self.world.resource::<Clock>().t_s()
+    }
+
+    /// Water at the present mission time.
+    #[must_use]
+    pub fn velocity(&self, p_W: &Vector3<f64>) -> Vector3<f64> {
+        self.world.resource::<Water>().velocity(p_W, self.t_s())
+    }
+
+    /// How each robot's mission ended, in the scenario's order; `None` while it lasts.
+    pub fn outcomes(&mut self) -> Vec<Option<Outcome>> {
+        let mut query = self.world.query::<&Decision>();
+        query.iter(&self.world).map(|d| d.outcome).collect()
+    }
+}
+
+fn spawn(
+    world: &mut World,
+    physics: &mut Physics,
+    spec: &RobotSpec,
+    terrain: &Terrain,
+    base_dir: &Path,
+    seed: u64,
+    dt_s: f64,
+) -> Result<(), RobotError> {
+    let id = spec.id.as_str();
+    let heading = spec.start.heading_deg.heading();
+    let p_W = spec.start.p_W(terrain);
+    let mut truth = Truth::at_rest(Pose::level(p_W, heading));
+    truth.v_WB_B.x = spec.start.speed_m_s.get();
+    let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
+    let body = physics.add_body(vehicle.body_spec(id, truth));
+    let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
+    let start = Start {
+        position: p_W.xy(),
+        heading,
+        depth_m: -p_W.z,
+    };
+    // A first belief from the launch data alone; the navigator itself starts fresh at the first tick.
+    let estimate = Estimator::new(&spec.estimator, start, dt_s)
+        .step(&Clock::new(dt_s), &Readings::default());
+    let goal = Goal {
+        id: 0,
+        manoeuvre: Manoeuvre::Course { course: heading },
+        vertical: Vertical::Depth(-p_W.z),
+        speed_m_s: 0.0,
+    };
+    let strategy = spec.strategy.build()?;
+    world.spawn((
+        RobotId(id.to_string()),
+        truth,
+        Hull { vehicle, body },
+        Instruments(suite),
+        Readings::default(),
+        Navigator(Estimator::new(&spec.estimator, start, dt_s)),
+        estimate,
+        (
+            Mind {
+                strategy,
+                rng: Stream::new(seed, id, "strategy"),
+                home: p_W.xy(),
+            },
+            Decision {
+                behaviour: Behaviour::Idle,
+                goal,
+                declared: None,
+                lost_points: Vec::new(),
+                outcome: None,
+            },
+            Pilotage(Guidance::new(&spec.guidance)),
+            Command::Direct(ActuatorCommand::default()),
+            GuidanceStatus::default(),
+            Helm(Autopilot::new(&spec.autopilot)),
+            ActuatorCommand::default(),
+            Log::default(),
+        ),
+    ));
+    Ok(())
+}

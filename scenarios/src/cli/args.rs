@@ -1,0 +1,210 @@
+//! What the command can be asked.
+
+use clap::{Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
+use std::str::FromStr;
+
+/// Simulator for chemical-plume tracing by underwater vehicles.
+#[derive(Clone, Debug, Parser)]
+#[command(
+    name = "rheotaxis",
+    version,
+    about = "Simulates underwater vehicles that trace a chemical plume to its source",
+    long_about = "Simulates underwater vehicles that trace a chemical plume to its source.\n\n\
+        A scenario file (RON) says where, in which water, what is released, who searches and when it \
+        counts as found. A run steps it all, shows its progress, publishes live state over zenoh, and \
+        leaves a folder with a recording, tables, figures and a one-page report.",
+    after_help = EXAMPLES,
+    after_long_help = AFTER,
+    max_term_width = 100
+)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "`rheotaxis help COMMAND` or `--help` says more, with examples and exit codes.";
+
+const AFTER: &str = "\
+Examples:
+  rheotaxis run duck_st                 the main scenario, as it comes with the program
+  rheotaxis init duck_st mine.ron       a copy to change
+  rheotaxis check mine.ron              what is wrong with it: file, line, column, legal range
+  rheotaxis run mine.ron --seed 7       run it, into runs/mine-7/
+  rheotaxis list sensors                what a scenario can ask for, each with its source
+
+Exit codes:
+  0    every mission ended as its scenario defines success
+  3    ran to the end, but not found
+  130  interrupted; what was recorded is whole
+  1    error, explained on standard error
+  2    wrong usage";
+
+/// What to do.
+#[derive(Clone, Debug, Subcommand)]
+pub enum Command {
+    /// Run scenarios, one after the other.
+    Run(RunArgs),
+    /// Read and check scenarios without running them.
+    Check(CheckArgs),
+    /// Write a scenario to start from; alone, list those there are.
+    Init(InitArgs),
+    /// List scenarios, algorithms, flows, sensors and vehicles, each with its source.
+    List(ListArgs),
+    /// List what a run publishes over zenoh.
+    Topics(TopicsArgs),
+}
+
+/// Arguments of `run`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(
+    long_about = "Runs scenarios, one after the other: spin-up of the plume, then the mission. Each \
+        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, run.mcap, \
+        figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
+        however fast it goes and whoever listens.",
+    after_help = RUN_AFTER
+)]
+pub struct RunArgs {
+    /// Scenario file, or the name of a scenario that comes with the program.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+    /// Seed of all random numbers.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// Folder for the results; with several files, one folder in it for each.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// How fast: `max`, `realtime`, or simulated seconds per second.
+    #[arg(long, default_value = "max", value_name = "max|realtime|X")]
+    pub speed: Speed,
+    /// Publish nothing.
+    #[arg(long)]
+    pub no_zenoh: bool,
+    /// Write no recording (run.mcap).
+    #[arg(long)]
+    pub no_record: bool,
+    /// Show no progress.
+    #[arg(long, short)]
+    pub quiet: bool,
+    /// zenoh's own configuration (JSON5): routers, TLS, access control.
+    #[arg(long, value_name = "FILE", conflicts_with = "no_zenoh")]
+    pub zenoh_config: Option<PathBuf>,
+    /// Where zenoh listens; without it tcp/127.0.0.1:7447, or the next free port.
+    #[arg(long, value_name = "ENDPOINT", conflicts_with = "no_zenoh")]
+    pub zenoh_listen: Option<String>,
+}
+
+const RUN_AFTER: &str = "\
+Examples:
+  rheotaxis run duck_st
+  rheotaxis run mine.ron --seed 7 --out /tmp/mine --no-zenoh
+  rheotaxis run duck_st --speed realtime --zenoh-listen tcp/127.0.0.1:7500
+
+Exit codes: 0 success as the scenario defines it; 3 ran, not found; 130 interrupted; 1 error; 2 usage.
+With several files the worst of them: 130, then 1, then 3.";
+
+/// How fast a run goes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Speed {
+    /// As fast as the machine can.
+    Max,
+    /// So many simulated seconds in a second.
+    Times(f64),
+}
+
+impl FromStr for Speed {
+    type Err = String;
+    fn from_str(s: &str) -> Result<Self, String> {
+        match s {
+            "max" => Ok(Speed::Max),
+            "realtime" => Ok(Speed::Times(1.0)),
+            _ => match s.strip_suffix('x').unwrap_or(s).parse::<f64>() {
+                Ok(x) if x > 0.0 && x.is_finite() => Ok(Speed::Times(x)),
+                _ => Err("must be `max`, `realtime` or a number > 0".to_string()),
+            },
+        }
+    }
+}
+
+/// Arguments of `check`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(
+    long_about = "Reads scenarios and checks what they mean, without running them. Every mistake is \
+        shown with file, line, column, field, value and legal range.",
+    after_help = "Exit codes: 0 all are fine (there may be warnings); 1 at least one is not."
+)]
+pub struct CheckArgs {
+    /// Scenario file, or the name of a scenario that comes with the program.
+    #[arg(required = true, value_name = "FILE")]
+    pub files: Vec<PathBuf>,
+}
+
+/// Arguments of `init`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(
+    long_about = "Writes a scenario that comes with the program, with its comments, to be changed. \
+        Never overwrites. Alone it lists the templates.",
+    after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron"
+)]
+pub struct InitArgs {
+    /// Name of a scenario that comes with the program.
+    pub template: Option<String>,
+    /// File to write, or a folder to write it in; without it TEMPLATE.ron here.
+    pub path: Option<PathBuf>,
+}
+
+/// Arguments of `list`.
+#[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
+#[command(
+    long_about = "Lists what a scenario can ask for, each with the paper, section or equation it comes from.",
+    after_help = "Examples:\n  rheotaxis list\n  rheotaxis list algorithms"
+)]
+pub struct ListArgs {
+    /// Only these.
+    pub what: Option<ListKind>,
+}
+
+/// What can be listed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ListKind {
+    /// Scenarios that come with the program.
+    Scenarios,
+    /// Strategies, behaviours, declaration rules, guidance, estimators, autopilots.
+    Algorithms,
+    /// Currents.
+    Flows,
+    /// Instruments.
+    Sensors,
+    /// Bodies.
+    Vehicles,
+}
+
+/// Arguments of `topics`.
+#[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
+pub struct TopicsArgs {
+    /// Print the JSON Schemas instead, as one object.
+    #[arg(long)]
+    pub schema: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_command_line_is_well_formed() {
+        use clap::CommandFactory;
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn speeds_read_as_words_and_numbers() {
+        assert_eq!("max".parse(), Ok(Speed::Max));
+        assert_eq!("realtime".parse(), Ok(Speed::Times(1.0)));
+        assert_eq!("2.5x".parse(), Ok(Speed::Times(2.5)));
+        for bad in ["0", "-1", "nan", "inf", "fast", ""] {
+            assert!(bad.parse::<Speed>().is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,37 @@
+//! `rheotaxis check`: reads and checks scenarios without running them.
+
+use super::args::CheckArgs;
+use super::exit::Exit;
+use super::say;
+use crate::scenario::load;
+
+/// Checks every file, going on after a broken one.
+pub(super) fn check(args: &CheckArgs) -> Exit {
+    let mut exit = Exit::Success;
+    for file in &args.files {
+        let checked = load(file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
+        match checked {
+            Ok((loaded, odd)) => {
+                say::warnings(odd);
+                let s = &loaded.scenario;
+                println!(
+                    "{}: fine: {} ({}, {}, {})",
+                    file.display(),
+                    s.title,
+                    count(s.robots.len(), "robot"),
+                    count(s.sources.len(), "source"),
+                    count(s.obstacles.len(), "obstacle"),
+                );
+            }
+            Err(error) => {
+                say::scenario_error(error);
+                exit = Exit::Error;
+            }
+        }
+    }
+    exit
+}
+
+fn count(n: usize, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}

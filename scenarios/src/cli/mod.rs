@@ -1,0 +1,36 @@
+//! The command `rheotaxis`: what it is asked, and what it answers.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command speaks through standard output and error"
+)]
+
+mod args;
+mod check;
+mod exit;
+mod init;
+mod list;
+mod run;
+mod say;
+mod topics;
+
+pub use args::{Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, TopicsArgs};
+pub use exit::Exit;
+
+use clap::Parser;
+use std::process::ExitCode;
+
+/// The whole command, from its arguments to its exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    say::set_up();
+    // clap ends the process itself for `--help` (0) and for wrong usage (2).
+    let exit = match Args::parse().command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Init(args) => init::init(&args),
+        Command::List(args) => list::list(&args),
+        Command::Topics(args) => topics::topics(&args),
+    };
+    exit.into()
+}

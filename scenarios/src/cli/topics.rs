@@ -1,0 +1,29 @@
+//! `rheotaxis topics`: what a run publishes over zenoh.
+
+use super::args::TopicsArgs;
+use super::exit::Exit;
+use crate::live;
+use serde_json::{Map, Value};
+
+/// Prints every key, or with `--schema` one JSON object with all schemas.
+pub(super) fn topics(args: &TopicsArgs) -> Exit {
+    if args.schema {
+        let schemas: Map<String, Value> = live::topics()
+            .iter()
+            .map(|t| (t.name.to_string(), t.schema()))
+            .collect();
+        println!("{:#}", Value::Object(schemas));
+        return Exit::Success;
+    }
+    println!("Keys below rheotaxis/<run>/, where <run> is <scenario>_<seed>. SI units, ENU axes.\n");
+    for topic in live::topics() {
+        println!("{}  ({})", topic.key, topic.rate);
+        println!("    {}", topic.what);
+        for field in topic.fields {
+            let mark = if field.required { "" } else { "?" };
+            println!("    {:<24} {}", format!("{}{mark}", field.name), field.what);
+        }
+        println!();
+    }
+    Exit::Success
+}

@@ -1,0 +1,56 @@
+//! What can go wrong when live state is set up; once running it cannot fail a run.
+
+use std::path::PathBuf;
+
+/// Why live state could not be set up.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LiveError {
+    /// The port asked for belongs to someone else.
+    #[error(
+        "zenoh cannot listen on {endpoint}: port {port} is already in use; \
+         choose another with --zenoh-listen, or run with --no-zenoh"
+    )]
+    BusyPort {
+        /// Endpoint asked for.
+        endpoint: String,
+        /// Its port.
+        port: u16,
+    },
+    /// No port of the default range is free.
+    #[error(
+        "zenoh found no free port on 127.0.0.1 from {first} to {last}; \
+         choose one with --zenoh-listen, or run with --no-zenoh"
+    )]
+    NoFreePort {
+        /// First port tried.
+        first: u16,
+        /// Last port tried.
+        last: u16,
+    },
+    /// The endpoint to listen on is not written as zenoh writes them.
+    #[error("`{endpoint}` is not a zenoh endpoint; write one like tcp/127.0.0.1:7447")]
+    Endpoint {
+        /// As given.
+        endpoint: String,
+    },
+    /// The configuration file cannot be used.
+    #[error("zenoh configuration {}: {why}", path.display())]
+    Config {
+        /// The file.
+        path: PathBuf,
+        /// zenoh's words.
+        why: String,
+    },
+    /// The run's id does not fit into a key.
+    #[error("run id `{id}` must be of a-z, 0-9 and _ only, and not empty")]
+    RunId {
+        /// As given.
+        id: String,
+    },
+    /// zenoh did not start.
+    #[error("zenoh did not start: {why}")]
+    Open {
+        /// zenoh's words.
+        why: String,
+    },
+}

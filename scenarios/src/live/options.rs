@@ -1,0 +1,123 @@
+//! How live state is set up.
+
+use super::LiveError;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// zenoh's own port, listened on unless told otherwise.
+pub const DEFAULT_PORT: u16 = 7447;
+
+/// How to publish.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LiveOptions {
+    /// Second chunk of every key, `[a-z0-9_]+`; see [`run_id`].
+    pub run_id: String,
+    /// zenoh endpoint to listen on; `None`: [`DEFAULT_PORT`] on the loopback, or the next free port.
+    pub listen: Option<String>,
+    /// A zenoh configuration (JSON5), honoured whole: mode, endpoints, scouting, TLS, access control.
+    /// `None`: the file the environment variable `ZENOH_CONFIG` names, if any. With a configuration
+    /// only a `listen` given here replaces something in it.
+    pub config_file: Option<PathBuf>,
+    /// Shortest wall time between two publications of state; what comes in between is superseded.
+    pub state_period: Duration,
+    /// Shortest wall time between two publications of the plume.
+    pub plume_period: Duration,
+}
+
+impl LiveOptions {
+    /// The defaults: loopback, [`DEFAULT_PORT`] or the next free port, state at most 20 and plume at
+    /// most 2 times a second.
+    #[must_use]
+    pub fn new(run_id: String) -> Self {
+        Self {
+            run_id,
+            listen: None,
+            config_file: None,
+            state_period: Duration::from_millis(50),
+            plume_period: Duration::from_millis(500),
+        }
+    }
+
+    /// Whether the run's id fits into a key.
+    ///
+    /// # Errors
+    /// [`LiveError::RunId`] if not.
+    pub fn check(&self) -> Result<(), LiveError> {
+        let fits = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        if self.run_id.is_empty() || !self.run_id.chars().all(fits) {
+            return Err(LiveError::RunId {
+                id: self.run_id.clone(),
+            });
+        }
+        Ok(())
+    }
+}
+
+/// What is known of a run before it starts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LiveMeta {
+    /// The scenario as written (RON).
+    pub scenario_text: String,
+    /// Its name.
+    pub scenario_name: String,
+    /// The seed.
+    pub seed: u64,
+    /// The program's version.
+    pub version: String,
+}
+
+/// What became of the states handed over.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LiveCounts {
+    /// States handed to [`Live::publish`](super::Live::publish).
+    pub offered: u64,
+    /// States sent.
+    pub sent: u64,
+    /// States replaced by a newer one before they were sent.
+    pub superseded: u64,
+}
+
+/// The id of a run in keys: `<scenario>_<seed>` with everything but `a-z`, `0-9` and `_` made `_`.
+#[must_use]
+pub fn run_id(scenario: &str, seed: u64) -> String {
+    format!("{}_{seed}", chunk(scenario))
+}
+
+/// A name as a chunk of a key.
+pub(super) fn chunk(name: &str) -> String {
+    if name.is_empty() {
+        return "_".to_owned();
+    }
+    name.chars()
+        .map(|c| match c.to_ascii_lowercase() {
+            c @ ('a'..='z' | '0'..='9' | '_') => c,
+            _ => '_',
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ids_fit_into_keys() {
+        assert_eq!(run_id("duck_st", 7), "duck_st_7");
+        assert_eq!(run_id("Duck ST/é*?$#@", 1), "duck_st________1");
+        assert_eq!(run_id("", 0), "__0");
+        for name in ["duck_st", "Duck ST/é*?$#@", ""] {
+            assert_eq!(LiveOptions::new(run_id(name, 3)).check(), Ok(()));
+        }
+    }
+
+    #[test]
+    fn ids_that_do_not_fit_are_refused() {
+        for id in ["", "Duck", "a/b", "a*", "@live"] {
+            let error = LiveOptions::new(id.to_owned()).check().unwrap_err();
+            assert_eq!(
+                error.to_string(),
+                format!("run id `{id}` must be of a-z, 0-9 and _ only, and not empty")
+            );
+        }
+    }
+}

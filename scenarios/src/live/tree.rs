@@ -1,0 +1,143 @@
+//! The keys of one run in zenoh: what is published, kept for those who come later, and told when
+//! the run is alive.
+
+use super::LiveOptions;
+use super::message::Message;
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, PoisonError};
+use zenoh::bytes::Encoding;
+use zenoh::key_expr::{KeyExpr, OwnedKeyExpr};
+use zenoh::liveliness::LivelinessToken;
+use zenoh::qos::CongestionControl;
+use zenoh::query::{Query, Queryable};
+use zenoh::{Result, Session, Wait};
+use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig};
+
+/// The newest message of every key, for those who ask.
+type Kept = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Message)>>>;
+
+/// One run's part of the tree, alive until dropped.
+pub(super) struct Tree<'a> {
+    session: &'a Session,
+    base: String,
+    kept: Kept,
+    // Held for what their existence tells others.
+    meta: Vec<AdvancedPublisher<'static>>,
+    _asked: Queryable<()>,
+    _alive: LivelinessToken,
+}
+
+impl<'a> Tree<'a> {
+    /// Declares the run: who sees the token can already ask for all of `meta`.
+    pub(super) fn grow(
+        session: &'a Session,
+        options: &LiveOptions,
+        meta: Vec<Message>,
+    ) -> Result<Self> {
+        let base = format!("rheotaxis/{}", options.run_id);
+        let kept = Kept::default();
+        let asked = session
+            .declare_queryable(format!("{base}/**"))
+            .complete(true)
+            .callback({
+                let kept = Arc::clone(&kept);
+                move |query| answer(&kept, &query)
+            })
+            .wait()?;
+        let mut publishers = Vec::new();
+        for message in meta {
+            publishers.push(keep_published(session, &base, &kept, message)?);
+        }
+        let alive = session
+            .liveliness()
+            .declare_token(format!("{base}/@live/sim"))
+            .wait()?;
+        Ok(Self {
+            session,
+            base,
+            kept,
+            meta: publishers,
+            _asked: asked,
+            _alive: alive,
+        })
+    }
+
+    /// Sends and keeps; a message that does not fit into a subscriber's queue at once is lost to it.
+    pub(super) fn say(&self, message: Message) -> Result<()> {
+        let key = self.key(&message)?;
+        let put = self
+            .session
+            .put(&key, message.payload.clone())
+            .encoding(encoding(&message))
+            .congestion_control(CongestionControl::Drop);
+        put.attachment(message.attachment.clone()).wait()?;
+        keep(&self.kept, key, message);
+        Ok(())
+    }
+
+    /// Like what was there from the start, also for zenoh-ext's advanced subscribers.
+    pub(super) fn say_for_good(&mut self, message: Message) -> Result<()> {
+        let publisher = keep_published(self.session, &self.base, &self.kept, message)?;
+        self.meta.push(publisher);
+        Ok(())
+    }
+
+    fn key(&self, message: &Message) -> Result<OwnedKeyExpr> {
+        OwnedKeyExpr::new(format!("{}/{}", self.base, message.key))
+    }
+}
+
+fn keep(kept: &Kept, key: OwnedKeyExpr, message: Message) {
+    kept.lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .insert(message.key.clone(), (key, message));
+}
+
+/// Publishes once with a cache of one, which advanced subscribers find whenever they come.
+fn keep_published(
+    session: &Session,
+    base: &str,
+    kept: &Kept,
+    message: Message,
+) -> Result<AdvancedPublisher<'static>> {
+    let key = OwnedKeyExpr::new(format!("{base}/{}", message.key))?;
+    let publisher = session
+        .declare_publisher(key.clone())
+        .encoding(encoding(&message))
+        .congestion_control(CongestionControl::Drop)
+        // Numbered rather than stamped: stamps need a setting only routers have by default.
+        .sample_miss_detection(MissDetectionConfig::default())
+        .cache(CacheConfig::default().max_samples(1))
+        .publisher_detection()
+        .wait()?;
+    publisher.put(message.payload.clone()).wait()?;
+    keep(kept, key, message);
+    Ok(publisher)
+}
+
+fn answer(kept: &Kept, query: &Query) {
+    // Copied out, so that one who is slow to take the answer does not hold the lock.
+    let answers: Vec<(OwnedKeyExpr, Message)> = kept
+        .lock()
+        .unwrap_or_else(PoisonError::into_inner)
+        .values()
+        .filter(|(key, _)| query.key_expr().intersects(key))
+        .cloned()
+        .collect();
+    for (key, message) in answers {
+        let encoding = encoding(&message);
+        // One who asked and went away is nobody's failure.
+        let _gone = query
+            .reply(KeyExpr::from(key), message.payload)
+            .encoding(encoding)
+            .attachment(message.attachment)
+            .wait();
+    }
+}
+
+fn encoding(message: &Message) -> Encoding {
+    match message.attachment {
+        None => Encoding::APPLICATION_JSON,
+        Some(_) => Encoding::APPLICATION_OCTET_STREAM,
+    }
+}

@@ -1,0 +1,207 @@
+//! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
+
+use super::ReportError;
+use crate::frame::{Frame, PlumeFrame, RobotFrame};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use robots::handoff::{Command, Estimate, Vertical};
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use world::record::{
+    Kind, McapFile, Odometry, RecordError, clock, float64, nanoseconds, point_cloud, pose_stamped,
+    text, transforms, vector3_stamped,
+};
+
+/// Which run this is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunInfo {
+    /// Name of the scenario.
+    pub scenario_name: String,
+    /// Text of its file.
+    pub scenario_text: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Version of the program.
+    pub version: String,
+}
+
+/// Frame of all poses.
+const WORLD: &str = "world";
+
+/// The recording of one run. Dropped without [`Recorder::finish`] it stays under its temporary
+/// name, readable.
+pub struct Recorder {
+    file: McapFile,
+    behaviours: Vec<&'static str>,
+    declared: Vec<bool>,
+}
+
+impl Recorder {
+    /// Starts a recording that will end at `path`; the folder must exist.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(path: &Path, run: &RunInfo) -> Result<Self, ReportError> {
+        let mut file = McapFile::create(path, &format!("rheotaxis {}", run.version))?;
+        let seed = run.seed.to_string();
+        file.metadata(
+            "run",
+            &[
+                ("scenario", &run.scenario_name),
+                ("seed", &seed),
+                ("version", &run.version),
+            ],
+        )?;
+        file.attach("scenario.ron", "text/plain", run.scenario_text.as_bytes())?;
+        Ok(Self {
+            file,
+            behaviours: Vec::new(),
+            declared: Vec::new(),
+        })
+    }
+
+    /// Records one frame. Behaviours and declarations are written when they change.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn frame(&mut self, frame: &Frame) -> Result<(), ReportError> {
+        let t = nanoseconds(frame.t_s);
+        self.file.write("/clock", Kind::Clock, t, &clock(t))?;
+        self.behaviours.resize(frame.robots.len(), "");
+        self.declared.resize(frame.robots.len(), false);
+        for (k, robot) in frame.robots.iter().enumerate() {
+            self.robot(t, k, robot)?;
+        }
+        let believed: Vec<String> = frame.robots.iter().map(|r| believed_frame(&r.id)).collect();
+        let children: Vec<_> = frame
+            .robots
+            .iter()
+            .zip(&believed)
+            .flat_map(|(r, b)| {
+                let e = &r.estimate;
+                [
+                    (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
+                    (b.as_str(), believed_position(e), believed_attitude(e)),
+                ]
+            })
+            .collect();
+        let tf = transforms(t, WORLD, &children);
+        self.file.write("/tf", Kind::TfMessage, t, &tf)?;
+        Ok(())
+    }
+
+    fn robot(&mut self, t: u64, k: usize, r: &RobotFrame) -> Result<(), RecordError> {
+        let id = &r.id;
+        let truth = Odometry {
+            t_ns: t,
+            frame: WORLD,
+            child: id,
+            position: r.truth.pose.p_WB,
+            attitude: r.truth.pose.R_WB,
+            linear: r.truth.v_WB_B,
+            angular: r.truth.w_WB_B,
+        };
+        let e = &r.estimate;
+        let estimate = Odometry {
+            t_ns: t,
+            frame: WORLD,
+            child: &believed_frame(id),
+            position: believed_position(e),
+            attitude: believed_attitude(e),
+            linear: e.v_ground_body,
+            angular: e.attitude.rates_rad_s,
+        };
+        let file = &mut self.file;
+        let mut put = |name: &str, kind: Kind, cdr: &[u8]| {
+            file.write(&format!("/{id}/{name}"), kind, t, cdr)
+        };
+        put("truth", Kind::Odometry, &truth.cdr())?;
+        put("estimate", Kind::Odometry, &estimate.cdr())?;
+        put("altitude", Kind::Float64, &float64(r.altitude_m))?;
+        if let Some(c) = r.chemical {
+            put("chemical", Kind::Float64, &float64(c.volts))?;
+        }
+        if let Some(flow) = e.flow {
+            let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
+            put("flow", Kind::Vector3Stamped, &vector3_stamped(t, WORLD, &v))?;
+        }
+        let a = &r.actuators;
+        for (name, v) in [
+            ("actuators/rudder_rad", a.rudder_rad),
+            ("actuators/stern_rad", a.stern_rad),
+            ("actuators/rpm", a.rpm),
+        ] {
+            put(name, Kind::Float64, &float64(v))?;
+        }
+        if let Some(Command::Steer(s)) = r.command {
+            let (name, height) = match s.vertical {
+                Vertical::Altitude(m) => ("command/altitude_m", m),
+                Vertical::Depth(m) => ("command/depth_m", m),
+            };
+            put("command/heading_rad", Kind::Float64, &float64(s.heading.rad()))?;
+            put("command/water_speed_m_s", Kind::Float64, &float64(s.water_speed_m_s))?;
+            put(name, Kind::Float64, &float64(height))?;
+        }
+        if self.behaviours[k] != r.behaviour.name() {
+            self.behaviours[k] = r.behaviour.name();
+            put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
+        }
+        if let (Some(d), false) = (r.declaration, self.declared[k]) {
+            self.declared[k] = true;
+            let at = nanoseconds(d.t_s);
+            let p = on_plane(d.position, 0.0);
+            let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
+            put("declaration", Kind::PoseStamped, &pose)?;
+        }
+        Ok(())
+    }
+
+    /// Records filaments as a cloud; `concentration` is that at a filament's middle, kg/m³,
+    /// `mass` / ((2π)^(3/2) `size`³).
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
+        let t = nanoseconds(plume.t_s);
+        let shape = (TAU * TAU.sqrt()) as f32;
+        let rows: Vec<[f32; 6]> = plume
+            .points
+            .iter()
+            .map(|&[x, y, z, size, mass]| {
+                let volume = shape * size * size * size;
+                let c = if volume > 0.0 { mass / volume } else { 0.0 };
+                [x, y, z, size, mass, c]
+            })
+            .collect();
+        let names = ["x", "y", "z", "size", "mass", "concentration"];
+        let cloud = point_cloud(t, WORLD, names, &rows);
+        self.file.write("/plume", Kind::PointCloud2, t, &cloud)?;
+        Ok(())
+    }
+
+    /// Closes the recording with the run's digest and gives it its name.
+    ///
+    /// # Errors
+    /// If the file cannot be written or renamed.
+    pub fn finish(mut self, digest: &str) -> Result<PathBuf, ReportError> {
+        self.file.metadata("result", &[("digest", digest)])?;
+        Ok(self.file.finish()?)
+    }
+}
+
+fn believed_frame(id: &str) -> String {
+    format!("{id}/estimate")
+}
+
+fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {
+    Vector3::new(p.x, p.y, z)
+}
+
+fn believed_position(e: &Estimate) -> Vector3<f64> {
+    on_plane(e.position, -e.depth_m)
+}
+
+/// Of FLU axes: pitch there is positive nose down, the estimate's nose up.
+fn believed_attitude(e: &Estimate) -> UnitQuaternion<f64> {
+    let a = &e.attitude;
+    UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw())
+}

@@ -1,0 +1,220 @@
+//! What `summary.json` says about a run.
+
+use super::files::{ReportError, write_whole};
+use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunOutcome {
+    /// Success as the scenario defines it: a source declared near enough.
+    Found,
+    /// Declared, but not near enough, or came to its end without declaring.
+    NotFound,
+    /// Came to its planned end; the scenario asks for no more.
+    Completed,
+    /// The vehicle gave up: too far outside the area.
+    Aborted,
+    /// The scenario's time limit came first.
+    TimeOut,
+    /// Stopped from outside (Ctrl-C, remote stop).
+    Interrupted,
+    /// An error ended the run; `error` says which.
+    Failed,
+}
+
+impl RunOutcome {
+    /// In words, for people.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            RunOutcome::Found => "source found",
+            RunOutcome::NotFound => "source not found",
+            RunOutcome::Completed => "completed",
+            RunOutcome::Aborted => "aborted: too far outside the area",
+            RunOutcome::TimeOut => "time limit reached",
+            RunOutcome::Interrupted => "interrupted",
+            RunOutcome::Failed => "failed",
+        }
+    }
+}
+
+/// A horizontal position in the world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Position {
+    /// East of the datum, m.
+    pub east_m: f64,
+    /// North of the datum, m.
+    pub north_m: f64,
+}
+
+/// A true source.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceSummary {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Where it is.
+    pub position: Position,
+    /// Its depth below the still surface, m.
+    pub depth_m: f64,
+    /// Where the mean flow at the source goes, degrees from north; none in still water.
+    pub flow_heading_deg: Option<f64>,
+}
+
+/// A declared position against the nearest true source.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceError {
+    /// The nearest true source.
+    pub source: String,
+    /// Where it is.
+    pub position: Position,
+    /// Horizontal distance, m.
+    pub total_m: f64,
+    /// Part along the mean flow at the source, m; positive: declared too far down-flow.
+    pub along_flow_m: Option<f64>,
+    /// Part across it, m; positive: declared too far to the right, looking down-flow.
+    pub across_flow_m: Option<f64>,
+    /// Declared minus true, m.
+    pub east_m: f64,
+    /// Declared minus true, m.
+    pub north_m: f64,
+}
+
+/// A declaration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeclarationSummary {
+    /// When, s of mission time.
+    pub t_s: f64,
+    /// By which rule.
+    pub rule: String,
+    /// Where.
+    pub position: Position,
+    /// How wrong; none in a scenario without a source.
+    pub error: Option<SourceError>,
+}
+
+/// What one robot did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RobotSummary {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Its declaration, if it made one.
+    pub declaration: Option<DeclarationSummary>,
+    /// Time of the first detection, s.
+    pub first_detection_s: Option<f64>,
+    /// Where it truly was then.
+    pub first_detection: Option<Position>,
+    /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
+    pub detections: u64,
+    /// Straight distance from the first detection to the declared source, m: how far it traced the plume.
+    pub traced_m: Option<f64>,
+    /// Length of the true path, m.
+    pub travelled_m: f64,
+    /// Distance between believed and true position at the end, m.
+    pub final_position_error_m: f64,
+    /// Greatest such distance over the run, m.
+    pub greatest_position_error_m: f64,
+    /// Behaviour at the end.
+    pub last_behaviour: String,
+    /// Time spent in each behaviour, s, in the order of first use.
+    pub behaviour_s: Vec<(String, f64)>,
+}
+
+/// Chemical released and where it went.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MassBalance {
+    /// Released, kg.
+    pub released_kg: f64,
+    /// Still in the water simulated, kg.
+    pub in_water_kg: f64,
+    /// Carried out of it, kg.
+    pub left_kg: f64,
+    /// Released − in the water − carried out, kg: rounding only.
+    pub imbalance_kg: f64,
+}
+
+impl MassBalance {
+    /// From its three parts.
+    #[must_use]
+    pub fn new(released_kg: f64, in_water_kg: f64, left_kg: f64) -> Self {
+        Self {
+            released_kg,
+            in_water_kg,
+            left_kg,
+            imbalance_kg: released_kg - in_water_kg - left_kg,
+        }
+    }
+}
+
+/// What the run itself took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Totals {
+    /// Simulated time of the mission, s.
+    pub mission_s: f64,
+    /// Simulated time of the plume before the mission, s.
+    pub spin_up_s: f64,
+    /// Wall time of the mission, s.
+    pub mission_wall_s: f64,
+    /// Wall time of the spin-up, s.
+    pub spin_up_wall_s: f64,
+    /// Steps of the mission.
+    pub steps: u64,
+    /// Filaments at the end.
+    pub filaments: usize,
+    /// Where the chemical went; none without a source.
+    pub mass: Option<MassBalance>,
+}
+
+/// [`Totals`] with the speeds that follow from it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RunSummary {
+    /// What was counted.
+    #[serde(flatten)]
+    pub totals: Totals,
+    /// Simulated over wall time, mission only.
+    pub real_time_factor: Option<f64>,
+    /// Simulated mission time over all wall time, spin-up's included: what a user waits for.
+    pub real_time_factor_with_spin_up: Option<f64>,
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Seed.
+    pub seed: u64,
+    /// Version of the program.
+    pub version: String,
+    /// Digest of the whole state sequence; the same run again gives the same.
+    pub digest: String,
+    /// How it ended.
+    pub outcome: RunOutcome,
+    /// The error that ended it.
+    pub error: Option<String>,
+    /// The true sources.
+    pub sources: Vec<SourceSummary>,
+    /// Each robot.
+    pub robots: Vec<RobotSummary>,
+    /// The run itself.
+    pub run: RunSummary,
+}
+
+impl Summary {
+    /// As JSON for people.
+    #[must_use]
+    pub fn json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain data becomes JSON");
+        text.push('\n');
+        text
+    }
+
+    /// Writes `summary.json` whole.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write_json(&self, path: &Path) -> Result<PathBuf, ReportError> {
+        write_whole(path, self.json().as_bytes())
+    }
+}

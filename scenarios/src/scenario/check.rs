@@ -1,0 +1,317 @@
+//! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
+
+use super::fault::Found;
+use super::schema::{RobotSpec, Scenario, SuccessSpec, TerrainSpec};
+use plumes::error::PlumeError;
+use plumes::release;
+use robots::error::RobotError;
+use robots::sense::SensorSuite;
+use robots::strategy::StrategySpec;
+use robots::vehicles::Vehicle;
+use std::path::Path;
+use world::area::Area;
+use world::error::WorldError;
+use world::obstacles::Obstacle;
+use world::terrain::Terrain;
+
+/// A robot's start nearer to an obstacle than this touches it with its hull, m.
+const BERTH_M: f64 = 1.0;
+
+/// Legal steps of the physics, s: below, a run never ends; above, it no longer follows the vehicle.
+const STEP_S: (f64, f64) = (0.001, 0.1);
+
+/// Everything that is wrong or odd; paths in the scenario are relative to `base_dir`.
+#[must_use]
+pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
+    let area = scenario.area.build();
+    let terrain = scenario.terrain.build(&area);
+    let mut found = Vec::new();
+    slope(&scenario.terrain, &mut found);
+    // Seed 0: whether water can be made does not depend on its random numbers.
+    if let Err(PlumeError::Invalid { field, problem }) = scenario.water.build(&area, &terrain, 0) {
+        found.push(Found::error(field, problem));
+    }
+    sources(scenario, &area, &terrain, &mut found);
+    let obstacles = obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
+    twins("robots", &robot_ids, &mut found);
+    for (i, robot) in scenario.robots.iter().enumerate() {
+        start(i, robot, &area, &terrain, &obstacles, &mut found);
+        parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+    }
+    times(scenario, &mut found);
+    purpose(scenario, &mut found);
+    found
+}
+
+fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
+    if let TerrainSpec::Slope(s) = terrain
+        && s.shallow_m > s.deep_m
+    {
+        let (shallow, deep) = (s.shallow_m.get(), s.deep_m.get());
+        found.push(
+            Found::error(
+                "terrain.shallow_m",
+                format!("must be at most deep_m, {deep}, got {shallow}"),
+            )
+            .hint("shoreward is where the water gets shallower; turn shoreward_heading_deg instead"),
+        );
+    }
+}
+
+fn sources(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
+    for (i, spec) in scenario.sources.iter().enumerate() {
+        // One by one, so that each says what is wrong with it.
+        if let Err(PlumeError::Invalid { field, problem }) =
+            release::place(std::slice::from_ref(spec), area, terrain)
+        {
+            found.push(Found::error(
+                field.replacen("sources[0]", &format!("sources[{i}]"), 1),
+                problem,
+            ));
+        }
+    }
+    let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
+    names("sources", &ids, found);
+    twins("sources", &ids, found);
+}
+
+fn obstacles(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    base_dir: &Path,
+    found: &mut Vec<Found>,
+) -> Vec<Obstacle> {
+    let ids: Vec<&str> = scenario.obstacles.iter().map(|o| o.id.as_str()).collect();
+    names("obstacles", &ids, found);
+    twins("obstacles", &ids, found);
+    let mut built = Vec::new();
+    for (i, spec) in scenario.obstacles.iter().enumerate() {
+        let path = format!("obstacles[{i}]");
+        match Obstacle::build(spec, terrain, base_dir) {
+            Ok(obstacle) => {
+                let (min, max) = area.bounds();
+                let (lo, hi) = obstacle.bounds();
+                if lo.x > max.x || hi.x < min.x || lo.y > max.y || hi.y < min.y {
+                    found.push(Found::warning(
+                        path,
+                        format!("obstacle \"{}\" lies wholly outside the area", spec.id),
+                    ));
+                }
+                built.push(obstacle);
+            }
+            Err(e @ WorldError::File { .. }) => {
+                found.push(
+                    Found::error(format!("{path}.shape.file"), e.to_string())
+                        .hint("paths are relative to the scenario file"),
+                );
+            }
+            Err(WorldError::Invalid { field, problem }) => {
+                found.push(Found::error(within(&path, "shape", &field), problem));
+            }
+        }
+    }
+    built
+}
+
+fn start(
+    i: usize,
+    robot: &RobotSpec,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &[Obstacle],
+    found: &mut Vec<Found>,
+) {
+    let path = format!("robots[{i}].start");
+    let (start, id) = (&robot.start, robot.id.as_str());
+    if start.depth_m.is_some() == start.altitude_m.is_some() {
+        let given = if start.depth_m.is_some() {
+            "both"
+        } else {
+            "neither"
+        };
+        found.push(Found::error(
+            path,
+            format!("give either depth_m or altitude_m; {given} is given"),
+        ));
+        return;
+    }
+    let p = start.p_W(terrain);
+    let (distance, _) = area.edge_distance(p.xy());
+    if distance < 0.0 {
+        found.push(
+            Found::error(
+                &path,
+                format!(
+                    "robot \"{id}\" at east {} m, north {} m starts {:.1} m outside the area",
+                    p.x, p.y, -distance
+                ),
+            )
+            .hint("bring it inside, or make the area larger"),
+        );
+    }
+    let depth = -terrain.bed_z(p.x, p.y);
+    if -p.z > depth {
+        found.push(Found::error(
+            format!("{path}.depth_m"),
+            format!(
+                "robot \"{id}\" starts {:.2} m under the bed; must be from 0 (the surface) to {depth:.2} \
+                 (the water's depth there), got {}",
+                -p.z - depth,
+                -p.z
+            ),
+        ));
+    } else if p.z > 0.0 {
+        found.push(Found::error(
+            format!("{path}.altitude_m"),
+            format!(
+                "robot \"{id}\" starts {:.2} m above the surface; must be from 0 (the bed) to {depth:.2} \
+                 (the water's depth there), got {}",
+                p.z,
+                p.z + depth
+            ),
+        ));
+    }
+    for obstacle in obstacles {
+        let away = obstacle.distance(&p);
+        if away < 0.0 {
+            found.push(
+                Found::error(
+                    &path,
+                    format!(
+                        "robot \"{id}\" starts inside obstacle \"{}\", {:.2} m from its surface",
+                        obstacle.id, -away
+                    ),
+                )
+                .hint("move the start or the obstacle"),
+            );
+        } else if away < BERTH_M {
+            found.push(Found::warning(
+                &path,
+                format!(
+                    "robot \"{id}\" starts {away:.2} m from obstacle \"{}\": its hull may touch it",
+                    obstacle.id
+                ),
+            ));
+        }
+    }
+}
+
+/// Builds what can fail: hull, instruments, strategy.
+fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<Found>) {
+    let path = format!("robots[{i}]");
+    match Vehicle::load(&robot.vehicle, base_dir) {
+        Ok(vehicle) => {
+            let mounts = |name: &str| vehicle.mount(name);
+            let id = robot.id.as_str();
+            if let Err(e) = SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+                found.push(robot_error(&path, "sensors", e));
+            }
+        }
+        Err(e) => found.push(robot_error(&path, "vehicle", e)),
+    }
+    if let Err(e) = robot.strategy.build() {
+        found.push(robot_error(&path, "strategy", e));
+    }
+}
+
+fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
+    match error {
+        RobotError::File { .. } => {
+            Found::error(format!("{robot}.{part}.urdf"), error.to_string())
+                .hint("paths are relative to the scenario file")
+        }
+        RobotError::Invalid { field, problem } => {
+            Found::error(within(robot, part, &field), problem)
+        }
+    }
+}
+
+fn times(scenario: &Scenario, found: &mut Vec<Found>) {
+    let t = &scenario.time;
+    let step = t.step_s.get();
+    if !(STEP_S.0..=STEP_S.1).contains(&step) {
+        found.push(Found::error(
+            "time.step_s",
+            format!("must be from {} to {} s, got {step}", STEP_S.0, STEP_S.1),
+        ));
+    }
+    let r = &scenario.record;
+    for (path, period) in [
+        ("time.limit_s", t.limit_s),
+        ("time.drift_period_s", t.drift_period_s),
+        ("record.frame_period_s", r.frame_period_s),
+        ("record.track_period_s", r.track_period_s),
+        ("record.plume_period_s", r.plume_period_s),
+    ] {
+        if period < t.step_s {
+            found.push(Found::error(
+                path,
+                format!("must be at least time.step_s, {step}, got {}", period.get()),
+            ));
+        }
+    }
+}
+
+/// Whether anything can come of it.
+fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
+    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
+    let declares = matches!(scenario.success, SuccessSpec::Declared(_));
+    if scenario.sources.is_empty() {
+        if let Some(i) = scenario.robots.iter().position(seeks) {
+            found.push(Found::warning(
+                format!("robots[{i}].strategy"),
+                "it searches, but the scenario has no source to find",
+            ));
+        } else if declares {
+            found.push(Found::warning(
+                "success",
+                "a declaration near a source is asked for, but the scenario has no source",
+            ));
+        }
+    }
+    if declares && !scenario.robots.iter().any(seeks) {
+        found.push(Found::warning(
+            "success",
+            "a declaration is asked for, but no robot searches",
+        ));
+    }
+}
+
+/// Names that end up in keys and file names.
+fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+    for (i, id) in ids.iter().enumerate() {
+        if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
+            found.push(Found::error(format!("{list}[{i}].id"), problem));
+        }
+    }
+}
+
+fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+    for (i, id) in ids.iter().enumerate() {
+        if let Some(twin) = ids[..i].iter().position(|other| other == id) {
+            found.push(Found::error(
+                format!("{list}[{i}].id"),
+                format!("\"{id}\" is already the name of {list}[{twin}]"),
+            ));
+        }
+    }
+}
+
+/// A part's field as a path from the scenario's root, however much of it the part knew.
+fn within(whole: &str, part: &str, field: &str) -> String {
+    // Variants (`strategy.OpenLoop.table`) are values, not fields.
+    let fields = field.split('.').filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
+    let field = fields.collect::<Vec<_>>().join(".");
+    let list = whole.split('[').next().unwrap_or(whole);
+    if field.starts_with(&format!("{list}[")) {
+        field
+    } else if field.is_empty() {
+        format!("{whole}.{part}")
+    } else if field == part || field.starts_with(&format!("{part}.")) {
+        format!("{whole}.{field}")
+    } else {
+        format!("{whole}.{part}.{field}")
+    }
+}

@@ -1,0 +1,186 @@
+//! What can be wrong with a scenario, shown with file, line, column and the text around it.
+
+use super::outline::Outline;
+use miette::{Diagnostic, NamedSource, Severity, SourceSpan};
+use std::ops::Range;
+
+/// A scenario cannot be used.
+#[derive(Debug, thiserror::Error, Diagnostic)]
+pub enum ScenarioError {
+    /// The file itself.
+    #[error("{path}: {problem}")]
+    File {
+        /// The file as it was asked for.
+        path: String,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        #[help]
+        help: Option<String>,
+    },
+    /// One place in its text.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Text(#[from] Box<Fault>),
+    /// Several places in its text.
+    #[error("{path}: {} mistakes", faults.len())]
+    Many {
+        /// The file as it was asked for.
+        path: String,
+        /// Each of them.
+        #[related]
+        faults: Vec<Fault>,
+    },
+}
+
+impl ScenarioError {
+    /// One line for each mistake, `file:line:column: field: what is wrong`, for logs and tables.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        match self {
+            ScenarioError::File { .. } => vec![self.to_string()],
+            ScenarioError::Text(fault) => vec![fault.line()],
+            ScenarioError::Many { faults, .. } => faults.iter().map(Fault::line).collect(),
+        }
+    }
+}
+
+/// One mistake at one place of a scenario's text.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", headline(path, message))]
+pub struct Fault {
+    /// Path of the field, such as `robots[1].start`; empty for the whole.
+    pub path: String,
+    /// What is wrong: the value and the legal range.
+    pub message: String,
+    /// How to put it right.
+    pub help: Option<String>,
+    /// Whether it stops a run.
+    pub severity: Severity,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    label: &'static str,
+    source_name: String,
+    text: NamedSource<String>,
+    span: SourceSpan,
+}
+
+impl Fault {
+    pub(super) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
+        let before = &text[..span.start];
+        // An empty span shows nothing; a long one hides what matters.
+        let line_end = text[span.start..].find('\n').map_or(text.len(), |i| span.start + i);
+        let end = span.end.min(line_end).max(span.start);
+        Self {
+            path: found.path,
+            message: found.message,
+            help: found.help,
+            severity: found.severity,
+            line: 1 + before.matches('\n').count(),
+            column: 1 + before.chars().rev().take_while(|&c| c != '\n').count(),
+            label: found.label,
+            source_name: name.to_string(),
+            text: NamedSource::new(name, text.to_string()),
+            span: (span.start..end).into(),
+        }
+    }
+
+    /// The fault at the place of its path.
+    pub(super) fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
+        let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
+        Self::new(name, text, span, found)
+    }
+
+    /// On one line: `file:line:column: field: what is wrong`.
+    #[must_use]
+    pub fn line(&self) -> String {
+        format!("{}:{}:{}: {self}", self.source_name, self.line, self.column)
+    }
+}
+
+/// By hand: the derive cannot take the severity from a field.
+impl Diagnostic for Fault {
+    fn severity(&self) -> Option<Severity> {
+        Some(self.severity)
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
+        self.help.as_ref().map(|h| Box::new(h) as Box<dyn std::fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(&self.text)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
+        let label = miette::LabeledSpan::new_with_span(Some(self.label.to_string()), self.span);
+        Some(Box::new(std::iter::once(label)))
+    }
+}
+
+/// A mistake before its place is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Path of the field, such as `robots[1].start`; empty for the whole.
+    pub path: String,
+    /// What is wrong: the value and the legal range.
+    pub message: String,
+    /// How to put it right.
+    pub help: Option<String>,
+    /// Whether it stops a run.
+    pub severity: Severity,
+    label: &'static str,
+}
+
+impl Found {
+    /// A mistake that stops a run.
+    #[must_use]
+    pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            message: message.into(),
+            help: None,
+            severity: Severity::Error,
+            label: "here",
+        }
+    }
+
+    /// Something that may be meant, but probably is not.
+    #[must_use]
+    pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Warning,
+            ..Self::error(path, message)
+        }
+    }
+
+    /// How to put it right.
+    #[must_use]
+    pub fn hint(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// What stands beside the marked text.
+    #[must_use]
+    pub(super) fn label(mut self, label: &'static str) -> Self {
+        self.label = label;
+        self
+    }
+}
+
+impl std::fmt::Display for Found {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&headline(&self.path, &self.message))
+    }
+}
+
+fn headline(path: &str, message: &str) -> String {
+    if path.is_empty() {
+        message.to_string()
+    } else {
+        format!("{path}: {message}")
+    }
+}

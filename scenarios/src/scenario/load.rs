@@ -1,0 +1,182 @@
+//! Reading a scenario file.
+
+use super::catalog;
+use super::check::check;
+use super::explain::explain;
+use super::fault::{Fault, Found, ScenarioError};
+use super::outline::Outline;
+use super::schema::{Scenario, VERSION};
+use miette::Severity;
+use ron::extensions::Extensions;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+use world::record::Digest;
+
+/// Longest file read, bytes: a scenario is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A scenario with the text it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// What the file says.
+    pub scenario: Scenario,
+    /// The file, word for word.
+    pub text: String,
+    /// The file, as it was asked for.
+    pub path: PathBuf,
+    /// Name: the file's without its ending.
+    pub name: String,
+    /// Folder that paths in the scenario are relative to.
+    pub base_dir: PathBuf,
+    /// Hash of the text, 32 hexadecimal digits.
+    pub hash: String,
+}
+
+impl Loaded {
+    /// Checks what the scenario means: see [`check`].
+    ///
+    /// # Errors
+    /// All mistakes that stop a run; without such, returns the warnings.
+    pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
+        let found = check(&self.scenario, &self.base_dir);
+        let outline = Outline::of(&self.text);
+        let path = self.path.display().to_string();
+        let (mut faults, warnings): (Vec<Fault>, Vec<Fault>) = found
+            .into_iter()
+            .map(|f| Fault::located(&path, &self.text, &outline, f))
+            .partition(|f| f.severity == Severity::Error);
+        match faults.len() {
+            0 => Ok(warnings),
+            1 => Err(Box::new(faults.remove(0)).into()),
+            _ => Err(ScenarioError::Many { path, faults }),
+        }
+    }
+}
+
+/// Reads a scenario: a file or, where there is none, the one of that name that comes with the program.
+///
+/// # Errors
+/// If it cannot be read or is not a scenario. What it means is checked by [`Loaded::check`].
+pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
+    let shown = path.display().to_string();
+    let name = path
+        .file_stem()
+        .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let text = match (read(path), catalog::template(&shown)) {
+        (Err(Unread::Missing), Some(template)) => template.text.to_string(),
+        (Err(Unread::Missing), None) => {
+            return Err(ScenarioError::File {
+                path: shown,
+                problem: "there is no such file".to_string(),
+                help: Some(
+                    "`rheotaxis list scenarios` names those that come with the program, \
+                     `rheotaxis init NAME` writes one to change"
+                        .to_string(),
+                ),
+            });
+        }
+        (Err(Unread::Other(problem, help)), _) => {
+            return Err(ScenarioError::File {
+                path: shown,
+                problem,
+                help: help.map(str::to_string),
+            });
+        }
+        (Ok(text), _) => text,
+    };
+    let mut digest = Digest::default();
+    digest.text(&text);
+    Ok(Loaded {
+        scenario: parse(&shown, &text)?,
+        name,
+        base_dir: path.parent().unwrap_or(Path::new("")).to_path_buf(),
+        path: path.to_path_buf(),
+        hash: digest.hex(),
+        text,
+    })
+}
+
+/// Reads a scenario from its text; errors call it `name`.
+///
+/// # Errors
+/// If it is not a scenario.
+pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
+    if text.trim().is_empty() {
+        return Err(ScenarioError::File {
+            path: name.to_string(),
+            problem: "the file is empty".to_string(),
+            help: Some("`rheotaxis init duck_st` writes a whole scenario to start from".to_string()),
+        });
+    }
+    let reader = ron::Options::default().with_default_extension(
+        Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES,
+    );
+    let read = reader.from_str(text);
+    version_first(name, text)?;
+    read.map_err(|e| explain(name, text, &e))
+}
+
+/// A file of another version may differ in everything else: say that first.
+fn version_first(name: &str, text: &str) -> Result<(), ScenarioError> {
+    let outline = Outline::of(text);
+    let first = outline
+        .nodes
+        .iter()
+        .filter(|n| !n.path.is_empty() && !n.path.contains(['.', '[']))
+        .min_by_key(|n| n.whole.start);
+    let Some(first) = first else {
+        return Ok(());
+    };
+    let value = &text[first.value.clone()];
+    let found = if first.path != "version" {
+        Found::error("version", format!("the first field must be `version: {VERSION}`"))
+            .hint(format!("the file begins with `{}`", first.path))
+    } else if value.parse() == Ok(VERSION) {
+        return Ok(());
+    } else {
+        Found::error(
+            "version",
+            format!("this program reads version {VERSION}, got {value}"),
+        )
+        .hint("take the program that wrote the file, or start anew from `rheotaxis init`")
+    };
+    Err(Box::new(Fault::new(name, text, first.whole.clone(), found)).into())
+}
+
+enum Unread {
+    Missing,
+    Other(String, Option<&'static str>),
+}
+
+fn read(path: &Path) -> Result<String, Unread> {
+    let other = |e: std::io::Error| match e.kind() {
+        ErrorKind::NotFound => Unread::Missing,
+        ErrorKind::PermissionDenied => Unread::Other("may not be read".to_string(), None),
+        _ => Unread::Other(format!("cannot be read: {e}"), None),
+    };
+    if path.is_dir() {
+        return Err(Unread::Other(
+            "is a folder".to_string(),
+            Some("name the scenario files in it"),
+        ));
+    }
+    let mut bytes = Vec::new();
+    File::open(path)
+        .and_then(|f| f.take(LONGEST + 1).read_to_end(&mut bytes))
+        .map_err(other)?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Unread::Other(
+            format!("is longer than {} MiB", LONGEST >> 20),
+            Some("a scenario is text of a few kilobytes; is this the right file?"),
+        ));
+    }
+    String::from_utf8(bytes).map_err(|e| {
+        let good = e.utf8_error().valid_up_to();
+        let line = 1 + e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count();
+        Unread::Other(
+            format!("is not UTF-8 text: line {line}, byte {good}"),
+            Some("save it as UTF-8"),
+        )
+    })
+}

@@ -1,0 +1,305 @@
+//! The systems of the tick: each hands the parts of a robot, and the world, to plain state machines.
+
+use crate::frame::{Frame, PlumeFrame, RobotFrame};
+use bevy_ecs::prelude::{Component, Query, Res, ResMut, Resource};
+use nalgebra::{Vector2, Vector3};
+use plumes::filaments::Plume;
+use robots::actuate::Autopilot;
+use robots::estimate::Estimator;
+use robots::guide::Guidance;
+use robots::handoff::{
+    ActuatorCommand, ChemicalReading, Command, Decision, Declaration, Estimate, GuidanceStatus,
+    Observation, Readings,
+};
+use robots::sense::SensorSuite;
+use robots::strategy::Strategy;
+use robots::vehicles::Vehicle;
+use world::area::Area;
+use world::clock::{Clock, Every};
+use world::fields::{Flow, Mixing, WaterSample};
+use world::frames::Truth;
+use world::physics::{BodyId, Physics};
+use world::record::Digest;
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Name of a robot in the scenario.
+#[derive(Component, Clone, Debug)]
+pub struct RobotId(pub String);
+
+/// A robot's vehicle and its body in the physics.
+#[derive(Component)]
+pub struct Hull {
+    /// Dynamics and actuators.
+    pub vehicle: Vehicle,
+    /// Body it moves.
+    pub body: BodyId,
+}
+
+/// A robot's instruments.
+#[derive(Component)]
+pub struct Instruments(pub SensorSuite);
+
+/// A robot's navigation.
+#[derive(Component)]
+pub struct Navigator(pub Estimator);
+
+/// A robot's strategy with the random stream it holds.
+#[derive(Component)]
+pub struct Mind {
+    /// What decides.
+    pub strategy: Box<dyn Strategy>,
+    /// Its random numbers.
+    pub rng: Stream,
+    /// Where it was launched, as its navigation had it.
+    pub home: Vector2<f64>,
+}
+
+/// A robot's guidance.
+#[derive(Component)]
+pub struct Pilotage(pub Guidance);
+
+/// A robot's autopilot.
+#[derive(Component)]
+pub struct Helm(pub Autopilot);
+
+/// What a robot's log keeps between two frames.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Log {
+    chemical: Option<ChemicalReading>,
+    detected: bool,
+    declaration: Option<Declaration>,
+    over: bool,
+}
+
+/// The water with the time at which the mission starts in it.
+#[derive(Resource)]
+pub struct Water {
+    /// The one flow for everything.
+    pub flow: Box<dyn Flow>,
+    /// Age of the water at mission time zero (the spin-up), s.
+    pub t0_s: f64,
+}
+
+impl Flow for Water {
+    fn advance(&mut self, t_s: f64) {
+        self.flow.advance(t_s + self.t0_s);
+    }
+    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        self.flow.velocity(p, t_s + self.t0_s)
+    }
+    fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        self.flow.density(p, t_s + self.t0_s)
+    }
+    fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
+        self.flow.mixing(p, t_s + self.t0_s)
+    }
+    fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
+        self.flow.sample(p, t_s + self.t0_s)
+    }
+}
+
+/// The plume and how often it drifts.
+#[derive(Resource)]
+pub struct Dye {
+    /// Filaments of all sources.
+    pub plume: Plume,
+    /// Steps between two drifts.
+    pub every: Every,
+}
+
+/// Frames waiting for those who record and publish; and how often they are made.
+#[derive(Resource)]
+pub struct Outbox {
+    /// Newest frame, taken by the trial after the tick.
+    pub frame: Option<Frame>,
+    /// Newest picture of the plume.
+    pub plume: Option<PlumeFrame>,
+    /// Steps between two frames.
+    pub frame_every: Every,
+    /// Steps between two pictures of the plume.
+    pub plume_every: Every,
+    /// Filaments shown in a picture, at most.
+    pub plume_points: usize,
+}
+
+pub(crate) fn read_instruments(
+    clock: Res<Clock>,
+    water: Res<Water>,
+    dye: Res<Dye>,
+    terrain: Res<Terrain>,
+    mut robots: Query<(&Truth, &mut Instruments, &mut Readings)>,
+) {
+    for (truth, mut suite, mut readings) in &mut robots {
+        *readings = suite.0.read(&clock, truth, &*water, &dye.plume, &terrain);
+    }
+}
+
+pub(crate) fn estimate_state(
+    clock: Res<Clock>,
+    mut robots: Query<(&Readings, &mut Navigator, &mut Estimate)>,
+) {
+    for (readings, mut navigator, mut estimate) in &mut robots {
+        *estimate = navigator.0.step(&clock, readings);
+    }
+}
+
+pub(crate) fn decide(
+    clock: Res<Clock>,
+    area: Res<Area>,
+    mut robots: Query<(&Readings, &Estimate, &GuidanceStatus, &mut Mind, &mut Decision)>,
+) {
+    for (readings, estimate, guidance, mut mind, mut decision) in &mut robots {
+        let seen = Observation {
+            t_s: clock.t_s(),
+            estimate: *estimate,
+            chemical: readings.chemical,
+            guidance: *guidance,
+            area: *area,
+            home: mind.home,
+        };
+        let mind = &mut *mind;
+        *decision = mind.strategy.step(&seen, &mut mind.rng);
+    }
+}
+
+pub(crate) fn guide(
+    clock: Res<Clock>,
+    area: Res<Area>,
+    mut robots: Query<(&Estimate, &Decision, &mut Pilotage, &mut Command, &mut GuidanceStatus)>,
+) {
+    for (estimate, decision, mut pilotage, mut command, mut status) in &mut robots {
+        (*command, *status) = pilotage
+            .0
+            .step(estimate, &decision.goal, &area, clock.dt_s);
+    }
+}
+
+pub(crate) fn actuate(
+    clock: Res<Clock>,
+    mut robots: Query<(&Command, &Estimate, &mut Helm, &mut ActuatorCommand)>,
+) {
+    for (command, estimate, mut helm, mut set) in &mut robots {
+        *set = helm.0.step(command, estimate, clock.dt_s);
+    }
+}
+
+pub(crate) fn move_bodies(
+    clock: Res<Clock>,
+    water: Res<Water>,
+    mut physics: ResMut<Physics>,
+    mut robots: Query<(&RobotId, &ActuatorCommand, &mut Hull, &mut Truth)>,
+) {
+    for (_, set, mut hull, truth) in &mut robots {
+        let sample = water.sample(&truth.pose.p_WB, clock.t_s());
+        let push = hull.vehicle.step(&truth, &sample, set, clock.dt_s);
+        physics.push(hull.body, push);
+    }
+    physics.step();
+    for (id, _, hull, mut truth) in &mut robots {
+        *truth = physics.truth(hull.body);
+        assert!(
+            truth.is_finite(),
+            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the water there",
+            id.0,
+            clock.step
+        );
+    }
+}
+
+pub(crate) fn drift_plume(clock: Res<Clock>, mut water: ResMut<Water>, mut dye: ResMut<Dye>) {
+    let t1 = clock.t_next_s();
+    water.advance(t1);
+    if (clock.step + 1).is_multiple_of(dye.every.steps) {
+        let t0 = t1 - dye.every.period_s(clock.dt_s);
+        let t0_s = water.t0_s;
+        dye.plume.drift(&*water.flow, t0 + t0_s, t1 + t0_s);
+    }
+}
+
+pub(crate) fn digest_state(
+    clock: Res<Clock>,
+    dye: Res<Dye>,
+    mut digest: ResMut<Digest>,
+    robots: Query<(&Truth, &Estimate, &Decision, &ActuatorCommand)>,
+) {
+    for (truth, estimate, decision, set) in &robots {
+        digest.f64s(truth.pose.p_WB.as_slice());
+        digest.f64s(truth.pose.R_WB.coords.as_slice());
+        digest.f64s(truth.v_WB_B.as_slice());
+        digest.f64s(truth.w_WB_B.as_slice());
+        digest.f64s(estimate.position.as_slice());
+        digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
+        digest.f64s(&[set.rudder_rad, set.stern_rad, set.rpm]);
+        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour as u8 as f64]);
+    }
+    if (clock.step + 1).is_multiple_of(dye.every.steps) {
+        dye.plume.digest_into(&mut digest);
+    }
+}
+
+type Whole<'a> = (
+    &'a RobotId,
+    &'a Truth,
+    &'a Estimate,
+    &'a Readings,
+    &'a Decision,
+    &'a Command,
+    &'a ActuatorCommand,
+    &'a mut Log,
+);
+
+pub(crate) fn take_frame(
+    clock: Res<Clock>,
+    terrain: Res<Terrain>,
+    dye: Res<Dye>,
+    mut outbox: ResMut<Outbox>,
+    mut robots: Query<Whole>,
+) {
+    let mut ends = false;
+    for (_, _, _, readings, decision, _, _, mut log) in &mut robots {
+        if let Some(reading) = readings.chemical {
+            log.chemical = Some(reading);
+            log.detected |= reading.detected;
+        }
+        log.declaration = decision.declared.or(log.declaration);
+        // The last state of a mission is shown even between two frames.
+        ends |= decision.outcome.is_some() && !log.over;
+        log.over = decision.outcome.is_some();
+    }
+    if ends || outbox.frame_every.due(&clock) {
+        let robots = robots.iter_mut().map(|(id, truth, estimate, _, decision, command, set, mut log)| {
+            let p = truth.pose.p_WB;
+            RobotFrame {
+                id: id.0.clone(),
+                truth: *truth,
+                altitude_m: p.z - terrain.bed_z(p.x, p.y),
+                estimate: *estimate,
+                goal: Some(decision.goal),
+                command: Some(*command),
+                actuators: *set,
+                chemical: log.chemical,
+                detected: std::mem::take(&mut log.detected),
+                behaviour: decision.behaviour,
+                lost_points: decision.lost_points.clone(),
+                declaration: log.declaration,
+            }
+        });
+        outbox.frame = Some(Frame {
+            t_s: clock.t_next_s(),
+            step: clock.step + 1,
+            robots: robots.collect(),
+        });
+    }
+    if outbox.plume_every.due(&clock) {
+        outbox.plume = Some(PlumeFrame {
+            t_s: clock.t_next_s(),
+            total: dye.plume.len(),
+            points: dye.plume.decimated(outbox.plume_points),
+        });
+    }
+}
+
+pub(crate) fn pass_time(mut clock: ResMut<Clock>) {
+    clock.advance();
+}

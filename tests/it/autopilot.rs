@@ -1,0 +1,166 @@
+//! The autopilot with the real vehicle under physics; the estimate is made from the truth.
+
+use nalgebra::{Matrix3, Vector2, Vector3};
+use robots::actuate::{Autopilot, AutopilotSpec};
+use robots::handoff::{Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
+use robots::vehicles::{Vehicle, VehicleSpec};
+use std::path::Path;
+use world::area::Area;
+use world::fields::WaterSample;
+use world::frames::{Pose, Truth};
+use world::physics::{BodyId, Physics};
+use world::terrain::Terrain;
+use world::units::Heading;
+
+const STEP_S: f64 = 0.02;
+
+struct Run {
+    physics: Physics,
+    id: BodyId,
+    vehicle: Vehicle,
+    pilot: Autopilot,
+    bed: Terrain,
+    current: Vector3<f64>,
+    steps: u64,
+}
+
+impl Run {
+    fn new(heading_deg: f64, depth_m: f64, current: Vector3<f64>) -> Self {
+        let area = Area {
+            centre: Vector2::zeros(),
+            length_m: 1094.0,
+            width_m: 367.0,
+            axis: Heading::from_deg(340.0),
+        };
+        let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
+        let vehicle = Vehicle::load(&VehicleSpec::default(), Path::new(".")).expect("built in");
+        let mut physics = Physics::new(STEP_S);
+        physics.add_terrain(&bed, &area);
+        let pose = Pose::level(
+            Vector3::new(0.0, 0.0, -depth_m),
+            Heading::from_deg(heading_deg),
+        );
+        let mut truth = Truth::at_rest(pose);
+        truth.v_WB_B = Vector3::new(2.0, 0.0, 0.0) + pose.R_WB.inverse() * current;
+        let id = physics.add_body(vehicle.body_spec("auv", truth));
+        Self {
+            physics,
+            id,
+            vehicle,
+            pilot: Autopilot::new(&AutopilotSpec::default()),
+            bed,
+            current,
+            steps: 0,
+        }
+    }
+
+    fn estimate(&self) -> Estimate {
+        let truth = self.physics.truth(self.id);
+        let p = truth.pose.p_WB;
+        let (roll_rad, pitch_down) = truth.pose.roll_pitch();
+        Estimate {
+            t_s: self.steps as f64 * STEP_S,
+            position: p.xy(),
+            depth_m: -p.z,
+            altitude_m: Some(p.z - self.bed.bed_z(p.x, p.y)),
+            attitude: Attitude {
+                heading: truth.pose.heading(),
+                roll_rad,
+                pitch_rad: -pitch_down,
+                rates_rad_s: truth.w_WB_B,
+            },
+            v_ground_body: truth.v_WB_B,
+            flow: Some(FlowEstimate {
+                velocity: self.current.xy(),
+                age_s: 0.0,
+            }),
+            fix_jump_m: 0.0,
+        }
+    }
+
+    /// Estimates, one a step, while a command is held.
+    fn hold(&mut self, seconds: f64, heading_deg: f64, vertical: Vertical) -> Vec<Estimate> {
+        let command = Command::Steer(Setpoint {
+            heading: Heading::from_deg(heading_deg),
+            water_speed_m_s: 2.0,
+            vertical,
+        });
+        let water = WaterSample {
+            velocity: self.current,
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: 1026.0,
+        };
+        let mut seen = Vec::new();
+        for _ in 0..(seconds / STEP_S) as u64 {
+            let set = self.pilot.step(&command, &self.estimate(), STEP_S);
+            let truth = self.physics.truth(self.id);
+            let free = self.vehicle.step(&truth, &water, &set, STEP_S);
+            self.physics.push(self.id, free);
+            self.physics.step();
+            self.steps += 1;
+            seen.push(self.estimate());
+        }
+        seen
+    }
+}
+
+fn after(seen: &[Estimate], seconds: f64) -> &[Estimate] {
+    &seen[(seconds / STEP_S) as usize..]
+}
+
+fn worst(seen: &[Estimate], error: impl Fn(&Estimate) -> f64) -> f64 {
+    seen.iter().map(|e| error(e).abs()).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_quarter_turn_settles() {
+    for to_deg in [70.0, 250.0] {
+        let mut run = Run::new(340.0, 3.0, Vector3::zeros());
+        let seen = run.hold(40.0, to_deg, Vertical::Depth(3.0));
+        let off = |e: &Estimate| Heading::from_deg(to_deg).turn_to(e.attitude.heading).to_degrees();
+        let settled = worst(after(&seen, 20.0), off);
+        let side = Heading::from_deg(340.0).turn_to(Heading::from_deg(to_deg)).signum();
+        let over = seen.iter().map(|e| off(e) * side).fold(0.0, f64::max);
+        let rate = worst(&seen, |e| e.attitude.rates_rad_s.z.to_degrees());
+        let depth = worst(&seen, |e| e.depth_m - 3.0);
+        println!("turn to {to_deg}: settled {settled:.2} over {over:.2} rate {rate:.2} depth {depth:.2}");
+        assert!(settled < 1.0 && over < 3.0, "off {settled} deg, over {over} deg");
+        assert!(rate < 11.0, "rate {rate} deg/s");
+        assert!(depth < 0.5, "depth off by {depth} m in the turn");
+    }
+}
+
+#[test]
+fn a_depth_change_settles() {
+    let mut run = Run::new(340.0, 2.0, Vector3::zeros());
+    let seen = run.hold(60.0, 340.0, Vertical::Depth(4.0));
+    let over = seen.iter().map(|e| e.depth_m - 4.0).fold(0.0, f64::max);
+    let settled = worst(after(&seen, 30.0), |e| e.depth_m - 4.0);
+    println!("depth change: over {over:.3} settled {settled:.3}");
+    assert!(over < 0.3 && settled < 0.1, "over {over} m, settled {settled} m");
+}
+
+#[test]
+fn altitude_is_held_over_the_slope() {
+    // Seaward and shoreward across the whole bed of 4 m in 367 m, and along it.
+    for heading_deg in [70.0, 250.0, 340.0] {
+        let mut run = Run::new(heading_deg, 4.0, Vector3::zeros());
+        let seen = run.hold(75.0, heading_deg, Vertical::Altitude(2.0));
+        let off = worst(after(&seen, 15.0), |e| e.altitude_m.expect("bed below") - 2.0);
+        println!("altitude {heading_deg}: {off:.3}");
+        assert!(off < 0.7, "altitude off by {off} m");
+    }
+}
+
+#[test]
+fn speed_through_the_water_is_held_in_a_current() {
+    let current = Vector3::new(0.15, -0.2, 0.0);
+    let mut run = Run::new(340.0, 3.0, current);
+    let seen = run.hold(60.0, 340.0, Vertical::Depth(3.0));
+    let off = worst(after(&seen, 20.0), |e| {
+        e.v_ground_body.x - current.xy().dot(&e.attitude.heading.unit()) - 2.0
+    });
+    println!("speed: {off:.4}");
+    assert!(off < 0.1, "speed off by {off} m/s");
+}

@@ -1,0 +1,214 @@
+//! The REMUS under rapier against the published model's trajectories, and single effects.
+//!
+//! Reference data: `tests/reference/remus100/README.md`.
+
+use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use robots::handoff::ActuatorCommand;
+use robots::vehicles::{ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use std::path::Path;
+use world::fields::WaterSample;
+use world::frames::{Pose, Truth};
+use world::physics::{BodyId, Physics, Solver};
+use world::units::Heading;
+
+const STEP_S: f64 = 0.02;
+
+fn vehicle(parameters: ParameterSet) -> Vehicle {
+    let spec = VehicleSpec::Remus100(RemusSpec {
+        parameters,
+        ..RemusSpec::default()
+    });
+    Vehicle::load(&spec, Path::new(".")).expect("built-in vehicle")
+}
+
+fn water(velocity: Vector3<f64>) -> WaterSample {
+    WaterSample {
+        velocity,
+        gradient: Matrix3::zeros(),
+        rate: Vector3::zeros(),
+        density_kg_m3: 1026.0,
+    }
+}
+
+/// Deep enough that the surface is out of reach, heading north, as the reference's origin.
+fn start() -> Truth {
+    Truth::at_rest(Pose::level(
+        Vector3::new(0.0, 0.0, -100.0),
+        Heading::from_deg(0.0),
+    ))
+}
+
+/// A vehicle alone in the water.
+struct Alone {
+    physics: Physics,
+    id: BodyId,
+    vehicle: Vehicle,
+    water: WaterSample,
+    steps: u64,
+}
+
+impl Alone {
+    fn new(parameters: ParameterSet, solver: Solver, start: Truth, water: WaterSample) -> Self {
+        let vehicle = vehicle(parameters);
+        let mut physics = Physics::new(STEP_S).with_solver(solver);
+        let id = physics.add_body(vehicle.body_spec("auv", start));
+        Self {
+            physics,
+            id,
+            vehicle,
+            water,
+            steps: 0,
+        }
+    }
+
+    fn t_s(&self) -> f64 {
+        self.steps as f64 * STEP_S
+    }
+
+    fn truth(&self) -> Truth {
+        self.physics.truth(self.id)
+    }
+
+    fn step(&mut self, command: &ActuatorCommand) {
+        let free = self
+            .vehicle
+            .step(&self.truth(), &self.water, command, STEP_S);
+        self.physics.push(self.id, free);
+        self.physics.step();
+        self.steps += 1;
+    }
+
+    fn run(&mut self, seconds: f64, command: &ActuatorCommand) -> Truth {
+        for _ in 0..(seconds / STEP_S).round() as u64 {
+            self.step(command);
+        }
+        self.truth()
+    }
+}
+
+fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {
+    ActuatorCommand {
+        rudder_rad: rudder_deg.to_radians(),
+        stern_rad: stern_deg.to_radians(),
+        rpm,
+    }
+}
+
+/// Worst (position, m; attitude, deg) along a reference file.
+fn against(file: &str, solver: Solver, water: WaterSample, at: fn(f64) -> ActuatorCommand) -> (f64, f64) {
+    let path = Path::new("/work/main/tests")
+        .join("reference/remus100")
+        .join(file);
+    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let rows: Vec<Vec<f64>> = text
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').map(|s| s.parse().expect("number")).collect())
+        .collect();
+    // NED and FRD Euler angles to ENU and FLU.
+    let pose = |n: &[f64]| Pose {
+        p_WB: start().pose.p_WB + Vector3::new(n[2], n[1], -n[3]),
+        R_WB: UnitQuaternion::from_euler_angles(n[4], -n[5], Heading::from_rad(n[6]).yaw()),
+    };
+    let begin = Truth::at_rest(pose(&rows[0]));
+    let mut auv = Alone::new(ParameterSet::Reference, solver, begin, water);
+    let (mut worst_m, mut worst_deg): (f64, f64) = (0.0, 0.0);
+    for row in &rows {
+        while auv.t_s() < row[0] - STEP_S / 2.0 {
+            auv.step(&at(auv.t_s()));
+        }
+        let (ours, theirs) = (auv.truth().pose, pose(row));
+        worst_m = worst_m.max((ours.p_WB - theirs.p_WB).norm());
+        worst_deg = worst_deg.max(ours.R_WB.angle_to(&theirs.R_WB).to_degrees());
+    }
+    println!("{file} {solver:?}: {worst_m:.2e} m, {worst_deg:.2e} deg");
+    (worst_m, worst_deg)
+}
+
+/// Both ways of stepping: our equation where nothing is touched, and rapier's integration alone.
+fn holds(file: &str, water: WaterSample, at: fn(f64) -> ActuatorCommand) {
+    for solver in [Solver::WhenInReach, Solver::Alone] {
+        let (m, deg) = against(file, solver, water, at);
+        assert!(m < 0.02 && deg < 0.05, "{file} {solver:?}: {m} m, {deg} deg");
+    }
+}
+
+#[test]
+fn surge() {
+    holds("a_surge_1000rpm.csv", water(Vector3::zeros()), |_| {
+        command(0.0, 0.0, 1000.0)
+    });
+}
+
+fn turn_from_30_s(t_s: f64) -> ActuatorCommand {
+    let rudder = if t_s >= 30.0 - STEP_S / 2.0 { 10.0 } else { 0.0 };
+    command(rudder, 0.0, 1525.0)
+}
+
+#[test]
+fn turn() {
+    holds("b_turn_10deg.csv", water(Vector3::zeros()), turn_from_30_s);
+}
+
+#[test]
+fn depth_change() {
+    holds("c_depth_change_doublet3deg.csv", water(Vector3::zeros()), |t_s| {
+        let t = t_s + STEP_S / 2.0;
+        let stern = match t {
+            30.0..50.0 => 3.0,
+            50.0..70.0 => -3.0,
+            _ => 0.0,
+        };
+        command(0.0, stern, 1525.0)
+    });
+}
+
+#[test]
+fn turn_in_a_current() {
+    // Towards 90 degrees is towards the east.
+    let current = water(Vector3::new(0.3, 0.0, 0.0));
+    holds("d_turn10_Vc0.3_b90_VaRelative.csv", current, turn_from_30_s);
+}
+
+#[test]
+fn roll_release() {
+    holds("f_roll_release_30deg.csv", water(Vector3::zeros()), |_| {
+        command(0.0, 0.0, 0.0)
+    });
+}
+
+/// Steady state after a minute and a half: speed, yaw rate (deg/s, clockwise), pitch (deg, nose up), roll (deg), sink rate.
+fn steady(parameters: ParameterSet, command: &ActuatorCommand) -> [f64; 5] {
+    let mut auv = Alone::new(
+        parameters,
+        Solver::default(),
+        start(),
+        water(Vector3::zeros()),
+    );
+    let end = auv.run(150.0, command);
+    let (roll, pitch) = end.pose.roll_pitch();
+    [
+        end.v_WB_B.norm(),
+        -(end.pose.R_WB * end.w_WB_B).z.to_degrees(),
+        -pitch.to_degrees(),
+        roll.to_degrees(),
+        -end.v_world().z,
+    ]
+}
+#[test]
+fn table() {
+    for set in [ParameterSet::Reference, ParameterSet::Remus100] {
+        for rpm in [300.0, 500.0, 1000.0, 1200.0, 1300.0, 1400.0, 1525.0] {
+            println!("{set:?} {rpm} {:?}", steady(set, &command(0.0, 0.0, rpm)));
+        }
+        for r in [2.0, 5.0, 10.0, 15.0] {
+            for rpm in [1200.0, 1525.0] {
+            let s = steady(set, &command(r, 0.0, rpm));
+            println!("{set:?} {rpm} rudder {r} {s:?} R {}", s[0] / s[1].to_radians());
+            }
+        }
+        for r in [2.0, 5.0,-5.0,10.0] {
+            println!("{set:?} 1525 stern {r} {:?}", steady(set, &command(0.0, r, 1525.0)));
+        }
+    }
+}

@@ -1,1 +1,0 @@
-//! Solid things standing in the water.

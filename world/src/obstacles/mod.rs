@@ -1,0 +1,11 @@
+//! Solid things standing in the water: boxes, cylinders and closed meshes.
+
+mod mesh;
+mod mesh_file;
+mod solid;
+mod spec;
+#[cfg(test)]
+mod tests;
+
+pub use solid::{Obstacle, Obstacles};
+pub use spec::{Base, BoxShape, CylinderShape, MeshShape, ObstacleSpec, ShapeSpec};

@@ -1,0 +1,181 @@
+//! An obstacle as a solid: is a point inside, how far is it, where does a ray hit.
+//!
+//! *Source:* parry3d's shapes and queries; the same shape is the body's collider.
+//!
+//! *Parameters:* those of [`ObstacleSpec`].
+//!
+//! *Deviations:* parry's cylinder stands along its own y axis, so the pose of a cylinder turns y up.
+
+use super::{Base, ObstacleSpec, ShapeSpec, mesh, mesh_file};
+use crate::error::WorldError;
+use crate::frames::Pose;
+use crate::terrain::Terrain;
+use bevy_ecs::prelude::Resource;
+use nalgebra::{UnitQuaternion, Vector3};
+use parry3d::math::{Pose as ParryPose, Rotation, Vector};
+use parry3d::query::Ray;
+use parry3d::shape::SharedShape;
+use std::f64::consts::FRAC_PI_2;
+use std::path::Path;
+
+/// A solid standing in the water.
+#[derive(Clone)]
+pub struct Obstacle {
+    /// Name in the scenario.
+    pub id: String,
+    /// Pose of the shape's own axes in the world.
+    pub pose: Pose,
+    /// The shape, in its own axes.
+    pub shape: SharedShape,
+}
+
+impl std::fmt::Debug for Obstacle {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Obstacle")
+            .field("id", &self.id)
+            .field("pose", &self.pose)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Obstacle {
+    /// Builds an obstacle; mesh files are looked for under `base_dir`.
+    ///
+    /// # Errors
+    /// When a mesh file is missing, broken or does not enclose a volume.
+    pub fn build(
+        spec: &ObstacleSpec,
+        terrain: &Terrain,
+        base_dir: &Path,
+    ) -> Result<Self, WorldError> {
+        let yaw = UnitQuaternion::from_euler_angles(0.0, 0.0, spec.heading_deg.heading().yaw());
+        let (shape, R_WB) = match &spec.shape {
+            ShapeSpec::Box(b) => {
+                let (x, y, z) = b.size_m;
+                let half = [x, y, z].map(|v| v.get() / 2.0);
+                (SharedShape::cuboid(half[0], half[1], half[2]), yaw)
+            }
+            ShapeSpec::Cylinder(c) => {
+                let upright = UnitQuaternion::from_euler_angles(FRAC_PI_2, 0.0, 0.0);
+                (
+                    SharedShape::cylinder(c.height_m.get() / 2.0, c.radius_m.get()),
+                    yaw * upright,
+                )
+            }
+            ShapeSpec::Mesh(m) => {
+                let path = base_dir.join(&m.file);
+                let triangles = mesh_file::read(&path)?;
+                (
+                    SharedShape::new(mesh::closed(&triangles, m.scale.get(), &path)?),
+                    yaw,
+                )
+            }
+        };
+        let (east, north) = (spec.east_m.get(), spec.north_m.get());
+        let mut built = Self {
+            id: spec.id.clone(),
+            pose: Pose {
+                p_WB: Vector3::new(east, north, 0.0),
+                R_WB,
+            },
+            shape,
+        };
+        let (min, max) = built.bounds();
+        let base_z = match spec.base {
+            Base::OnBed => [
+                (east, north),
+                (min.x, min.y),
+                (min.x, max.y),
+                (max.x, min.y),
+                (max.x, max.y),
+            ]
+            .map(|(x, y)| terrain.bed_z(x, y))
+            .into_iter()
+            .fold(f64::INFINITY, f64::min),
+            Base::Depth(d) => -d.get(),
+            Base::Z(z) => z.get(),
+        };
+        built.pose.p_WB.z = base_z - min.z;
+        Ok(built)
+    }
+
+    /// Whether a point (ENU, m) lies inside.
+    #[must_use]
+    pub fn contains(&self, p: &Vector3<f64>) -> bool {
+        self.distance(p) < 0.0
+    }
+
+    /// Distance from a point (ENU, m) to the surface, m; negative inside.
+    #[must_use]
+    pub fn distance(&self, p: &Vector3<f64>) -> f64 {
+        let p = to_parry(p);
+        let on = self.shape.project_point(&self.parry_pose(), p, false);
+        let d = (on.point - p).length();
+        if on.is_inside { -d } else { d }
+    }
+
+    /// Axis-aligned bounds (min, max) in the world, m.
+    #[must_use]
+    pub fn bounds(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let b = self.shape.compute_aabb(&self.parry_pose());
+        (from_parry(b.mins), from_parry(b.maxs))
+    }
+
+    /// Way along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first
+    /// hit within `max_m`, m; zero from inside.
+    #[must_use]
+    pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
+        if self.contains(origin) {
+            return Some(0.0);
+        }
+        let ray = Ray::new(to_parry(origin), to_parry(&dir.normalize()));
+        self.shape.cast_ray(&self.parry_pose(), &ray, max_m, true)
+    }
+
+    /// The pose in parry's types, as rapier wants it too.
+    pub(crate) fn parry_pose(&self) -> ParryPose {
+        let q = self.pose.R_WB.coords;
+        ParryPose::from_parts(
+            to_parry(&self.pose.p_WB),
+            Rotation::from_xyzw(q.x, q.y, q.z, q.w),
+        )
+    }
+}
+
+fn to_parry(v: &Vector3<f64>) -> Vector {
+    Vector::new(v.x, v.y, v.z)
+}
+
+fn from_parry(v: Vector) -> Vector3<f64> {
+    Vector3::new(v.x, v.y, v.z)
+}
+
+/// All solids of a scenario, in its order.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Obstacles(pub Vec<Obstacle>);
+
+impl Obstacles {
+    /// The one a point lies in, if any.
+    #[must_use]
+    pub fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
+        self.0.iter().find(|o| o.contains(p))
+    }
+
+    /// Distance to the nearest surface, m (negative inside); infinite without obstacles.
+    #[must_use]
+    pub fn distance(&self, p: &Vector3<f64>) -> f64 {
+        self.0
+            .iter()
+            .map(|o| o.distance(p))
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Way along a ray to the first hit of any, m; see [`Obstacle::ray`].
+    #[must_use]
+    pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
+        self.0
+            .iter()
+            .filter_map(|o| o.ray(origin, dir, max_m))
+            .min_by(f64::total_cmp)
+    }
+}

@@ -1,0 +1,84 @@
+//! Obstacles as a scenario file gives them.
+
+use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use serde::{Deserialize, Serialize};
+
+/// One obstacle of a scenario.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ObstacleSpec {
+    /// Name, unique in the scenario.
+    pub id: String,
+    /// Its shape.
+    pub shape: ShapeSpec,
+    /// East of the datum (down-stream in a flume), m.
+    pub east_m: Finite,
+    /// North of the datum (to the left in a flume), m.
+    pub north_m: Finite,
+    /// Where its lowest point stands; on the bed unless given.
+    #[serde(default)]
+    pub base: Base,
+    /// Direction of its own x axis; 90° unless given, so that its x points east and its y north.
+    #[serde(default = "east")]
+    pub heading_deg: HeadingDeg,
+}
+
+fn east() -> HeadingDeg {
+    HeadingDeg::new(90.0)
+}
+
+/// A shape in its own axes: x forward, y left, z up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ShapeSpec {
+    /// A block.
+    Box(BoxShape),
+    /// An upright cylinder.
+    Cylinder(CylinderShape),
+    /// A closed surface from a file.
+    Mesh(MeshShape),
+}
+
+/// A block, centred on its place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BoxShape {
+    /// Length along x, width along y and height, m.
+    pub size_m: (Positive, Positive, Positive),
+}
+
+/// An upright cylinder, centred on its place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CylinderShape {
+    /// Radius, m.
+    pub radius_m: Positive,
+    /// Height, m.
+    pub height_m: Positive,
+}
+
+/// A closed surface from an STL or OBJ file; its origin comes to stand at the obstacle's place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MeshShape {
+    /// Path, relative to the scenario file.
+    pub file: String,
+    /// Metres in one unit of the file.
+    #[serde(default = "one")]
+    pub scale: Positive,
+}
+
+fn one() -> Positive {
+    Positive::new(1.0)
+}
+
+/// Where the lowest point of an obstacle stands.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Base {
+    /// On the bed: on its lowest point under the obstacle, so that no gap is left on a slope.
+    #[default]
+    OnBed,
+    /// At a depth below the still surface, m.
+    Depth(NonNegative),
+    /// At a height in world coordinates, m.
+    Z(Finite),
+}

@@ -1,0 +1,111 @@
+//! Fixed things: the bed as a height field, obstacles as they are. Asked for rays and nearness
+//! directly, so that the answer does not hang on whether the solver has run.
+
+use super::convert::{pose, vector};
+use crate::area::Area;
+use crate::frames::Pose;
+use crate::terrain::Terrain;
+use nalgebra::{UnitQuaternion, Vector3};
+use rapier3d::geometry::{Aabb, Ball, Ray, SharedShape};
+use rapier3d::math as r;
+use rapier3d::parry::{bounding_volume::BoundingVolume, query, utils::Array2};
+
+/// How far the bed's surface goes on beyond the area, m: past the distance at which a search is aborted.
+const MARGIN_M: f64 = 60.0;
+/// Side of a cell of the bed's surface, m; between nodes it is flat.
+const CELL_M: f64 = 5.0;
+
+/// One fixed solid.
+pub(super) struct Fixed {
+    pub(super) pose: r::Pose,
+    pub(super) shape: SharedShape,
+    bounds: Aabb,
+}
+
+impl Fixed {
+    pub(super) fn new(pose_W: r::Pose, shape: SharedShape) -> Self {
+        let bounds = shape.compute_aabb(&pose_W);
+        Self {
+            pose: pose_W,
+            shape,
+            bounds,
+        }
+    }
+
+    /// The bed over the area and a margin round it.
+    pub(super) fn bed(terrain: &Terrain, area: &Area) -> Self {
+        let (min, max) = area.bounds();
+        let size = (max - min).map(|s| s + 2.0 * MARGIN_M);
+        let cells = size.map(|s| (s / CELL_M).ceil().max(1.0) as usize);
+        let middle = (min + max) / 2.0;
+        // parry's height fields have y up: turned by a quarter about x, their x is our east and
+        // their z our south.
+        let mut heights = Array2::zeros(cells.y + 1, cells.x + 1);
+        for i in 0..=cells.y {
+            let north = size.y * (0.5 - i as f64 / cells.y as f64);
+            for j in 0..=cells.x {
+                let east = size.x * (j as f64 / cells.x as f64 - 0.5);
+                heights[(i, j)] = terrain.bed_z(middle.x + east, middle.y + north);
+            }
+        }
+        let upright = Pose {
+            p_WB: Vector3::new(middle.x, middle.y, 0.0),
+            R_WB: UnitQuaternion::from_axis_angle(
+                &Vector3::x_axis(),
+                std::f64::consts::FRAC_PI_2,
+            ),
+        };
+        let scale = r::Vector::new(size.x, 1.0, size.y);
+        Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
+    }
+
+    /// Whether anything of it comes within `radius_m` of `p_W`.
+    pub(super) fn within(&self, p_W: &Vector3<f64>, radius_m: f64) -> bool {
+        let p = vector(p_W);
+        let half = r::Vector::splat(radius_m);
+        if !self.bounds.intersects(&Aabb::new(p - half, p + half)) {
+            return false;
+        }
+        let ball = Ball::new(radius_m);
+        let at = r::Pose::from_translation(p);
+        query::intersection_test(&self.pose, self.shape.as_ref(), &at, &ball)
+            .expect("parry can intersect a ball with any shape that it can collide")
+            .intersecting
+    }
+
+    /// Distance along a unit direction to the first hit, m.
+    pub(super) fn ray(&self, from_W: &Vector3<f64>, along_W: &Vector3<f64>, max_m: f64) -> Option<f64> {
+        let ray = Ray::new(vector(from_W), vector(along_W));
+        self.shape.cast_ray(&self.pose, &ray, max_m, true)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Heading;
+    use nalgebra::Vector2;
+
+    #[test]
+    fn the_bed_stands_where_the_terrain_says() {
+        let area = Area {
+            centre: Vector2::new(30.0, -20.0),
+            length_m: 400.0,
+            width_m: 200.0,
+            axis: Heading::from_deg(340.0),
+        };
+        let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
+        let bed = Fixed::bed(&terrain, &area);
+        for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
+            let from = Vector3::new(x, y, -1.0);
+            let hit = bed.ray(&from, &-Vector3::z(), 100.0).expect("bed below");
+            let depth = -terrain.bed_z(x, y);
+            assert!((1.0 + hit - depth).abs() < 1e-3, "{hit} at {x} {y}, depth {depth}");
+            assert!(!bed.within(&from, depth - 1.1) && bed.within(&from, depth - 0.9));
+        }
+        // Past the area, within the margin.
+        let out = area.world(Vector2::new(255.0, 0.0));
+        let from = Vector3::new(out.x, out.y, -1.0);
+        assert!(bed.ray(&from, &-Vector3::z(), 100.0).is_some());
+    }
+}

@@ -1,0 +1,227 @@
+//! The ROS 2 messages we record, encoded to CDR.
+//!
+//! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames).
+//! *Parameters*: none.
+//! *Deviations*: covariances are zero, ROS's word for "unknown".
+
+use super::cdr::Cdr;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// A kind of message.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// `nav_msgs/msg/Odometry`.
+    Odometry,
+    /// `std_msgs/msg/Float64`.
+    Float64,
+    /// `std_msgs/msg/String`.
+    Text,
+    /// `geometry_msgs/msg/Vector3Stamped`.
+    Vector3Stamped,
+    /// `geometry_msgs/msg/PoseStamped`.
+    PoseStamped,
+    /// `tf2_msgs/msg/TFMessage`.
+    TfMessage,
+    /// `rosgraph_msgs/msg/Clock`.
+    Clock,
+    /// `sensor_msgs/msg/PointCloud2`.
+    PointCloud2,
+}
+
+impl Kind {
+    /// All kinds.
+    pub const ALL: [Kind; 8] = [
+        Kind::Odometry,
+        Kind::Float64,
+        Kind::Text,
+        Kind::Vector3Stamped,
+        Kind::PoseStamped,
+        Kind::TfMessage,
+        Kind::Clock,
+        Kind::PointCloud2,
+    ];
+}
+
+fn xyz(v: &Vector3<f64>) -> [f64; 3] {
+    [v.x, v.y, v.z]
+}
+
+fn xyzw(q: &UnitQuaternion<f64>) -> [f64; 4] {
+    [q.i, q.j, q.k, q.w]
+}
+
+/// Position and attitude of `child` in `frame`, velocities in the child's axes.
+#[derive(Clone, Debug)]
+pub struct Odometry<'a> {
+    /// Time, ns.
+    pub t_ns: u64,
+    /// Frame of the pose.
+    pub frame: &'a str,
+    /// Frame of the velocities.
+    pub child: &'a str,
+    /// Position, m.
+    pub position: Vector3<f64>,
+    /// Attitude.
+    pub attitude: UnitQuaternion<f64>,
+    /// Velocity, m/s.
+    pub linear: Vector3<f64>,
+    /// Angular velocity, rad/s.
+    pub angular: Vector3<f64>,
+}
+
+impl Odometry<'_> {
+    /// As CDR.
+    #[must_use]
+    pub fn cdr(&self) -> Vec<u8> {
+        const UNKNOWN: [f64; 36] = [0.0; 36];
+        let mut c = Cdr::new();
+        c.header(self.t_ns, self.frame)
+            .text(self.child)
+            .f64s(&xyz(&self.position))
+            .f64s(&xyzw(&self.attitude))
+            .f64s(&UNKNOWN)
+            .f64s(&xyz(&self.linear))
+            .f64s(&xyz(&self.angular))
+            .f64s(&UNKNOWN);
+        c.finish()
+    }
+}
+
+/// A `Float64`.
+#[must_use]
+pub fn float64(v: f64) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.f64(v);
+    c.finish()
+}
+
+/// A `String`.
+#[must_use]
+pub fn text(s: &str) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.text(s);
+    c.finish()
+}
+
+/// A `Vector3Stamped`.
+#[must_use]
+pub fn vector3_stamped(t_ns: u64, frame: &str, v: &Vector3<f64>) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.header(t_ns, frame).f64s(&xyz(v));
+    c.finish()
+}
+
+/// A `PoseStamped`.
+#[must_use]
+pub fn pose_stamped(
+    t_ns: u64,
+    frame: &str,
+    p: &Vector3<f64>,
+    q: &UnitQuaternion<f64>,
+) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.header(t_ns, frame).f64s(&xyz(p)).f64s(&xyzw(q));
+    c.finish()
+}
+
+/// A `TFMessage`: each child's pose in `parent`.
+#[must_use]
+pub fn transforms(
+    t_ns: u64,
+    parent: &str,
+    children: &[(&str, Vector3<f64>, UnitQuaternion<f64>)],
+) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.len(children.len());
+    for (child, p, q) in children {
+        c.header(t_ns, parent)
+            .text(child)
+            .f64s(&xyz(p))
+            .f64s(&xyzw(q));
+    }
+    c.finish()
+}
+
+/// A `Clock`.
+#[must_use]
+pub fn clock(t_ns: u64) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.time(t_ns);
+    c.finish()
+}
+
+/// A `PointCloud2` with the named 32-bit fields; `rows` holds one value a field for each point.
+#[must_use]
+pub fn point_cloud<const N: usize>(
+    t_ns: u64,
+    frame: &str,
+    names: [&str; N],
+    rows: &[[f32; N]],
+) -> Vec<u8> {
+    const FLOAT32: u8 = 7;
+    let step = 4 * N;
+    let mut c = Cdr::new();
+    c.header(t_ns, frame).u32(1).len(rows.len()).len(N);
+    for (k, name) in names.iter().enumerate() {
+        c.text(name).u32(4 * k as u32).u8(FLOAT32).u32(1);
+    }
+    let data: Vec<u8> = rows
+        .iter()
+        .flat_map(|r| r.iter().flat_map(|v| v.to_le_bytes()))
+        .collect();
+    c.bool(false)
+        .len(step)
+        .len(step * rows.len())
+        .blob(&data)
+        .bool(true);
+    c.finish()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn odometry_has_the_length_of_its_definition() {
+        let msg = Odometry {
+            t_ns: 1,
+            frame: "world",
+            child: "auv0",
+            position: Vector3::new(1.0, 2.0, 3.0),
+            attitude: UnitQuaternion::identity(),
+            linear: Vector3::zeros(),
+            angular: Vector3::zeros(),
+        }
+        .cdr();
+        // 4 header; 8 time, 4+6 "world", 2 pad, 4+5 "auv0", to 40 (7 pad); 7+36+6+36 doubles.
+        assert_eq!(msg.len(), 4 + 40 + 85 * 8);
+        assert_eq!(msg[4 + 40..4 + 48], 1.0f64.to_le_bytes());
+        let w = 4 + 40 + 6 * 8;
+        assert_eq!(msg[w..w + 8], 1.0f64.to_le_bytes());
+    }
+
+    #[test]
+    fn cloud_of_one_point_by_hand() {
+        let msg = point_cloud(0, "w", ["x"], &[[1.0f32]]);
+        let body: Vec<u8> = [
+            &[0u8; 8][..],                   // time
+            &[2, 0, 0, 0, b'w', 0, 0, 0],    // frame, padded to 16
+            &[1, 0, 0, 0, 1, 0, 0, 0],       // height, width
+            &[1, 0, 0, 0],                   // one field
+            &[2, 0, 0, 0, b'x', 0, 0, 0],    // its name, padded
+            &[0, 0, 0, 0, 7, 0, 0, 0],       // offset, datatype, padded
+            &[1, 0, 0, 0],                   // count
+            &[0, 0, 0, 0],                   // little-endian, padded
+            &[4, 0, 0, 0, 4, 0, 0, 0],       // steps
+            &[4, 0, 0, 0, 0, 0, 0x80, 0x3f], // data
+            &[1],                            // dense
+        ]
+        .concat();
+        assert_eq!(msg[4..], body);
+    }
+
+    #[test]
+    fn clock_is_eight_bytes() {
+        assert_eq!(clock(1_000_000_002), [0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+    }
+}

@@ -1,0 +1,141 @@
+//! Definitions of the ROS 2 messages we write, with those they contain, as `ros2msg` schemas.
+//!
+//! *Source*: ROS 2 common_interfaces, rcl_interfaces and geometry2 (Jazzy; unchanged up to Rolling).
+//! *Parameters*: none.
+//! *Deviations*: comments of the originals left out; fields, order and types as there.
+
+use super::ros_messages::Kind;
+
+const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
+const HEADER: (&str, &str) = (
+    "std_msgs/Header",
+    "builtin_interfaces/Time stamp\nstring frame_id\n",
+);
+const POINT: (&str, &str) = ("geometry_msgs/Point", "float64 x\nfloat64 y\nfloat64 z\n");
+const VECTOR3: (&str, &str) = ("geometry_msgs/Vector3", "float64 x\nfloat64 y\nfloat64 z\n");
+const QUATERNION: (&str, &str) = (
+    "geometry_msgs/Quaternion",
+    "float64 x 0\nfloat64 y 0\nfloat64 z 0\nfloat64 w 1\n",
+);
+const POSE: (&str, &str) = (
+    "geometry_msgs/Pose",
+    "Point position\nQuaternion orientation\n",
+);
+const POSE_COV: (&str, &str) = (
+    "geometry_msgs/PoseWithCovariance",
+    "Pose pose\nfloat64[36] covariance\n",
+);
+const TWIST: (&str, &str) = (
+    "geometry_msgs/Twist",
+    "Vector3 linear\nVector3 angular\n",
+);
+const TWIST_COV: (&str, &str) = (
+    "geometry_msgs/TwistWithCovariance",
+    "Twist twist\nfloat64[36] covariance\n",
+);
+const TRANSFORM: (&str, &str) = (
+    "geometry_msgs/Transform",
+    "Vector3 translation\nQuaternion rotation\n",
+);
+const TRANSFORM_STAMPED: (&str, &str) = (
+    "geometry_msgs/TransformStamped",
+    "std_msgs/Header header\nstring child_frame_id\nTransform transform\n",
+);
+const POINT_FIELD: (&str, &str) = (
+    "sensor_msgs/PointField",
+    "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n\
+     uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n",
+);
+
+impl Kind {
+    /// Full name of the type.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Kind::Odometry => "nav_msgs/msg/Odometry",
+            Kind::Float64 => "std_msgs/msg/Float64",
+            Kind::Text => "std_msgs/msg/String",
+            Kind::Vector3Stamped => "geometry_msgs/msg/Vector3Stamped",
+            Kind::PoseStamped => "geometry_msgs/msg/PoseStamped",
+            Kind::TfMessage => "tf2_msgs/msg/TFMessage",
+            Kind::Clock => "rosgraph_msgs/msg/Clock",
+            Kind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
+        }
+    }
+
+    /// Definition with those of all types inside it, in the form that `ros2msg` readers expect.
+    #[must_use]
+    pub fn schema(self) -> String {
+        let (own, parts): (&str, &[(&str, &str)]) = match self {
+            Kind::Odometry => (
+                "std_msgs/Header header\nstring child_frame_id\n\
+                 geometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n",
+                &[
+                    HEADER, TIME, POSE_COV, POSE, POINT, QUATERNION, TWIST_COV, TWIST, VECTOR3,
+                ],
+            ),
+            Kind::Float64 => ("float64 data\n", &[]),
+            Kind::Text => ("string data\n", &[]),
+            Kind::Vector3Stamped => (
+                "std_msgs/Header header\nVector3 vector\n",
+                &[HEADER, TIME, VECTOR3],
+            ),
+            Kind::PoseStamped => (
+                "std_msgs/Header header\nPose pose\n",
+                &[HEADER, TIME, POSE, POINT, QUATERNION],
+            ),
+            Kind::TfMessage => (
+                "geometry_msgs/TransformStamped[] transforms\n",
+                &[TRANSFORM_STAMPED, HEADER, TIME, TRANSFORM, VECTOR3, QUATERNION],
+            ),
+            Kind::Clock => ("builtin_interfaces/Time clock\n", &[TIME]),
+            Kind::PointCloud2 => (
+                "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\n\
+                 bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
+                &[HEADER, TIME, POINT_FIELD],
+            ),
+        };
+        let mut text = own.to_owned();
+        for (name, body) in parts {
+            text.push_str(&"=".repeat(80));
+            text.push_str("\nMSG: ");
+            text.push_str(name);
+            text.push('\n');
+            text.push_str(body);
+        }
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every type a definition mentions is defined below it, else readers refuse the channel.
+    #[test]
+    fn schemas_are_closed() {
+        const PLAIN: [&str; 7] = [
+            "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
+        ];
+        for kind in Kind::ALL {
+            let schema = kind.schema();
+            let defined: Vec<&str> = schema
+                .lines()
+                .filter_map(|l| l.strip_prefix("MSG: "))
+                .map(|n| n.rsplit('/').next().unwrap())
+                .collect();
+            for line in schema.lines() {
+                if line.starts_with('=') || line.starts_with("MSG: ") {
+                    continue;
+                }
+                let base = line.split([' ', '[']).next().unwrap();
+                let short = base.rsplit('/').next().unwrap();
+                assert!(
+                    PLAIN.contains(&base) || defined.contains(&short),
+                    "{}: {line} is not defined",
+                    kind.name()
+                );
+            }
+        }
+    }
+}
