@@ -54,11 +54,13 @@ const TURN: ActuatorCommand = ActuatorCommand {
 fn equation_only(bencher: Bencher, set: ParameterSet) {
     let mut vehicle = auv(set);
     let mut truth = start();
-    bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
-        for _ in 0..STEPS {
-            truth = vehicle.step(&truth, &water(), &TURN, STEP_S);
-        }
-    });
+    bencher
+        .counter(divan::counter::ItemsCount::new(STEPS))
+        .bench_local(|| {
+            for _ in 0..STEPS {
+                truth = vehicle.step(&truth, &water(), &TURN, STEP_S);
+            }
+        });
 }
 
 /// 1000 steps over the bed at Duck, 2 m above it.
@@ -79,12 +81,14 @@ fn with_physics(bencher: Bencher, solver: Solver) {
         velocity: Vector3::zeros(),
         ..water()
     };
-    bencher.counter(divan::counter::ItemsCount::new(STEPS)).bench_local(|| {
-        physics.set_truth(id, start());
-        for _ in 0..STEPS {
-            let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
-            physics.push(id, free);
-            physics.step();
-        }
-    });
+    bencher
+        .counter(divan::counter::ItemsCount::new(STEPS))
+        .bench_local(|| {
+            physics.set_truth(id, start());
+            for _ in 0..STEPS {
+                let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
+                physics.push(id, free);
+                physics.step();
+            }
+        });
 }

@@ -15,7 +15,7 @@ import zenoh
 endpoint, key = (sys.argv[1:] + ["tcp/127.0.0.1:7447", "rheotaxis/**"][len(sys.argv) - 1:])[:2]
 
 def show(sample):  # packed numbers (the plume) carry their JSON header as attachment
-    print(sample.key_expr, (sample.attachment or sample.payload).to_string(), flush=True)
+    print(f"{sample.key_expr} {(sample.attachment or sample.payload).to_string()}\n", end="", flush=True)
 
 config = zenoh.Config.from_json5(f"""{{ mode: "peer", listen: {{ endpoints: [] }}, scouting: {{ multicast: {{ enabled: false }} }},
     connect: {{ endpoints: ["{endpoint}"], retry: {{ period_init_ms: 200, period_max_ms: 1000 }} }} }}""")

@@ -20,7 +20,6 @@ use robots::handoff::{
 use robots::sense::SensorSuite;
 use robots::vehicles::Vehicle;
 use std::path::Path;
-use world::area::Area;
 use world::clock::{Clock, Every};
 use world::error::WorldError;
 use world::fields::Flow;
@@ -162,7 +161,7 @@ impl Simulation {
         self.world.resource::<Clock>().t_s()
     }
 
-    /// Water at the present mission time.
+    /// Flow at a point (ENU, m) now, m/s.
     #[must_use]
     pub fn velocity(&self, p_W: &Vector3<f64>) -> Vector3<f64> {
         self.world.resource::<Water>().velocity(p_W, self.t_s())

@@ -1,7 +1,11 @@
 //! What happens: scenarios, the tick, trials, and the command `rheotaxis`.
 
+pub mod assemble;
 pub mod cli;
 pub mod frame;
 pub mod live;
 pub mod report;
 pub mod scenario;
+pub mod system;
+pub mod tick;
+pub mod trial;

@@ -2,11 +2,11 @@
 
 use crate::assemble::{AssembleError, Simulation};
 use crate::frame::{Frame, PlumeFrame};
+use crate::report::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::system::{Dye, Outbox};
-use nalgebra::Vector2;
+use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome};
-use serde::Serialize;
 use std::collections::BTreeMap;
 use world::clock::Clock;
 use world::record::Digest;
@@ -34,53 +34,11 @@ pub struct Unwatched;
 
 impl Watch for Unwatched {}
 
-/// How a run came to its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Verdict {
-    /// A source was declared near enough to a true one.
-    Found,
-    /// All robots came to their planned end; nothing was to be found.
-    Completed,
-    /// Declared, but too far from any source.
-    DeclaredElsewhere,
-    /// The robots ended their missions without a declaration.
-    NotFound,
-    /// Time ran out without a declaration.
-    TimeOut,
-    /// A robot gave up outside the area.
-    Aborted,
-    /// Stopped from outside.
-    Interrupted,
-}
-
-impl Verdict {
-    /// Whether this is what the scenario calls a success.
-    #[must_use]
-    pub fn is_success(self) -> bool {
-        matches!(self, Verdict::Found | Verdict::Completed)
-    }
-
-    /// For people.
-    #[must_use]
-    pub fn says(self) -> &'static str {
-        match self {
-            Verdict::Found => "source found",
-            Verdict::Completed => "completed",
-            Verdict::DeclaredElsewhere => "declared too far from any source",
-            Verdict::NotFound => "ended without a declaration",
-            Verdict::TimeOut => "time ran out without a declaration",
-            Verdict::Aborted => "aborted outside the area",
-            Verdict::Interrupted => "interrupted",
-        }
-    }
-}
-
 /// What is known at the end of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Ended {
     /// How it ended.
-    pub verdict: Verdict,
+    pub outcome: RunOutcome,
     /// Digest of the whole state sequence.
     pub digest: String,
     /// Ticks of the mission.
@@ -89,6 +47,8 @@ pub struct Ended {
     pub t_s: f64,
     /// Declarations by robot.
     pub declarations: BTreeMap<String, Declaration>,
+    /// Flow at each source, averaged over the mission at the times the plume was pictured, m/s.
+    pub flow_at_sources: Vec<Vector3<f64>>,
 }
 
 /// A run, ready to start.
@@ -97,7 +57,9 @@ pub struct Trial {
     pub simulation: Simulation,
     success: SuccessSpec,
     limit_s: f64,
-    sources: Vec<Vector2<f64>>,
+    sources: Vec<Vector3<f64>>,
+    flow_sums: Vec<Vector3<f64>>,
+    flow_samples: u32,
     declarations: BTreeMap<String, Declaration>,
 }
 
@@ -109,13 +71,15 @@ impl Trial {
     pub fn assemble(loaded: &Loaded, seed: u64) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
         let simulation = Simulation::assemble(scenario, &loaded.base_dir, seed)?;
-        let sources = (simulation.world.resource::<Dye>().plume.sources().iter())
-            .map(|s| s.p_W.xy())
+        let sources: Vec<_> = (simulation.world.resource::<Dye>().plume.sources().iter())
+            .map(|s| s.p_W)
             .collect();
         Ok(Self {
             simulation,
             success: scenario.success.clone(),
             limit_s: scenario.time.limit_s.get(),
+            flow_sums: vec![Vector3::zeros(); sources.len()],
+            flow_samples: 0,
             sources,
             declarations: BTreeMap::new(),
         })
@@ -141,9 +105,12 @@ impl Trial {
                 break;
             }
         }
+        let outcome = if stopped { RunOutcome::Interrupted } else { self.outcome() };
         let world = &self.simulation.world;
+        let samples = f64::from(self.flow_samples.max(1));
         Ended {
-            verdict: if stopped { Verdict::Interrupted } else { self.verdict() },
+            outcome,
+            flow_at_sources: self.flow_sums.iter().map(|sum| sum / samples).collect(),
             digest: world.resource::<Digest>().hex(),
             steps: world.resource::<Clock>().step,
             t_s: self.simulation.t_s(),
@@ -169,6 +136,10 @@ impl Trial {
             watch.frame(&frame);
         }
         if let Some(plume) = plume {
+            self.flow_samples += 1;
+            for (sum, p_W) in self.flow_sums.iter_mut().zip(&self.sources) {
+                *sum += self.simulation.velocity(p_W);
+            }
             watch.plume(&plume);
         }
     }
@@ -179,26 +150,28 @@ impl Trial {
         !decisions.is_empty() && decisions.iter().all(Option::is_some)
     }
 
-    fn verdict(&mut self) -> Verdict {
-        let outcomes = self.simulation.outcomes();
-        if let SuccessSpec::Declared(wanted) = &self.success {
+    fn outcome(&mut self) -> RunOutcome {
+        let missions = self.simulation.outcomes();
+        if let SuccessSpec::Declared(wanted) = &self.success
+            && !self.declarations.is_empty()
+        {
             let near = |d: &Declaration| {
-                (self.sources.iter()).any(|s| (s - d.position).norm() <= wanted.within_m.get())
+                (self.sources.iter()).any(|s| (s.xy() - d.position).norm() <= wanted.within_m.get())
             };
-            if self.declarations.values().any(near) {
-                return Verdict::Found;
-            } else if !self.declarations.is_empty() {
-                return Verdict::DeclaredElsewhere;
-            }
+            return if self.declarations.values().any(near) {
+                RunOutcome::Found
+            } else {
+                RunOutcome::NotFound
+            };
         }
-        if outcomes.contains(&Some(Outcome::Aborted)) {
-            Verdict::Aborted
-        } else if self.success != SuccessSpec::Completed {
-            if outcomes.contains(&None) { Verdict::TimeOut } else { Verdict::NotFound }
-        } else if outcomes.contains(&None) {
-            Verdict::TimeOut
+        if missions.contains(&Some(Outcome::Aborted)) {
+            RunOutcome::Aborted
+        } else if missions.contains(&None) {
+            RunOutcome::TimeOut
+        } else if self.success == SuccessSpec::Completed {
+            RunOutcome::Completed
         } else {
-            Verdict::Completed
+            RunOutcome::NotFound
         }
     }
 }

@@ -118,14 +118,25 @@ fn a_quarter_turn_settles() {
     for to_deg in [70.0, 250.0] {
         let mut run = Run::new(340.0, 3.0, Vector3::zeros());
         let seen = run.hold(40.0, to_deg, Vertical::Depth(3.0));
-        let off = |e: &Estimate| Heading::from_deg(to_deg).turn_to(e.attitude.heading).to_degrees();
+        let off = |e: &Estimate| {
+            Heading::from_deg(to_deg)
+                .turn_to(e.attitude.heading)
+                .to_degrees()
+        };
         let settled = worst(after(&seen, 20.0), off);
-        let side = Heading::from_deg(340.0).turn_to(Heading::from_deg(to_deg)).signum();
+        let side = Heading::from_deg(340.0)
+            .turn_to(Heading::from_deg(to_deg))
+            .signum();
         let over = seen.iter().map(|e| off(e) * side).fold(0.0, f64::max);
         let rate = worst(&seen, |e| e.attitude.rates_rad_s.z.to_degrees());
         let depth = worst(&seen, |e| e.depth_m - 3.0);
-        println!("turn to {to_deg}: settled {settled:.2} over {over:.2} rate {rate:.2} depth {depth:.2}");
-        assert!(settled < 1.0 && over < 3.0, "off {settled} deg, over {over} deg");
+        println!(
+            "turn to {to_deg}: settled {settled:.2} over {over:.2} rate {rate:.2} depth {depth:.2}"
+        );
+        assert!(
+            settled < 1.0 && over < 3.0,
+            "off {settled} deg, over {over} deg"
+        );
         assert!(rate < 11.0, "rate {rate} deg/s");
         assert!(depth < 0.5, "depth off by {depth} m in the turn");
     }
@@ -138,7 +149,10 @@ fn a_depth_change_settles() {
     let over = seen.iter().map(|e| e.depth_m - 4.0).fold(0.0, f64::max);
     let settled = worst(after(&seen, 30.0), |e| e.depth_m - 4.0);
     println!("depth change: over {over:.3} settled {settled:.3}");
-    assert!(over < 0.3 && settled < 0.1, "over {over} m, settled {settled} m");
+    assert!(
+        over < 0.3 && settled < 0.1,
+        "over {over} m, settled {settled} m"
+    );
 }
 
 #[test]
@@ -147,7 +161,9 @@ fn altitude_is_held_over_the_slope() {
     for heading_deg in [70.0, 250.0, 340.0] {
         let mut run = Run::new(heading_deg, 4.0, Vector3::zeros());
         let seen = run.hold(75.0, heading_deg, Vertical::Altitude(2.0));
-        let off = worst(after(&seen, 15.0), |e| e.altitude_m.expect("bed below") - 2.0);
+        let off = worst(after(&seen, 15.0), |e| {
+            e.altitude_m.expect("bed below") - 2.0
+        });
         println!("altitude {heading_deg}: {off:.3}");
         assert!(off < 0.7, "altitude off by {off} m");
     }

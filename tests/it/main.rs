@@ -1,1 +1,4 @@
-//! t
+//! What holds: one test binary.
+
+mod bad_input;
+mod common;

@@ -80,6 +80,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
         f: [0.0; BLOCK],
         g: [0.0; BLOCK],
     };
+    let mut reach = [0.0_f32; BLOCK];
     let (mut level, mut part) = ([0_u32; BLOCK], [0.0_f32; BLOCK]);
     let mut here: Water = [[0.0; BLOCK]; 4];
     let mut there: Water = [[0.0; BLOCK]; 4];
@@ -98,8 +99,9 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
     }
     fetch(cells, nodes, &column, (&level, &part), &mut here);
     for l in 0..BLOCK {
-        let trial = b.z[l] + (2.0 * here[3][l] * b.dt[l]).sqrt() * noise[2][l];
-        (level[l], part[l]) = cells.level(folded(trial, b.bed[l]), b.bed[l]);
+        let kick = (2.0 * here[3][l] * b.dt[l]).sqrt() * noise[2][l];
+        reach[l] = trial(b.z[l], b.bed[l], kick);
+        (level[l], part[l]) = cells.level(b.z[l] + reach[l], b.bed[l]);
     }
     fetch(cells, nodes, &column, (&level, &part), &mut there);
     if let Some(k_h) = cells.even_k_h {
@@ -117,11 +119,18 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
         }
     }
     for l in 0..BLOCK {
-        let half = 0.5 * b.dt[l];
-        b.x[l] += half * (here[0][l] + there[0][l]);
-        b.y[l] += half * (here[1][l] + there[1][l]);
-        b.z[l] += half * (here[2][l] + there[2][l])
-            + (2.0 * there[3][l] * b.dt[l]).sqrt() * noise[2][l];
+        let dt = b.dt[l];
+        // The value at the trial height counts half if the filament goes that way.
+        let there_dt = if reach[l] * noise[2][l] > 0.0 { 0.5 * dt } else { 0.0 };
+        let here_dt = dt - there_dt;
+        b.x[l] += here_dt * here[0][l] + there_dt * there[0][l];
+        b.y[l] += here_dt * here[1][l] + there_dt * there[1][l];
+        let slope = (there[3][l] - here[3][l]) / reach[l];
+        let k_z = here[3][l] + 0.5 * slope * slope * dt;
+        b.z[l] += here_dt * here[2][l]
+            + there_dt * there[2][l]
+            + slope * dt
+            + (2.0 * k_z * dt).sqrt() * noise[2][l];
     }
     for l in 0..BLOCK {
         let c = cells.column(b.x[l], b.y[l]);
@@ -201,6 +210,18 @@ fn trilinear(cells: &Cells, nodes: &[[f32; 4]], c: Column, level: u32, part: f32
     };
     let (low, high) = (layer(at), layer(at + 1));
     low.add(high.sub(low).times(part))
+}
+
+/// Signed distance to the height at which the water is looked at a second time: as far as the kick goes, but far
+/// enough to tell a slope by, and the other way where the kick would lead out of the water. Never zero.
+#[inline(always)]
+fn trial(z: f32, bed: f32, kick: f32) -> f32 {
+    let size = kick.abs();
+    let (least, most) = (-1e-3 * bed, -0.25 * bed);
+    let size = if size > least { size } else { least };
+    let size = if size < most { size } else { most };
+    let signed = if kick < 0.0 { -size } else { size };
+    if (z + signed > 0.0) | (z + signed < bed) { -signed } else { signed }
 }
 
 /// Mirrors a height into the water between `bed` (negative) and the surface at 0, as often as it takes.

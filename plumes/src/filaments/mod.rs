@@ -15,6 +15,8 @@ mod tests_drift;
 mod tests_mass;
 #[cfg(test)]
 mod tests_mean;
+#[cfg(test)]
+mod tests_water;
 
 pub use index::CUT_SIGMAS;
 pub use plume::{Plume, PlumeSettings};

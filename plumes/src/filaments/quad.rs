@@ -25,36 +25,38 @@ impl Quad {
 
     #[inline(always)]
     pub(super) fn add(self, b: Self) -> Self {
-        Self(x86::_mm_add_ps(self.0, b.0))
+        // SAFETY: SSE is part of every x86-64.
+        unsafe { Self(x86::_mm_add_ps(self.0, b.0)) }
     }
 
     #[inline(always)]
     pub(super) fn sub(self, b: Self) -> Self {
-        Self(x86::_mm_sub_ps(self.0, b.0))
+        // SAFETY: SSE is part of every x86-64.
+        unsafe { Self(x86::_mm_sub_ps(self.0, b.0)) }
     }
 
     #[inline(always)]
     pub(super) fn times(self, s: f32) -> Self {
-        Self(x86::_mm_mul_ps(self.0, x86::_mm_set1_ps(s)))
+        // SAFETY: SSE is part of every x86-64.
+        unsafe { Self(x86::_mm_mul_ps(self.0, x86::_mm_set1_ps(s))) }
     }
 
     /// Four quads as rows become columns.
     #[inline(always)]
     pub(super) fn columns(r: [Self; 4]) -> [[f32; 4]; 4] {
-        let (ab, cd) = (
-            x86::_mm_unpacklo_ps(r[0].0, r[1].0),
-            x86::_mm_unpacklo_ps(r[2].0, r[3].0),
-        );
-        let (ef, gh) = (
-            x86::_mm_unpackhi_ps(r[0].0, r[1].0),
-            x86::_mm_unpackhi_ps(r[2].0, r[3].0),
-        );
-        let rows = [
-            x86::_mm_movelh_ps(ab, cd),
-            x86::_mm_movehl_ps(cd, ab),
-            x86::_mm_movelh_ps(ef, gh),
-            x86::_mm_movehl_ps(gh, ef),
-        ];
+        // SAFETY: SSE is part of every x86-64.
+        let rows = unsafe {
+            let ab = x86::_mm_unpacklo_ps(r[0].0, r[1].0);
+            let cd = x86::_mm_unpacklo_ps(r[2].0, r[3].0);
+            let ef = x86::_mm_unpackhi_ps(r[0].0, r[1].0);
+            let gh = x86::_mm_unpackhi_ps(r[2].0, r[3].0);
+            [
+                x86::_mm_movelh_ps(ab, cd),
+                x86::_mm_movehl_ps(cd, ab),
+                x86::_mm_movelh_ps(ef, gh),
+                x86::_mm_movehl_ps(gh, ef),
+            ]
+        };
         let mut out = [[0.0; 4]; 4];
         for d in 0..4 {
             // SAFETY: writes four f32 at any alignment.

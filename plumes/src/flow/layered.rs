@@ -132,7 +132,9 @@ impl LayeredSpec {
             if upper > lower {
                 return Err(bad(
                     format!("layers[{}].density_kg_m3", i + 1),
-                    format!("must be >= {upper}, that of the layer above (lighter water floats), got {lower}"),
+                    format!(
+                        "must be >= {upper}, that of the layer above (lighter water floats), got {lower}"
+                    ),
                 ));
             }
         }
@@ -281,7 +283,9 @@ impl LayeredColumn<'_> {
     #[must_use]
     pub fn lid(&self) -> Option<f64> {
         let rho = &self.of.density;
-        let lowest = (0..self.of.faces.len()).rev().find(|&i| rho[i] < rho[i + 1]);
+        let lowest = (0..self.of.faces.len())
+            .rev()
+            .find(|&i| rho[i] < rho[i + 1]);
         lowest.map(|i| self.faces[i].z)
     }
 
@@ -296,8 +300,10 @@ impl LayeredColumn<'_> {
             drho_dz: 0.0,
         };
         for (i, face) in self.of.faces.iter().enumerate() {
-            let th = math::tanh(2.0 * (z - self.faces[i].z) / face.thickness);
-            let (share, slope) = (0.5 * (1.0 + th), (1.0 - th * th) / face.thickness);
+            // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
+            let x = (z - self.faces[i].z) / face.thickness;
+            let share = 1.0 / (1.0 + math::exp(-4.0 * x));
+            let slope = 4.0 * share * (1.0 - share) / face.thickness;
             let du = self.u[i] - self.u[i + 1];
             let drho = self.of.density[i] - self.of.density[i + 1];
             p.u += du * share;

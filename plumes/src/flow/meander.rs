@@ -284,7 +284,8 @@ mod tests {
 
     fn build(spec: &MeanderSpec, seed: u64) -> Meander {
         let carrier = Vector2::new(0.2, 0.1);
-        spec.build("water.currents[0]", &area(), carrier, seed).unwrap()
+        spec.build("water.currents[0]", &area(), carrier, seed)
+            .unwrap()
     }
 
     #[test]

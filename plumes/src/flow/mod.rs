@@ -9,6 +9,8 @@ pub mod layered;
 pub mod meander;
 pub mod mixing;
 mod solenoidal;
+#[cfg(test)]
+mod tests_water;
 pub mod uniform;
 pub mod water;
 

@@ -130,7 +130,11 @@ impl Solenoidal {
         for i in 0..n {
             let from = i.saturating_sub(w);
             let l = &self.factor[i * row + w - (i - from)..=i * row + w];
-            let dot: f64 = l[..i - from].iter().zip(&c[from..i]).map(|(a, b)| a * b).sum();
+            let dot: f64 = l[..i - from]
+                .iter()
+                .zip(&c[from..i])
+                .map(|(a, b)| a * b)
+                .sum();
             c[i] = (c[i] - dot) / l[i - from];
         }
         for i in (0..n).rev() {
@@ -176,7 +180,11 @@ impl Solenoidal {
 mod tests {
     use super::*;
 
-    fn nodes(cells: [usize; 2], h: [f64; 2], f: impl Fn(f64, f64) -> [f64; 2]) -> Vec<Vector2<f64>> {
+    fn nodes(
+        cells: [usize; 2],
+        h: [f64; 2],
+        f: impl Fn(f64, f64) -> [f64; 2],
+    ) -> Vec<Vector2<f64>> {
         let n = (cells[0] + 1) * (cells[1] + 1);
         (0..n)
             .map(|k| {
@@ -223,7 +231,9 @@ mod tests {
     fn result_is_free_of_divergence_everywhere() {
         let (cells, h) = ([9, 7], [10.0, 12.0]);
         let mut rng = world::seeds::Stream::new(3, "test", "field");
-        let field: Vec<_> = (0..80).map(|_| Vector2::new(rng.normal(), rng.normal())).collect();
+        let field: Vec<_> = (0..80)
+            .map(|_| Vector2::new(rng.normal(), rng.normal()))
+            .collect();
         let s = Solenoidal::new(cells, h);
         let c = s.project(&field);
         let mut strongest: f64 = 0.0;

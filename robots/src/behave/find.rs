@@ -3,7 +3,8 @@
 //! *Source*: Pang 2009, section 5.2.
 //!
 //! *Parameters*: angle off the cross-flow direction, `off_across_deg`, °, 20; distance at which an edge
-//! counts as reached, `edge_m`, m (not printed), 15: outside the cage, and room for the turn.
+//! counts as reached, `edge_m`, m (not printed), 20: what a vehicle with a turning radius of 11.5 m (2 m/s at
+//! 10 °/s) needs to turn about in a corner, (1 + sin 45°) · 11.5 m.
 //!
 //! *Deviations*: the search starts where the vehicle is (`start: Here`) or goes to the most down-flow corner
 //! first (`DownFlowCorner`, the paper's plan). It begins with the one of the two up-flow leaning directions
@@ -53,7 +54,7 @@ impl Default for Params {
         Self {
             start: From::Here,
             off_across_deg: NonNegative::new(20.0),
-            edge_m: Positive::new(15.0),
+            edge_m: Positive::new(20.0),
         }
     }
 }
@@ -105,11 +106,13 @@ impl ZigZag {
         [a, -a, b, -b].map(|turn| up_flow.turned(turn))
     }
 
-    /// The edges within reach that `course` runs against or along: outward normals, the nearest first.
+    /// Outward normals of the edges within reach, the nearest first. In a small area the reach is a quarter of it,
+    /// so that opposite edges are never reached together.
     fn reached(&self, area: &Area, p: Vector2<f64>) -> Vec<Vector2<f64>> {
+        let reach_m = self.edge_m.min(area.length_m.min(area.width_m) / 4.0);
         let mut near: Vec<_> = edges(area, p)
             .into_iter()
-            .filter(|(d, _)| *d < self.edge_m)
+            .filter(|(d, _)| *d < reach_m)
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0));
         near.into_iter().map(|(_, n)| n).collect()
@@ -156,7 +159,11 @@ impl ZigZag {
             .filter(|n| n.dot(&met).abs() < 0.5)
             .map(|n| -n.dot(&along))
             .sum::<f64>();
-        let sign = if pull.abs() > 0.5 { pull } else { c.dot(&along) };
+        let sign = if pull.abs() > 0.5 {
+            pull
+        } else {
+            c.dot(&along)
+        };
         Phase::Along {
             course: Heading::of(along * if sign < 0.0 { -1.0 } else { 1.0 }),
             before: course,

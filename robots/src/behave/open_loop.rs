@@ -92,13 +92,7 @@ impl Behave for TimeTable {
         self.row = None;
     }
 
-    fn step(
-        &mut self,
-        seen: &Observation,
-        _: bool,
-        _: &mut PlumeMemory,
-        _: &mut Stream,
-    ) -> Stride {
+    fn step(&mut self, seen: &Observation, _: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
         // A nanosecond of grace: the clock is a sum of steps, the table is written in decimals.
         let t_s = seen.t_s - self.began_s + 1e-9;
         if t_s >= self.params.end_s.get() {

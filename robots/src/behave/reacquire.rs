@@ -245,7 +245,10 @@ mod tests {
             .collect();
         let want = [10.0, 5.0, 0.0, -30.0, -35.0, -40.0];
         assert_eq!(centres.len(), want.len());
-        assert!(centres.iter().zip(want).all(|(c, w)| (c - w).abs() < 1e-9), "{centres:?}");
+        assert!(
+            centres.iter().zip(want).all(|(c, w)| (c - w).abs() < 1e-9),
+            "{centres:?}"
+        );
     }
 
     #[test]

@@ -11,7 +11,9 @@
 //! flow measured yet the vehicle's heading stands for up-flow.
 
 use crate::error::RobotError;
-use crate::handoff::{Behave, LostPoint, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
+use crate::handoff::{
+    Behave, LostPoint, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects,
+};
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
@@ -156,7 +158,10 @@ mod tests {
             let o = smelling(seen(1.0, Vector2::zeros(), nose, None), true);
             b.enter(&o, &m);
             let s = b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t"));
-            assert!((course(s) - want).abs() < 1e-6, "up {up}, nose {nose}: {s:?}");
+            assert!(
+                (course(s) - want).abs() < 1e-6,
+                "up {up}, nose {nose}: {s:?}"
+            );
             assert_eq!(m.leaves, leaves);
         }
     }
@@ -170,12 +175,30 @@ mod tests {
         );
         let at = |t: f64, smells| smelling(seen(t, Vector2::new(0.0, t), 350.0, None), smells);
         b.enter(&at(0.0, true), &m);
-        assert!(matches!(b.step(&at(0.0, true), false, &mut m, &mut rng), Stride::Start(_)));
-        assert!(matches!(b.step(&at(2.0, true), false, &mut m, &mut rng), Stride::Adjust(_)));
-        assert_eq!(b.step(&at(3.0, false), false, &mut m, &mut rng), Stride::Keep);
-        assert_eq!(b.step(&at(7.0, false), false, &mut m, &mut rng), Stride::Keep);
-        assert_eq!(b.step(&at(7.1, false), false, &mut m, &mut rng), Stride::Over);
-        assert_eq!(m.lost.first().map(|l| l.position), Some(Vector2::new(0.0, 2.0)));
+        assert!(matches!(
+            b.step(&at(0.0, true), false, &mut m, &mut rng),
+            Stride::Start(_)
+        ));
+        assert!(matches!(
+            b.step(&at(2.0, true), false, &mut m, &mut rng),
+            Stride::Adjust(_)
+        ));
+        assert_eq!(
+            b.step(&at(3.0, false), false, &mut m, &mut rng),
+            Stride::Keep
+        );
+        assert_eq!(
+            b.step(&at(7.0, false), false, &mut m, &mut rng),
+            Stride::Keep
+        );
+        assert_eq!(
+            b.step(&at(7.1, false), false, &mut m, &mut rng),
+            Stride::Over
+        );
+        assert_eq!(
+            m.lost.first().map(|l| l.position),
+            Some(Vector2::new(0.0, 2.0))
+        );
     }
 
     #[test]

@@ -144,10 +144,16 @@ mod tests {
         let mut rng = Stream::new(1, "t", "t");
         let o = seen(0.0, Vector2::zeros(), 0.0, None);
         let mut m = memory(Side::Left, &[(0.0, 0.0)]);
-        assert!(matches!(b.step(&o, false, &mut m, &mut rng), Stride::Start(_)));
+        assert!(matches!(
+            b.step(&o, false, &mut m, &mut rng),
+            Stride::Start(_)
+        ));
         assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
         assert_eq!(b.step(&o, true, &mut m, &mut rng), Stride::Over);
         b.enter(&o, &m);
-        assert_eq!(b.step(&o, false, &mut memory(Side::Left, &[]), &mut rng), Stride::Over);
+        assert_eq!(
+            b.step(&o, false, &mut memory(Side::Left, &[]), &mut rng),
+            Stride::Over
+        );
     }
 }

@@ -63,7 +63,10 @@ mod tests {
         let near = [v(0.0, 40.0), v(5.0, 97.5), v(-30.0, 100.0), v(9.0, 96.5)];
         assert_eq!(rule.declare(&near, north), Some(v(-30.0, 100.0)));
         // Exactly 4 m is not less than 4 m.
-        assert_eq!(rule.declare(&[v(0.0, 0.0), v(0.0, 2.0), v(0.0, 4.0)], north), None);
+        assert_eq!(
+            rule.declare(&[v(0.0, 0.0), v(0.0, 2.0), v(0.0, 4.0)], north),
+            None
+        );
         // Two are not three.
         assert_eq!(rule.declare(&near[1..3], north), None);
         assert_eq!(rule.declare(&[], north), None);
@@ -80,7 +83,10 @@ mod tests {
     fn flow_turned_about_looks_from_the_other_end() {
         let rule = AlongFlow::default();
         let points = [v(0.0, 100.0), v(0.0, 99.0), v(0.0, 98.0), v(0.0, 50.0)];
-        assert_eq!(rule.declare(&points, Heading::from_deg(0.0)), Some(v(0.0, 100.0)));
+        assert_eq!(
+            rule.declare(&points, Heading::from_deg(0.0)),
+            Some(v(0.0, 100.0))
+        );
         // From the south the first three are 50, 98, 99: 49 m apart.
         assert_eq!(rule.declare(&points, Heading::from_deg(180.0)), None);
         // From the side all lie abreast.

@@ -92,3 +92,47 @@ fn direct(id: u32, manoeuvre: Manoeuvre, seen: &Observation) -> Goal {
         speed_m_s: seen.estimate.v_ground_body.x.max(0.0),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::behave::TimeTableRow;
+    use crate::handoff::testing::seen;
+    use nalgebra::Vector2;
+    use world::ranges::{Finite, NonNegative, Positive};
+
+    #[test]
+    fn one_goal_a_row_and_completed_at_the_end() {
+        let row = |t_s, rudder_deg| TimeTableRow {
+            t_s: NonNegative::new(t_s),
+            rudder_deg: Finite::new(rudder_deg),
+            stern_deg: Finite::new(0.0),
+            rpm: Finite::new(1500.0),
+        };
+        let spec = OpenLoopSpec {
+            table: vec![row(0.0, 0.0), row(2.0, 5.0)],
+            end_s: Positive::new(4.0),
+        };
+        let mut s = OpenLoop::new(&spec).expect("legal");
+        let mut rng = Stream::new(1, "auv0", "strategy");
+        let mut step = |t_s| s.step(&seen(t_s, Vector2::zeros(), 0.0, None), &mut rng);
+        let first = step(0.0);
+        assert_eq!(
+            (first.behaviour, first.outcome),
+            (Behaviour::OpenLoop, None)
+        );
+        assert_eq!(step(1.0).goal, first.goal);
+        let second = step(2.0);
+        assert_eq!(second.goal.id, first.goal.id + 1);
+        assert!(matches!(
+            second.goal.manoeuvre,
+            Manoeuvre::Direct { rudder_rad, .. } if rudder_rad == 5f64.to_radians()
+        ));
+        let end = step(4.0);
+        assert_eq!(
+            (end.behaviour, end.outcome),
+            (Behaviour::Done, Some(Outcome::Completed))
+        );
+        assert_eq!(step(5.0).outcome, Some(Outcome::Completed));
+    }
+}

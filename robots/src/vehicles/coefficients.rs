@@ -154,8 +154,8 @@ impl Coefficients {
         let k1 = alpha0 / (2.0 - alpha0);
         let k2 = beta0 / (2.0 - beta0);
         let e2 = e * e;
-        let k_turn = e2 * e2 * (beta0 - alpha0)
-            / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
+        let k_turn =
+            e2 * e2 * (beta0 - alpha0) / ((2.0 - e2) * (2.0 * e2 - (2.0 - e2) * (beta0 - alpha0)));
         let added = [
             mass_kg * k1,
             mass_kg * k2,

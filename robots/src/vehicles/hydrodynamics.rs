@@ -276,15 +276,9 @@ impl Hydrodynamics {
             let vz = v.z + c.fin_x_m * (-w.y - along.z);
             let at_rudder = (v.x * v.x + vy * vy).sqrt();
             let at_stern = (v.x * v.x + vz * vz).sqrt();
-            (
-                at_rudder * (v.x * dr + vy),
-                at_stern * (v.x * ds + vz),
-            )
+            (at_rudder * (v.x * dr + vy), at_stern * (v.x * ds + vz))
         } else {
-            (
-                (v.x * v.x + v.y * v.y) * dr,
-                (v.x * v.x + v.z * v.z) * ds,
-            )
+            ((v.x * v.x + v.y * v.y) * dr, (v.x * v.x + v.z * v.z) * ds)
         };
         let (Y, Z) = (-kr * normal_r, -ks * normal_s);
         let X = Y * dr + Z * ds;
@@ -400,7 +394,8 @@ mod tests {
                 rpm: 1000.0,
             };
             let turn = |a: Actuators| {
-                hull.acceleration(&level, &v, &Vector3::zeros(), &still(), &a).1
+                hull.acceleration(&level, &v, &Vector3::zeros(), &still(), &a)
+                    .1
             };
             let straight = turn(helm(0.0, 0.0));
             // FLU: clockwise seen from above is −z; nose down is +y.

@@ -8,6 +8,8 @@ mod motion;
 mod spec;
 mod surface;
 mod urdf;
+#[cfg(test)]
+mod urdf_tests;
 mod vehicle;
 
 pub use coefficients::{Coefficients, Inflow, ParameterSet};

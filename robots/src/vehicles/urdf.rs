@@ -65,7 +65,9 @@ pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, Ro
         }
     }
     if shapes.is_empty() {
-        return Err(fail("no link has a <collision>: the hull could not touch anything".into()));
+        return Err(fail(
+            "no link has a <collision>: the hull could not touch anything".into(),
+        ));
     }
     Ok(Hull { shapes, links })
 }
@@ -107,7 +109,9 @@ fn check_mass(body: &Link, c: &Coefficients) -> Result<(), String> {
     let inertial = &body.inertial;
     let mass = inertial.mass.value;
     if !(mass > 0.0 && mass.is_finite()) {
-        return Err(format!("link \"{name}\": <mass> must be > 0 kg, got {mass}"));
+        return Err(format!(
+            "link \"{name}\": <mass> must be > 0 kg, got {mass}"
+        ));
     }
     let near = |have: f64, want: f64| (have - want).abs() <= MASS_TOLERANCE * want;
     if !near(mass, c.mass_kg) {
@@ -118,7 +122,11 @@ fn check_mass(body: &Link, c: &Coefficients) -> Result<(), String> {
     }
     let i = &inertial.inertia;
     let want = c.inertia_kg_m2;
-    for (have, want, axis) in [(i.ixx, want.x, "ixx"), (i.iyy, want.y, "iyy"), (i.izz, want.z, "izz")] {
+    for (have, want, axis) in [
+        (i.ixx, want.x, "ixx"),
+        (i.iyy, want.y, "iyy"),
+        (i.izz, want.z, "izz"),
+    ] {
         if !near(have, want) {
             return Err(format!(
                 "link \"{name}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for {want:.5} kg m2"

@@ -30,7 +30,11 @@ impl Vehicle {
         let VehicleSpec::Remus100(remus) = spec;
         let coefficients = Coefficients::of(remus.parameters);
         let hull = match &remus.urdf {
-            None => urdf::read(REMUS100, &PathBuf::from("built-in remus100.urdf"), &coefficients)?,
+            None => urdf::read(
+                REMUS100,
+                &PathBuf::from("built-in remus100.urdf"),
+                &coefficients,
+            )?,
             Some(name) => {
                 let path = base_dir.join(name);
                 let text = std::fs::read_to_string(&path).map_err(|e| RobotError::File {
@@ -96,9 +100,9 @@ impl Vehicle {
         dt_s: f64,
     ) -> Truth {
         let asked = Actuators::asked(command, &self.dynamics.c);
-        let (free, actuators) =
-            self.dynamics
-                .advance(truth, &self.actuators, &asked, water, dt_s);
+        let (free, actuators) = self
+            .dynamics
+            .advance(truth, &self.actuators, &asked, water, dt_s);
         self.actuators = actuators;
         free
     }

@@ -24,7 +24,8 @@ pub struct Args {
     pub command: Command,
 }
 
-const EXAMPLES: &str = "`rheotaxis help COMMAND` or `--help` says more, with examples and exit codes.";
+const EXAMPLES: &str =
+    "`rheotaxis help COMMAND` or `--help` says more, with examples and exit codes.";
 
 const AFTER: &str = "\
 Examples:

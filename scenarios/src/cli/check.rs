@@ -14,14 +14,14 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
             Ok((loaded, odd)) => {
                 say::warnings(odd);
                 let s = &loaded.scenario;
-                println!(
+                say::line(format_args!(
                     "{}: fine: {} ({}, {}, {})",
                     file.display(),
                     s.title,
                     count(s.robots.len(), "robot"),
                     count(s.sources.len(), "source"),
-                    count(s.obstacles.len(), "obstacle"),
-                );
+                    count(s.obstacles.len(), "obstacle")
+                ));
             }
             Err(error) => {
                 say::scenario_error(error);

@@ -11,7 +11,9 @@ use std::path::PathBuf;
 /// Writes the template, or without one lists what there is.
 pub(super) fn init(args: &InitArgs) -> Exit {
     let Some(name) = &args.template else {
-        println!("Templates for `rheotaxis init TEMPLATE [PATH]`:\n");
+        say::line(format_args!(
+            "Templates for `rheotaxis init TEMPLATE [PATH]`:\n"
+        ));
         list::scenarios();
         return Exit::Success;
     };
@@ -31,7 +33,7 @@ pub(super) fn init(args: &InitArgs) -> Exit {
     let shown = path.display();
     match File::create_new(&path).and_then(|mut f| f.write_all(found.text.as_bytes())) {
         Ok(()) => {
-            println!("wrote {shown}; next: rheotaxis run {shown}");
+            say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
             Exit::Success
         }
         Err(e) if e.kind() == ErrorKind::AlreadyExists => {

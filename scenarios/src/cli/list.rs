@@ -2,6 +2,7 @@
 
 use super::args::{ListArgs, ListKind};
 use super::exit::Exit;
+use super::say;
 use crate::scenario::{CATALOG, parse};
 use world::catalogue::Entry;
 
@@ -13,11 +14,32 @@ struct Section {
 }
 
 const SECTIONS: &[Section] = &[
-    section(ListKind::Algorithms, "Strategies", robots::strategy::CATALOGUE),
-    section(ListKind::Algorithms, "Behaviours", robots::behave::CATALOGUE),
-    section(ListKind::Algorithms, "Declaration rules", robots::declare::CATALOGUE),
+    section(
+        ListKind::Algorithms,
+        "Strategies",
+        robots::strategy::CATALOGUE,
+    ),
+    section(
+        ListKind::Algorithms,
+        "Behaviours",
+        robots::behave::CATALOGUE,
+    ),
+    section(
+        ListKind::Algorithms,
+        "Declaration rules",
+        robots::declare::CATALOGUE,
+    ),
     section(ListKind::Algorithms, "Guidance", robots::guide::CATALOGUE),
-    section(ListKind::Algorithms, "Estimators", robots::estimate::CATALOGUE),
+    section(
+        ListKind::Algorithms,
+        "Estimators",
+        robots::estimate::CATALOGUE,
+    ),
+    section(
+        ListKind::Algorithms,
+        "Autopilots",
+        robots::actuate::CATALOGUE,
+    ),
     section(ListKind::Flows, "Flows", plumes::flow::CATALOGUE),
     section(ListKind::Sensors, "Sensors", robots::sense::CATALOGUE),
     section(ListKind::Vehicles, "Vehicles", robots::vehicles::CATALOGUE),
@@ -35,15 +57,15 @@ const fn section(kind: ListKind, heading: &'static str, entries: &'static [Entry
 pub(super) fn list(args: &ListArgs) -> Exit {
     let wanted = |kind: ListKind| args.what.is_none_or(|w| w == kind);
     if wanted(ListKind::Scenarios) {
-        println!("Scenarios");
+        say::line(format_args!("Scenarios"));
         scenarios();
     }
     for section in SECTIONS.iter().filter(|s| wanted(s.kind)) {
-        println!("{}", section.heading);
+        say::line(format_args!("{}", section.heading));
         for entry in section.entries {
             print(entry.name, entry.what, entry.source);
         }
-        println!();
+        say::line("");
     }
     Exit::Success
 }
@@ -57,12 +79,12 @@ pub(super) fn scenarios() {
             Err(error) => print(template.name, &error.to_string(), "-"),
         }
     }
-    println!();
+    say::line("");
 }
 
 fn print(name: &str, what: &str, source: &str) {
-    println!("  {name:<22} {what}");
-    println!("  {:<22} [{source}]", "");
+    say::line(format_args!("  {name:<22} {what}"));
+    say::line(format_args!("  {:<22} [{source}]", ""));
 }
 
 #[cfg(test)]

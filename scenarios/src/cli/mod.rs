@@ -10,6 +10,8 @@ mod check;
 mod exit;
 mod init;
 mod list;
+mod onlooker;
+mod progress;
 mod run;
 mod say;
 mod topics;

@@ -1,57 +1,80 @@
-//! `rheotaxis run`: reads, checks and prepares; the missions themselves are the integrator's.
+//! `rheotaxis run`: runs scenarios, shows them, and leaves a folder for each.
 
 use super::args::RunArgs;
 use super::exit::Exit;
+use super::onlooker::Onlooker;
 use super::say;
-use crate::scenario::{Loaded, load};
-use std::path::PathBuf;
+use crate::assemble::AssembleError;
+use crate::live::LiveError;
+use crate::report::{ReportError, RunOutcome};
+use crate::scenario::{Loaded, ScenarioError, load};
+use crate::trial::Trial;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Runs every file, going on after a broken one.
+/// Set by Ctrl-C or a termination signal; the run in hand then ends as it should.
+static STOP: AtomicBool = AtomicBool::new(false);
+
+/// Why a run could not be made or finished.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum RunError {
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Assemble(#[from] AssembleError),
+    #[error(transparent)]
+    Live(#[from] LiveError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+}
+
+/// Runs every file; a broken one is reported and the next one tried.
 pub(super) fn run(args: &RunArgs) -> Exit {
+    // Fails only if a handler is there already, and that one is ours.
+    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
     let mut exit = Exit::Success;
     for file in &args.files {
-        let checked = load(file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
-        match checked {
-            Ok((loaded, odd)) => {
-                say::warnings(odd);
-                exit = exit.worse(one(args, &loaded));
+        exit = exit.worse(match one(file, args) {
+            Ok(outcome) => code(outcome),
+            Err(RunError::Scenario(error)) => {
+                say::scenario_error(error);
+                Exit::Error
             }
             Err(error) => {
-                say::scenario_error(error);
-                exit = exit.worse(Exit::Error);
+                say::error(error, None);
+                Exit::Error
             }
+        });
+        if STOP.load(Ordering::Relaxed) {
+            break;
         }
     }
     exit
 }
 
-fn one(args: &RunArgs, loaded: &Loaded) -> Exit {
-    let out = out_dir(args, loaded);
-    if let Err(e) = writable(&out) {
-        say::error(
-            format!("{}: results cannot be written there: {e}", out.display()),
-            Some("name another folder with --out"),
-        );
-        return Exit::Error;
+fn code(outcome: RunOutcome) -> Exit {
+    match outcome {
+        RunOutcome::Found | RunOutcome::Completed => Exit::Success,
+        RunOutcome::NotFound | RunOutcome::Aborted | RunOutcome::TimeOut => Exit::NotFound,
+        RunOutcome::Interrupted => Exit::Interrupted,
+        RunOutcome::Failed => Exit::Error,
     }
-    say::error("this build cannot run missions", None);
-    Exit::Error
 }
 
-/// Where the results of a scenario go.
-fn out_dir(args: &RunArgs, loaded: &Loaded) -> PathBuf {
-    let own = format!("{}-{}", loaded.name, args.seed);
+fn one(file: &Path, args: &RunArgs) -> Result<RunOutcome, RunError> {
+    let loaded = load(file)?;
+    say::warnings(loaded.check()?);
+    let mut trial = Trial::assemble(&loaded, args.seed)?;
+    let mut onlooker = Onlooker::new(&loaded, args, &folder(&loaded, args), &STOP)?;
+    let ended = trial.run(&mut onlooker);
+    Ok(onlooker.finish(&trial, &ended)?)
+}
+
+/// Where the results go: as asked, or `runs/<scenario>-<seed>`.
+fn folder(loaded: &Loaded, args: &RunArgs) -> PathBuf {
     match &args.out {
-        None => PathBuf::from("runs").join(own),
-        Some(out) if args.files.len() > 1 => out.join(own),
-        Some(out) => out.clone(),
+        Some(out) if args.files.len() == 1 => out.clone(),
+        Some(out) => out.join(&loaded.name),
+        None => Path::new("runs").join(format!("{}-{}", loaded.name, args.seed)),
     }
-}
-
-/// Makes the folder and tries a file in it: better now than after the run.
-fn writable(out: &std::path::Path) -> std::io::Result<()> {
-    std::fs::create_dir_all(out)?;
-    let probe = out.join(".writable");
-    std::fs::write(&probe, b"")?;
-    std::fs::remove_file(probe)
 }

@@ -2,7 +2,7 @@
 
 use crate::scenario::{Fault, ScenarioError};
 use miette::{MietteHandlerOpts, Report};
-use std::io::IsTerminal;
+use std::io::{IsTerminal, Write};
 
 /// Width of messages where there is no terminal to ask.
 const WIDTH: usize = 100;
@@ -29,12 +29,20 @@ fn look() -> Box<dyn miette::ReportHandler> {
     Box::new(look.build())
 }
 
-/// What is wrong with a scenario, to standard error.
+/// What is wrong with a scenario, to standard error: each mistake for itself.
 pub(super) fn scenario_error(error: ScenarioError) {
-    eprintln!("{:?}", Report::new(error));
+    match error {
+        ScenarioError::Many { faults, .. } => warnings(faults),
+        other => eprintln!("{:?}", Report::new(other)),
+    }
 }
 
-/// What is odd about a scenario, to standard error.
+/// A line to standard output. Whoever reads it may have heard enough (`| head`): that is no error.
+pub(super) fn line(text: impl std::fmt::Display) {
+    let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// What is wrong or odd about a scenario, to standard error.
 pub(super) fn warnings(faults: Vec<Fault>) {
     for fault in faults {
         eprintln!("{:?}", Report::new(fault));

@@ -2,6 +2,7 @@
 
 use super::args::TopicsArgs;
 use super::exit::Exit;
+use super::say;
 use crate::live;
 use serde_json::{Map, Value};
 
@@ -12,18 +13,24 @@ pub(super) fn topics(args: &TopicsArgs) -> Exit {
             .iter()
             .map(|t| (t.name.to_string(), t.schema()))
             .collect();
-        println!("{:#}", Value::Object(schemas));
+        say::line(format_args!("{:#}", Value::Object(schemas)));
         return Exit::Success;
     }
-    println!("Keys below rheotaxis/<run>/, where <run> is <scenario>_<seed>. SI units, ENU axes.\n");
+    say::line(format_args!(
+        "Keys below rheotaxis/<run>/, where <run> is <scenario>_<seed>. SI units, ENU axes.\n"
+    ));
     for topic in live::topics() {
-        println!("{}  ({})", topic.key, topic.rate);
-        println!("    {}", topic.what);
+        say::line(format_args!("{}  ({})", topic.key, topic.rate));
+        say::line(format_args!("    {}", topic.what));
         for field in topic.fields {
             let mark = if field.required { "" } else { "?" };
-            println!("    {:<24} {}", format!("{}{mark}", field.name), field.what);
+            say::line(format_args!(
+                "    {:<24} {}",
+                format!("{}{mark}", field.name),
+                field.what
+            ));
         }
-        println!();
+        say::line("");
     }
     Exit::Success
 }

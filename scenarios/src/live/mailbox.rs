@@ -30,6 +30,7 @@ struct Slots {
     frame: Option<Frame>,
     plume: Option<PlumeFrame>,
     digest: Option<String>,
+    ended: bool,
     close: bool,
     counts: LiveCounts,
     frame_due: Option<Instant>,
@@ -72,19 +73,30 @@ impl Mailbox {
         }
         let old = slots.frame.replace(new);
         drop(slots);
-        self.wake.notify_one();
-        drop(old);
+        self.wake_if_first(old);
     }
 
     pub(super) fn put_plume(&self, plume: &PlumeFrame) {
         let new = plume.clone();
         let old = self.slots().plume.replace(new);
-        self.wake.notify_one();
-        drop(old);
+        self.wake_if_first(old);
     }
 
+    /// With something in the slot already, the thread is up or knows when it is due.
+    fn wake_if_first<T>(&self, old: Option<T>) {
+        if old.is_none() {
+            self.wake.notify_one();
+        }
+    }
+
+    /// The first end counts.
     pub(super) fn end(&self, digest: &str) {
-        self.slots().digest = Some(digest.to_owned());
+        let mut slots = self.slots();
+        if !slots.ended {
+            slots.ended = true;
+            slots.digest = Some(digest.to_owned());
+        }
+        drop(slots);
         self.wake.notify_one();
     }
 
@@ -204,6 +216,7 @@ mod tests {
             digest: "d1".to_owned(),
         };
         assert_eq!(mailbox.next(), last);
+        mailbox.end("the first end counts");
         assert_eq!(mailbox.next(), Work::Close);
     }
 }

@@ -7,6 +7,7 @@
 
 mod error;
 mod options;
+mod table;
 mod topics;
 
 #[cfg(feature = "live")]

@@ -2,6 +2,7 @@
 
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
 use crate::frame::{Frame, PlumeFrame};
+use std::time::Duration;
 
 /// Live state left out of the build (feature `live`).
 #[derive(Debug)]
@@ -43,6 +44,9 @@ impl Live {
 
     /// Does nothing.
     pub fn end(&self, _digest: &str) {}
+
+    /// Does nothing: nobody can come.
+    pub fn linger(&self, _time: Duration, _stop: impl Fn() -> bool) {}
 
     /// Does nothing.
     pub fn finish(self, _digest: &str) {}

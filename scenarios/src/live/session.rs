@@ -7,7 +7,7 @@ use crate::frame::{Frame, PlumeFrame};
 use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::Arc;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
 use zenoh::config::EndPoint;
 use zenoh::{Config, Session, Wait};
@@ -100,6 +100,19 @@ impl Live {
     /// this is dropped, those who come late can still ask for all of it.
     pub fn end(&self, digest: &str) {
         self.mailbox.end(digest);
+    }
+
+    /// Waits, so that those who come late find the run: until the time is over or `stop` says so.
+    pub fn linger(&self, time: Duration, stop: impl Fn() -> bool) {
+        const STEP: Duration = Duration::from_millis(50);
+        let mut left = time;
+        // The thread says nothing before it is told to close: waiting for it is a pause.
+        while !left.is_zero()
+            && !stop()
+            && self.gone.recv_timeout(left.min(STEP)) == Err(RecvTimeoutError::Timeout)
+        {
+            left = left.saturating_sub(STEP);
+        }
     }
 
     /// [`Live::end`] and close. Waits for zenoh 2 s at the very most, whatever subscribers do.
@@ -291,4 +304,22 @@ fn plain(error: &zenoh::Error) -> String {
         }
     }
     words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_given_goes_before_the_one_of_the_environment() {
+        let from_env = Some(PathBuf::from("/nowhere/env.json5"));
+        let mut options = LiveOptions::new("run_1".to_owned());
+        let file = |options: &LiveOptions| match configured(options, from_env.clone()) {
+            Err(LiveError::Config { path, .. }) => path,
+            other => panic!("neither file exists: {other:?}"),
+        };
+        assert_eq!(file(&options), PathBuf::from("/nowhere/env.json5"));
+        options.config_file = Some("/nowhere/given.json5".into());
+        assert_eq!(file(&options), PathBuf::from("/nowhere/given.json5"));
+    }
 }

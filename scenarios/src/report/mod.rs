@@ -1,6 +1,8 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
 
+mod figures;
 mod files;
+mod html;
 mod recorder;
 mod summary;
 mod summary_builder;
@@ -16,3 +18,8 @@ pub use summary::{
 pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
 pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
 pub use write::{ObstacleOutline, RunReport, write_all};
+
+#[cfg(test)]
+mod sample;
+#[cfg(test)]
+mod tests;

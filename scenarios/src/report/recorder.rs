@@ -111,9 +111,8 @@ impl Recorder {
             angular: e.attitude.rates_rad_s,
         };
         let file = &mut self.file;
-        let mut put = |name: &str, kind: Kind, cdr: &[u8]| {
-            file.write(&format!("/{id}/{name}"), kind, t, cdr)
-        };
+        let mut put =
+            |name: &str, kind: Kind, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
         put("truth", Kind::Odometry, &truth.cdr())?;
         put("estimate", Kind::Odometry, &estimate.cdr())?;
         put("altitude", Kind::Float64, &float64(r.altitude_m))?;
@@ -137,8 +136,16 @@ impl Recorder {
                 Vertical::Altitude(m) => ("command/altitude_m", m),
                 Vertical::Depth(m) => ("command/depth_m", m),
             };
-            put("command/heading_rad", Kind::Float64, &float64(s.heading.rad()))?;
-            put("command/water_speed_m_s", Kind::Float64, &float64(s.water_speed_m_s))?;
+            put(
+                "command/heading_rad",
+                Kind::Float64,
+                &float64(s.heading.rad()),
+            )?;
+            put(
+                "command/water_speed_m_s",
+                Kind::Float64,
+                &float64(s.water_speed_m_s),
+            )?;
             put(name, Kind::Float64, &float64(height))?;
         }
         if self.behaviours[k] != r.behaviour.name() {

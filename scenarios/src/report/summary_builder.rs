@@ -103,7 +103,11 @@ impl Robot {
         let p = r.truth.pose.p_WB;
         self.travelled_m += (p - self.last).norm();
         let spent = t_s - self.last_t_s;
-        match self.behaviour_s.iter_mut().find(|(b, _)| *b == self.behaviour) {
+        match self
+            .behaviour_s
+            .iter_mut()
+            .find(|(b, _)| *b == self.behaviour)
+        {
             Some((_, s)) => *s += spent,
             None => self.behaviour_s.push((self.behaviour, spent)),
         }
@@ -160,19 +164,17 @@ pub struct SummaryBuilder {
     scenario: String,
     seed: u64,
     version: String,
-    sources: Vec<SourceTruth>,
     robots: Vec<Robot>,
 }
 
 impl SummaryBuilder {
-    /// For a run with these true sources.
+    /// For a run that has not begun.
     #[must_use]
-    pub fn new(run: &RunInfo, sources: Vec<SourceTruth>) -> Self {
+    pub fn new(run: &RunInfo) -> Self {
         Self {
             scenario: run.scenario_name.clone(),
             seed: run.seed,
             version: run.version.clone(),
-            sources,
             robots: Vec::new(),
         }
     }
@@ -189,16 +191,9 @@ impl SummaryBuilder {
         }
     }
 
-    /// Error of a robot's declaration against the nearest true source, m; the scenario's success test needs it.
+    /// The summary of the run, against the true sources.
     #[must_use]
-    pub fn declaration_error_m(&self, robot: &str) -> Option<f64> {
-        let r = self.robots.iter().find(|r| r.id == robot)?;
-        Some(r.summary(&self.sources).declaration?.error?.total_m)
-    }
-
-    /// The summary of the run.
-    #[must_use]
-    pub fn finish(&self, end: RunEnd) -> Summary {
+    pub fn finish(&self, end: RunEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
         let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
         Summary {
@@ -208,8 +203,7 @@ impl SummaryBuilder {
             digest: end.digest,
             outcome: end.outcome,
             error: end.error,
-            sources: self
-                .sources
+            sources: sources
                 .iter()
                 .map(|s| SourceSummary {
                     id: s.id.clone(),
@@ -218,7 +212,7 @@ impl SummaryBuilder {
                     flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
                 })
                 .collect(),
-            robots: self.robots.iter().map(|r| r.summary(&self.sources)).collect(),
+            robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
             run: RunSummary {
                 totals: t,
                 real_time_factor: ratio(t.mission_wall_s),

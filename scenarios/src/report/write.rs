@@ -1,7 +1,7 @@
 //! Everything a run leaves behind, written into one folder.
 
 use super::files::{ReportError, make_folder, write_whole};
-use super::{SourceTruth, Summary, Track};
+use super::{SourceTruth, Summary, Track, figures, html};
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -50,6 +50,37 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
         let path = out_dir.join("plume.csv");
         written.push(write_whole(&path, plume_csv(plume).as_bytes())?);
     }
+    let mut figures = vec![("map".to_owned(), "Map".to_owned(), figures::map(run))];
+    for robot in &run.track.robots {
+        let id = &robot.info.id;
+        // An id may hold what a file's name may not.
+        let safe: String = id
+            .chars()
+            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+            .collect();
+        let svg = figures::series(run, robot);
+        figures.push((
+            format!("series-{safe}"),
+            format!("Time series of {id}"),
+            svg,
+        ));
+    }
+    let mut shown = Vec::new();
+    for (name, title, svg) in figures {
+        written.push(write_whole(
+            &out_dir.join(format!("{name}.svg")),
+            svg.as_bytes(),
+        )?);
+        let path = out_dir.join(format!("{name}.png"));
+        let png = figures::png(&svg).map_err(|cause| ReportError::Draw {
+            path: path.clone(),
+            cause,
+        })?;
+        written.push(write_whole(&path, &png)?);
+        shown.push((title, svg));
+    }
+    let page = html::page(run.summary, &shown, run.scenario_text);
+    written.push(write_whole(&out_dir.join("report.html"), page.as_bytes())?);
     Ok(written)
 }
 
@@ -57,8 +88,12 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
 fn plume_csv(plume: &PlumeFrame) -> String {
     let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg\n");
     for [x, y, z, size, mass] in &plume.points {
-        writeln!(text, "{:.1},{x:.2},{y:.2},{z:.3},{size:.4},{mass:.6e}", plume.t_s)
-            .expect("writing to a String succeeds");
+        writeln!(
+            text,
+            "{:.1},{x:.2},{y:.2},{z:.3},{size:.4},{mass:.6e}",
+            plume.t_s
+        )
+        .expect("writing to a String succeeds");
     }
     text
 }

@@ -54,7 +54,9 @@ fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
                 "terrain.shallow_m",
                 format!("must be at most deep_m, {deep}, got {shallow}"),
             )
-            .hint("shoreward is where the water gets shallower; turn shoreward_heading_deg instead"),
+            .hint(
+                "shoreward is where the water gets shallower; turn shoreward_heading_deg instead",
+            ),
         );
     }
 }
@@ -127,13 +129,13 @@ fn start(
     let (start, id) = (&robot.start, robot.id.as_str());
     if start.depth_m.is_some() == start.altitude_m.is_some() {
         let given = if start.depth_m.is_some() {
-            "both"
+            "both are"
         } else {
-            "neither"
+            "neither is"
         };
         found.push(Found::error(
             path,
-            format!("give either depth_m or altitude_m; {given} is given"),
+            format!("give either depth_m or altitude_m; {given} given"),
         ));
         return;
     }
@@ -218,10 +220,8 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
 
 fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
     match error {
-        RobotError::File { .. } => {
-            Found::error(format!("{robot}.{part}.urdf"), error.to_string())
-                .hint("paths are relative to the scenario file")
-        }
+        RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
+            .hint("paths are relative to the scenario file"),
         RobotError::Invalid { field, problem } => {
             Found::error(within(robot, part, &field), problem)
         }
@@ -302,7 +302,9 @@ fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
 /// A part's field as a path from the scenario's root, however much of it the part knew.
 fn within(whole: &str, part: &str, field: &str) -> String {
     // Variants (`strategy.OpenLoop.table`) are values, not fields.
-    let fields = field.split('.').filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
+    let fields = field
+        .split('.')
+        .filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
     let field = fields.collect::<Vec<_>>().join(".");
     let list = whole.split('[').next().unwrap_or(whole);
     if field.starts_with(&format!("{list}[")) {

@@ -5,6 +5,9 @@ use super::outline::Outline;
 use ron::error::{Error, Position, SpannedError};
 use std::ops::Range;
 
+/// Longest value repeated in a message, bytes.
+const SHORT: usize = 40;
+
 /// Turns an error of the reader into one that points at its place.
 pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioError {
     let outline = Outline::of(text);
@@ -49,7 +52,6 @@ pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioE
             span,
             Found::error(path, "expected a comma").hint("fields and elements are separated by `,`"),
         ),
-        Error::ExpectedFloat => (span, Found::error(path, "expected a number")),
         Error::TrailingCharacters => (
             span,
             Found::error("", "something follows after the end of the scenario"),
@@ -64,9 +66,39 @@ pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioE
             };
             (node.map_or(span, |n| n.value.clone()), found)
         }
-        other => (span, Found::error(path, lower(&other.to_string()))),
+        other => return unexpected(name, text, &outline, span, other),
     };
     Box::new(Fault::new(name, text, trimmed(text, span), found)).into()
+}
+
+/// Something of another kind than what belongs here.
+fn unexpected(
+    name: &str,
+    text: &str,
+    outline: &Outline,
+    span: Range<usize>,
+    error: &Error,
+) -> ScenarioError {
+    let wanted = match error {
+        Error::ExpectedFloat => "expected a number".to_string(),
+        Error::ExpectedString => "expected a text in quotes".to_string(),
+        other => lower(&other.to_string()),
+    };
+    // After the last token of a value the reader stands just behind it.
+    let before = text[..span.start].trim_end().len().saturating_sub(1);
+    let node = [span.start, before]
+        .into_iter()
+        .filter_map(|at| outline.at(at))
+        .find(|n| !n.path.is_empty());
+    let (path, span, got) = node.map_or(("", span, ""), |n| {
+        (n.path.as_str(), n.value.clone(), &text[n.value.clone()])
+    });
+    let message = if (1..=SHORT).contains(&got.len()) && !got.contains('\n') {
+        format!("{wanted}, got {got}")
+    } else {
+        wanted
+    };
+    Box::new(Fault::new(name, text, span, Found::error(path, message))).into()
 }
 
 /// A text that stops before its brackets are closed.
@@ -160,8 +192,14 @@ mod tests {
 
     #[test]
     fn only_a_near_name_is_proposed() {
-        assert!(choose("lenght_m", &["length_m", "width_m"], "fields").starts_with("did you mean `length_m`?"));
-        assert_eq!(choose("colour", &["length_m"], "fields"), "fields here: length_m");
+        assert!(
+            choose("lenght_m", &["length_m", "width_m"], "fields")
+                .starts_with("did you mean `length_m`?")
+        );
+        assert_eq!(
+            choose("colour", &["length_m"], "fields"),
+            "fields here: length_m"
+        );
     }
 
     #[test]

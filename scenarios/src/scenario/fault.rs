@@ -4,6 +4,9 @@ use super::outline::Outline;
 use miette::{Diagnostic, NamedSource, Severity, SourceSpan};
 use std::ops::Range;
 
+/// Longest line shown, bytes.
+const LONG: usize = 400;
+
 /// A scenario cannot be used.
 #[derive(Debug, thiserror::Error, Diagnostic)]
 pub enum ScenarioError {
@@ -63,7 +66,7 @@ pub struct Fault {
     pub column: usize,
     label: &'static str,
     source_name: String,
-    text: NamedSource<String>,
+    text: Option<NamedSource<String>>,
     span: SourceSpan,
 }
 
@@ -71,18 +74,33 @@ impl Fault {
     pub(super) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
         let before = &text[..span.start];
         // An empty span shows nothing; a long one hides what matters.
-        let line_end = text[span.start..].find('\n').map_or(text.len(), |i| span.start + i);
+        let line_end = text[span.start..]
+            .find('\n')
+            .map_or(text.len(), |i| span.start + i);
         let end = span.end.min(line_end).max(span.start);
+        let line = 1 + before.matches('\n').count();
+        let column = 1 + before.chars().rev().take_while(|&c| c != '\n').count();
+        // A line too long to look at is only named.
+        let shown = text
+            .lines()
+            .skip(line.saturating_sub(2))
+            .take(3)
+            .all(|l| l.len() <= LONG);
+        let message = if shown {
+            found.message
+        } else {
+            format!("{} (line {line}, column {column})", found.message)
+        };
         Self {
             path: found.path,
-            message: found.message,
+            message,
             help: found.help,
             severity: found.severity,
-            line: 1 + before.matches('\n').count(),
-            column: 1 + before.chars().rev().take_while(|&c| c != '\n').count(),
+            line,
+            column,
             label: found.label,
             source_name: name.to_string(),
-            text: NamedSource::new(name, text.to_string()),
+            text: shown.then(|| NamedSource::new(name, text.to_string())),
             span: (span.start..end).into(),
         }
     }
@@ -107,11 +125,13 @@ impl Diagnostic for Fault {
     }
 
     fn help<'a>(&'a self) -> Option<Box<dyn std::fmt::Display + 'a>> {
-        self.help.as_ref().map(|h| Box::new(h) as Box<dyn std::fmt::Display>)
+        self.help
+            .as_ref()
+            .map(|h| Box::new(h) as Box<dyn std::fmt::Display>)
     }
 
     fn source_code(&self) -> Option<&dyn miette::SourceCode> {
-        Some(&self.text)
+        self.text.as_ref().map(|t| t as &dyn miette::SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {

@@ -102,24 +102,26 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
 /// # Errors
 /// If it is not a scenario.
 pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
-    if text.trim().is_empty() {
+    let outline = Outline::of(text);
+    if outline.nodes.is_empty() {
         return Err(ScenarioError::File {
             path: name.to_string(),
-            problem: "the file is empty".to_string(),
-            help: Some("`rheotaxis init duck_st` writes a whole scenario to start from".to_string()),
+            problem: "the file is empty, or holds only comments".to_string(),
+            help: Some(
+                "`rheotaxis init duck_st` writes a whole scenario to start from".to_string(),
+            ),
         });
     }
-    let reader = ron::Options::default().with_default_extension(
-        Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES,
-    );
-    let read = reader.from_str(text);
-    version_first(name, text)?;
-    read.map_err(|e| explain(name, text, &e))
+    let reader = ron::Options::default()
+        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
+    if outline.open.is_empty() {
+        version_first(name, text, &outline)?;
+    }
+    reader.from_str(text).map_err(|e| explain(name, text, &e))
 }
 
 /// A file of another version may differ in everything else: say that first.
-fn version_first(name: &str, text: &str) -> Result<(), ScenarioError> {
-    let outline = Outline::of(text);
+fn version_first(name: &str, text: &str, outline: &Outline) -> Result<(), ScenarioError> {
     let first = outline
         .nodes
         .iter()
@@ -130,8 +132,11 @@ fn version_first(name: &str, text: &str) -> Result<(), ScenarioError> {
     };
     let value = &text[first.value.clone()];
     let found = if first.path != "version" {
-        Found::error("version", format!("the first field must be `version: {VERSION}`"))
-            .hint(format!("the file begins with `{}`", first.path))
+        Found::error(
+            "version",
+            format!("the first field must be `version: {VERSION}`"),
+        )
+        .hint(format!("the file begins with `{}`", first.path))
     } else if value.parse() == Ok(VERSION) {
         return Ok(());
     } else {

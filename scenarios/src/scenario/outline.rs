@@ -35,6 +35,9 @@ struct Frame {
     key: Option<Range<usize>>,
     start: Option<usize>,
     end: usize,
+    /// The newest token, and where the one before it ended.
+    last: Range<usize>,
+    before: usize,
 }
 
 impl Frame {
@@ -47,6 +50,8 @@ impl Frame {
             key: None,
             start: None,
             end: 0,
+            last: 0..0,
+            before: 0,
         }
     }
 
@@ -55,12 +60,11 @@ impl Frame {
             return String::new();
         };
         match &self.key {
-            Some(k) if self.path.is_empty() => text[k.clone()].to_string(),
-            Some(k) => format!("{}.{}", self.path, &text[k.clone()]),
+            Some(k) => joined(&self.path, &text[k.clone()]),
             None if bracket == '[' => format!("{}[{}]", self.path, self.count),
             // `Altitude(2.0)`: the value of the variant is the value of the field.
-            None if self.variant && self.count == 0 => self.path.clone(),
-            None => format!("{}.{}", self.path, self.count),
+            None if self.path.is_empty() || self.variant && self.count == 0 => self.path.clone(),
+            None => joined(&self.path, &self.count.to_string()),
         }
     }
 
@@ -79,7 +83,22 @@ impl Frame {
 
     fn take(&mut self, token: Range<usize>) {
         self.start.get_or_insert(token.start);
+        self.before = self.end;
         self.end = token.end;
+        self.last = token;
+    }
+
+    /// A colon: the newest token is a name; what stands before it lacks its comma.
+    fn name(&mut self, text: &str, nodes: &mut Vec<Node>) {
+        let Some(start) = self.start else {
+            return;
+        };
+        if start < self.last.start {
+            self.end = self.before;
+            self.finish(text, nodes);
+        }
+        self.start = None;
+        self.key = Some(self.last.clone());
     }
 }
 
@@ -108,7 +127,7 @@ impl Outline {
                     }
                 }
                 b',' => top.finish(text, &mut nodes),
-                b':' => top.key = top.start.take().map(|start| start..top.end),
+                b':' => top.name(text, &mut nodes),
                 _ if is_blank(rest) => {}
                 _ => top.take(token.clone()),
             }
@@ -140,6 +159,14 @@ impl Outline {
             .iter()
             .filter(|n| n.whole.start <= place && place < n.whole.end)
             .min_by_key(|n| n.whole.len())
+    }
+}
+
+fn joined(path: &str, part: &str) -> String {
+    if path.is_empty() {
+        part.to_string()
+    } else {
+        format!("{path}.{part}")
     }
 }
 

@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
-/*PENDING*/ #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)] #[allow(missing_docs)] pub struct AutopilotSpec {}
+use robots::actuate::AutopilotSpec;
 use robots::estimate::EstimatorSpec;
 use robots::guide::GuidanceSpec;
 use robots::sense::SensorsSpec;

@@ -2,6 +2,7 @@
 
 mod mesh;
 mod mesh_file;
+mod outline;
 mod solid;
 mod spec;
 #[cfg(test)]

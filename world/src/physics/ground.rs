@@ -50,10 +50,7 @@ impl Fixed {
         }
         let upright = Pose {
             p_WB: Vector3::new(middle.x, middle.y, 0.0),
-            R_WB: UnitQuaternion::from_axis_angle(
-                &Vector3::x_axis(),
-                std::f64::consts::FRAC_PI_2,
-            ),
+            R_WB: UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
         };
         let scale = r::Vector::new(size.x, 1.0, size.y);
         Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
@@ -74,7 +71,12 @@ impl Fixed {
     }
 
     /// Distance along a unit direction to the first hit, m.
-    pub(super) fn ray(&self, from_W: &Vector3<f64>, along_W: &Vector3<f64>, max_m: f64) -> Option<f64> {
+    pub(super) fn ray(
+        &self,
+        from_W: &Vector3<f64>,
+        along_W: &Vector3<f64>,
+        max_m: f64,
+    ) -> Option<f64> {
         let ray = Ray::new(vector(from_W), vector(along_W));
         self.shape.cast_ray(&self.pose, &ray, max_m, true)
     }
@@ -100,7 +102,10 @@ mod tests {
             let from = Vector3::new(x, y, -1.0);
             let hit = bed.ray(&from, &-Vector3::z(), 100.0).expect("bed below");
             let depth = -terrain.bed_z(x, y);
-            assert!((1.0 + hit - depth).abs() < 1e-3, "{hit} at {x} {y}, depth {depth}");
+            assert!(
+                (1.0 + hit - depth).abs() < 1e-3,
+                "{hit} at {x} {y}, depth {depth}"
+            );
             assert!(!bed.within(&from, depth - 1.1) && bed.within(&from, depth - 0.9));
         }
         // Past the area, within the margin.

@@ -4,6 +4,8 @@ mod convert;
 mod ground;
 mod shape;
 mod solid;
+#[cfg(test)]
+mod solid_tests;
 
 pub use shape::Shape;
 pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};

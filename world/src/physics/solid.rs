@@ -251,7 +251,9 @@ impl Physics {
         self.fixed
             .iter()
             .filter_map(|f| f.ray(from_W, &along, max_m))
-            .fold(None, |best: Option<f64>, d| Some(best.map_or(d, |b| b.min(d))))
+            .fold(None, |best: Option<f64>, d| {
+                Some(best.map_or(d, |b| b.min(d)))
+            })
     }
 
     /// Says where a body's own equation of motion takes it in this step if it touches nothing. A
@@ -352,7 +354,11 @@ impl Physics {
                     continue;
                 }
                 // rapier's normals point from the first collider of a pair to the second.
-                let sign = if pair.collider1 == collider { -1.0 } else { 1.0 };
+                let sign = if pair.collider1 == collider {
+                    -1.0
+                } else {
+                    1.0
+                };
                 report.touching = true;
                 report.impulse_N_s += from_vector(pair.total_impulse()) * sign;
                 if let Some((_, deepest)) = pair.find_deepest_contact() {

@@ -124,9 +124,7 @@ mod tests {
         let mut c = Cdr::new();
         c.u8(7).u32(1).f64(1.0).u8(9);
         // 1 byte, 3 of padding, u32, then the f64 already stands at 8.
-        let body = [
-            7, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 9,
-        ];
+        let body = [7, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 9];
         let bytes = c.finish();
         assert_eq!(bytes[..4], HEADER);
         assert_eq!(bytes[4..], body);
@@ -154,9 +152,7 @@ mod tests {
     fn doubles_after_text_skip_to_a_multiple_of_eight() {
         let mut c = Cdr::new();
         c.text("abc").f64(-2.0);
-        let body = [
-            4, 0, 0, 0, b'a', b'b', b'c', 0, 0, 0, 0, 0, 0, 0, 0, 0xc0,
-        ];
+        let body = [4, 0, 0, 0, b'a', b'b', b'c', 0, 0, 0, 0, 0, 0, 0, 0, 0xc0];
         assert_eq!(c.finish()[4..], body);
     }
 }

@@ -113,12 +113,7 @@ pub fn vector3_stamped(t_ns: u64, frame: &str, v: &Vector3<f64>) -> Vec<u8> {
 
 /// A `PoseStamped`.
 #[must_use]
-pub fn pose_stamped(
-    t_ns: u64,
-    frame: &str,
-    p: &Vector3<f64>,
-    q: &UnitQuaternion<f64>,
-) -> Vec<u8> {
+pub fn pose_stamped(t_ns: u64, frame: &str, p: &Vector3<f64>, q: &UnitQuaternion<f64>) -> Vec<u8> {
     let mut c = Cdr::new();
     c.header(t_ns, frame).f64s(&xyz(p)).f64s(&xyzw(q));
     c.finish()

@@ -25,10 +25,7 @@ const POSE_COV: (&str, &str) = (
     "geometry_msgs/PoseWithCovariance",
     "Pose pose\nfloat64[36] covariance\n",
 );
-const TWIST: (&str, &str) = (
-    "geometry_msgs/Twist",
-    "Vector3 linear\nVector3 angular\n",
-);
+const TWIST: (&str, &str) = ("geometry_msgs/Twist", "Vector3 linear\nVector3 angular\n");
 const TWIST_COV: (&str, &str) = (
     "geometry_msgs/TwistWithCovariance",
     "Twist twist\nfloat64[36] covariance\n",
@@ -86,7 +83,14 @@ impl Kind {
             ),
             Kind::TfMessage => (
                 "geometry_msgs/TransformStamped[] transforms\n",
-                &[TRANSFORM_STAMPED, HEADER, TIME, TRANSFORM, VECTOR3, QUATERNION],
+                &[
+                    TRANSFORM_STAMPED,
+                    HEADER,
+                    TIME,
+                    TRANSFORM,
+                    VECTOR3,
+                    QUATERNION,
+                ],
             ),
             Kind::Clock => ("builtin_interfaces/Time clock\n", &[TIME]),
             Kind::PointCloud2 => (

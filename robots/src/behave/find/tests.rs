@@ -87,7 +87,7 @@ fn the_corner_comes_first_when_asked_for() {
     else {
         panic!("goes to the corner first");
     };
-    assert!((point - Vector2::new(-185.0, -285.0)).norm() < 1e-6);
+    assert!((point - Vector2::new(-180.0, -280.0)).norm() < 1e-6);
     assert_eq!(z.step(&o, false, &mut m, &mut rng), Stride::Keep);
     let there = seen(9.0, point, 200.0, None);
     let leg = course(z.step(&there, true, &mut m, &mut rng)).expect("a leg");

@@ -47,7 +47,12 @@ pub(in crate::guide) struct Follower {
 impl Follower {
     /// Plans the first path.
     #[must_use]
-    pub(in crate::guide) fn new(from: Pose, end: Pose, speed_m_s: f64, limits: FollowerLimits) -> Self {
+    pub(in crate::guide) fn new(
+        from: Pose,
+        end: Pose,
+        speed_m_s: f64,
+        limits: FollowerLimits,
+    ) -> Self {
         let path = DubinsPath::shortest(from, end, limits.radius_m);
         Self {
             end,
@@ -59,9 +64,16 @@ impl Follower {
     }
 
     /// Course to take, and whether the path (or the time for it) has come to its end.
-    pub(in crate::guide) fn step(&mut self, at: Pose, speed_m_s: f64, dt_s: f64) -> (Heading, bool) {
+    pub(in crate::guide) fn step(
+        &mut self,
+        at: Pose,
+        speed_m_s: f64,
+        dt_s: f64,
+    ) -> (Heading, bool) {
         self.left_s -= dt_s;
-        self.s_m = self.path.nearest(at.position, self.s_m, self.s_m + WINDOW_M);
+        self.s_m = self
+            .path
+            .nearest(at.position, self.s_m, self.s_m + WINDOW_M);
         if (self.path.at(self.s_m).position - at.position).norm() > self.limits.replan_m {
             self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
             self.s_m = 0.0;
@@ -111,7 +123,9 @@ mod tests {
                 return (at, k, true);
             }
             let most = 10f64.to_radians() * 0.1;
-            at.heading = at.heading.turned(at.heading.turn_to(want).clamp(-most, most));
+            at.heading = at
+                .heading
+                .turned(at.heading.turn_to(want).clamp(-most, most));
             at.position += at.heading.unit() * 0.2;
         }
         (at, 20_000, false)

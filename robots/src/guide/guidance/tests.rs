@@ -68,7 +68,12 @@ impl Boat {
 #[test]
 fn a_course_is_made_good_over_ground_in_a_cross_flow() {
     let mut b = Boat::new(Vector2::zeros(), 40.0, Vector2::new(0.3, 0.1));
-    let g = goal(1, Manoeuvre::Course { course: Heading::from_deg(350.0) });
+    let g = goal(
+        1,
+        Manoeuvre::Course {
+            course: Heading::from_deg(350.0),
+        },
+    );
     for _ in 0..200 {
         assert!(!b.step(&g).done);
     }
@@ -104,7 +109,13 @@ fn a_new_id_starts_afresh_and_an_old_one_stays_done() {
     let mut b = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());
     let there = |id, north| {
         let point = Vector2::new(0.0, north);
-        goal(id, Manoeuvre::GoToPoint { point, radius_m: Some(5.0) })
+        goal(
+            id,
+            Manoeuvre::GoToPoint {
+                point,
+                radius_m: Some(5.0),
+            },
+        )
     };
     assert!(b.run(&there(1, 30.0), 60.0));
     let status = b.step(&there(1, 30.0));
@@ -118,17 +129,37 @@ fn direct_goes_straight_through() {
     let mut g = Guidance::new(&GuidanceSpec::default());
     // Far outside: nothing stands between table and actuators.
     let est = seen(0.0, Vector2::new(900.0, 0.0), 0.0, None).estimate;
-    let direct = Manoeuvre::Direct { rudder_rad: 0.1, stern_rad: -0.2, rpm: 1500.0 };
+    let direct = Manoeuvre::Direct {
+        rudder_rad: 0.1,
+        stern_rad: -0.2,
+        rpm: 1500.0,
+    };
     let (command, status) = g.step(&est, &goal(3, direct), &area(), DT_S);
-    let want = ActuatorCommand { rudder_rad: 0.1, stern_rad: -0.2, rpm: 1500.0 };
+    let want = ActuatorCommand {
+        rudder_rad: 0.1,
+        stern_rad: -0.2,
+        rpm: 1500.0,
+    };
     assert_eq!(command, Command::Direct(want));
-    assert_eq!(status, GuidanceStatus { goal_id: 3, done: false, aborted: false });
+    assert_eq!(
+        status,
+        GuidanceStatus {
+            goal_id: 3,
+            done: false,
+            aborted: false
+        }
+    );
 }
 
 #[test]
 fn aborted_far_outside_and_for_good() {
     let mut g = Guidance::new(&GuidanceSpec::default());
-    let course = goal(1, Manoeuvre::Course { course: Heading::from_deg(90.0) });
+    let course = goal(
+        1,
+        Manoeuvre::Course {
+            course: Heading::from_deg(90.0),
+        },
+    );
     let mut at = |east: f64| {
         let est = seen(0.0, Vector2::new(east, 0.0), 90.0, None).estimate;
         g.step(&est, &course, &area(), DT_S).1.aborted
@@ -141,8 +172,9 @@ fn aborted_far_outside_and_for_good() {
 proptest! {
     #![proptest_config(crate::handoff::testing::fixed(64))]
 
-    // Whatever is asked, a vehicle with the paper's turning rate stays within a turning circle of each
-    // edge: (1.5 + 2 * 0.32) m/s at 10 deg/s, the ground speed while the nose is still against the flow.
+    // Whatever is asked: through the water the turning radius is r = (1.5 + 0.32) m/s at 10 deg/s =
+    // 10.4 m; turning about in a corner, entered at 45 degrees, takes (1 + sin 45) r = 17.8 m, and the 18 s
+    // it lasts add a drift of 0.32 m/s. Under the 30 m of the abort.
     #[test]
     fn the_cage_holds(course in 0.0..360.0, east in -190.0..190.0, north in -290.0..290.0, flow in -0.3..0.3) {
         let mut b = Boat::new(Vector2::new(east, north), course, Vector2::new(flow, 0.1));
@@ -150,7 +182,7 @@ proptest! {
         for _ in 0..6000 {
             prop_assert!(!b.step(&g).aborted);
             let p = b.est.position;
-            prop_assert!(edges(&area(), p).iter().all(|(d, _)| *d > -12.3), "{p:?}");
+            prop_assert!(edges(&area(), p).iter().all(|(d, _)| *d > -23.6), "{p:?}");
         }
     }
 

@@ -108,7 +108,9 @@ impl Amp {
     /// The switches of Fig. 5 that do not wait for a behaviour's end.
     fn switch(&self, detected: bool) -> Option<Behaviour> {
         match self.now {
-            Behaviour::Idle if self.behaviours.go_to.is_some() && !(detected && self.heeds_on_the_way) => {
+            Behaviour::Idle
+                if self.behaviours.go_to.is_some() && !(detected && self.heeds_on_the_way) =>
+            {
                 Some(Behaviour::GoTo)
             }
             Behaviour::Idle if detected => Some(Behaviour::TrackIn),
@@ -187,7 +189,9 @@ impl Amp {
         }
         let heeded = match self.now {
             Behaviour::GoHome | Behaviour::Done => false,
-            Behaviour::Idle | Behaviour::GoTo => self.behaviours.go_to.is_none() || self.heeds_on_the_way,
+            Behaviour::Idle | Behaviour::GoTo => {
+                self.behaviours.go_to.is_none() || self.heeds_on_the_way
+            }
             _ => true,
         };
         let detected = heeded && detects(seen);

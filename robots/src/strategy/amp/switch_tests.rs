@@ -29,7 +29,10 @@ impl Desk {
     fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Decision {
         self.t_s += 0.1;
         let flow = Some(Vector2::new(0.0, -0.2));
-        let mut o = smelling(seen(self.t_s, Vector2::new(0.0, north), 350.0, flow), smells);
+        let mut o = smelling(
+            seen(self.t_s, Vector2::new(0.0, north), 350.0, flow),
+            smells,
+        );
         if let Some(goal) = self.goal {
             o.guidance.goal_id = goal.id;
             o.guidance.done = arrived;

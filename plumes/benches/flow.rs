@@ -1,0 +1,127 @@
+//! What the water costs: one question, the hull's sample, the plume's grid and a step of the meander.
+
+use divan::{Bencher, black_box};
+use nalgebra::{Vector2, Vector3};
+use plumes::flow::bed::BedSpec;
+use plumes::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
+use plumes::flow::meander::MeanderSpec;
+use plumes::flow::{CurrentSpec, FlowGrid, GridShape, Water, WaterSpec};
+use world::area::Area;
+use world::fields::Flow;
+use world::ranges::{HeadingDeg, NonNegative, Positive};
+use world::terrain::Terrain;
+use world::units::Heading;
+
+fn main() {
+    divan::main();
+}
+
+fn area() -> Area {
+    Area {
+        centre: Vector2::zeros(),
+        length_m: 1094.0,
+        width_m: 367.0,
+        axis: Heading::from_deg(340.0),
+    }
+}
+
+fn bed() -> Terrain {
+    Terrain::sloping_over(&area(), Heading::from_deg(250.0), 4.0, 8.0)
+}
+
+/// Two layers, two waves, log law and meander: the water off Duck.
+fn water() -> Water {
+    let layer = |speed, heading, density| LayerSpec {
+        speed_m_s: NonNegative::new(speed),
+        heading_deg: HeadingDeg::new(heading),
+        density_kg_m3: Positive::new(density),
+    };
+    let wave = |amplitude, length, period, heading| WaveSpec {
+        amplitude_m: NonNegative::new(amplitude),
+        length_m: Positive::new(length),
+        period_s: Positive::new(period),
+        heading_deg: HeadingDeg::new(heading),
+        phase_deg: None,
+    };
+    let layers = LayeredSpec {
+        layers: vec![layer(0.22, 350.0, 1020.0), layer(0.12, 158.0, 1024.0)],
+        interfaces: vec![InterfaceSpec {
+            depth_m: Positive::new(1.8),
+            thickness_m: Positive::new(0.8),
+            waves: vec![
+                wave(0.3, 420.0, 1900.0, 250.0),
+                wave(0.15, 260.0, 1180.0, 310.0),
+            ],
+        }],
+    };
+    let meander = MeanderSpec {
+        std_m_s: NonNegative::new(0.02),
+        omega_rad_s: Positive::new(0.02),
+        damping: Positive::new(0.1),
+        cell_m: Positive::new(25.0),
+        diffusivity_m2_s: None,
+    };
+    let spec = WaterSpec {
+        currents: vec![CurrentSpec::Layered(layers), CurrentSpec::Meander(meander)],
+        bed: Some(BedSpec {
+            roughness_m: Positive::new(0.001),
+            thickness_m: Positive::new(2.0),
+        }),
+        ..WaterSpec::default()
+    };
+    spec.build(&area(), &bed(), 1).expect("legal water")
+}
+
+#[divan::bench]
+fn velocity(bencher: Bencher<'_, '_>) {
+    let w = water();
+    bencher.bench_local(|| w.velocity(black_box(&Vector3::new(40.0, -300.0, -3.0)), 1.0));
+}
+
+#[divan::bench]
+fn sample(bencher: Bencher<'_, '_>) {
+    let w = water();
+    bencher.bench_local(|| w.sample(black_box(&Vector3::new(40.0, -300.0, -3.0)), 1.0));
+}
+
+#[divan::bench]
+fn grid_refresh_by_node(bencher: Bencher<'_, '_>) {
+    let w = water();
+    let mut grid = FlowGrid::new(&area(), &bed(), GridShape::default());
+    bencher.bench_local(|| grid.refresh(&w as &dyn Flow, 1.0));
+}
+
+#[divan::bench]
+fn grid_refresh_by_column(bencher: Bencher<'_, '_>) {
+    let w = water();
+    let mut grid = FlowGrid::new(&area(), &bed(), GridShape::default());
+    bencher.bench_local(|| w.lay_on(&mut grid, 1.0));
+}
+
+/// A thousand look-ups along a plume, so that the clock's own time does not show.
+#[divan::bench(counters = [divan::counter::ItemsCount::new(1000_u32)])]
+fn grid_look_up(bencher: Bencher<'_, '_>) {
+    let mut grid = FlowGrid::new(&area(), &bed(), GridShape::default());
+    grid.refresh(&water(), 1.0);
+    let places: Vec<[f32; 3]> = (0..1000)
+        .map(|k| {
+            let k = k as f32;
+            [0.1 * k, -0.4 * k, -5.0 * (k * 0.618_034).fract()]
+        })
+        .collect();
+    bencher.bench_local(|| {
+        let all = black_box(&places).iter().map(|p| grid.at(p[0], p[1], p[2]));
+        all.fold(0.0, |sum, s| sum + s.velocity[0] + s.velocity[2] + s.dk_dz)
+    });
+}
+
+/// One level of the meander: noise, two implicit sweeps, projection.
+#[divan::bench]
+fn meander_step(bencher: Bencher<'_, '_>) {
+    let mut w = water();
+    let mut t = 0.0;
+    bencher.bench_local(|| {
+        t += 5.0;
+        w.advance(t);
+    });
+}

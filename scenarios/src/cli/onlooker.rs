@@ -1,0 +1,251 @@
+//! Who watches a run from the command: recording, table, live state, progress, pace, and the report.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "pace and wall time are shown to people; nothing of them enters the run"
+)]
+
+use super::args::{RunArgs, Speed};
+use super::progress::Progress;
+use crate::frame::{Frame, PlumeFrame};
+use crate::live::{Live, LiveMeta, LiveOptions, run_id};
+use crate::report::{
+    MassBalance, ObstacleOutline, Recorder, ReportError, RobotInfo, RunEnd, RunInfo, RunOutcome,
+    RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable, write_all,
+};
+use crate::scenario::Loaded;
+use crate::system::Dye;
+use crate::trial::{Ended, Trial, Watch};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use world::area::Area;
+use world::obstacles::Obstacles;
+use world::terrain::Terrain;
+
+use super::run::RunError;
+
+/// Everyone who watches one run.
+pub(super) struct Onlooker<'a> {
+    out: PathBuf,
+    text: String,
+    builder: SummaryBuilder,
+    track: TrackTable,
+    recorder: Option<Recorder>,
+    live: Option<Live>,
+    progress: Progress,
+    speed: Speed,
+    stop: &'a AtomicBool,
+    failure: Option<ReportError>,
+    last_plume: Option<PlumeFrame>,
+    begun: Instant,
+    mission_begun: Instant,
+    spin_up_s: f64,
+}
+
+impl<'a> Onlooker<'a> {
+    /// Opens folder, files and port; whatever is wrong with them is said before the run starts.
+    pub(super) fn new(
+        loaded: &Loaded,
+        args: &RunArgs,
+        out: &Path,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, RunError> {
+        let scenario = &loaded.scenario;
+        let run = RunInfo {
+            scenario_name: loaded.name.clone(),
+            scenario_text: loaded.text.clone(),
+            seed: args.seed,
+            version: env!("CARGO_PKG_VERSION").to_string(),
+        };
+        std::fs::create_dir_all(out).map_err(|source| ReportError::Folder {
+            path: out.to_owned(),
+            source,
+        })?;
+        let robots = scenario.robots.iter().map(|spec| {
+            let dye = spec.sensors.fluorometer.as_ref();
+            RobotInfo {
+                id: spec.id.as_str().to_string(),
+                full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
+                threshold: dye.map(|f| f.threshold.get()),
+            }
+        });
+        let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;
+        let recorder = (!args.no_record)
+            .then(|| Recorder::create(&out.join("run.mcap"), &run))
+            .transpose()?;
+        let progress = Progress::new(loaded, args);
+        let live = if args.no_zenoh {
+            None
+        } else {
+            let mut options = LiveOptions::new(run_id(&loaded.name, args.seed));
+            options.listen = args.zenoh_listen.clone();
+            options.config_file = args.zenoh_config.clone();
+            let meta = LiveMeta {
+                scenario_text: run.scenario_text.clone(),
+                scenario_name: run.scenario_name.clone(),
+                seed: run.seed,
+                version: run.version.clone(),
+            };
+            let live = Live::start(&options, meta)?;
+            progress.say(&format!(
+                "live on {} under rheotaxis/{}",
+                live.endpoint(),
+                options.run_id
+            ));
+            if let Some(notice) = live.notice() {
+                progress.say(notice);
+            }
+            Some(live)
+        };
+        let now = Instant::now();
+        Ok(Self {
+            out: out.to_owned(),
+            text: loaded.text.clone(),
+            builder: SummaryBuilder::new(&run),
+            track,
+            recorder,
+            live,
+            progress,
+            speed: args.speed,
+            stop,
+            failure: None,
+            last_plume: None,
+            begun: now,
+            mission_begun: now,
+            spin_up_s: scenario.time.spin_up_s.get(),
+        })
+    }
+
+    fn going(&self) -> bool {
+        self.failure.is_none() && !self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Keeps the first thing that could not be written; the run then ends, with what it has.
+    fn note(&mut self, result: Result<(), ReportError>) {
+        if let Err(error) = result {
+            self.failure.get_or_insert(error);
+        }
+    }
+
+    /// Writes everything that is written at the end and says where it lies.
+    pub(super) fn finish(
+        mut self,
+        trial: &Trial,
+        ended: &Ended,
+    ) -> Result<RunOutcome, ReportError> {
+        let mission_wall = self.mission_begun.elapsed();
+        let spin_up_wall = self.mission_begun - self.begun;
+        if let Some(live) = &self.live {
+            live.end(&ended.digest);
+        }
+        if let Some(recorder) = self.recorder.take() {
+            let closed = recorder.finish(&ended.digest).map(drop);
+            self.note(closed);
+        }
+        let world = &trial.simulation.world;
+        let plume = &world.resource::<Dye>().plume;
+        let sources: Vec<SourceTruth> = (plume.sources().iter())
+            .zip(&ended.flow_at_sources)
+            .map(|(s, flow)| SourceTruth {
+                id: s.id.clone(),
+                position: s.p_W,
+                flow: flow.xy(),
+            })
+            .collect();
+        let outcome = match self.failure {
+            Some(_) => RunOutcome::Failed,
+            None => ended.outcome,
+        };
+        let summary = self.builder.finish(RunEnd {
+            outcome,
+            error: self.failure.as_ref().map(ToString::to_string),
+            digest: ended.digest.clone(),
+            totals: Totals {
+                mission_s: ended.t_s,
+                spin_up_s: self.spin_up_s,
+                mission_wall_s: mission_wall.as_secs_f64(),
+                spin_up_wall_s: spin_up_wall.as_secs_f64(),
+                steps: ended.steps,
+                filaments: plume.len(),
+                mass: (!sources.is_empty()).then(|| {
+                    MassBalance::new(
+                        plume.mass_released_kg(),
+                        plume.mass_in_kg(),
+                        plume.mass_left_kg(),
+                    )
+                }),
+            },
+        }, &sources);
+        let track = self.track.finish();
+        let obstacles: Vec<ObstacleOutline> = (world.resource::<Obstacles>().0.iter())
+            .map(|o| ObstacleOutline {
+                id: o.id.clone(),
+                corners: o.outline(),
+            })
+            .collect();
+        let written = write_all(
+            &self.out,
+            &RunReport {
+                summary: &summary,
+                track: &track,
+                plume: self.last_plume.as_ref(),
+                area: world.resource::<Area>(),
+                terrain: world.resource::<Terrain>(),
+                sources: &sources,
+                obstacles: &obstacles,
+                scenario_text: &self.text,
+            },
+        );
+        self.progress.finish(&summary, &self.out);
+        if let Some(live) = self.live.take() {
+            live.finish(&ended.digest);
+        }
+        match (self.failure, written) {
+            (Some(first), _) | (None, Err(first)) => Err(first),
+            (None, Ok(_)) => Ok(outcome),
+        }
+    }
+}
+
+impl Watch for Onlooker<'_> {
+    fn spun_up(&mut self, share: f64) -> bool {
+        self.progress.spun_up(share);
+        self.mission_begun = Instant::now();
+        self.going()
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        self.builder.observe(frame);
+        let rows = self.track.push(frame);
+        self.note(rows);
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.frame(frame);
+            self.note(recorded);
+        }
+        if let Some(live) = &self.live {
+            live.publish(frame);
+        }
+        self.progress.frame(frame);
+    }
+
+    fn plume(&mut self, plume: &PlumeFrame) {
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.plume(plume);
+            self.note(recorded);
+        }
+        if let Some(live) = &self.live {
+            live.plume(plume);
+        }
+        self.last_plume = Some(plume.clone());
+    }
+
+    fn go_on(&mut self, t_s: f64) -> bool {
+        if let Speed::Times(speed) = self.speed {
+            let due = Duration::from_secs_f64(t_s / speed);
+            if let Some(early) = due.checked_sub(self.mission_begun.elapsed()) {
+                std::thread::sleep(early);
+            }
+        }
+        self.going()
+    }
+}

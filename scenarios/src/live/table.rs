@@ -1,0 +1,161 @@
+//! The table of topics, one row a field.
+
+use super::topics::{Field, Kind, Payload, Topic};
+
+const STATE_RATE: &str = "with the state, at most 20 a second";
+const ONCE: &str = "once, kept for those who come later";
+
+const fn always(name: &'static str, kind: Kind, what: &'static str) -> Field {
+    Field {
+        name,
+        kind,
+        required: true,
+        what,
+    }
+}
+
+const fn sometimes(name: &'static str, kind: Kind, what: &'static str) -> Field {
+    Field {
+        name,
+        kind,
+        required: false,
+        what,
+    }
+}
+
+const fn json(
+    name: &'static str,
+    key: &'static str,
+    rate: &'static str,
+    what: &'static str,
+    fields: &'static [Field],
+) -> Topic {
+    Topic {
+        name,
+        key,
+        what,
+        rate,
+        payload: Payload::Json,
+        fields,
+    }
+}
+
+const T: Field = always(
+    "t_s",
+    Kind::Number,
+    "Simulated time, s; zero is the start of the mission.",
+);
+const E_N: Kind = Kind::Vector(2);
+const E_N_U: Kind = Kind::Vector(3);
+
+// Rows stay rows.
+#[rustfmt::skip]
+pub(super) const TOPICS: &[Topic] = &[
+    json("clock", "clock", STATE_RATE, "Simulated time, and what became of the states.", &[
+        T,
+        always("step", Kind::Count, "Step of the mission."),
+        always("ended", Kind::Flag, "True in the last message of a run that came to its end."),
+        always("sent", Kind::Count, "States published so far, this one included."),
+        always("superseded", Kind::Count, "States replaced by a newer one before they were sent."),
+    ]),
+    json("truth", "auv/<id>/truth", STATE_RATE, "Where the vehicle is.", &[
+        T,
+        always("position_m", E_N_U, "Origin of the body frame (east, north, up), m; z = 0 is the still surface."),
+        always("quaternion_xyzw", Kind::Vector(4), "Rotation taking body axes (forward, left, up) to world axes (ENU)."),
+        always("heading_rad", Kind::Number, "Compass heading, clockwise from north, rad."),
+        always("velocity_m_s", E_N_U, "Velocity over ground (east, north, up), m/s."),
+        always("rates_rad_s", Kind::Vector(3), "Angular velocity in body axes (forward, left, up), rad/s."),
+        always("altitude_m", Kind::Number, "Height above the bed, m."),
+    ]),
+    json("estimate", "auv/<id>/estimate", STATE_RATE, "Where the vehicle believes it is.", &[
+        T,
+        always("position_m", E_N, "Believed position (east, north), m."),
+        always("depth_m", Kind::Number, "Believed depth below the still surface, m."),
+        sometimes("altitude_m", Kind::Number, "Believed height above the bed, m; absent until the altimeter first heard the bed."),
+        always("heading_rad", Kind::Number, "Believed compass heading, clockwise from north, rad."),
+        always("roll_rad", Kind::Number, "Believed roll, right side down positive, rad."),
+        always("pitch_rad", Kind::Number, "Believed pitch, nose up positive, rad."),
+        always("velocity_m_s", E_N, "Believed velocity over ground (east, north), m/s."),
+        always("fix_jump_m", Kind::Number, "How far the newest position fix moved the estimate, m, in the step in which it came; else zero."),
+    ]),
+    json("goal", "auv/<id>/goal", STATE_RATE, "What the strategy asks of the guidance.", &[
+        T,
+        always("id", Kind::Count, "Number of the goal, growing by one with each new one."),
+        always("manoeuvre", Kind::Word(&["go_to_point", "follow_line", "go_to_point_with_heading", "course", "direct"]), "Horizontal part."),
+        sometimes("point_m", E_N, "Destination, or end of the line (east, north), m."),
+        sometimes("from_m", E_N, "Start of the line (east, north), m."),
+        sometimes("radius_m", Kind::Number, "Arrival radius, m."),
+        sometimes("heading_rad", Kind::Number, "Heading on arrival, or course over ground, clockwise from north, rad."),
+        always("vertical", Kind::Word(&["altitude", "depth"]), "What the vertical part keeps."),
+        always("vertical_m", Kind::Number, "Height above the bed or depth to keep, m."),
+        always("speed_m_s", Kind::Number, "Speed over ground wished for, m/s."),
+    ]),
+    json("command", "auv/<id>/command", STATE_RATE, "What the guidance asks of the autopilot, and the autopilot of the actuators.", &[
+        T,
+        always("kind", Kind::Word(&["steer", "direct"]), "Through the autopilot, or straight to the actuators."),
+        sometimes("heading_rad", Kind::Number, "Heading to steer, clockwise from north, rad."),
+        sometimes("water_speed_m_s", Kind::Number, "Speed through the water, m/s."),
+        sometimes("vertical", Kind::Word(&["altitude", "depth"]), "What the vertical part keeps."),
+        sometimes("vertical_m", Kind::Number, "Height above the bed or depth to keep, m."),
+        always("rudder_rad", Kind::Number, "Rudder asked for, positive turns to starboard, rad."),
+        always("stern_rad", Kind::Number, "Stern plane asked for, positive pitches the nose down, rad."),
+        always("rpm", Kind::Number, "Propeller speed asked for, 1/min."),
+    ]),
+    json("chemical", "auv/<id>/chemical", STATE_RATE, "Newest reading of the chemical sensor.", &[
+        T,
+        always("volts", Kind::Number, "Output, V."),
+        always("of_full_scale", Kind::Number, "Output as a share of full scale, 0 to 1."),
+        always("above_threshold", Kind::Flag, "The newest reading is above the detection threshold."),
+        always("detected", Kind::Flag, "A detection happened since the message before, superseded states included."),
+    ]),
+    json("flow", "auv/<id>/flow", STATE_RATE, "Flow at the vehicle, as it believes; absent until first measured.", &[
+        T,
+        always("velocity_m_s", E_N, "Velocity of the water over ground (east, north), m/s; where it goes."),
+        always("heading_rad", Kind::Number, "Where the water goes, clockwise from north, rad."),
+        always("age_s", Kind::Number, "Age of the newest measurement in it, s."),
+    ]),
+    json("behaviour", "auv/<id>/behaviour", STATE_RATE, "What the vehicle is doing.", &[
+        T,
+        always("behaviour", Kind::Behaviour, "Its name."),
+        always("lost_points_m", Kind::Points, "Where it lost the plume, as it believes (east, north), m."),
+    ]),
+    json("declaration", "auv/<id>/declaration", "with the state, once made", "The source the vehicle declared.", &[
+        always("t_s", Kind::Number, "Simulated time of the declaration, s."),
+        always("position_m", E_N, "Where, as the vehicle believes (east, north), m."),
+        always("rule", Kind::Text, "By which rule."),
+    ]),
+    Topic {
+        name: "plume",
+        key: "plume",
+        what: "Some of the plume's filaments: x y z (m, ENU) size (m) mass (kg) of each, packed little-endian f32.",
+        rate: "at most 2 a second",
+        payload: Payload::PackedF32,
+        fields: &[
+            T,
+            always("total", Kind::Count, "How many filaments there are in all."),
+            always("shown", Kind::Count, "How many are in the payload."),
+            always("fields", Kind::Words, "What the numbers of a filament are, in their order."),
+            always("dtype", Kind::Word(&["<f4"]), "How a number is packed."),
+        ],
+    },
+    json("scenario", "meta/scenario", ONCE, "What is run.", &[
+        always("name", Kind::Text, "Name of the scenario."),
+        always("seed", Kind::Count, "The seed."),
+        always("ron", Kind::Text, "The scenario as written (RON)."),
+    ]),
+    json("version", "meta/version", ONCE, "By what it is run.", &[
+        always("program", Kind::Text, "The program."),
+        always("version", Kind::Text, "Its version."),
+    ]),
+    json("digest", "meta/digest", "once, at the end", "Digest over the whole state sequence: equal digests, equal runs.", &[
+        always("digest", Kind::Text, "The digest."),
+    ]),
+    Topic {
+        name: "schema",
+        key: "meta/schema/<name>",
+        what: "JSON Schema of a topic.",
+        rate: ONCE,
+        payload: Payload::Schema,
+        fields: &[],
+    },
+];

@@ -1,0 +1,278 @@
+//! A sheet to draw on, as SVG text.
+
+use std::fmt::Write as _;
+
+/// Where a text stands relative to its point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+    End,
+}
+
+/// How a line or shape looks; `None` leaves it out.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Style<'a> {
+    pub(super) fill: Option<&'a str>,
+    pub(super) fill_opacity: Option<f64>,
+    pub(super) stroke: Option<&'a str>,
+    pub(super) width: f64,
+    pub(super) opacity: Option<f64>,
+    pub(super) dash: Option<&'a str>,
+}
+
+impl<'a> Style<'a> {
+    pub(super) fn fill(colour: &'a str) -> Self {
+        Self {
+            fill: Some(colour),
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn line(colour: &'a str, width: f64) -> Self {
+        Self {
+            stroke: Some(colour),
+            width,
+            ..Self::default()
+        }
+    }
+
+    pub(super) fn edged(self, colour: &'a str, width: f64) -> Self {
+        Self {
+            stroke: Some(colour),
+            width,
+            ..self
+        }
+    }
+
+    pub(super) fn dashed(self, dash: &'a str) -> Self {
+        Self {
+            dash: Some(dash),
+            ..self
+        }
+    }
+
+    pub(super) fn faint(self, opacity: f64) -> Self {
+        Self {
+            opacity: Some(opacity),
+            ..self
+        }
+    }
+
+    fn write(&self, out: &mut String) {
+        write!(out, " fill=\"{}\"", self.fill.unwrap_or("none")).expect(TEXT);
+        if let Some(o) = self.fill_opacity {
+            write!(out, " fill-opacity=\"{o:.2}\"").expect(TEXT);
+        }
+        if let Some(s) = self.stroke {
+            write!(
+                out,
+                " stroke=\"{s}\" stroke-width=\"{:.2}\" stroke-linejoin=\"round\" stroke-linecap=\"round\"",
+                self.width
+            )
+            .expect(TEXT);
+        }
+        if let Some(o) = self.opacity {
+            write!(out, " opacity=\"{o:.2}\"").expect(TEXT);
+        }
+        if let Some(d) = self.dash {
+            write!(out, " stroke-dasharray=\"{d}\"").expect(TEXT);
+        }
+    }
+}
+
+const TEXT: &str = "writing to a String succeeds";
+
+/// The sheet; coordinates in pixels, y down.
+#[derive(Debug)]
+pub(super) struct Canvas {
+    pub(super) width: f64,
+    pub(super) height: f64,
+    body: String,
+    clips: usize,
+}
+
+impl Canvas {
+    pub(super) fn new(width: f64, height: f64) -> Self {
+        Self {
+            width,
+            height,
+            body: String::new(),
+            clips: 0,
+        }
+    }
+
+    fn shape(&mut self, open: &str, style: &Style<'_>) {
+        self.body.push_str(open);
+        style.write(&mut self.body);
+        self.body.push_str("/>\n");
+    }
+
+    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], style: &Style<'_>) {
+        self.lines(&[vec![a, b]], false, style);
+    }
+
+    /// Several lines or rings as one shape; overlapping rings make holes.
+    pub(super) fn lines(&mut self, lines: &[Vec<[f64; 2]>], closed: bool, style: &Style<'_>) {
+        let mut d = String::new();
+        for line in lines {
+            if line.len() < 2 {
+                continue;
+            }
+            for (k, [x, y]) in line.iter().enumerate() {
+                let op = if k == 0 { 'M' } else { 'L' };
+                write!(d, "{op}{x:.1} {y:.1}").expect(TEXT);
+            }
+            if closed {
+                d.push('Z');
+            }
+        }
+        if !d.is_empty() {
+            self.shape(&format!("<path fill-rule=\"evenodd\" d=\"{d}\""), style);
+        }
+    }
+
+    pub(super) fn polyline(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
+        self.lines(&[points], false, style);
+    }
+
+    pub(super) fn polygon(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
+        self.lines(&[points], true, style);
+    }
+
+    pub(super) fn rect(&mut self, x: f64, y: f64, w: f64, h: f64, style: &Style<'_>) {
+        let (w, h) = (w.max(0.0), h.max(0.0));
+        let open = format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\"");
+        self.shape(&open, style);
+    }
+
+    pub(super) fn circle(&mut self, [x, y]: [f64; 2], r: f64, style: &Style<'_>) {
+        self.shape(
+            &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\""),
+            style,
+        );
+    }
+
+    /// A line from `a` to `b` with a head at `b`.
+    pub(super) fn arrow(&mut self, a: [f64; 2], b: [f64; 2], colour: &str, width: f64) {
+        let d = [b[0] - a[0], b[1] - a[1]];
+        let n = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-9);
+        let u = [d[0] / n, d[1] / n];
+        let head = 3.2 * width;
+        let at = |along: f64, side: f64| {
+            [
+                b[0] - u[0] * along - u[1] * side,
+                b[1] - u[1] * along + u[0] * side,
+            ]
+        };
+        self.line(a, at(head, 0.0), &Style::line(colour, width));
+        self.polygon(
+            vec![b, at(1.6 * head, 0.75 * head), at(1.6 * head, -0.75 * head)],
+            &Style::fill(colour),
+        );
+    }
+
+    /// Plain text in the figure's ink.
+    pub(super) fn text(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+        self.label(at, size, anchor, s, "");
+    }
+
+    /// Bold text.
+    pub(super) fn bold(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+        self.label(at, size, anchor, s, " font-weight=\"bold\"");
+    }
+
+    /// Text with a white rim, readable on anything.
+    pub(super) fn rimmed(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+        let rim = " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
+        self.label(at, size, anchor, s, rim);
+    }
+
+    /// Text turned a quarter left, centred.
+    pub(super) fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
+        let turn = format!(" transform=\"rotate(-90 {x:.1} {y:.1})\"");
+        self.label([x, y], size, Anchor::Middle, s, &turn);
+    }
+
+    fn label(&mut self, [x, y]: [f64; 2], size: f64, anchor: Anchor, s: &str, more: &str) {
+        let anchor = match anchor {
+            Anchor::Start => "start",
+            Anchor::Middle => "middle",
+            Anchor::End => "end",
+        };
+        writeln!(
+            self.body,
+            "<text x=\"{x:.1}\" y=\"{y:.1}\" font-size=\"{size}\" text-anchor=\"{anchor}\"{more}>{}</text>",
+            escaped(s)
+        )
+        .expect(TEXT);
+    }
+
+    /// Everything until [`Canvas::unclip`] shows only inside the rectangle.
+    pub(super) fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
+        self.clips += 1;
+        let id = self.clips;
+        write!(
+            self.body,
+            "<clipPath id=\"clip{id}\"><rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\"/></clipPath>\n<g clip-path=\"url(#clip{id})\">\n"
+        )
+        .expect(TEXT);
+    }
+
+    pub(super) fn unclip(&mut self) {
+        self.body.push_str("</g>\n");
+    }
+
+    /// The whole figure; `name` keeps its inner ids apart from other figures on one page.
+    pub(super) fn svg(&self, name: &str) -> String {
+        let (w, h) = (self.width, self.height);
+        let body = self
+            .body
+            .replace("id=\"clip", &format!("id=\"{name}-clip"))
+            .replace("url(#clip", &format!("url(#{name}-clip"));
+        format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{w:.0}\" height=\"{h:.0}\" viewBox=\"0 0 {w:.0} {h:.0}\" \
+             font-family=\"DejaVu Sans, Verdana, Arial, sans-serif\" fill=\"#222222\">\n\
+             <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n{body}</svg>\n"
+        )
+    }
+}
+
+/// Text safe inside XML and HTML; characters that XML forbids become spaces.
+pub(in super::super) fn escaped(s: &str) -> String {
+    let mut out = String::with_capacity(s.len());
+    for c in s.chars() {
+        match c {
+            '&' => out.push_str("&amp;"),
+            '<' => out.push_str("&lt;"),
+            '>' => out.push_str("&gt;"),
+            '"' => out.push_str("&quot;"),
+            c if c.is_control() && !matches!(c, '\n' | '\t') => out.push(' '),
+            c => out.push(c),
+        }
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_cannot_break_the_markup() {
+        assert_eq!(escaped("a<b & \"c\"\u{1}"), "a&lt;b &amp; &quot;c&quot; ");
+    }
+
+    #[test]
+    fn rings_are_closed_and_single_points_left_out() {
+        let mut c = Canvas::new(10.0, 10.0);
+        c.lines(&[vec![[0.0, 0.0]]], false, &Style::line("#000", 1.0));
+        c.polygon(
+            vec![[0.0, 0.0], [1.0, 0.0], [1.0, 1.0]],
+            &Style::fill("#000"),
+        );
+        let svg = c.svg("t");
+        assert_eq!(svg.matches("<path").count(), 1);
+        assert!(svg.contains("d=\"M0.0 0.0L1.0 0.0L1.0 1.0Z\""), "{svg}");
+    }
+}

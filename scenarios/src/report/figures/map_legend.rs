@@ -1,0 +1,211 @@
+//! The map's column of keys.
+
+use super::canvas::{Anchor, Canvas, Style};
+use super::map::Bed;
+use super::map_layers as layers;
+use super::palette::{self, BELIEVED, FLOW, INK};
+use super::panel::{decade, number};
+use super::plume_load::PlumeLoad;
+use crate::report::RunReport;
+use robots::handoff::Behaviour;
+use world::units::Heading;
+
+/// Height of a line of keys, px.
+const LINE: f64 = 18.0;
+const SIZE: f64 = 10.5;
+
+/// Draws the column from `at` down; where it ends.
+pub(super) fn legend(
+    c: &mut Canvas,
+    run: &RunReport<'_>,
+    [x, top]: [f64; 2],
+    bed: &Bed,
+    plume: Option<&PlumeLoad>,
+) -> f64 {
+    let mut y = top + 6.0;
+    let seen: Vec<Behaviour> = Behaviour::ALL
+        .into_iter()
+        .filter(|b| {
+            let rows = run.track.robots.iter().flat_map(|t| &t.rows);
+            rows.into_iter().any(|r| r.behaviour == *b)
+        })
+        .collect();
+    if !seen.is_empty() {
+        heading(c, x, &mut y, "True track, by behaviour");
+        for b in seen {
+            c.line(
+                [x, y],
+                [x + 24.0, y],
+                &Style::line(palette::behaviour(b), 2.6),
+            );
+            entry(c, x, &mut y, palette::words(b));
+        }
+        c.line(
+            [x, y],
+            [x + 24.0, y],
+            &Style::line(BELIEVED, 0.9).dashed("2 2"),
+        );
+        entry(c, x, &mut y, "believed track");
+        y += 6.0;
+    }
+    let robots = &run.track.robots;
+    let marks: [(bool, fn(&mut Canvas, [f64; 2]), &str); 5] = [
+        (
+            robots.iter().any(|t| !t.rows.is_empty()),
+            layers::start,
+            "start",
+        ),
+        (
+            robots.iter().any(|t| !t.detections.is_empty()),
+            layers::detection,
+            "detection",
+        ),
+        (
+            robots.iter().any(|t| !t.lost_points.is_empty()),
+            layers::lost_point,
+            "plume lost (believed)",
+        ),
+        (
+            robots.iter().any(|t| t.declared.is_some()),
+            layers::declared,
+            "declared source",
+        ),
+        (!run.sources.is_empty(), layers::true_source, "true source"),
+    ];
+    for (_, draw, words) in marks.iter().filter(|m| m.0) {
+        draw(c, [x + 12.0, y]);
+        entry(c, x, &mut y, words);
+    }
+    c.line([x, y], [x + 24.0, y], &Style::line(INK, 1.6).dashed("7 4"));
+    entry(c, x, &mut y, "operating area");
+    if !run.obstacles.is_empty() {
+        c.rect(
+            x + 4.0,
+            y - 5.0,
+            16.0,
+            10.0,
+            &Style::fill("#8c6d4f").edged(INK, 1.0),
+        );
+        entry(c, x, &mut y, "obstacle");
+    }
+    y += 6.0;
+    flow(c, run, x, &mut y);
+    depth_key(c, x, &mut y, bed);
+    if let Some(p) = plume {
+        plume_key(c, x, &mut y, p, run.plume.map_or(0.0, |p| p.t_s));
+    }
+    y
+}
+
+fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+    c.bold([x, *y + 4.0], SIZE, Anchor::Start, words);
+    *y += LINE + 2.0;
+}
+
+fn entry(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+    c.text([x + 34.0, *y + 4.0], SIZE, Anchor::Start, words);
+    *y += LINE;
+}
+
+/// Direction and speed of the mean flow at each source.
+fn flow(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
+    for s in run.sources {
+        let speed = s.flow.norm();
+        if speed < 1e-6 {
+            continue;
+        }
+        let u = s.flow / speed;
+        let m = [x + 12.0, *y + 4.0];
+        let half = [11.0 * u.x, -11.0 * u.y];
+        c.arrow(
+            [m[0] - half[0], m[1] - half[1]],
+            [m[0] + half[0], m[1] + half[1]],
+            FLOW,
+            2.0,
+        );
+        let at = if run.sources.len() > 1 {
+            s.id.as_str()
+        } else {
+            "the source"
+        };
+        let words = format!("flow at {at}");
+        c.text([x + 34.0, *y], SIZE, Anchor::Start, &words);
+        let value = format!("{:.2} m/s towards {:.0}°", speed, Heading::of(s.flow).deg());
+        c.text([x + 34.0, *y + 14.0], SIZE, Anchor::Start, &value);
+        *y += 2.0 * LINE + 4.0;
+    }
+}
+
+const BAR: f64 = 200.0;
+
+fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
+    if bed.levels.is_empty() {
+        let words = format!("Water depth {:.2} m", 0.5 * (bed.range[0] + bed.range[1]));
+        c.bold([x, *y + 4.0], SIZE, Anchor::Start, &words);
+        *y += LINE + 8.0;
+        return;
+    }
+    heading(c, x, y, "Water depth (m)");
+    let n = bed.levels.len() + 1;
+    let w = BAR / n as f64;
+    let first = bed.levels[0] - bed.step;
+    for k in 0..n {
+        let v = first + k as f64 * bed.step;
+        let colour = palette::depth(bed.shade(v));
+        c.rect(
+            x + k as f64 * w,
+            *y - 7.0,
+            w,
+            11.0,
+            &Style::fill(&colour).edged("#7893a8", 0.6),
+        );
+        if k > 0 {
+            let at = [x + k as f64 * w, *y + 16.0];
+            c.text(at, 9.0, Anchor::Middle, &number(v, bed.step));
+        }
+    }
+    *y += 36.0;
+}
+
+fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
+    let words = format!("Plume at {t_s:.0} s: load (mg/m²)");
+    heading(c, x, y, &words);
+    let n = p.levels.len();
+    let w = BAR / n as f64;
+    for (k, &v) in p.levels.iter().enumerate() {
+        let colour = palette::plume(k as f64 / (n - 1) as f64);
+        c.rect(
+            x + k as f64 * w,
+            *y - 7.0,
+            w,
+            11.0,
+            &Style::fill(&colour).edged("#5b7a5b", 0.6),
+        );
+        let at = [x + k as f64 * w, *y + 16.0];
+        c.text(at, 9.0, Anchor::Middle, &short(v));
+    }
+    *y += 36.0;
+}
+
+/// A level of the plume: plain where it is short, else with its power of ten.
+fn short(v: f64) -> String {
+    let n = decade(v);
+    if (-2..=3).contains(&n) {
+        return number(v, v);
+    }
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let sign = if n < 0 { "⁻" } else { "" };
+    let power: String = n
+        .abs()
+        .to_string()
+        .chars()
+        .filter_map(|d| d.to_digit(10))
+        .map(|d| digits[d as usize])
+        .collect();
+    let lead = (v / super::panel::power_of_ten(n)).round();
+    if lead > 1.0 {
+        format!("{lead}·10{sign}{power}")
+    } else {
+        format!("10{sign}{power}")
+    }
+}

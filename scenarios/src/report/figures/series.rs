@@ -1,0 +1,55 @@
+//! Time series of one robot: depth over the bed, altitude, reading, behaviour, position error.
+
+use super::canvas::{Anchor, Canvas};
+use super::panel::Panel;
+use super::series_panels as panels;
+use crate::report::{RobotTrack, RunReport};
+
+const LEFT: f64 = 92.0;
+const WIDTH: f64 = 800.0;
+const GAP: f64 = 16.0;
+const HEIGHT: f64 = 128.0;
+
+/// The series of one robot as SVG.
+pub(in super::super) fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
+    let kinds: [panels::Draw; 5] = [
+        panels::depth,
+        panels::altitude,
+        panels::reading,
+        panels::behaviour,
+        panels::position_error,
+    ];
+    let mut c = Canvas::new(LEFT + WIDTH + 24.0, 40.0 + 5.0 * (HEIGHT + GAP) + 44.0);
+    let title = format!(
+        "{} · seed {} · {}",
+        run.summary.scenario, run.summary.seed, t.info.id
+    );
+    c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
+    let end = t.rows.last().map_or(1.0, |r| r.t_s);
+    let begin = t.rows.first().map_or(0.0, |r| r.t_s);
+    let x = [begin, if end > begin { end } else { begin + 1.0 }];
+    for (k, draw) in kinds.iter().enumerate() {
+        let panel = Panel {
+            left: LEFT,
+            top: 38.0 + k as f64 * (HEIGHT + GAP),
+            width: WIDTH,
+            height: HEIGHT,
+            x,
+            y: [0.0, 1.0],
+        };
+        draw(&mut c, panel, t);
+        panel.frame(&mut c, 1.0);
+        panel.x_ticks(&mut c, k + 1 == kinds.len(), 11.0);
+        if let Some(s) = t.declared_s {
+            panels::event(&mut c, &panel, s, if k == 0 { "declared" } else { "" });
+        }
+    }
+    let below = c.height - 12.0;
+    c.text(
+        [LEFT + WIDTH / 2.0, below],
+        12.0,
+        Anchor::Middle,
+        "Mission time (s)",
+    );
+    c.svg(&format!("series{}", t.info.id))
+}

@@ -1,0 +1,137 @@
+//! `report.html`: one file that needs nothing beside it.
+
+use super::figures::escaped;
+use super::summary::Summary;
+use std::fmt::Write as _;
+
+const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
+h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
+table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
+th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f6f6;padding:1em;overflow:auto;font-size:12.5px}\
+.outcome{font-weight:600}code{font-size:.9em}";
+
+const TEXT: &str = "writing to a String succeeds";
+
+/// The page: summary, figures (SVG), scenario.
+pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_text: &str) -> String {
+    let name = escaped(&summary.scenario);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width\">\
+         <title>{name}, seed {}</title><style>{STYLE}</style></head>\n<body>\n\
+         <h1>{name}</h1>\n<p>Seed {}. Outcome: <span class=\"outcome\">{}</span>.</p>\n",
+        summary.seed,
+        summary.seed,
+        summary.outcome.words()
+    );
+    if let Some(e) = &summary.error {
+        writeln!(out, "<p>Error: {}</p>", escaped(e)).expect(TEXT);
+    }
+    for r in &summary.robots {
+        table(&mut out, &format!("Robot {}", r.id), &robot_rows(r));
+    }
+    table(&mut out, "Run", &run_rows(summary));
+    for (title, svg) in figures {
+        writeln!(out, "<h2>{}</h2>\n{svg}", escaped(title)).expect(TEXT);
+    }
+    writeln!(
+        out,
+        "<h2>Scenario</h2>\n<pre>{}</pre>\n</body>\n</html>",
+        escaped(scenario_text)
+    )
+    .expect(TEXT);
+    out
+}
+
+fn table(out: &mut String, title: &str, rows: &[(&str, String)]) {
+    writeln!(out, "<h2>{}</h2>\n<table>", escaped(title)).expect(TEXT);
+    for (k, v) in rows {
+        writeln!(out, "<tr><th>{k}</th><td>{}</td></tr>", escaped(v)).expect(TEXT);
+    }
+    out.push_str("</table>\n");
+}
+
+fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
+    let place = |p: super::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
+    let mut rows = Vec::new();
+    match &r.declaration {
+        None => rows.push(("Declared", "nothing".to_owned())),
+        Some(d) => {
+            let what = format!("{} at {:.0} s ({})", place(d.position), d.t_s, d.rule);
+            rows.push(("Declared", what));
+            if let Some(e) = &d.error {
+                let source = format!("{} ({})", place(e.position), e.source);
+                rows.push(("Nearest true source", source));
+                let mut error = format!("{:.1} m", e.total_m);
+                if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
+                    write!(
+                        error,
+                        ": {a:+.1} m along the flow (down-flow positive), {b:+.1} m across"
+                    )
+                    .expect(TEXT);
+                }
+                rows.push(("Error", error));
+            }
+        }
+    }
+    if let Some(t) = r.first_detection_s {
+        rows.push(("First detection", format!("{t:.1} s")));
+    }
+    rows.push(("Detections", r.detections.to_string()));
+    if let Some(m) = r.traced_m {
+        rows.push((
+            "Traced",
+            format!("{m:.0} m from the first detection to the declared source"),
+        ));
+    }
+    rows.push(("Travelled", format!("{:.0} m", r.travelled_m)));
+    let own = format!(
+        "{:.1} m at the end, {:.1} m at most",
+        r.final_position_error_m, r.greatest_position_error_m
+    );
+    rows.push(("Error of its own position", own));
+    let times: Vec<String> = r
+        .behaviour_s
+        .iter()
+        .map(|(b, s)| format!("{b} {s:.0} s"))
+        .collect();
+    rows.push(("Time in behaviours", times.join(", ")));
+    rows
+}
+
+fn run_rows(s: &Summary) -> Vec<(&'static str, String)> {
+    let t = &s.run.totals;
+    let mut rows = vec![
+        (
+            "Mission",
+            format!(
+                "{:.1} s in {} steps, {:.1} s of wall time",
+                t.mission_s, t.steps, t.mission_wall_s
+            ),
+        ),
+        (
+            "Spin-up",
+            format!(
+                "{:.0} s, {:.1} s of wall time",
+                t.spin_up_s, t.spin_up_wall_s
+            ),
+        ),
+    ];
+    if let (Some(a), Some(b)) = (s.run.real_time_factor, s.run.real_time_factor_with_spin_up) {
+        rows.push((
+            "Speed",
+            format!("{a:.0} × real time; {b:.0} × with the spin-up's wall time"),
+        ));
+    }
+    rows.push(("Filaments at the end", t.filaments.to_string()));
+    if let Some(m) = t.mass {
+        let what = format!(
+            "released {:.4} kg, in the water {:.4} kg, carried out {:.4} kg, imbalance {:.1e} kg",
+            m.released_kg, m.in_water_kg, m.left_kg, m.imbalance_kg
+        );
+        rows.push(("Chemical", what));
+    }
+    rows.push(("Version", s.version.clone()));
+    rows.push(("Digest", s.digest.clone()));
+    rows
+}

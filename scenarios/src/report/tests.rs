@@ -1,0 +1,218 @@
+//! A whole report of a made-up run, and of runs in which little or nothing happened.
+
+use super::sample::{area, frames, info, plume, robots, source, terrain};
+use super::{
+    MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder, Totals, Track,
+    TrackTable, write_all,
+};
+use crate::frame::{Frame, PlumeFrame};
+use nalgebra::Vector2;
+use std::fs;
+use world::area::Area;
+use world::terrain::Terrain;
+use world::units::Heading;
+
+fn end(outcome: RunOutcome) -> RunEnd {
+    RunEnd {
+        outcome,
+        error: None,
+        digest: "00ff".into(),
+        totals: Totals {
+            mission_s: 100.0,
+            spin_up_s: 50.0,
+            mission_wall_s: 1.0,
+            spin_up_wall_s: 1.0,
+            steps: 5000,
+            filaments: 40_000,
+            mass: Some(MassBalance::new(0.3, 0.2, 0.1)),
+        },
+    }
+}
+
+fn told(frames: &[Frame]) -> (Summary, Track) {
+    let mut builder = SummaryBuilder::new(&info());
+    let mut table = TrackTable::in_memory(robots());
+    for f in frames {
+        builder.observe(f);
+        table.push(f).unwrap();
+    }
+    (builder.finish(end(RunOutcome::Found), &[source()]), table.finish())
+}
+
+#[test]
+fn summary_measures_along_and_across_the_flow() {
+    let (s, _) = told(&frames(400));
+    let r = &s.robots[0];
+    let e = r.declaration.as_ref().unwrap().error.as_ref().unwrap();
+    assert!((e.total_m - 13.0).abs() < 1e-9);
+    assert!((e.along_flow_m.unwrap() - 12.0).abs() < 1e-9);
+    assert!((e.across_flow_m.unwrap() - 5.0).abs() < 1e-9);
+    assert!(r.first_detection_s.unwrap() > 0.0 && r.detections > 100);
+    assert!((700.0..900.0).contains(&r.traced_m.unwrap()));
+    assert!(r.travelled_m > 1800.0);
+    assert_eq!(s.run.real_time_factor, Some(100.0));
+    assert_eq!(s.run.real_time_factor_with_spin_up, Some(50.0));
+    let spent: f64 = r.behaviour_s.iter().map(|b| b.1).sum();
+    assert!((spent - 399.9).abs() < 1e-6);
+    let json: serde_json::Value = serde_json::from_str(&s.json()).unwrap();
+    assert_eq!(json["outcome"], "found");
+    assert_eq!(json["run"]["mission_s"], 100.0);
+    assert_eq!(json["robots"][0]["declaration"]["rule"], "along_flow");
+}
+
+#[test]
+fn table_has_a_column_for_each_value_and_is_on_disk_at_once() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("track.csv");
+    let mut table = TrackTable::create(&path, robots()).unwrap();
+    let run = frames(10);
+    for f in &run {
+        table.push(f).unwrap();
+    }
+    // The table is still open, as when the program is killed here.
+    let text = fs::read_to_string(&path).unwrap();
+    let columns = text.lines().next().unwrap().split(',').count();
+    assert_eq!(text.lines().count(), 101);
+    assert!(text.lines().all(|l| l.split(',').count() == columns));
+    let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
+    assert_eq!(row[..2], ["0.000", "auv0"]);
+    assert_eq!(row[columns - 1], "go_to");
+    // Nose up in both, whatever the axes say: the believed pitch is 0.1 rad.
+    assert_eq!(row[12], "5.730");
+    assert_eq!(table.finish().robots[0].rows.len(), 100);
+}
+
+#[test]
+fn long_tracks_are_thinned_evenly() {
+    let one = frames(1);
+    let mut table = TrackTable::in_memory(robots());
+    for k in 0..90_000u32 {
+        let mut f = one[0].clone();
+        f.t_s = f64::from(k) * 0.1;
+        table.push(&f).unwrap();
+    }
+    let rows = &table.finish().robots[0].rows;
+    assert!(rows.len() <= 40_001, "{}", rows.len());
+    let step = rows[1].t_s - rows[0].t_s;
+    let even = rows
+        .windows(2)
+        .all(|w| (w[1].t_s - w[0].t_s - step).abs() < 1e-6);
+    assert!(even);
+}
+
+#[test]
+fn recording_holds_every_topic() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("run.mcap");
+    let mut rec = Recorder::create(&path, &info()).unwrap();
+    for f in &frames(20) {
+        rec.frame(f).unwrap();
+    }
+    rec.plume(&plume()).unwrap();
+    rec.finish("00ff").unwrap();
+    let bytes = fs::read(&path).unwrap();
+    for part in [
+        "run",
+        "result",
+        "scenario.ron",
+        "/auv0/declaration",
+        "/plume",
+    ] {
+        let found = bytes.windows(part.len()).any(|w| w == part.as_bytes());
+        assert!(found, "{part}");
+    }
+}
+
+fn report_of(
+    summary: &Summary,
+    track: &Track,
+    plume: Option<&PlumeFrame>,
+    area: &Area,
+    terrain: &Terrain,
+) -> Vec<String> {
+    let dir = tempfile::tempdir().unwrap();
+    let out = std::env::var_os("REPORT_SAMPLE_DIR")
+        .map_or_else(|| dir.path().join("out"), std::path::PathBuf::from);
+    let sources = [source()];
+    let info = info();
+    let run = RunReport {
+        summary,
+        track,
+        plume,
+        area,
+        terrain,
+        sources: if plume.is_some() { &sources } else { &[] },
+        obstacles: &[],
+        scenario_text: &info.scenario_text,
+    };
+    let written = write_all(&out, &run).unwrap();
+    let mut names = Vec::new();
+    for path in &written {
+        let bytes = fs::read(path).unwrap();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if name.ends_with(".svg") || name.ends_with(".html") {
+            let text = String::from_utf8(bytes).unwrap();
+            assert!(!text.contains("NaN") && !text.contains("inf\""), "{name}");
+            assert!(!text.contains("<&>"), "{name} holds raw markup");
+        } else {
+            assert!(!bytes.is_empty(), "{name}");
+        }
+        names.push(name);
+    }
+    names
+}
+
+#[test]
+fn whole_report_of_a_run() {
+    let (summary, track) = told(&frames(600));
+    let names = report_of(&summary, &track, Some(&plume()), &area(), &terrain());
+    assert_eq!(
+        names,
+        [
+            "summary.json",
+            "plume.csv",
+            "map.svg",
+            "map.png",
+            "series-auv0.svg",
+            "series-auv0.png",
+            "report.html"
+        ]
+    );
+}
+
+#[test]
+fn runs_in_which_nothing_happened() {
+    let nobody = SummaryBuilder::new(&info()).finish(end(RunOutcome::Failed), &[]);
+    let none = Track::default();
+    assert_eq!(
+        report_of(&nobody, &none, None, &area(), &terrain()).len(),
+        4
+    );
+    // Zero frames, a robot known beforehand.
+    let track = TrackTable::in_memory(robots()).finish();
+    report_of(&nobody, &track, None, &area(), &terrain());
+    // One frame; an empty plume.
+    let (summary, track) = told(&frames(600)[..1]);
+    let empty = PlumeFrame::default();
+    report_of(&summary, &track, Some(&empty), &area(), &terrain());
+}
+
+#[test]
+fn areas_from_a_flume_to_an_ocean() {
+    for (length_m, width_m, depth_m) in [(24.0, 1.07, 0.2), (2e5, 1e5, 4000.0)] {
+        let area = Area {
+            centre: Vector2::zeros(),
+            length_m,
+            width_m,
+            axis: Heading::from_deg(90.0),
+        };
+        let nobody = SummaryBuilder::new(&info()).finish(end(RunOutcome::Completed), &[]);
+        report_of(
+            &nobody,
+            &Track::default(),
+            None,
+            &area,
+            &Terrain::Level { depth_m },
+        );
+    }
+}

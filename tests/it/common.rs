@@ -1,0 +1,83 @@
+//! What several tests need: the program itself, freshly built, and scenarios with a field changed.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+use std::sync::OnceLock;
+
+/// The program, built once a test run in the profile and target folder of the tests.
+pub fn binary() -> &'static Path {
+    static BINARY: OnceLock<PathBuf> = OnceLock::new();
+    BINARY.get_or_init(|| {
+        // target/<profile>/deps/it-<hash>
+        let this = std::env::current_exe().expect("the tests' own path");
+        let profile = this
+            .ancestors()
+            .nth(2)
+            .expect("deps lies in the profile's folder");
+        let target = profile
+            .parent()
+            .expect("the profile's folder lies in the target folder");
+        let mut cargo = Command::new(env!("CARGO"));
+        cargo
+            .args(["build", "--quiet", "--bin", "rheotaxis", "--target-dir"])
+            .arg(target)
+            .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
+        if profile.ends_with("release") {
+            cargo.arg("--release");
+        }
+        let built = cargo.status().expect("cargo starts");
+        assert!(built.success(), "cargo build --bin rheotaxis failed");
+        let binary = profile.join(format!("rheotaxis{}", std::env::consts::EXE_SUFFIX));
+        assert!(binary.is_file(), "{} was not built", binary.display());
+        binary
+    })
+}
+
+/// The command `rheotaxis` with these arguments, ready to start in `dir`; colour and zenoh settings
+/// of whoever runs the tests are left out.
+pub fn command(dir: &Path, args: &[&str]) -> Command {
+    let mut command = Command::new(binary());
+    command
+        .args(args)
+        .current_dir(dir)
+        .env("NO_COLOR", "1")
+        .env_remove("FORCE_COLOR")
+        .env_remove("CLICOLOR_FORCE")
+        .env_remove("ZENOH_CONFIG");
+    command
+}
+
+/// Runs `rheotaxis` with these arguments in `dir` to its end.
+pub fn rheotaxis_in(dir: &Path, args: &[&str]) -> Output {
+    command(dir, args).output().expect("rheotaxis starts")
+}
+
+/// Runs `rheotaxis` with these arguments to its end.
+pub fn rheotaxis(args: &[&str]) -> Output {
+    rheotaxis_in(Path::new("."), args)
+}
+
+/// A scenario's text with other numbers: each field must stand in it exactly once.
+pub fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
+    let mut text = text.to_string();
+    for (name, value) in fields {
+        let named = format!("{name}:");
+        let places: Vec<usize> = text
+            .match_indices(&named)
+            .map(|(i, _)| i)
+            .filter(|&i| !text[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_'))
+            .collect();
+        assert_eq!(
+            places.len(),
+            1,
+            "{name} stands {} times in the scenario",
+            places.len()
+        );
+        let start = places[0] + named.len();
+        let end = text[start..]
+            .find([',', ')', '\n'])
+            .map_or(text.len(), |i| start + i);
+        text.replace_range(start..end, &format!(" {value}"));
+    }
+    text
+}

@@ -1,0 +1,143 @@
+//! Subscribers that die or stall, each a process of its own: threads of this one would stall the
+//! run's zenoh along with theirs, which no client of a real run can.
+
+use super::kit::{client, frame, kept, listen, next_of, plume, sent, start};
+use serde_json::json;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::process::{Child, ChildStdout, Stdio};
+use zenoh::Wait;
+
+/// A subscriber in a process of its own, told by its environment where to connect and how to behave.
+#[test]
+#[ignore = "started by the tests below as a process of its own"]
+fn subscriber_process() {
+    let endpoint = std::env::var("LIVE_ENDPOINT").expect("started by another test");
+    let session = client(&endpoint);
+    let _samples = session
+        .declare_subscriber("rheotaxis/**")
+        .callback(|_| {
+            say("STALLED");
+            loop {
+                std::thread::park();
+            }
+        })
+        .wait()
+        .unwrap();
+    // An answer means that the run knows of the subscription.
+    session
+        .get("rheotaxis/*/clock")
+        .wait()
+        .unwrap()
+        .recv()
+        .unwrap();
+    say("READY");
+    loop {
+        std::thread::park();
+    }
+}
+
+/// Past the test harness, which would keep it to itself.
+fn say(word: &str) {
+    let mut out = std::io::stdout();
+    writeln!(out, "\n{word}")
+        .and_then(|()| out.flush())
+        .expect("the parent listens");
+}
+
+struct Process(Child, BufReader<ChildStdout>);
+
+impl Process {
+    fn start(endpoint: &str) -> Self {
+        let mut child = std::process::Command::new(std::env::current_exe().unwrap())
+            .args([
+                "--exact",
+                "--ignored",
+                "--nocapture",
+                "live::hostile::subscriber_process",
+            ])
+            .env("LIVE_ENDPOINT", endpoint)
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let out = BufReader::new(child.stdout.take().unwrap());
+        let mut process = Self(child, out);
+        process.wait_for("READY");
+        process
+    }
+
+    fn wait_for(&mut self, word: &str) {
+        let said = self
+            .1
+            .by_ref()
+            .lines()
+            .map_while(Result::ok)
+            .any(|line| line == word);
+        assert!(said, "the subscriber ended before it said {word}");
+    }
+}
+
+impl Drop for Process {
+    fn drop(&mut self) {
+        self.0.kill().unwrap();
+        self.0.wait().unwrap();
+    }
+}
+
+#[test]
+fn a_killed_subscriber_changes_nothing_for_the_others() {
+    let live = start("killed_1");
+    live.publish(&frame(0));
+    sent(&live);
+    let session = client(live.endpoint());
+    let samples = listen(&session, "killed_1");
+    kept(&session, "killed_1");
+    let mut victim = Process::start(live.endpoint());
+    live.publish(&frame(1));
+    victim.wait_for("STALLED");
+    drop(victim);
+    live.publish(&frame(2));
+    sent(&live);
+    live.finish("d1");
+    while next_of(&samples, "/clock")
+        != json!({"t_s": 0.2, "step": 2, "ended": true, "sent": 3, "superseded": 0})
+    {}
+    session.close().wait().unwrap();
+}
+
+#[test]
+fn a_stalled_subscriber_holds_neither_the_run_nor_its_end() {
+    let live = start("stalled_1");
+    live.publish(&frame(0));
+    sent(&live);
+    let mut stalled = Process::start(live.endpoint());
+    live.publish(&frame(1));
+    stalled.wait_for("STALLED");
+    // 12 MB, more than what sockets and queues between the two can take.
+    let plume = plume(10_000);
+    for step in 2..62 {
+        live.plume(&plume);
+        live.publish(&frame(step));
+        sent(&live);
+    }
+    // The run meets a thread busy with a full queue, and goes on.
+    for step in 62..10_062 {
+        live.plume(&plume);
+        live.publish(&frame(step));
+    }
+    assert_eq!(live.counts().offered, 10_062);
+    assert!(live.counts().superseded > 0, "{:?}", live.counts());
+    // One who comes now is served while the other still stalls.
+    let session = client(live.endpoint());
+    let samples = listen(&session, "stalled_1");
+    kept(&session, "stalled_1");
+    live.finish("d1");
+    loop {
+        let clock = next_of(&samples, "/clock");
+        if clock["ended"] == true {
+            assert_eq!(clock["step"], 10_061);
+            break;
+        }
+    }
+    drop(stalled);
+    session.close().wait().unwrap();
+}

@@ -1,0 +1,222 @@
+//! A run to listen to, and a client to listen with.
+
+use nalgebra::{Vector2, Vector3};
+use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use rheotaxis::live::{Live, LiveMeta, LiveOptions};
+use robots::handoff::{
+    ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
+    FlowEstimate, Goal, Manoeuvre, Setpoint, Vertical,
+};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::time::Duration;
+use world::frames::{Pose, Truth};
+use world::units::Heading;
+use zenoh::handlers::FifoChannelHandler;
+use zenoh::pubsub::Subscriber;
+use zenoh::sample::Sample;
+use zenoh::{Config, Session, Wait};
+
+/// Longest wait for something that must come; only a failing test waits that long.
+pub(super) const PATIENCE: Duration = Duration::from_secs(20);
+
+pub(super) type Samples = Subscriber<FifoChannelHandler<Sample>>;
+
+pub(super) fn meta() -> LiveMeta {
+    LiveMeta {
+        scenario_text: "(version: 1)".to_owned(),
+        scenario_name: "Duck".to_owned(),
+        seed: 7,
+        version: "0.1.0".to_owned(),
+    }
+}
+
+pub(super) fn options(run: &str) -> LiveOptions {
+    LiveOptions {
+        listen: Some("tcp/127.0.0.1:0".to_owned()),
+        state_period: Duration::ZERO,
+        plume_period: Duration::ZERO,
+        ..LiveOptions::new(run.to_owned())
+    }
+}
+
+pub(super) fn start(run: &str) -> Live {
+    Live::start(&options(run), meta()).expect("any free port will do")
+}
+
+/// A state in which everything is said that can be.
+pub(super) fn frame(step: u64) -> Frame {
+    let heading = Heading::from_deg(45.0);
+    let pose = Pose::level(Vector3::new(10.0, 20.0, -3.0), heading);
+    let estimate = Estimate {
+        t_s: step as f64 / 10.0,
+        position: Vector2::new(11.0, 19.0),
+        depth_m: 3.1,
+        altitude_m: Some(2.0),
+        attitude: Attitude {
+            heading,
+            roll_rad: 0.0,
+            pitch_rad: 0.1,
+            rates_rad_s: Vector3::zeros(),
+        },
+        v_ground_body: Vector3::new(2.0, 0.0, 0.0),
+        flow: Some(FlowEstimate {
+            velocity: Vector2::new(0.1, -0.2),
+            age_s: 0.5,
+        }),
+        fix_jump_m: 0.0,
+    };
+    let vertical = Vertical::Altitude(2.0);
+    let robot = RobotFrame {
+        id: "auv0".to_owned(),
+        truth: Truth::at_rest(pose),
+        altitude_m: 2.2,
+        estimate,
+        goal: Some(Goal {
+            id: 3,
+            manoeuvre: Manoeuvre::GoToPoint {
+                point: Vector2::new(50.0, 60.0),
+                radius_m: Some(5.0),
+            },
+            vertical,
+            speed_m_s: 2.0,
+        }),
+        command: Some(Command::Steer(Setpoint {
+            heading,
+            water_speed_m_s: 2.0,
+            vertical,
+        })),
+        actuators: ActuatorCommand::default(),
+        chemical: Some(ChemicalReading {
+            volts: 1.0,
+            of_full_scale: 0.2,
+            detected: true,
+        }),
+        detected: true,
+        behaviour: Behaviour::TrackIn,
+        lost_points: vec![Vector2::new(1.0, 2.0)],
+        declaration: Some(Declaration {
+            t_s: 1.0,
+            position: Vector2::new(5.0, 6.0),
+            rule: "p09",
+        }),
+    };
+    Frame {
+        t_s: step as f64 / 10.0,
+        step,
+        robots: vec![robot],
+    }
+}
+
+pub(super) fn plume(points: usize) -> PlumeFrame {
+    PlumeFrame {
+        t_s: 0.5,
+        total: 10 * points,
+        points: vec![[1.0, 2.0, -3.0, 0.5, 1e-6]; points],
+    }
+}
+
+pub(super) fn client(endpoint: &str) -> Session {
+    let config = format!(
+        r#"{{ mode: "client", connect: {{ endpoints: ["{endpoint}"] }}, scouting: {{ multicast: {{ enabled: false }} }} }}"#
+    );
+    let config = Config::from_json5(&config).expect("written here");
+    zenoh::open(config).wait().expect("the run listens")
+}
+
+pub(super) fn listen(session: &Session, run: &str) -> Samples {
+    let key = format!("rheotaxis/{run}/**");
+    session
+        .declare_subscriber(key)
+        .wait()
+        .expect("key is valid")
+}
+
+/// What the run keeps, by key below the run's.
+pub(super) fn kept(session: &Session, run: &str) -> BTreeMap<String, Sample> {
+    let base = format!("rheotaxis/{run}/");
+    let replies = session
+        .get(format!("{base}**"))
+        .timeout(PATIENCE)
+        .wait()
+        .expect("session is open");
+    replies
+        .iter()
+        .map(|reply| reply.into_result().expect("only samples are answered"))
+        .map(|s| (s.key_expr().as_str()[base.len()..].to_owned(), s))
+        .collect()
+}
+
+pub(super) fn next(samples: &Samples) -> Sample {
+    samples
+        .recv_timeout(PATIENCE)
+        .expect("session is open")
+        .expect("something should have come by now")
+}
+
+pub(super) fn json(sample: &Sample) -> Value {
+    serde_json::from_slice(&sample.payload().to_bytes()).expect("payload is JSON")
+}
+
+/// The next message with this end of its key.
+pub(super) fn next_of(samples: &Samples, end: &str) -> Value {
+    loop {
+        let sample = next(samples);
+        if sample.key_expr().as_str().ends_with(end) {
+            return json(&sample);
+        }
+    }
+}
+
+/// Waits until everything handed over was sent or superseded.
+pub(super) fn sent(live: &Live) {
+    while live.counts().sent + live.counts().superseded < live.counts().offered {
+        std::thread::yield_now();
+    }
+}
+
+/// Every way in which a value breaks a schema, of as much of JSON Schema as ours use.
+pub(super) fn broken(schema: &Value, value: &Value, at: &str, out: &mut Vec<String>) {
+    let fits = match schema["type"].as_str() {
+        Some("object") => value.is_object(),
+        Some("array") => value.is_array(),
+        Some("number") => value.is_number(),
+        Some("integer") => value.is_u64() || value.is_i64(),
+        Some("string") => value.is_string(),
+        Some("boolean") => value.is_boolean(),
+        _ => false,
+    };
+    if !fits {
+        out.push(format!("{at}: {value} is no {}", schema["type"]));
+        return;
+    }
+    for name in schema["required"].as_array().into_iter().flatten() {
+        if value.get(name.as_str().unwrap_or_default()).is_none() {
+            out.push(format!("{at}: {name} is missing"));
+        }
+    }
+    for (name, field) in value.as_object().into_iter().flatten() {
+        match schema["properties"].get(name) {
+            Some(schema) => broken(schema, field, &format!("{at}.{name}"), out),
+            None if schema["additionalProperties"] == false => {
+                out.push(format!("{at}: {name} is unknown"));
+            }
+            None => {}
+        }
+    }
+    if let Some(items) = value.as_array() {
+        let n = items.len() as u64;
+        let most = schema["maxItems"].as_u64().unwrap_or(u64::MAX);
+        if n < schema["minItems"].as_u64().unwrap_or(0) || n > most {
+            out.push(format!("{at}: {n} items"));
+        }
+        for item in items {
+            broken(&schema["items"], item, at, out);
+        }
+    }
+    if let Some(words) = schema["enum"].as_array()
+        && !words.contains(value)
+    {
+        out.push(format!("{at}: {value} is none of {words:?}"));
+    }
+}
