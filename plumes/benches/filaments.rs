@@ -25,7 +25,10 @@ struct TwoLayers;
 impl Flow for TwoLayers {
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let upper = 0.5 * (1.0 + math::tanh((p.z + 1.8) / 0.5));
-        let (u, v) = (-0.04 * upper + 0.045 * (1.0 - upper), 0.21 * upper - 0.11 * (1.0 - upper));
+        let (u, v) = (
+            -0.04 * upper + 0.045 * (1.0 - upper),
+            0.21 * upper - 0.11 * (1.0 - upper),
+        );
         let (sx, cx) = math::sin_cos(p.x / 25.0 + 0.02 * t_s);
         let (sy, cy) = math::sin_cos(p.y / 25.0 - 0.01 * t_s);
         let bed = 1.0 - math::exp(-(p.z + 6.0).max(0.0) / 0.5);
@@ -93,7 +96,11 @@ fn near(plume: &Plume) -> Vec<Vector3<f64>> {
     (0..4096)
         .map(|_| {
             let f = all[(r.uniform() * all.len() as f64) as usize].map(f64::from);
-            let p = Vector3::new(f[0] + r.normal(), f[1] + r.normal(), f[2] + 0.3 * r.normal());
+            let p = Vector3::new(
+                f[0] + r.normal(),
+                f[1] + r.normal(),
+                f[2] + 0.3 * r.normal(),
+            );
             Vector3::new(p.x, p.y, p.z.clamp(-6.0, 0.0))
         })
         .collect()
@@ -136,9 +143,9 @@ fn ask(bencher: Bencher, n: usize, points: fn(&Plume) -> Vec<Vector3<f64>>) {
     for p in &points {
         black_box(plume.at(p));
     }
-    bencher.counter(ItemsCount::new(points.len())).bench_local(|| {
-        points.iter().map(|p| plume.at(p)).sum::<f64>()
-    });
+    bencher
+        .counter(ItemsCount::new(points.len()))
+        .bench_local(|| points.iter().map(|p| plume.at(p)).sum::<f64>());
 }
 
 /// Queries close to filaments; items are points.

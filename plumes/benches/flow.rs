@@ -85,17 +85,10 @@ fn sample(bencher: Bencher<'_, '_>) {
 }
 
 #[divan::bench]
-fn grid_refresh_by_node(bencher: Bencher<'_, '_>) {
+fn grid_refresh(bencher: Bencher<'_, '_>) {
     let w = water();
     let mut grid = FlowGrid::new(&area(), &bed(), GridShape::default());
     bencher.bench_local(|| grid.refresh(&w as &dyn Flow, 1.0));
-}
-
-#[divan::bench]
-fn grid_refresh_by_column(bencher: Bencher<'_, '_>) {
-    let w = water();
-    let mut grid = FlowGrid::new(&area(), &bed(), GridShape::default());
-    bencher.bench_local(|| w.lay_on(&mut grid, 1.0));
 }
 
 /// A thousand look-ups along a plume, so that the clock's own time does not show.

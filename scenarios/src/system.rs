@@ -94,6 +94,15 @@ impl Flow for Water {
     fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
         self.flow.mixing(p, t_s + self.t0_s)
     }
+    fn column(
+        &self,
+        place: Vector2<f64>,
+        heights_m: &[f64],
+        t_s: f64,
+        out: &mut [(Vector3<f64>, Mixing)],
+    ) {
+        self.flow.column(place, heights_m, t_s + self.t0_s, out);
+    }
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         self.flow.sample(p, t_s + self.t0_s)
     }

@@ -130,9 +130,6 @@ fn a_quarter_turn_settles() {
         let over = seen.iter().map(|e| off(e) * side).fold(0.0, f64::max);
         let rate = worst(&seen, |e| e.attitude.rates_rad_s.z.to_degrees());
         let depth = worst(&seen, |e| e.depth_m - 3.0);
-        println!(
-            "turn to {to_deg}: settled {settled:.2} over {over:.2} rate {rate:.2} depth {depth:.2}"
-        );
         assert!(
             settled < 1.0 && over < 3.0,
             "off {settled} deg, over {over} deg"
@@ -148,7 +145,6 @@ fn a_depth_change_settles() {
     let seen = run.hold(60.0, 340.0, Vertical::Depth(4.0));
     let over = seen.iter().map(|e| e.depth_m - 4.0).fold(0.0, f64::max);
     let settled = worst(after(&seen, 30.0), |e| e.depth_m - 4.0);
-    println!("depth change: over {over:.3} settled {settled:.3}");
     assert!(
         over < 0.3 && settled < 0.1,
         "over {over} m, settled {settled} m"
@@ -164,7 +160,6 @@ fn altitude_is_held_over_the_slope() {
         let off = worst(after(&seen, 15.0), |e| {
             e.altitude_m.expect("bed below") - 2.0
         });
-        println!("altitude {heading_deg}: {off:.3}");
         assert!(off < 0.7, "altitude off by {off} m");
     }
 }
@@ -177,6 +172,5 @@ fn speed_through_the_water_is_held_in_a_current() {
     let off = worst(after(&seen, 20.0), |e| {
         e.v_ground_body.x - current.xy().dot(&e.attitude.heading.unit()) - 2.0
     });
-    println!("speed: {off:.4}");
     assert!(off < 0.1, "speed off by {off} m/s");
 }

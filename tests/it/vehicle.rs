@@ -77,13 +77,6 @@ impl Alone {
         self.physics.step();
         self.steps += 1;
     }
-
-    fn run(&mut self, seconds: f64, command: &ActuatorCommand) -> Truth {
-        for _ in 0..(seconds / STEP_S).round() as u64 {
-            self.step(command);
-        }
-        self.truth()
-    }
 }
 
 fn command(rudder_deg: f64, stern_deg: f64, rpm: f64) -> ActuatorCommand {

@@ -1,6 +1,6 @@
 //! What fills the space: moving water and what is dissolved in it. The truth, whoever makes it.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Water at a point: velocity, its gradient, its rate of change and the density.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,6 +44,21 @@ pub trait Flow: Send + Sync {
     /// Eddy diffusivity at `p`, m²/s.
     fn mixing(&self, _p: &Vector3<f64>, _t_s: f64) -> Mixing {
         Mixing::default()
+    }
+
+    /// Velocity and diffusivity at several heights above one place (east, north), m: what is the same
+    /// in the whole column may then be worked out once.
+    fn column(
+        &self,
+        place: Vector2<f64>,
+        heights_m: &[f64],
+        t_s: f64,
+        out: &mut [(Vector3<f64>, Mixing)],
+    ) {
+        for (z, node) in heights_m.iter().zip(out) {
+            let p = Vector3::new(place.x, place.y, *z);
+            *node = (self.velocity(&p, t_s), self.mixing(&p, t_s));
+        }
     }
 
     /// Velocity with gradient, rate of change and density; central differences unless overridden.

@@ -99,7 +99,11 @@ impl Cells {
         let a = self.stretch;
         let b = 1.0 - a;
         let last = (self.dims[2] - 1) as f32;
-        let (k, _) = split(2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last, last, self.dims[2]);
+        let (k, _) = split(
+            2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last,
+            last,
+            self.dims[2],
+        );
         let h = 1.0 / last;
         let xi = k as f32 * h;
         let s0 = xi * (b + a * xi);

@@ -8,8 +8,8 @@
 //! bounds, and most groups are never near a robot. A group is parted when first asked; what it answers does not
 //! depend on when that was, so a viewer that asks too changes nothing.
 
-pub use super::leaf::CUT_SIGMAS;
 use super::kernel::Path;
+pub use super::leaf::CUT_SIGMAS;
 use super::leaf::{LEAF, Leaf};
 use super::store::Store;
 use nalgebra::Vector3;
@@ -103,23 +103,29 @@ impl Leaves {
             hi: [[f32::MIN; LEAVES]; 3],
             leaves: Vec::with_capacity(n.div_ceil(LEAF)),
         };
-        parted(&mut order, &coordinates, weight, &mut keys, &mut |members| {
-            // In the order of release, so that the sum does not depend on how the parting is done.
-            members.sort_unstable();
-            let mut leaf = Leaf::new();
-            for m in members.iter() {
-                let i = from + usize::from(*m);
-                let sh = s.size.horizontal(now_s - s.born_s[i]);
-                let sizes = [sh, s.size.vertical(sh, s.bed[i])];
-                leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
-            }
-            let (lo, hi) = leaf.bounds();
-            for d in 0..3 {
-                out.lo[d][out.leaves.len()] = lo[d];
-                out.hi[d][out.leaves.len()] = hi[d];
-            }
-            out.leaves.push(leaf);
-        });
+        parted(
+            &mut order,
+            &coordinates,
+            weight,
+            &mut keys,
+            &mut |members| {
+                // In the order of release, so that the sum does not depend on how the parting is done.
+                members.sort_unstable();
+                let mut leaf = Leaf::new();
+                for m in members.iter() {
+                    let i = from + usize::from(*m);
+                    let sh = s.size.horizontal(now_s - s.born_s[i]);
+                    let sizes = [sh, s.size.vertical(sh, s.bed[i])];
+                    leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
+                }
+                let (lo, hi) = leaf.bounds();
+                for d in 0..3 {
+                    out.lo[d][out.leaves.len()] = lo[d];
+                    out.hi[d][out.leaves.len()] = hi[d];
+                }
+                out.leaves.push(leaf);
+            },
+        );
         out
     }
 
@@ -192,8 +198,12 @@ fn extent(v: &[f32]) -> (f32, f32) {
     }
     let rest = chunks.remainder();
     (
-        lo.into_iter().chain(rest.iter().copied()).fold(f32::MAX, f32::min),
-        hi.into_iter().chain(rest.iter().copied()).fold(f32::MIN, f32::max),
+        lo.into_iter()
+            .chain(rest.iter().copied())
+            .fold(f32::MAX, f32::min),
+        hi.into_iter()
+            .chain(rest.iter().copied())
+            .fold(f32::MIN, f32::max),
     )
 }
 
@@ -235,7 +245,11 @@ mod tests {
         let mut r = Stream::new(6, "test", "probe");
         let mut hits = 0;
         for _ in 0..2000 {
-            let p = Vector3::new(110.0 * r.uniform(), 10.0 * r.uniform() - 5.0, -6.0 * r.uniform());
+            let p = Vector3::new(
+                110.0 * r.uniform(),
+                10.0 * r.uniform() - 5.0,
+                -6.0 * r.uniform(),
+            );
             let got = index.at(&stores, Path::detect(), &p);
             let q = [p.x as f32, p.y as f32, p.z as f32];
             let want: f64 = all.iter().map(|l| f64::from(l.at(Path::Portable, q))).sum();

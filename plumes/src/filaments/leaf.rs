@@ -147,14 +147,22 @@ fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
             total[l] += leaf.peak[n] * felt;
         }
     }
-    ((total[0] + total[4]) + (total[2] + total[6])) + ((total[1] + total[5]) + (total[3] + total[7]))
+    ((total[0] + total[4]) + (total[2] + total[6]))
+        + ((total[1] + total[5]) + (total[3] + total[7]))
 }
 
 /// exp(−8w) for w ≤ 1, nothing beyond.
 #[inline(always)]
 fn falling(w: f32) -> f32 {
     // Interpolates exp(−w) at the Chebyshev points of [0, 1].
-    const C: [f32; 6] = [0.999_999_55, -0.999_967_85, 0.499_620_87, -0.165_012_72, 0.038_338_923, -0.005_099_728];
+    const C: [f32; 6] = [
+        0.999_999_55,
+        -0.999_967_85,
+        0.499_620_87,
+        -0.165_012_72,
+        0.038_338_923,
+        -0.005_099_728,
+    ];
     let q = C[0] + w * (C[1] + w * (C[2] + w * (C[3] + w * (C[4] + w * C[5]))));
     let (q2, inside) = (q * q, w <= 1.0);
     let q4 = q2 * q2;
@@ -170,7 +178,10 @@ mod tests {
         for k in 0..=1000 {
             let w = f64::from(k) / 1000.0;
             let exact = world::math::exp(-8.0 * w);
-            assert!((f64::from(falling(w as f32)) / exact - 1.0).abs() < 1e-5, "{w}");
+            assert!(
+                (f64::from(falling(w as f32)) / exact - 1.0).abs() < 1e-5,
+                "{w}"
+            );
         }
         assert_eq!(falling(1.001), 0.0);
     }
@@ -180,7 +191,12 @@ mod tests {
         let mut leaf = Leaf::new();
         for n in 0..30 {
             let a = n as f32;
-            leaf.push([0.1 * a, -0.07 * a, -1.0 - 0.05 * a], -4.0 + 0.01 * a, [0.5 + 0.1 * a, 0.3 + 0.04 * a], 1e-6);
+            leaf.push(
+                [0.1 * a, -0.07 * a, -1.0 - 0.05 * a],
+                -4.0 + 0.01 * a,
+                [0.5 + 0.1 * a, 0.3 + 0.04 * a],
+                1e-6,
+            );
         }
         for n in 0..1000 {
             let a = n as f32 * 0.01;

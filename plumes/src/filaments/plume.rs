@@ -134,7 +134,8 @@ impl Plume {
         if self.next_refresh_s.is_some_and(|next| t0_s < next) {
             return;
         }
-        self.grid.refresh(flow, t0_s + (0.5 * (t1_s - t0_s)).min(0.5));
+        self.grid
+            .refresh(flow, t0_s + (0.5 * (t1_s - t0_s)).min(0.5));
         for (n, v) in self.grid.data.iter().enumerate() {
             assert!(
                 v.iter().all(|v| v.is_finite()) && v[3] >= 0.0,

@@ -19,7 +19,10 @@ fn spread_is_2kt_whatever_the_step() {
     let n = 50_000;
     let water = Water(|_| 0.5, |_| (0.02, 0.005));
     for dt in STEPS_S {
-        let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
+        let mut p = plume(
+            source(1.0, NONE_HZ, 0.0, 0.1),
+            &Terrain::Level { depth_m: 40.0 },
+        );
         pour(&mut p, n, -40.0, |_| [-90.0, 0.0, -20.0]);
         for k in 0..(100.0 / dt) as usize {
             p.drift(&water, k as f64 * dt, (k + 1) as f64 * dt);
@@ -28,8 +31,14 @@ fn spread_is_2kt_whatever_the_step() {
         for (d, mean, k) in [(0, -40.0, 0.02), (1, 0.0, 0.02), (2, -20.0, 0.005)] {
             let (m, v) = moments(all.iter().map(|f| f64::from(f[d])));
             let exact = 2.0 * k * 100.0;
-            assert!((v / exact - 1.0).abs() < 0.0316, "axis {d}, step {dt}: {v} for {exact}");
-            assert!((m - mean).abs() < 5.0 * (exact / n as f64).sqrt() + 1e-3, "axis {d}, step {dt}: mean {m}");
+            assert!(
+                (v / exact - 1.0).abs() < 0.0316,
+                "axis {d}, step {dt}: {v} for {exact}"
+            );
+            assert!(
+                (m - mean).abs() < 5.0 * (exact / n as f64).sqrt() + 1e-3,
+                "axis {d}, step {dt}: mean {m}"
+            );
         }
     }
 }
@@ -39,7 +48,10 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
     // Each filament's y²/(2K·age) has mean 1, relative standard error √(2/n).
     let water = Water(|_| 0.5, |_| (0.02, 0.0));
     for dt in STEPS_S {
-        let mut p = plume(source(20.0, 200.0, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
+        let mut p = plume(
+            source(20.0, 200.0, 0.0, 0.1),
+            &Terrain::Level { depth_m: 40.0 },
+        );
         for k in 0..(100.0 / dt) as usize {
             p.drift(&water, k as f64 * dt, (k + 1) as f64 * dt);
         }
@@ -47,7 +59,10 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
         let born = p.stores_mut()[0].born_s.clone();
         let ratio = |(f, b): ([f32; 5], &f64)| f64::from(f[1]).powi(2) / (0.04 * (100.0 - b));
         let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
-        assert!((mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "step {dt}: {mean}");
+        assert!(
+            (mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
+            "step {dt}: {mean}"
+        );
         // Carried for their age, no more: x + 90 = U·age within 6σ of the kicks.
         for (f, b) in p.iter().zip(&born) {
             let age = 100.0 - b;
@@ -63,17 +78,35 @@ fn shear_stretches_a_cloud_by_its_exact_law_whatever_the_step() {
     let (n, shear, k, t) = (50_000.0_f64, 0.02, 0.01, 100.0);
     let water = Water(|z: f64| shear * (z + 20.0), |_| (0.0, k));
     for dt in STEPS_S {
-        let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 40.0 });
+        let mut p = plume(
+            source(1.0, NONE_HZ, 0.0, 0.1),
+            &Terrain::Level { depth_m: 40.0 },
+        );
         pour(&mut p, n as usize, -40.0, |_| [0.0, 0.0, -20.0]);
         for i in 0..(t / dt) as usize {
             p.drift(&water, i as f64 * dt, (i + 1) as f64 * dt);
         }
-        let (_, v) = moments(p.iter().map(|f| f64::from(f[0])).collect::<Vec<_>>().into_iter());
+        let (_, v) = moments(
+            p.iter()
+                .map(|f| f64::from(f[0]))
+                .collect::<Vec<_>>()
+                .into_iter(),
+        );
         let exact = 2.0 / 3.0 * k * shear * shear * t * t * t;
-        assert!((v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(), "step {dt}: {v} for {exact}");
-        let c = p.iter().map(|f| f64::from(f[0]) * f64::from(f[2] + 20.0)).sum::<f64>() / n;
+        assert!(
+            (v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
+            "step {dt}: {v} for {exact}"
+        );
+        let c = p
+            .iter()
+            .map(|f| f64::from(f[0]) * f64::from(f[2] + 20.0))
+            .sum::<f64>()
+            / n;
         let exact = k * shear * t * t;
-        assert!((c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(), "step {dt}: {c} for {exact}");
+        assert!(
+            (c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(),
+            "step {dt}: {c} for {exact}"
+        );
     }
 }
 
@@ -82,7 +115,10 @@ fn unmixed(k_z: impl Fn(f64) -> f64 + Send + Sync, dt: f64) -> f64 {
     const BINS: usize = 24;
     let n = 60_000;
     let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
-    let mut p = plume(source(1.0, NONE_HZ, 0.0, 0.1), &Terrain::Level { depth_m: 6.0 });
+    let mut p = plume(
+        source(1.0, NONE_HZ, 0.0, 0.1),
+        &Terrain::Level { depth_m: 6.0 },
+    );
     let mut r = Stream::new(4, "test", "mixed");
     pour(&mut p, n, -6.0, |_| [0.0, 0.0, -6.0 * r.uniform()]);
     for i in 0..(600.0 / dt) as usize {
@@ -93,8 +129,14 @@ fn unmixed(k_z: impl Fn(f64) -> f64 + Send + Sync, dt: f64) -> f64 {
         counts[((f64::from(-f[2]) / 6.0 * BINS as f64) as usize).min(BINS - 1)] += 1.0;
     }
     let expected = n as f64 / BINS as f64;
-    eprintln!("{dt} {:?}", counts.map(|c| (1000.0 * (c / expected - 1.0)) as i32));
-    counts.iter().map(|c| (c - expected) * (c - expected) / expected).sum()
+    eprintln!(
+        "{dt} {:?}",
+        counts.map(|c| (1000.0 * (c / expected - 1.0)) as i32)
+    );
+    counts
+        .iter()
+        .map(|c| (c - expected) * (c - expected) / expected)
+        .sum()
 }
 
 #[test]
@@ -139,7 +181,10 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
             assert!(f[2] <= 0.0 && f[2] >= bed - 1e-5, "{f:?} over {bed}");
             // Where the bed bends, at the edges of the area, the grid takes the bend in a cell of 20 m.
             let true_bed = terrain.bed_z(f64::from(f[0]), f64::from(f[1]));
-            assert!(f[1].abs() > 40.0 || f64::from(f[2]) >= true_bed - 1e-4, "{f:?} over {true_bed}");
+            assert!(
+                f[1].abs() > 40.0 || f64::from(f[2]) >= true_bed - 1e-4,
+                "{f:?} over {true_bed}"
+            );
         }
         assert_eq!(p.released(), p.len() as u64 + p.left());
         assert!(p.left() >= seen_left);

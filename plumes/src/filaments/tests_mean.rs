@@ -30,12 +30,25 @@ fn gaussian(x: f64, y: f64, z: f64) -> f64 {
 
 #[test]
 fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() {
-    let mut p = plume(source(HEIGHT, 200.0, 0.001, 0.0316), &Terrain::Level { depth_m: DEPTH });
+    let mut p = plume(
+        source(HEIGHT, 200.0, 0.001, 0.0316),
+        &Terrain::Level { depth_m: DEPTH },
+    );
     let water = Water(|_| SPEED, |_| (K, K));
     let sections = [10.0, 40.0, 70.0];
     let points: Vec<Vector3<f64>> = sections
         .iter()
-        .flat_map(|x| [(0.0, -3.0), (0.0, -3.9), (0.0, -0.2), (0.6, -2.5), (-0.8, -3.4), (0.3, -1.5)].map(|(y, z)| Vector3::new(x - 90.0, y, z)))
+        .flat_map(|x| {
+            [
+                (0.0, -3.0),
+                (0.0, -3.9),
+                (0.0, -0.2),
+                (0.6, -2.5),
+                (-0.8, -3.4),
+                (0.3, -1.5),
+            ]
+            .map(|(y, z)| Vector3::new(x - 90.0, y, z))
+        })
         .collect();
     let mut at_points = vec![Vec::new(); points.len()];
     let mut through = vec![Vec::new(); sections.len()];
@@ -66,7 +79,10 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
     let near = |seen: &Vec<f64>, exact: f64, what: &str| {
         let (mean, variance) = moments(seen.iter().copied());
         let slack = 5.0 * (variance / seen.len() as f64).sqrt() + 0.01 * exact;
-        assert!((mean - exact).abs() < slack, "{what}: {mean} for {exact} ± {slack}");
+        assert!(
+            (mean - exact).abs() < slack,
+            "{what}: {mean} for {exact} ± {slack}"
+        );
         slack / exact
     };
     for (x, seen) in sections.iter().zip(&through) {
@@ -88,18 +104,24 @@ fn gaps_of_a_random_release_are_poisson() {
     // average. Samples 0.5 s apart share no filament (6σ/U = 0.2 s), so the fraction of empty ones is binomial:
     // 10⁴ samples, standard error √(p(1 − p)/10⁴), five of them allowed.
     let (rate, size) = (5.0, SPEED / 30.0);
-    let mut p = plume(source(HEIGHT, rate, 0.0, size), &Terrain::Level { depth_m: DEPTH });
+    let mut p = plume(
+        source(HEIGHT, rate, 0.0, size),
+        &Terrain::Level { depth_m: DEPTH },
+    );
     let water = Water(|_| SPEED, |_| (0.0, 0.0));
     let probe = Vector3::new(-70.0, 0.0, HEIGHT - DEPTH);
     // One filament at 3σ, alone: below this there is none nearer.
-    let alone = RATE / rate / (std::f64::consts::TAU.powf(1.5) * size.powi(3) * 0.998_866) * math::exp(-4.5);
+    let alone = RATE / rate / (std::f64::consts::TAU.powf(1.5) * size.powi(3) * 0.998_866)
+        * math::exp(-4.5);
     let (mut empty, mut faint, samples) = (0.0, 0.0, 10_000);
     for k in 0..samples + 200 {
         p.drift(&water, 0.5 * f64::from(k), 0.5 * f64::from(k + 1));
         if k < 200 {
             continue;
         }
-        let gap = p.iter().all(|f| (f64::from(f[0]) - probe.x).abs() > 3.0 * size);
+        let gap = p
+            .iter()
+            .all(|f| (f64::from(f[0]) - probe.x).abs() > 3.0 * size);
         empty += f64::from(u8::from(gap));
         faint += f64::from(u8::from(p.at(&probe) < alone));
         // What is felt agrees with where the filaments are: nothing nearer than 3σ and yet more than two at 3σ cannot be.
@@ -108,6 +130,9 @@ fn gaps_of_a_random_release_are_poisson() {
     let exact = math::exp(-1.0);
     let slack = 5.0 * (exact * (1.0 - exact) / f64::from(samples)).sqrt();
     let share = empty / f64::from(samples);
-    assert!((share - exact).abs() < slack, "{share} for {exact} ± {slack}");
+    assert!(
+        (share - exact).abs() < slack,
+        "{share} for {exact} ± {slack}"
+    );
     assert!(faint <= empty && faint > 0.5 * empty, "{faint} of {empty}");
 }

@@ -24,10 +24,7 @@ where
 
     fn mixing(&self, p: &Vector3<f64>, _: f64) -> Mixing {
         let (k_h_m2_s, k_z_m2_s) = (self.1)(p.z);
-        Mixing {
-            k_h_m2_s,
-            k_z_m2_s,
-        }
+        Mixing { k_h_m2_s, k_z_m2_s }
     }
 }
 
@@ -81,5 +78,8 @@ pub(super) fn pour(plume: &mut Plume, n: usize, bed: f64, mut at: impl FnMut(usi
 pub(super) fn moments(values: impl Iterator<Item = f64> + Clone) -> (f64, f64) {
     let n = values.clone().count() as f64;
     let mean = values.clone().sum::<f64>() / n;
-    (mean, values.map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0))
+    (
+        mean,
+        values.map(|v| (v - mean) * (v - mean)).sum::<f64>() / (n - 1.0),
+    )
 }

@@ -23,7 +23,6 @@ use world::terrain::Terrain;
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
 use crate::flow::catalogue::CurrentSpec;
-use crate::flow::grid::FlowGrid;
 use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn, Sheet};
 use crate::flow::meander::Meander;
@@ -145,18 +144,6 @@ impl Water {
         let heights = (0..N).map(|k| column.floor.z * (k as f64 + 0.5) / N as f64);
         heights.map(|z| column.free(z)).sum::<Vector2<f64>>() / N as f64
     }
-
-    /// Fills a grid as [`FlowGrid::refresh`] does, with the same numbers at a third of the cost: what is the same at
-    /// all heights is worked out once a column.
-    pub fn lay_on(&self, grid: &mut FlowGrid, t_s: f64) {
-        grid.refresh_columns(t_s, |p, heights, out| {
-            let column = self.column(p, t_s);
-            let u_star = column.friction_velocity();
-            for (z, node) in heights.iter().zip(out) {
-                *node = (column.velocity(*z), column.mixing(*z, u_star));
-            }
-        });
-    }
 }
 
 impl Column<'_> {
@@ -263,6 +250,20 @@ impl Flow for Water {
     fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
         let column = self.column(p.xy(), t_s);
         column.mixing(p.z, column.friction_velocity())
+    }
+
+    fn column(
+        &self,
+        place: Vector2<f64>,
+        heights_m: &[f64],
+        t_s: f64,
+        out: &mut [(Vector3<f64>, Mixing)],
+    ) {
+        let column = Water::column(self, place, t_s);
+        let u_star = column.friction_velocity();
+        for (z, node) in heights_m.iter().zip(out) {
+            *node = (column.velocity(*z), column.mixing(*z, u_star));
+        }
     }
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {

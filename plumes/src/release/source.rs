@@ -139,38 +139,61 @@ fn position(
     }
     let bed = terrain.bed_z(e, north);
     let depth = -bed;
-    match (spec.height_m.map(Finite::get), spec.depth_m.map(Finite::get)) {
+    match (
+        spec.height_m.map(Finite::get),
+        spec.depth_m.map(Finite::get),
+    ) {
         (Some(h), None) if h < 0.0 => Err(invalid(
             n,
             "height_m",
-            format!("source \"{}\" is {} m under the bottom; must be from 0 (on the bed) to {depth:.2} (the water's depth there)", spec.id, -h),
+            format!(
+                "source \"{}\" is {} m under the bottom; must be from 0 (on the bed) to {depth:.2} (the water's depth there)",
+                spec.id, -h
+            ),
         )),
         (Some(h), None) if h > depth => Err(invalid(
             n,
             "height_m",
-            format!("source \"{}\" is {:.2} m above the surface; the water is {depth:.2} m deep there, so must be from 0 to {depth:.2}", spec.id, h - depth),
+            format!(
+                "source \"{}\" is {:.2} m above the surface; the water is {depth:.2} m deep there, so must be from 0 to {depth:.2}",
+                spec.id,
+                h - depth
+            ),
         )),
         (None, Some(d)) if d > depth => Err(invalid(
             n,
             "depth_m",
-            format!("source \"{}\" is {:.2} m under the bottom; must be from 0 (the surface) to {depth:.2} (the water's depth there)", spec.id, d - depth),
+            format!(
+                "source \"{}\" is {:.2} m under the bottom; must be from 0 (the surface) to {depth:.2} (the water's depth there)",
+                spec.id,
+                d - depth
+            ),
         )),
         (None, Some(d)) if d < 0.0 => Err(invalid(
             n,
             "depth_m",
-            format!("source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}", spec.id, -d),
+            format!(
+                "source \"{}\" is {} m above the surface; must be from 0 to {depth:.2}",
+                spec.id, -d
+            ),
         )),
         (Some(h), None) => Ok(Vector3::new(e, north, bed + h)),
         (None, Some(d)) => Ok(Vector3::new(e, north, -d)),
         (Some(_), Some(_)) => Err(invalid(
             n,
             "depth_m",
-            format!("source \"{}\" has both height_m and depth_m; give one of them", spec.id),
+            format!(
+                "source \"{}\" has both height_m and depth_m; give one of them",
+                spec.id
+            ),
         )),
         (None, None) => Err(invalid(
             n,
             "height_m",
-            format!("source \"{}\" has neither height_m (above the bed) nor depth_m (below the surface); give one of them", spec.id),
+            format!(
+                "source \"{}\" has neither height_m (above the bed) nor depth_m (below the surface); give one of them",
+                spec.id
+            ),
         )),
     }
 }
@@ -227,13 +250,24 @@ mod tests {
             problem(spec(0.0, 0.0, Some(-0.5), None)),
             "sources[0].height_m: source \"s1\" is 0.5 m under the bottom; must be from 0 (on the bed) to 6.00 (the water's depth there)"
         );
-        assert!(problem(spec(0.0, 0.0, None, Some(6.5))).starts_with("sources[0].depth_m: source \"s1\" is 0.50 m under the bottom"));
+        assert!(
+            problem(spec(0.0, 0.0, None, Some(6.5)))
+                .starts_with("sources[0].depth_m: source \"s1\" is 0.50 m under the bottom")
+        );
         assert!(problem(spec(0.0, 0.0, Some(7.0), None)).contains("1.00 m above the surface"));
-        assert!(problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m"));
+        assert!(
+            problem(spec(0.0, 0.0, Some(1.0), Some(1.0))).contains("both height_m and depth_m")
+        );
         assert!(problem(spec(0.0, 0.0, None, None)).contains("neither height_m"));
         let (area, terrain) = sea();
-        let twins = [spec(0.0, 0.0, Some(1.0), None), spec(1.0, 0.0, Some(1.0), None)];
+        let twins = [
+            spec(0.0, 0.0, Some(1.0), None),
+            spec(1.0, 0.0, Some(1.0), None),
+        ];
         let said = place(&twins, &area, &terrain).unwrap_err().to_string();
-        assert_eq!(said, "sources[1].id: \"s1\" is already the name of sources[0]");
+        assert_eq!(
+            said,
+            "sources[1].id: \"s1\" is already the name of sources[0]"
+        );
     }
 }

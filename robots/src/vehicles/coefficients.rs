@@ -17,7 +17,7 @@
 //! | current | horizontal, turned by yaw only | three components, turned by the whole attitude, with its gradient along the hull |
 //! | accelerating water | no force | Froude-Krylov force and ċ of the added mass |
 //! | cross-flow drag | sway only, coefficient 1.19772883, 21 stations at full weight (5 % too long) | sway and heave alike, cylinder coefficient 1.1 (Hoerner 1965), 20 stations of L/20 |
-//! | hull lift | heave only | in the plane of incidence, whichever it is |
+//! | hull lift | heave only, slope · α | in the plane of incidence, whichever it is, slope · sin α cos α |
 //! | fins | angle is the deflection | angle of attack of the water at the fin, turning included |
 //! | yaw damping | linear, time constant 1 s | what the fins and the cross-flow give |
 //! | linear heave damping | at all speeds | fades with speed as in surge and sway |

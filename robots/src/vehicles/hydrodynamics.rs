@@ -16,7 +16,7 @@
 //! *Deviations:* of the shipped set from the published one: the table in `coefficients.rs`. In both
 //! the entries of C_A that make the Munk moment are zero, as published: with it the hull is
 //! unstable, and the published drag and lift were fitted without it. Hull lift of the shipped set is
-//! slope · sin α cos α (Allen & Perkins 1951) instead of slope · α, which pushes a hull lying
+//! slope · sin α cos α (slender bodies: Munk 1924) instead of slope · α, which pushes a hull lying
 //! across the current forwards. A hull partly out of the water keeps its added mass; every other
 //! water force falls with the share under water.
 
@@ -151,7 +151,7 @@ impl Hydrodynamics {
     }
 
     /// τ − C_A(ν_r)ν_r − D ν_r: everything the water does to a wholly wet hull.
-    fn water_forces(
+    pub(super) fn water_forces(
         &self,
         v_ground: &Vector3<f64>,
         v: &Vector3<f64>,
@@ -258,7 +258,7 @@ impl Hydrodynamics {
     }
 
     /// Rudder and stern plane. With incidence: a plate at angle δ feels the water across it,
-    /// |V|(u δ + v), as in Prestero 2001, eq. 4.37 ff. (Y_uuδ, Y_uv, Y_ur of the fins).
+    /// |V|(u δ + v), as the fins' Y_uuδ, Y_uv and Y_ur of Prestero 2001.
     fn fins(
         &self,
         v: &Vector3<f64>,
@@ -316,130 +316,5 @@ impl Hydrodynamics {
             Vector3::new(c.thrust_share * rho * D4 * by(&c.thrust), 0.0, 0.0),
             Vector3::new(c.torque_share * rho * D4 * D * by(&c.torque), 0.0, 0.0),
         )
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::coefficients::ParameterSet;
-    use super::*;
-    use std::f64::consts::FRAC_PI_2;
-
-    fn still() -> Water {
-        Water {
-            u_W: Vector3::zeros(),
-            gradient_W: Matrix3::zeros(),
-            rate_W: Vector3::zeros(),
-            density_kg_m3: 1026.0,
-            wet: 1.0,
-            wet_x_m: 0.0,
-        }
-    }
-
-    fn both() -> [Hydrodynamics; 2] {
-        [ParameterSet::Reference, ParameterSet::Remus100]
-            .map(|s| Hydrodynamics::new(Coefficients::of(s)))
-    }
-
-    /// Every row of the published model's table, with the propeller's inflow as first and as later published.
-    #[test]
-    fn published_derivatives() {
-        let table = include_str!("../../../tests/reference/remus100/derivative_points.csv");
-        let mut worst: f64 = 0.0;
-        for (inflow, first) in [(Inflow::Ground, 17), (Inflow::Water, 23)] {
-            let hull = Hydrodynamics::new(Coefficients {
-                inflow,
-                ..Coefficients::of(ParameterSet::Reference)
-            });
-            for line in table.lines().skip(1) {
-                let n: Vec<f64> = line
-                    .split(',')
-                    .map(|s| s.parse().expect("a number"))
-                    .collect();
-                let to_current = world::units::Heading::from_rad(n[1]).unit() * n[0];
-                let water = Water {
-                    u_W: Vector3::new(to_current.x, to_current.y, 0.0),
-                    ..still()
-                };
-                // (roll, pitch, yaw) of FRD in NED, as the same rotation of FLU in ENU.
-                let R_WB = Rotation3::from_euler_angles(n[5], -n[6], FRAC_PI_2 - n[7]);
-                let (dv, dw) = hull.acceleration(
-                    &R_WB,
-                    &Vector3::new(n[8], -n[9], -n[10]),
-                    &Vector3::new(n[11], -n[12], -n[13]),
-                    &water,
-                    &Actuators {
-                        rudder_rad: n[14],
-                        stern_rad: n[15],
-                        rpm: n[16],
-                    },
-                );
-                let ours = [dv.x, -dv.y, -dv.z, dw.x, -dw.y, -dw.z];
-                for (a, b) in ours.iter().zip(&n[first..first + 6]) {
-                    worst = worst.max((a - b).abs() / b.abs().max(1.0));
-                }
-            }
-        }
-        assert!(worst < 1e-9, "worst relative difference {worst:e}");
-    }
-
-    #[test]
-    fn rudder_turns_to_starboard_and_stern_plane_dives() {
-        for hull in both() {
-            let v = Vector3::new(1.5, 0.0, 0.0);
-            let level = Rotation3::identity();
-            let helm = |rudder_rad, stern_rad| Actuators {
-                rudder_rad,
-                stern_rad,
-                rpm: 1000.0,
-            };
-            let turn = |a: Actuators| {
-                hull.acceleration(&level, &v, &Vector3::zeros(), &still(), &a)
-                    .1
-            };
-            let straight = turn(helm(0.0, 0.0));
-            // FLU: clockwise seen from above is −z; nose down is +y.
-            assert!(turn(helm(0.1, 0.0)).z < straight.z - 0.01);
-            assert!(turn(helm(0.0, 0.1)).y > straight.y + 0.01);
-        }
-    }
-
-    #[test]
-    fn known_force_gives_known_acceleration() {
-        // At rest the thrust is the only force: K_T0 ρ D⁴ n² (1 − t) on m + 0.839 kg, and the surge-pitch coupling m z_g.
-        for hull in both() {
-            let actuators = Actuators {
-                rpm: 600.0,
-                ..Actuators::default()
-            };
-            let zero = Vector3::zeros();
-            let (dv, dw) =
-                hull.acceleration(&Rotation3::identity(), &zero, &zero, &still(), &actuators);
-            let c = &hull.c;
-            let thrust = 0.9 * 1026.0 * 0.14f64.powi(4) * 0.4566 * 100.0;
-            let (m, i, z) = (
-                c.mass_kg + c.added[0],
-                c.rigid_mass()[(4, 4)] + c.added[4],
-                c.mass_kg * c.z_g_m,
-            );
-            let det = m * i - z * z;
-            assert!((dv.x - thrust * i / det).abs() < 1e-12);
-            assert!((dw.y - thrust * z / det).abs() < 1e-12);
-        }
-    }
-
-    #[test]
-    fn planes_of_the_shipped_set_are_alike() {
-        let hull = Hydrodynamics::new(Coefficients {
-            fin_slope: [0.5, 0.5],
-            ..Coefficients::of(ParameterSet::Remus100)
-        });
-        let none = Vector3::zeros();
-        let f = |v, w| hull.water_forces(&v, &v, &w, &none, 1026.0, &Actuators::default());
-        let (side, turn) = f(Vector3::new(1.0, 0.3, 0.0), Vector3::new(0.0, 0.0, 0.2));
-        let (heave, pitch) = f(Vector3::new(1.0, 0.0, 0.3), Vector3::new(0.0, -0.2, 0.0));
-        assert!((side.y - heave.z).abs() < 1e-12 && (side.x - heave.x).abs() < 1e-12);
-        let pitch_damping = hull.c.damping[4] * 0.2;
-        assert!((turn.z + pitch.y - pitch_damping).abs() < 1e-12);
     }
 }

@@ -3,6 +3,8 @@
 mod actuators;
 mod coefficients;
 mod hydrodynamics;
+#[cfg(test)]
+mod hydrodynamics_tests;
 mod mesh;
 mod motion;
 mod spec;

@@ -12,7 +12,11 @@ const SHORT: usize = 40;
 pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioError {
     let outline = Outline::of(text);
     let span = offset(text, error.span.start)..offset(text, error.span.end);
-    let at_end = span.end >= text.trim_end().len();
+    let at_end = span.end >= text.trim_end().len()
+        || matches!(
+            error.code,
+            Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment
+        );
     if at_end && let Some(&(bracket, open)) = outline.open.last() {
         return truncated(name, text, &outline, bracket, open);
     }

@@ -76,7 +76,9 @@ impl Shape {
     /// Whether the solver can use it: false for a hull whose points span no volume.
     #[must_use]
     pub fn is_solid(&self) -> bool {
-        self.shared().is_some()
+        // A cubic millimetre: flat hulls have some volume by rounding.
+        self.shared()
+            .is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
     }
 
     /// Greatest distance of any of its points from its origin, m.
@@ -123,10 +125,12 @@ mod tests {
 
     #[test]
     fn a_flat_hull_is_no_shape() {
-        let p = |x, y| Vector3::new(x, y, 0.0);
-        let flat = Shape::Hull {
-            points_m: vec![p(0.0, 0.0), p(1.0, 0.0)],
+        let p = |x, y, z| Vector3::new(x, y, z);
+        let corners = [p(0.0, 0.0, 0.0), p(1.0, 0.0, 0.0), p(0.0, 1.0, 0.0)];
+        let hull = |top| Shape::Hull {
+            points_m: corners.iter().copied().chain([top]).collect(),
         };
-        assert!(flat.shared().is_none() || flat.reach_m() > 0.0);
+        assert!(!hull(p(1.0, 1.0, 0.0)).is_solid());
+        assert!(hull(p(1.0, 1.0, 1.0)).is_solid());
     }
 }

@@ -11,7 +11,7 @@
 //! *Deviations:* rapier integrates positions in four sub-steps of first order (6 mm in 230 s of
 //! turning at 0.02 s). A body on which no contact impulse acted is therefore put where its own
 //! equation takes it, and rapier is not asked at all while no body has anything in reach: the
-//! result is the same to the last bit (test below), six times as fast.
+//! result is the same to the last bit, two and a half times as fast.
 
 use super::convert::{from_pose, from_vector, matrix, pose, vector};
 use super::ground::Fixed;
