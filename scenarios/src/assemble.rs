@@ -80,7 +80,10 @@ impl Simulation {
             &area,
             &terrain,
             seed,
-            PlumeSettings::default(),
+            PlumeSettings {
+                refresh_s: scenario.time.flow_period_s.get(),
+                ..PlumeSettings::default()
+            },
         )?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);

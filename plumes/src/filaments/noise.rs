@@ -9,7 +9,7 @@
 //!
 //! *Deviations*: logarithm, sine and cosine are series in f32 without branches or tables, so that the compiler can
 //! do eight filaments at once; each is within 1e-6 of the function. The radius has 24 bits, so no value exceeds 5.9.
-//! Measured over 10⁷ values an axis: variance within 0.001 of 1 and kurtosis within 0.005 of 3 (tests below).
+//! Over 10⁷ values an axis, variance and kurtosis agree with 1 and 3 within five standard errors (0.0023, 0.016; tests below).
 
 use std::f32::consts::{LN_2, TAU};
 

@@ -111,7 +111,7 @@ fn gaps_of_a_random_release_are_poisson() {
     let water = Water(|_| SPEED, |_| (0.0, 0.0));
     let probe = Vector3::new(-70.0, 0.0, HEIGHT - DEPTH);
     // One filament at 3σ, alone: below this there is none nearer.
-    let alone = RATE / rate / (std::f64::consts::TAU.powf(1.5) * size.powi(3) * 0.998_866)
+    let alone = RATE / rate / (math::powf(std::f64::consts::TAU, 1.5) * size.powi(3) * 0.998_866)
         * math::exp(-4.5);
     let (mut empty, mut faint, samples) = (0.0, 0.0, 10_000);
     for k in 0..samples + 200 {

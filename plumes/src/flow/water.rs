@@ -24,7 +24,7 @@ use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::ground::{Floor, Ground};
-use crate::flow::layered::{Layered, LayeredColumn, Sheet};
+use crate::flow::layered::{Layered, LayeredColumn, Sheet, Profile};
 use crate::flow::meander::Meander;
 use crate::flow::mixing::{self, MixingSpec};
 
@@ -161,8 +161,11 @@ impl Column<'_> {
 
     /// Horizontal current as it would be without bed friction, m/s.
     fn free(&self, z: f64) -> Vector2<f64> {
-        let layer = self.layers.as_ref().map(|l| l.profile(z).u);
-        self.plane + layer.unwrap_or_default()
+        self.plane + self.profile(z).map_or(Vector2::zeros(), |p| p.u)
+    }
+
+    fn profile(&self, z: f64) -> Option<Profile> {
+        self.layers.as_ref().map(|l| l.profile(z))
     }
 
     fn inside(&self, z: f64) -> f64 {
@@ -173,11 +176,15 @@ impl Column<'_> {
     #[must_use]
     pub fn velocity(&self, z: f64) -> Vector3<f64> {
         let z = self.inside(z);
+        self.velocity_in(z, self.profile(z).as_ref())
+    }
+
+    fn velocity_in(&self, z: f64, profile: Option<&Profile>) -> Vector3<f64> {
         let factor = self
             .water
             .bed
             .map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z));
-        let u = self.free(z) * factor;
+        let u = (self.plane + profile.map_or(Vector2::zeros(), |p| p.u)) * factor;
         let (slope, rate) = match &self.layers {
             Some(layers) => {
                 let sheet = layers.sheet(z, &self.floor);
@@ -209,14 +216,28 @@ impl Column<'_> {
     #[must_use]
     pub fn mixing(&self, z: f64, u_star_m_s: f64) -> Mixing {
         let z = self.inside(z);
+        self.mixing_in(z, u_star_m_s, self.profile(z).as_ref())
+    }
+
+    /// Velocity and diffusivities at a height: as each alone, the profile worked out once.
+    fn both(&self, z: f64, u_star_m_s: f64) -> (Vector3<f64>, Mixing) {
+        let z = self.inside(z);
+        let profile = self.profile(z);
+        let profile = profile.as_ref();
+        (
+            self.velocity_in(z, profile),
+            self.mixing_in(z, u_star_m_s, profile),
+        )
+    }
+
+    fn mixing_in(&self, z: f64, u_star_m_s: f64, profile: Option<&Profile>) -> Mixing {
         let (height, depth) = (z - self.floor.z, -self.floor.z);
         let reach = self.layers.as_ref().and_then(LayeredColumn::lid);
         let reach = reach.map_or(depth, |lid| lid - self.floor.z);
         let mut k_z = mixing::parabolic(u_star_m_s, height, reach);
         if k_z > 0.0
-            && let Some(layers) = &self.layers
+            && let Some(p) = profile
         {
-            let p = layers.profile(z);
             let wall = u_star_m_s / (KARMAN * height);
             let shear2 = p.du_dz.norm_squared() + wall * wall;
             k_z *= mixing::damping(mixing::richardson(p.drho_dz, p.density, shear2));
@@ -262,7 +283,7 @@ impl Flow for Water {
         let column = Water::column(self, place, t_s);
         let u_star = column.friction_velocity();
         for (z, node) in heights_m.iter().zip(out) {
-            *node = (column.velocity(*z), column.mixing(*z, u_star));
+            *node = column.both(*z, u_star);
         }
     }
 

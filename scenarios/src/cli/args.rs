@@ -94,6 +94,9 @@ pub struct RunArgs {
     /// Where zenoh listens; without it tcp/127.0.0.1:7447, or the next free port.
     #[arg(long, value_name = "ENDPOINT", conflicts_with = "no_zenoh")]
     pub zenoh_listen: Option<String>,
+    /// Keep answering subscribers for this long after the end.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, conflicts_with = "no_zenoh")]
+    pub zenoh_linger: f64,
 }
 
 const RUN_AFTER: &str = "\

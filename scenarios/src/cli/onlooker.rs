@@ -40,6 +40,7 @@ pub(super) struct Onlooker<'a> {
     begun: Instant,
     mission_begun: Instant,
     spin_up_s: f64,
+    linger: Duration,
 }
 
 impl<'a> Onlooker<'a> {
@@ -113,6 +114,7 @@ impl<'a> Onlooker<'a> {
             begun: now,
             mission_begun: now,
             spin_up_s: scenario.time.spin_up_s.get(),
+            linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
         })
     }
 
@@ -198,6 +200,7 @@ impl<'a> Onlooker<'a> {
         );
         self.progress.finish(&summary, &self.out);
         if let Some(live) = self.live.take() {
+            live.linger(self.linger, || self.stop.load(Ordering::Relaxed));
             live.finish(&ended.digest);
         }
         match (self.failure, written) {

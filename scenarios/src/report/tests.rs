@@ -36,7 +36,10 @@ fn told(frames: &[Frame]) -> (Summary, Track) {
         builder.observe(f);
         table.push(f).unwrap();
     }
-    (builder.finish(end(RunOutcome::Found), &[source()]), table.finish())
+    (
+        builder.finish(end(RunOutcome::Found), &[source()]),
+        table.finish(),
+    )
 }
 
 #[test]
@@ -131,8 +134,7 @@ fn report_of(
     terrain: &Terrain,
 ) -> Vec<String> {
     let dir = tempfile::tempdir().unwrap();
-    let out = std::env::var_os("REPORT_SAMPLE_DIR")
-        .map_or_else(|| dir.path().join("out"), std::path::PathBuf::from);
+    let out = dir.path().join("out");
     let sources = [source()];
     let info = info();
     let run = RunReport {

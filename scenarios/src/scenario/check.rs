@@ -242,7 +242,6 @@ fn times(scenario: &Scenario, found: &mut Vec<Found>) {
         ("time.limit_s", t.limit_s),
         ("time.drift_period_s", t.drift_period_s),
         ("record.frame_period_s", r.frame_period_s),
-        ("record.track_period_s", r.track_period_s),
         ("record.plume_period_s", r.plume_period_s),
     ] {
         if period < t.step_s {

@@ -12,7 +12,9 @@ const SHORT: usize = 40;
 pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioError {
     let outline = Outline::of(text);
     let span = offset(text, error.span.start)..offset(text, error.span.end);
-    let at_end = span.end >= text.trim_end().len()
+    // At the end: nothing but the piece of a token follows the place.
+    let rest = text[span.end..].trim_end();
+    let at_end = !rest.contains(|c: char| c.is_whitespace() || "()[]{},:".contains(c))
         || matches!(
             error.code,
             Error::Eof | Error::ExpectedStringEnd | Error::UnclosedBlockComment

@@ -273,6 +273,9 @@ pub struct TimeSpec {
     /// Step of the plume during the spin-up, s.
     #[serde(default = "spin_up_period")]
     pub spin_up_period_s: Positive,
+    /// How often the plume asks the water for its currents, s: short against meander and waves.
+    #[serde(default = "flow_period")]
+    pub flow_period_s: NonNegative,
 }
 
 fn step() -> Positive {
@@ -281,6 +284,10 @@ fn step() -> Positive {
 
 fn drift_period() -> Positive {
     Positive::new(0.5)
+}
+
+fn flow_period() -> NonNegative {
+    NonNegative::new(5.0)
 }
 
 fn spin_up_period() -> Positive {
@@ -309,10 +316,8 @@ pub struct DeclaredSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordSpec {
-    /// Period of the recorded and published state of the robots, s.
+    /// Period of the recorded and published state of the robots, and of the rows of `track.csv`, s.
     pub frame_period_s: Positive,
-    /// Period of the rows of `track.csv`, s.
-    pub track_period_s: Positive,
     /// Period of the recorded and published plume, s.
     pub plume_period_s: Positive,
     /// Most filaments recorded or published at once.
@@ -323,7 +328,6 @@ impl Default for RecordSpec {
     fn default() -> Self {
         Self {
             frame_period_s: Positive::new(0.1),
-            track_period_s: Positive::new(1.0),
             plume_period_s: Positive::new(10.0),
             plume_points: 2000,
         }

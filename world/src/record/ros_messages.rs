@@ -188,10 +188,10 @@ mod tests {
             angular: Vector3::zeros(),
         }
         .cdr();
-        // 4 header; 8 time, 4+6 "world", 2 pad, 4+5 "auv0", to 40 (7 pad); 7+36+6+36 doubles.
-        assert_eq!(msg.len(), 4 + 40 + 85 * 8);
-        assert_eq!(msg[4 + 40..4 + 48], 1.0f64.to_le_bytes());
-        let w = 4 + 40 + 6 * 8;
+        // 4 header; 8 time, 4+6 "world", 2 pad, 4+5 "auv0", to 32 (3 pad); 7+36+6+36 doubles.
+        assert_eq!(msg.len(), 4 + 32 + 85 * 8);
+        assert_eq!(msg[4 + 32..4 + 40], 1.0f64.to_le_bytes());
+        let w = 4 + 32 + 6 * 8;
         assert_eq!(msg[w..w + 8], 1.0f64.to_le_bytes());
     }
 

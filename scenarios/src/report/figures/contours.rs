@@ -148,10 +148,7 @@ fn trace(
     for start in ends.into_iter().chain(rest) {
         let mut line = Vec::new();
         let mut here = start;
-        loop {
-            let Some(next) = links.get_mut(&here).and_then(Vec::pop) else {
-                break;
-            };
+        while let Some(next) = links.get_mut(&here).and_then(Vec::pop) {
             if line.is_empty() {
                 line.push(crossing(here));
             }

@@ -31,7 +31,7 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
     draw(&mut c, run, &panel, &bed, plume.as_ref(), false);
     panel.frame(&mut c, 1.2);
     panel.x_ticks(&mut c, true, 11.0);
-    panel.y_ticks(&mut c, 70.0, 11.0);
+    panel.y_ticks(&mut c, 45.0, 11.0);
     let middle = panel.left + panel.width / 2.0;
     c.text(
         [middle, panel.bottom() + 40.0],
@@ -45,7 +45,7 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
     layers::scale_bar(&mut c, &panel);
     layers::north(&mut c, &panel);
     let left = panel.right() + 22.0;
-    let below = legend(&mut c, run, [left, panel.top], &bed, plume.as_ref());
+    let mut below = legend(&mut c, run, [left, panel.top], &bed, plume.as_ref());
     if let Some(inset) = inset(run, [left, below + 26.0], sheet) {
         draw(&mut c, run, &inset, &Bed::of(run, &inset), None, true);
         inset.frame(&mut c, 1.0);
@@ -62,7 +62,10 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
         );
         let box_style = Style::line(GREY, 1.0);
         c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &box_style);
+        below = inset.bottom();
     }
+    // The column may end above the room that was kept for it.
+    c.height = (panel.bottom() + 60.0).max(below + 20.0);
     c.svg("map")
 }
 
@@ -131,6 +134,7 @@ fn draw(
     }
     for t in &run.track.robots {
         layers::believed(c, panel, t);
+        layers::detections(c, panel, t);
         layers::track(c, panel, t, close);
         layers::marks(c, panel, t, run.track.robots.len() > 1 && !close);
     }

@@ -8,7 +8,7 @@ use super::plume_load::PlumeLoad;
 use crate::report::{RobotTrack, RunReport};
 
 /// Opacity of the plume over the bed.
-const PLUME_OPACITY: f64 = 0.75;
+const PLUME_OPACITY: f64 = 0.6;
 /// Points of a track nearer than this to the last one drawn are left out, px.
 const APART_PX: f64 = 0.5;
 
@@ -40,7 +40,7 @@ pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
         let lines = on(panel, bed.grid.lines(v));
         c.lines(&lines, false, &Style::line("#7893a8", 0.7));
         if let Some(longest) = lines.iter().max_by_key(|l| l.len()) {
-            let [x, y] = longest[longest.len() * 2 / 5];
+            let [x, y] = longest[longest.len() / 12];
             let text = format!("{} m", number(v, bed.step));
             c.rimmed([x, y + 3.0], 9.0, Anchor::Middle, &text);
         }
@@ -102,9 +102,9 @@ fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Detections, lost points, start.
-pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
-    const DOTS_APART_PX: f64 = 4.0;
+/// Detections: under the track, so that they do not hide what the robot did there.
+pub(super) fn detections(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
+    const DOTS_APART_PX: f64 = 3.0;
     let mut last: Option<[f64; 2]> = None;
     for d in &t.detections {
         let p = panel.at(*d);
@@ -114,6 +114,10 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) 
             last = Some(p);
         }
     }
+}
+
+/// Start, lost points, declared source.
+pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
     for l in &t.lost_points {
         lost_point(c, panel.at(*l));
     }
@@ -130,7 +134,7 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) 
 }
 
 pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {
-    c.circle(p, 1.7, &Style::fill(DETECTION).edged("#ffffff", 0.4));
+    c.circle(p, 2.8, &Style::fill("#ffffff").edged(DETECTION, 0.8));
 }
 
 pub(super) fn lost_point(c: &mut Canvas, [x, y]: [f64; 2]) {

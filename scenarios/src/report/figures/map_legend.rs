@@ -49,7 +49,8 @@ pub(super) fn legend(
         y += 6.0;
     }
     let robots = &run.track.robots;
-    let marks: [(bool, fn(&mut Canvas, [f64; 2]), &str); 5] = [
+    type Draw = fn(&mut Canvas, [f64; 2]);
+    let marks: [(bool, Draw, &str); 5] = [
         (
             robots.iter().any(|t| !t.rows.is_empty()),
             layers::start,

@@ -51,10 +51,18 @@ impl PlumeLoad {
         if !(max > 0.0 && max.is_finite()) {
             return None;
         }
-        // The densest spot beside the source would push all else off the scale: begin a decade below it.
-        let top = 2 * decade(max);
+        // The densest spot beside the source would push all else off the scale: the top level is
+        // one that a tenth of the plume still exceeds.
+        let mut loads: Vec<f64> = grid
+            .values
+            .iter()
+            .copied()
+            .filter(|v| *v > max * 1e-4)
+            .collect();
+        loads.sort_by(f64::total_cmp);
+        let top = half_decade_below(loads[loads.len() * 9 / 10]);
         let levels = (0..LEVELS)
-            .map(|k| half_decade(top - 2 - (LEVELS - 1 - k) as i32 + 1))
+            .map(|k| half_decade(top - (LEVELS - 1 - k) as i32))
             .collect();
         Some(Self { grid, levels })
     }
@@ -68,6 +76,12 @@ fn half_decade(n: i32) -> f64 {
     } else {
         whole
     }
+}
+
+/// Greatest n whose [`half_decade`] does not exceed `v`.
+fn half_decade_below(v: f64) -> i32 {
+    let n = 2 * decade(v);
+    if half_decade(n + 1) <= v { n + 1 } else { n }
 }
 
 impl Grid {

@@ -99,7 +99,7 @@ impl Panel {
     fn key(&self, c: &mut Canvas, entries: &[(&str, &str)]) {
         let mut x = self.right() - 10.0;
         for (words, colour) in entries.iter().rev() {
-            let width = 6.0 * words.chars().count() as f64;
+            let width = 6.7 * words.chars().count() as f64;
             c.rimmed([x, self.top + 13.0], 10.0, Anchor::End, words);
             let y = self.top + 9.5;
             c.line(
