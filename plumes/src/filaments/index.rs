@@ -129,6 +129,7 @@ impl Leaves {
         out
     }
 
+    #[expect(clippy::needless_range_loop, reason = "one axis of three arrays")]
     fn at(&self, path: Path, p: [f32; 3]) -> f64 {
         let mut felt = [true; LEAVES];
         for d in 0..3 {
@@ -145,10 +146,6 @@ impl Leaves {
 }
 
 /// Halves the members along their longest side (in units of the kernel's reach) until each part fits a leaf.
-#[expect(
-    clippy::needless_range_loop,
-    reason = "the axis indexes coordinates, weights and the result"
-)]
 fn parted(
     members: &mut [u16],
     coordinates: &[Vec<f32>; 3],
