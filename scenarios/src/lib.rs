@@ -1,6 +1,7 @@
 //! What happens: scenarios, the tick, trials, and the command `rheotaxis`.
 
 pub mod assemble;
+pub mod campaign;
 pub mod cli;
 pub mod frame;
 pub mod live;
