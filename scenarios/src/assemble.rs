@@ -84,7 +84,8 @@ impl Simulation {
                 refresh_s: scenario.time.flow_period_s.get(),
                 ..PlumeSettings::default()
             },
-        )?;
+        )?
+        .with_obstacles(Obstacles(obstacles.clone()))?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);
         for obstacle in &obstacles {
@@ -93,12 +94,19 @@ impl Simulation {
 
         let mut world = World::new();
         for spec in &scenario.robots {
-            spawn(&mut world, &mut physics, spec, &terrain, base_dir, seed, dt_s).map_err(
-                |source| AssembleError::Robot {
-                    id: spec.id.as_str().to_string(),
-                    source,
-                },
-            )?;
+            spawn(
+                &mut world,
+                &mut physics,
+                spec,
+                &terrain,
+                base_dir,
+                seed,
+                dt_s,
+            )
+            .map_err(|source| AssembleError::Robot {
+                id: spec.id.as_str().to_string(),
+                source,
+            })?;
         }
         let spin_up_s = scenario.time.spin_up_s.get();
         let every = |period_s: f64| Every::period(period_s, dt_s);
@@ -106,7 +114,7 @@ impl Simulation {
         world.insert_resource(area);
         world.insert_resource(Obstacles(obstacles));
         world.insert_resource(Water {
-            flow: Box::new(flow),
+            flow,
             t0_s: spin_up_s,
         });
         world.insert_resource(Dye {
@@ -145,12 +153,26 @@ impl Simulation {
             let (t0, t1) = (n as f64 * dt_s, (n + 1) as f64 * dt_s);
             self.world.resource_scope::<Water, ()>(|world, mut water| {
                 water.flow.advance(t1);
-                world.resource_mut::<Dye>().plume.drift(&*water.flow, t0, t1);
+                world.resource_mut::<Dye>().plume.drift(&water.flow, t0, t1);
             });
             if !heard((n + 1) as f64 / steps) {
                 return;
             }
         }
+    }
+
+    /// Copies of water and plume as they are.
+    #[must_use]
+    pub fn water_and_plume(&self) -> (plumes::flow::Water, Plume) {
+        let (water, dye) = (self.world.resource::<Water>(), self.world.resource::<Dye>());
+        (water.flow.clone(), dye.plume.clone())
+    }
+
+    /// Puts water and plume of another simulation in the place of its own, which must be alike in all
+    /// that makes them: [`crate::trial::Trial::take_over`] sees to that.
+    pub fn put_water_and_plume(&mut self, flow: plumes::flow::Water, plume: Plume) {
+        self.world.resource_mut::<Water>().flow = flow;
+        self.world.resource_mut::<Dye>().plume = plume;
     }
 
     /// One tick.
@@ -200,8 +222,8 @@ fn spawn(
         depth_m: -p_W.z,
     };
     // A first belief from the launch data alone; the navigator itself starts fresh at the first tick.
-    let estimate = Estimator::new(&spec.estimator, start, dt_s)
-        .step(&Clock::new(dt_s), &Readings::default());
+    let estimate =
+        Estimator::new(&spec.estimator, start, dt_s).step(&Clock::new(dt_s), &Readings::default());
     let goal = Goal {
         id: 0,
         manoeuvre: Manoeuvre::Course { course: heading },

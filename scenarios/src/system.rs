@@ -76,7 +76,7 @@ pub struct Log {
 #[derive(Resource)]
 pub struct Water {
     /// The one flow for everything.
-    pub flow: Box<dyn Flow>,
+    pub flow: plumes::flow::Water,
     /// Age of the water at mission time zero (the spin-up), s.
     pub t0_s: f64,
 }
@@ -101,7 +101,7 @@ impl Flow for Water {
         t_s: f64,
         out: &mut [(Vector3<f64>, Mixing)],
     ) {
-        self.flow.column(place, heights_m, t_s + self.t0_s, out);
+        Flow::column(&self.flow, place, heights_m, t_s + self.t0_s, out);
     }
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         self.flow.sample(p, t_s + self.t0_s)
@@ -156,7 +156,13 @@ pub(crate) fn estimate_state(
 pub(crate) fn decide(
     clock: Res<Clock>,
     area: Res<Area>,
-    mut robots: Query<(&Readings, &Estimate, &GuidanceStatus, &mut Mind, &mut Decision)>,
+    mut robots: Query<(
+        &Readings,
+        &Estimate,
+        &GuidanceStatus,
+        &mut Mind,
+        &mut Decision,
+    )>,
 ) {
     for (readings, estimate, guidance, mut mind, mut decision) in &mut robots {
         let seen = Observation {
@@ -175,12 +181,16 @@ pub(crate) fn decide(
 pub(crate) fn guide(
     clock: Res<Clock>,
     area: Res<Area>,
-    mut robots: Query<(&Estimate, &Decision, &mut Pilotage, &mut Command, &mut GuidanceStatus)>,
+    mut robots: Query<(
+        &Estimate,
+        &Decision,
+        &mut Pilotage,
+        &mut Command,
+        &mut GuidanceStatus,
+    )>,
 ) {
     for (estimate, decision, mut pilotage, mut command, mut status) in &mut robots {
-        (*command, *status) = pilotage
-            .0
-            .step(estimate, &decision.goal, &area, clock.dt_s);
+        (*command, *status) = pilotage.0.step(estimate, &decision.goal, &area, clock.dt_s);
     }
 }
 
@@ -222,7 +232,7 @@ pub(crate) fn drift_plume(clock: Res<Clock>, mut water: ResMut<Water>, mut dye: 
     if (clock.step + 1).is_multiple_of(dye.every.steps) {
         let t0 = t1 - dye.every.period_s(clock.dt_s);
         let t0_s = water.t0_s;
-        dye.plume.drift(&*water.flow, t0 + t0_s, t1 + t0_s);
+        dye.plume.drift(&water.flow, t0 + t0_s, t1 + t0_s);
     }
 }
 
@@ -277,23 +287,25 @@ pub(crate) fn take_frame(
         log.over = decision.outcome.is_some();
     }
     if ends || outbox.frame_every.due(&clock) {
-        let robots = robots.iter_mut().map(|(id, truth, estimate, _, decision, command, set, mut log)| {
-            let p = truth.pose.p_WB;
-            RobotFrame {
-                id: id.0.clone(),
-                truth: *truth,
-                altitude_m: p.z - terrain.bed_z(p.x, p.y),
-                estimate: *estimate,
-                goal: Some(decision.goal),
-                command: Some(*command),
-                actuators: *set,
-                chemical: log.chemical,
-                detected: std::mem::take(&mut log.detected),
-                behaviour: decision.behaviour,
-                lost_points: decision.lost_points.clone(),
-                declaration: log.declaration,
-            }
-        });
+        let robots = robots.iter_mut().map(
+            |(id, truth, estimate, _, decision, command, set, mut log)| {
+                let p = truth.pose.p_WB;
+                RobotFrame {
+                    id: id.0.clone(),
+                    truth: *truth,
+                    altitude_m: p.z - terrain.bed_z(p.x, p.y),
+                    estimate: *estimate,
+                    goal: Some(decision.goal),
+                    command: Some(*command),
+                    actuators: *set,
+                    chemical: log.chemical,
+                    detected: std::mem::take(&mut log.detected),
+                    behaviour: decision.behaviour,
+                    lost_points: decision.lost_points.clone(),
+                    declaration: log.declaration,
+                }
+            },
+        );
         outbox.frame = Some(Frame {
             t_s: clock.t_next_s(),
             step: clock.step + 1,

@@ -15,7 +15,17 @@ pub struct Tick;
 /// The tick: `Sense → Estimate → Map → Decide → Guide → Actuate → Physics → Drift → Report`.
 #[must_use]
 pub fn tick() -> Schedule {
-    let [sense, estimate, map, decide, guide, actuate, physics, drift, report] = Stage::ALL;
+    let [
+        sense,
+        estimate,
+        map,
+        decide,
+        guide,
+        actuate,
+        physics,
+        drift,
+        report,
+    ] = Stage::ALL;
 
     let mut tick = Schedule::new(Tick);
     tick.set_executor(SingleThreadedExecutor::new());
@@ -24,7 +34,10 @@ pub fn tick() -> Schedule {
         ..Default::default()
     });
     tick.configure_sets(
-        (sense, estimate, map, decide, guide, actuate, physics, drift, report).chain(),
+        (
+            sense, estimate, map, decide, guide, actuate, physics, drift, report,
+        )
+            .chain(),
     );
     tick.add_systems((
         system::read_instruments.in_set(Stage::Sense),

@@ -4,6 +4,7 @@ use crate::assemble::{AssembleError, Simulation};
 use crate::frame::{Frame, PlumeFrame};
 use crate::report::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
+use crate::spun_up::{Mismatch, Origin, SpunUp};
 use crate::system::{Dye, Outbox};
 use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome};
@@ -51,10 +52,22 @@ pub struct Ended {
     pub flow_at_sources: Vec<Vector3<f64>>,
 }
 
+/// How far a run has come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    Assembled,
+    SpunUp,
+    /// Within the spin-up.
+    Stopped,
+    Ended,
+}
+
 /// A run, ready to start.
 pub struct Trial {
     /// Everything that lives in it.
     pub simulation: Simulation,
+    stage: Stage,
+    origin: Origin,
     success: SuccessSpec,
     limit_s: f64,
     sources: Vec<Vector3<f64>>,
@@ -76,6 +89,8 @@ impl Trial {
             .collect();
         Ok(Self {
             simulation,
+            stage: Stage::Assembled,
+            origin: Origin::new(scenario, seed),
             success: scenario.success.clone(),
             limit_s: scenario.time.limit_s.get(),
             flow_sums: vec![Vector3::zeros(); sources.len()],
@@ -85,18 +100,80 @@ impl Trial {
         })
     }
 
-    /// Runs it to its end.
-    pub fn run(&mut self, watch: &mut dyn Watch) -> Ended {
+    /// Lets water and plume develop and returns a copy of them, for other runs to
+    /// [`take over`](Self::take_over); `None` if `watch` stopped it, and then [`Self::run`] only says so.
+    /// Not needed before [`Self::run`], which spins up by itself where this was not done.
+    ///
+    /// # Panics
+    /// If the run has been spun up before.
+    pub fn spin_up(&mut self, watch: &mut dyn Watch) -> Option<SpunUp> {
+        self.develop(watch);
+        (self.stage == Stage::SpunUp).then(|| {
+            let (water, plume) = self.simulation.water_and_plume();
+            SpunUp::new(self.origin.clone(), water, plume)
+        })
+    }
+
+    /// Takes over what another run has spun up, in place of spinning up: from here on the run is the
+    /// same bit for bit. Costs a copy of the state.
+    ///
+    /// # Errors
+    /// If the two runs differ in what the spin-up depends on; the run is then as it was, and can
+    /// spin up itself.
+    ///
+    /// # Panics
+    /// If the run has been spun up before.
+    pub fn take_over(&mut self, spun_up: &SpunUp) -> Result<(), Mismatch> {
+        let (water, plume) = spun_up.copy_for(&self.origin)?;
+        self.start_afresh();
+        self.simulation.put_water_and_plume(water, plume);
+        self.set_out(Stage::SpunUp);
+        Ok(())
+    }
+
+    fn develop(&mut self, watch: &mut dyn Watch) {
+        self.start_afresh();
         let mut stopped = false;
         self.simulation.spin_up(|share| {
             stopped = !watch.spun_up(share);
             !stopped
         });
-        self.simulation
-            .world
-            .resource_scope::<Digest, ()>(|world, mut digest| {
-                world.resource::<Dye>().plume.digest_into(&mut digest);
-            });
+        self.set_out(if stopped {
+            Stage::Stopped
+        } else {
+            Stage::SpunUp
+        });
+    }
+
+    fn start_afresh(&self) {
+        assert!(
+            self.stage == Stage::Assembled,
+            "a trial is spun up once: assemble another for another run"
+        );
+    }
+
+    fn set_out(&mut self, stage: Stage) {
+        self.stage = stage;
+        let world = &mut self.simulation.world;
+        world.resource_scope::<Digest, ()>(|world, mut digest| {
+            world.resource::<Dye>().plume.digest_into(&mut digest);
+        });
+    }
+
+    /// Runs it to its end: the spin-up, unless that is done or taken over, and the mission.
+    ///
+    /// # Panics
+    /// If it has been run before.
+    pub fn run(&mut self, watch: &mut dyn Watch) -> Ended {
+        if self.stage == Stage::Assembled {
+            self.develop(watch);
+        }
+        assert!(
+            self.stage != Stage::Ended,
+            "a trial is run once: assemble another for another run"
+        );
+        let mut stopped = self.stage == Stage::Stopped;
+        self.stage = Stage::Ended;
         while !stopped && self.simulation.t_s() < self.limit_s - 1e-9 {
             self.simulation.tick();
             self.show(watch);
@@ -105,7 +182,11 @@ impl Trial {
                 break;
             }
         }
-        let outcome = if stopped { RunOutcome::Interrupted } else { self.outcome() };
+        let outcome = if stopped {
+            RunOutcome::Interrupted
+        } else {
+            self.outcome()
+        };
         let world = &self.simulation.world;
         let samples = f64::from(self.flow_samples.max(1));
         Ended {

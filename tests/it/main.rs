@@ -2,9 +2,15 @@
 
 mod autopilot;
 mod bad_input;
+mod campaign;
 mod common;
 mod determinism;
+mod golden;
+mod interrupt;
 mod live;
+mod reproduce;
+mod scenarios;
+mod spin_up;
 mod structure;
 mod vehicle;
 mod vehicle_effects;

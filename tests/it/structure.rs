@@ -84,7 +84,11 @@ fn each_engine_stays_in_its_room() {
         ("rapier3d", &["world/src/physics"]),
         (
             "parry3d",
-            &["world/src/physics", "world/src/terrain", "world/src/obstacles"],
+            &[
+                "world/src/physics",
+                "world/src/terrain",
+                "world/src/obstacles",
+            ],
         ),
         ("urdf_rs", &["robots/src/vehicles"]),
         ("zenoh", &["scenarios/src/live", "tests/it"]),
@@ -121,7 +125,10 @@ fn only_systems_speak_ecs() {
                             !l[..i].ends_with(|c: char| c.is_alphanumeric() || c == '_')
                         })
                 });
-                assert!(!bad, "{file} uses {word}: systems live in system.rs, tick.rs, assemble.rs");
+                assert!(
+                    !bad,
+                    "{file} uses {word}: systems live in system.rs, tick.rs, assemble.rs"
+                );
             }
         }
     }
@@ -129,7 +136,9 @@ fn only_systems_speak_ecs() {
 
 #[test]
 fn stages_meet_only_in_handoff() {
-    let stages = ["sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan"];
+    let stages = [
+        "sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan",
+    ];
     for (file, text) in sources("robots/src") {
         let stage = file.split('/').nth(2).unwrap();
         // A strategy composes behaviours, declaration rules and planners: it alone may name them.
@@ -159,7 +168,11 @@ fn stages_meet_only_in_handoff() {
 
 #[test]
 fn algorithm_files_say_where_they_come_from() {
-    for folder in ["robots/src/behave", "robots/src/declare", "robots/src/guide"] {
+    for folder in [
+        "robots/src/behave",
+        "robots/src/declare",
+        "robots/src/guide",
+    ] {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();
             if ["mod.rs", "catalogue.rs", "system.rs", "spec.rs"].contains(&name)
@@ -188,26 +201,68 @@ fn files_hold_one_idea() {
 #[test]
 fn top_level_holds_only_the_story() {
     let allowed = [
-        "Cargo.toml", "Cargo.lock", "README.md", "world", "robots", "plumes", "scenarios", "tests",
-        "docs", "LICENSE-MIT", "LICENSE-APACHE", "clippy.toml", ".ci", ".git", ".gitignore",
-        "target", "runs",
+        "Cargo.toml",
+        "Cargo.lock",
+        "README.md",
+        "world",
+        "robots",
+        "plumes",
+        "scenarios",
+        "tests",
+        "docs",
+        "LICENSE-MIT",
+        "LICENSE-APACHE",
+        "clippy.toml",
+        ".ci",
+        ".git",
+        ".gitignore",
+        "target",
+        "runs",
     ];
     for entry in fs::read_dir(root()).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
-        assert!(allowed.contains(&name.as_str()), "{name} does not belong at top level");
+        assert!(
+            allowed.contains(&name.as_str()),
+            "{name} does not belong at top level"
+        );
     }
 }
 
+/// Every part a scenario names in RON, as its catalogue has it.
 #[test]
-fn every_catalogue_entry_has_a_source() {
-    for (file, text) in sources("robots/src").into_iter().chain(sources("plumes/src")) {
-        for (i, line) in text.lines().enumerate() {
-            let empty = ["source: \"\"", "what: \"\"", "name: \"\""];
-            assert!(
-                !empty.iter().any(|e| line.contains(e)),
-                "{file}:{}: an empty catalogue field",
-                i + 1
-            );
-        }
+fn every_catalogue_entry_has_a_source_and_a_scenario() {
+    let scenarios: String = fs::read_dir(root().join("scenarios/catalog"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .filter(|p| p.extension().is_some_and(|e| e == "ron"))
+        .map(|p| read(&p))
+        .collect();
+    let variants = [
+        robots::strategy::CATALOGUE,
+        robots::declare::CATALOGUE,
+        robots::estimate::CATALOGUE,
+        robots::vehicles::CATALOGUE,
+        plumes::flow::CATALOGUE,
+    ];
+    for entry in variants.into_iter().flatten() {
+        let used = scenarios.contains(&format!("{}(", entry.name));
+        assert!(used, "no scenario uses {}", entry.name);
+    }
+    for entry in robots::sense::CATALOGUE {
+        let used = scenarios.contains(&format!("{}: (", entry.name));
+        assert!(used, "no scenario uses the sensor {}", entry.name);
+    }
+    let others = [
+        robots::sense::CATALOGUE,
+        robots::behave::CATALOGUE,
+        robots::guide::CATALOGUE,
+        robots::actuate::CATALOGUE,
+    ];
+    for entry in variants.into_iter().chain(others).flatten() {
+        let said = [entry.name, entry.what, entry.source];
+        assert!(
+            said.iter().all(|s| s.len() > 2),
+            "{entry:?} says too little"
+        );
     }
 }

@@ -1,5 +1,10 @@
 //! Numbers that a file may only give within a legal range; the reader points at the place and says the range.
 
+#![allow(
+    clippy::manual_range_contains,
+    reason = "`contains` cannot be called where a constant is made"
+)]
+
 use serde::{Deserialize, Serialize};
 
 macro_rules! ranged {
@@ -54,8 +59,6 @@ ranged! {
     Fraction: "must be from 0 to 1", |v| v >= 0.0 && v <= 1.0;
     /// A compass direction in degrees.
     HeadingDeg: "must be a heading from 0 to 360 degrees", |v| v >= 0.0 && v <= 360.0;
-    /// A latitude in degrees.
-    LatitudeDeg: "must be a latitude from -90 to 90 degrees", |v| v >= -90.0 && v <= 90.0;
 }
 
 impl HeadingDeg {

@@ -40,6 +40,17 @@ pub(super) struct Column {
     pub(super) outside: bool,
 }
 
+/// Where a height lies among the levels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Level {
+    /// Level below.
+    pub(super) below: u32,
+    /// Part of the way to the next.
+    pub(super) part: f32,
+    /// Reciprocal of the distance between the two, 1/m.
+    pub(super) per_m: f32,
+}
+
 impl Cells {
     pub(super) fn new(grid: &FlowGrid) -> Self {
         let [nx, ny, nz] = grid.dims;
@@ -92,10 +103,10 @@ impl Cells {
         }
     }
 
-    /// Level below a height and the part of the way to the next, over a bed at `bed`.
+    /// Where a height lies among the levels; `up` is the reciprocal of the depth.
     #[inline(always)]
-    pub(super) fn level(&self, z: f32, bed: f32) -> (u32, f32) {
-        let s = clamped(1.0 - z / bed, 1.0);
+    pub(super) fn level(&self, z: f32, up: f32) -> Level {
+        let s = clamped(1.0 + z * up, 1.0);
         let a = self.stretch;
         let b = 1.0 - a;
         let last = (self.dims[2] - 1) as f32;
@@ -107,9 +118,13 @@ impl Cells {
         let h = 1.0 / last;
         let xi = k as f32 * h;
         let s0 = xi * (b + a * xi);
-        let ds = h * (b + a * (2.0 * xi + h));
+        let per = 1.0 / (h * (b + a * (2.0 * xi + h)));
         // Rounding of the square root may name the neighbouring level; the clamp keeps it continuous.
-        (k as u32, clamped((s - s0) / ds, 1.0))
+        Level {
+            below: k as u32,
+            part: clamped((s - s0) * per, 1.0),
+            per_m: per * up,
+        }
     }
 
     /// Height of the bed, m (negative).

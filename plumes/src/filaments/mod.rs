@@ -4,10 +4,12 @@ mod cells;
 mod index;
 mod kernel;
 mod leaf;
+mod lookup;
 mod noise;
 mod plume;
 mod quad;
 mod size;
+mod solids;
 mod store;
 #[cfg(test)]
 mod tests_drift;
@@ -15,6 +17,8 @@ mod tests_drift;
 mod tests_mass;
 #[cfg(test)]
 mod tests_mean;
+#[cfg(test)]
+mod tests_mixed;
 #[cfg(test)]
 mod tests_water;
 

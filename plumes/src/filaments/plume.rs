@@ -1,6 +1,6 @@
 //! The plume: all filaments of all sources, moved by the water, asked for concentration.
 //!
-//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143, sections 2 and 3 (a plume as filaments that
+//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (a plume as filaments that
 //! are carried, spread and grow); the parts are in the files beside this one.
 //!
 //! *Parameters*: [`PlumeSettings`]: the flow grid's shape and `refresh_s`, how often the flow is summed on it (s).
@@ -13,15 +13,17 @@ use super::index::Index;
 use super::kernel::{self, BLOCK, Block, Path};
 use super::noise::step_key;
 use super::size::Size;
+use super::solids::Solids;
 use super::store::Store;
 use crate::error::PlumeError;
 use crate::flow::grid::{FlowGrid, GridShape};
-use crate::release::{ReleaseTimes, Source, SourceSpec, place};
+use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
 use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 use world::area::Area;
 use world::fields::{Concentration, Flow};
+use world::obstacles::Obstacles;
 use world::record::Digest;
 use world::seeds;
 use world::terrain::Terrain;
@@ -58,6 +60,7 @@ pub struct Plume {
     steps: u64,
     now_s: f64,
     path: Path,
+    solids: Solids,
     index: OnceLock<Index>,
 }
 
@@ -96,8 +99,19 @@ impl Plume {
             steps: 0,
             now_s: 0.0,
             path: Path::detect(),
+            solids: Solids::default(),
             index: OnceLock::new(),
         })
+    }
+
+    /// The same with solids in the water.
+    ///
+    /// # Errors
+    /// If a source stands inside one.
+    pub fn with_obstacles(mut self, obstacles: Obstacles) -> Result<Self, PlumeError> {
+        clear(&self.sources, &obstacles)?;
+        self.solids = Solids::new(obstacles);
+        Ok(self)
     }
 
     /// Moves every filament from `t0_s` to `t1_s` and releases those due on the way; `flow` must have been
@@ -120,11 +134,12 @@ impl Plume {
             let p = self.sources[n].p_W.map(|v| v as f32);
             let column = self.cells.column(p.x, p.y);
             let bed = self.cells.bed(column);
-            let start = [p.x, p.y, kernel::folded(p.z, bed)];
+            let start = [p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)];
             self.releases[n].until(t0_s, t1_s, |t| store.push(start, bed, t));
             sweep(store, old, t0_s, t1_s, |block| {
                 kernel::step(self.path, &self.cells, &self.grid.data, key, block);
             });
+            self.solids.keep_out(store);
         }
         self.steps += 1;
     }

@@ -24,7 +24,7 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Uniform",
         what: "One velocity everywhere and always",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 3",
+        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143",
     },
     Entry {
         name: "Layered",
@@ -34,6 +34,6 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Meander",
         what: "Coloured noise at the area's corners carried inside, made divergence-free",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 4.1; Chorin 1968, Math. Comp. 22, 745",
+        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
     },
 ];

@@ -1,6 +1,6 @@
 //! Coloured noise, ẍ + 2ζωẋ + ω²x = Gω²n, stepped without error at any step.
 //!
-//! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 4.1 (the noise at the corners of the wind
+//! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143 (the noise at the corners of the wind
 //! grid); exact step of a linear stochastic equation: Gillespie 1996, Phys. Rev. E 54, 2084.
 //!
 //! *Parameters*: σ `std` (unit of x), ω `omega` (rad/s; Farrell 0.2), ζ `damping` (Farrell 0.1). Farrell's gain

@@ -1,6 +1,6 @@
 //! Slow wandering of the whole current: coloured noise at the area's corners, carried inside, divergence-free.
 //!
-//! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 4.1: noise at the four corners, linear along the
+//! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143: noise at the four corners, linear along the
 //! edges; inside ∂u/∂t = −(U + u)·∇u + ½K∇²u for both components.
 //!
 //! *Parameters*: σ `std_m_s` (m/s, of a component at a corner; Farrell's G = 2 gives 1.4), ω `omega_rad_s`

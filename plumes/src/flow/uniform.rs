@@ -1,6 +1,6 @@
 //! One velocity everywhere and always.
 //!
-//! *Source*: the mean flow of Farrell et al. 2002, Environ. Fluid Mech. 2, 143, section 3.
+//! *Source*: the mean flow of Farrell et al. 2002, Environ. Fluid Mech. 2, 143.
 //!
 //! *Parameters*: `speed_m_s` (m/s) and `heading_deg`, where the water goes (Farrell: 1 m/s).
 //!

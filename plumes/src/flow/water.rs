@@ -24,7 +24,7 @@ use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::ground::{Floor, Ground};
-use crate::flow::layered::{Layered, LayeredColumn, Sheet, Profile};
+use crate::flow::layered::{Layered, LayeredColumn, Profile, Sheet};
 use crate::flow::meander::Meander;
 use crate::flow::mixing::{self, MixingSpec};
 

@@ -3,5 +3,5 @@
 mod source;
 mod times;
 
-pub use source::{ReleaseSpec, Source, SourceSpec, place};
+pub use source::{ReleaseSpec, Source, SourceSpec, clear, place};
 pub use times::ReleaseTimes;

@@ -14,6 +14,7 @@ use crate::error::PlumeError;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 
@@ -108,6 +109,25 @@ pub fn place(
         });
     }
     Ok(sources)
+}
+
+/// That no source stands inside a solid.
+///
+/// # Errors
+/// Names the first that does, as `sources[0]`.
+pub fn clear(sources: &[Source], obstacles: &Obstacles) -> Result<(), PlumeError> {
+    for (n, source) in sources.iter().enumerate() {
+        if let Some(solid) = obstacles.containing(&source.p_W) {
+            return Err(PlumeError::Invalid {
+                field: format!("sources[{n}]"),
+                problem: format!(
+                    "source \"{}\" stands inside obstacle \"{}\"; bring it outside",
+                    source.id, solid.id
+                ),
+            });
+        }
+    }
+    Ok(())
 }
 
 fn invalid(n: usize, field: &str, problem: String) -> PlumeError {

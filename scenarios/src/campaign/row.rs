@@ -2,7 +2,7 @@
 
 /// What a campaign keeps of a run. Everything but the two wall times is the same on any machine,
 /// shard count, number of jobs and order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunRow {
     /// Index of the run in the campaign.
     pub run: u64,

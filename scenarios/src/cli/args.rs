@@ -1,5 +1,7 @@
 //! What the command can be asked.
 
+use super::args_campaign::CampaignArgs;
+use super::args_reproduce::ReproduceArgs;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -55,6 +57,10 @@ pub enum Command {
     List(ListArgs),
     /// List what a run publishes over zenoh.
     Topics(TopicsArgs),
+    /// Run thousands of seeds, arms and conditions, on one machine or many, and compare them.
+    Campaign(CampaignArgs),
+    /// Run the papers' experiments over many seeds and show our figures beside theirs.
+    Reproduce(ReproduceArgs),
 }
 
 /// Arguments of `run`.
@@ -95,7 +101,12 @@ pub struct RunArgs {
     #[arg(long, value_name = "ENDPOINT", conflicts_with = "no_zenoh")]
     pub zenoh_listen: Option<String>,
     /// Keep answering subscribers for this long after the end.
-    #[arg(long, value_name = "SECONDS", default_value_t = 0.0, conflicts_with = "no_zenoh")]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 0.0,
+        conflicts_with = "no_zenoh"
+    )]
     pub zenoh_linger: f64,
 }
 

@@ -11,6 +11,8 @@ pub enum Exit {
     NotFound,
     /// Something is wrong: the text on standard error says what.
     Error,
+    /// A campaign was stopped before its end: the same command goes on where it stopped.
+    Unfinished,
     /// Ctrl-C or a termination signal.
     Interrupted,
 }
@@ -23,6 +25,7 @@ impl Exit {
             Exit::Success => 0,
             Exit::Error => 1,
             Exit::NotFound => 3,
+            Exit::Unfinished => 75,
             Exit::Interrupted => 130,
         }
     }

@@ -6,17 +6,29 @@
 )]
 
 mod args;
+mod args_campaign;
+mod args_reproduce;
+mod campaign;
+mod campaign_report;
 mod check;
 mod exit;
 mod init;
 mod list;
 mod onlooker;
 mod progress;
+mod reproduce;
 mod run;
 mod say;
 mod topics;
 
-pub use args::{Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, TopicsArgs};
+pub use args::{
+    Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, TopicsArgs,
+};
+pub use args_campaign::{
+    CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
+    StatusArgs,
+};
+pub use args_reproduce::ReproduceArgs;
 pub use exit::Exit;
 
 use clap::Parser;
@@ -33,6 +45,8 @@ pub fn main() -> ExitCode {
         Command::Init(args) => init::init(&args),
         Command::List(args) => list::list(&args),
         Command::Topics(args) => topics::topics(&args),
+        Command::Campaign(args) => campaign::campaign(&args.command),
+        Command::Reproduce(args) => reproduce::run(&args),
     };
     exit.into()
 }

@@ -158,26 +158,29 @@ impl<'a> Onlooker<'a> {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
         };
-        let summary = self.builder.finish(RunEnd {
-            outcome,
-            error: self.failure.as_ref().map(ToString::to_string),
-            digest: ended.digest.clone(),
-            totals: Totals {
-                mission_s: ended.t_s,
-                spin_up_s: self.spin_up_s,
-                mission_wall_s: mission_wall.as_secs_f64(),
-                spin_up_wall_s: spin_up_wall.as_secs_f64(),
-                steps: ended.steps,
-                filaments: plume.len(),
-                mass: (!sources.is_empty()).then(|| {
-                    MassBalance::new(
-                        plume.mass_released_kg(),
-                        plume.mass_in_kg(),
-                        plume.mass_left_kg(),
-                    )
-                }),
+        let summary = self.builder.finish(
+            RunEnd {
+                outcome,
+                error: self.failure.as_ref().map(ToString::to_string),
+                digest: ended.digest.clone(),
+                totals: Totals {
+                    mission_s: ended.t_s,
+                    spin_up_s: self.spin_up_s,
+                    mission_wall_s: mission_wall.as_secs_f64(),
+                    spin_up_wall_s: spin_up_wall.as_secs_f64(),
+                    steps: ended.steps,
+                    filaments: plume.len(),
+                    mass: (!sources.is_empty()).then(|| {
+                        MassBalance::new(
+                            plume.mass_released_kg(),
+                            plume.mass_in_kg(),
+                            plume.mass_left_kg(),
+                        )
+                    }),
+                },
             },
-        }, &sources);
+            &sources,
+        );
         let track = self.track.finish();
         let obstacles: Vec<ObstacleOutline> = (world.resource::<Obstacles>().0.iter())
             .map(|o| ObstacleOutline {

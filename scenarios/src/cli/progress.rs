@@ -28,7 +28,9 @@ impl Progress {
         } else {
             ProgressBar::new(PARTS)
         };
-        bar.set_style(style("{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left"));
+        bar.set_style(style(
+            "{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left",
+        ));
         let progress = Self {
             bar,
             quiet: args.quiet,
@@ -38,7 +40,10 @@ impl Progress {
             detections: 0,
         };
         progress.bar.set_prefix(progress.name.clone());
-        progress.say(&format!("{}: {}, seed {}", progress.name, scenario.title, args.seed));
+        progress.say(&format!(
+            "{}: {}, seed {}",
+            progress.name, scenario.title, args.seed
+        ));
         progress
     }
 
@@ -120,7 +125,10 @@ impl Progress {
                 }
             );
             if let Some(error) = &declared.error {
-                print!("  {}: {:.1} m from {}", robot.id, error.total_m, error.source);
+                print!(
+                    "  {}: {:.1} m from {}",
+                    robot.id, error.total_m, error.source
+                );
                 if let (Some(along), Some(across)) = (error.along_flow_m, error.across_flow_m) {
                     print!(" ({along:+.1} m along the flow, {across:+.1} m across)");
                 }

@@ -1,8 +1,8 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
 
-mod figures;
+pub(crate) mod figures;
 mod files;
-mod html;
+pub(crate) mod html;
 mod recorder;
 mod summary;
 mod summary_builder;
@@ -10,6 +10,7 @@ mod track;
 mod write;
 
 pub use files::ReportError;
+pub(crate) use files::{make_folder, write_whole};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{
     DeclarationSummary, MassBalance, Position, RobotSummary, RunOutcome, RunSummary, SourceError,

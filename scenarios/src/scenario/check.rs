@@ -11,7 +11,7 @@ use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
 use world::error::WorldError;
-use world::obstacles::Obstacle;
+use world::obstacles::{Obstacle, Obstacles};
 use world::terrain::Terrain;
 
 /// A robot's start nearer to an obstacle than this touches it with its hull, m.
@@ -31,8 +31,8 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     if let Err(PlumeError::Invalid { field, problem }) = scenario.water.build(&area, &terrain, 0) {
         found.push(Found::error(field, problem));
     }
-    sources(scenario, &area, &terrain, &mut found);
     let obstacles = obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    sources(scenario, &area, &terrain, &obstacles, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
@@ -61,11 +61,18 @@ fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
     }
 }
 
-fn sources(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
+fn sources(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+    found: &mut Vec<Found>,
+) {
     for (i, spec) in scenario.sources.iter().enumerate() {
         // One by one, so that each says what is wrong with it.
+        let placed = release::place(std::slice::from_ref(spec), area, terrain);
         if let Err(PlumeError::Invalid { field, problem }) =
-            release::place(std::slice::from_ref(spec), area, terrain)
+            placed.and_then(|source| release::clear(&source, obstacles))
         {
             found.push(Found::error(
                 field.replacen("sources[0]", &format!("sources[{i}]"), 1),
@@ -84,7 +91,7 @@ fn obstacles(
     terrain: &Terrain,
     base_dir: &Path,
     found: &mut Vec<Found>,
-) -> Vec<Obstacle> {
+) -> Obstacles {
     let ids: Vec<&str> = scenario.obstacles.iter().map(|o| o.id.as_str()).collect();
     names("obstacles", &ids, found);
     twins("obstacles", &ids, found);
@@ -114,7 +121,7 @@ fn obstacles(
             }
         }
     }
-    built
+    Obstacles(built)
 }
 
 fn start(
@@ -122,7 +129,7 @@ fn start(
     robot: &RobotSpec,
     area: &Area,
     terrain: &Terrain,
-    obstacles: &[Obstacle],
+    obstacles: &Obstacles,
     found: &mut Vec<Found>,
 ) {
     let path = format!("robots[{i}].start");
@@ -175,7 +182,7 @@ fn start(
             ),
         ));
     }
-    for obstacle in obstacles {
+    for obstacle in &obstacles.0 {
         let away = obstacle.distance(&p);
         if away < 0.0 {
             found.push(

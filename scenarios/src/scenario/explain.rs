@@ -9,7 +9,7 @@ use std::ops::Range;
 const SHORT: usize = 40;
 
 /// Turns an error of the reader into one that points at its place.
-pub(super) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioError {
+pub(crate) fn explain(name: &str, text: &str, error: &SpannedError) -> ScenarioError {
     let outline = Outline::of(text);
     let span = offset(text, error.span.start)..offset(text, error.span.end);
     // At the end: nothing but the piece of a token follows the place.

@@ -71,7 +71,7 @@ pub struct Fault {
 }
 
 impl Fault {
-    pub(super) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
+    pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
         let before = &text[..span.start];
         // An empty span shows nothing; a long one hides what matters.
         let line_end = text[span.start..]
@@ -106,7 +106,7 @@ impl Fault {
     }
 
     /// The fault at the place of its path.
-    pub(super) fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
+    pub(crate) fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
         let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
         Self::new(name, text, span, found)
     }

@@ -10,8 +10,10 @@ mod schema;
 
 pub use catalog::{CATALOG, Template, template};
 pub use check::check;
+pub(crate) use explain::explain;
 pub use fault::{Fault, Found, ScenarioError};
 pub use load::{Loaded, load, parse};
+pub(crate) use outline::Outline;
 pub use schema::{
     AreaSpec, DeclaredSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec,
     SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,

@@ -8,7 +8,7 @@ use std::ops::Range;
 
 /// A field, an element of a list, or a positional value.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Node {
+pub(crate) struct Node {
     /// Its path; empty for the whole.
     pub path: String,
     /// From its name, if it has one, to the end of its value, in bytes.
@@ -19,7 +19,7 @@ pub(super) struct Node {
 
 /// All places of a text.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Outline {
+pub(crate) struct Outline {
     /// Every value, inner ones before the ones around them.
     pub nodes: Vec<Node>,
     /// Brackets left open at the end of the text, outermost first.
@@ -104,7 +104,7 @@ impl Frame {
 
 impl Outline {
     /// Scans a text.
-    pub(super) fn of(text: &str) -> Self {
+    pub(crate) fn of(text: &str) -> Self {
         let mut nodes = Vec::new();
         let mut stack = vec![Frame::new(String::new(), None, false)];
         let mut at = 0;

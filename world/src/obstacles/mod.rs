@@ -7,6 +7,7 @@ mod solid;
 mod spec;
 #[cfg(test)]
 mod tests;
+mod way_out;
 
 pub use solid::{Obstacle, Obstacles};
 pub use spec::{Base, BoxShape, CylinderShape, MeshShape, ObstacleSpec, ShapeSpec};

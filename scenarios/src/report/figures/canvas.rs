@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 /// Where a text stands relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Anchor {
+pub(crate) enum Anchor {
     Start,
     Middle,
     End,
@@ -12,24 +12,24 @@ pub(super) enum Anchor {
 
 /// How a line or shape looks; `None` leaves it out.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Style<'a> {
-    pub(super) fill: Option<&'a str>,
-    pub(super) fill_opacity: Option<f64>,
-    pub(super) stroke: Option<&'a str>,
-    pub(super) width: f64,
-    pub(super) opacity: Option<f64>,
-    pub(super) dash: Option<&'a str>,
+pub(crate) struct Style<'a> {
+    pub(crate) fill: Option<&'a str>,
+    pub(crate) fill_opacity: Option<f64>,
+    pub(crate) stroke: Option<&'a str>,
+    pub(crate) width: f64,
+    pub(crate) opacity: Option<f64>,
+    pub(crate) dash: Option<&'a str>,
 }
 
 impl<'a> Style<'a> {
-    pub(super) fn fill(colour: &'a str) -> Self {
+    pub(crate) fn fill(colour: &'a str) -> Self {
         Self {
             fill: Some(colour),
             ..Self::default()
         }
     }
 
-    pub(super) fn line(colour: &'a str, width: f64) -> Self {
+    pub(crate) fn line(colour: &'a str, width: f64) -> Self {
         Self {
             stroke: Some(colour),
             width,
@@ -37,7 +37,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    pub(super) fn edged(self, colour: &'a str, width: f64) -> Self {
+    pub(crate) fn edged(self, colour: &'a str, width: f64) -> Self {
         Self {
             stroke: Some(colour),
             width,
@@ -45,14 +45,14 @@ impl<'a> Style<'a> {
         }
     }
 
-    pub(super) fn dashed(self, dash: &'a str) -> Self {
+    pub(crate) fn dashed(self, dash: &'a str) -> Self {
         Self {
             dash: Some(dash),
             ..self
         }
     }
 
-    pub(super) fn faint(self, opacity: f64) -> Self {
+    pub(crate) fn faint(self, opacity: f64) -> Self {
         Self {
             opacity: Some(opacity),
             ..self
@@ -85,15 +85,15 @@ const TEXT: &str = "writing to a String succeeds";
 
 /// The sheet; coordinates in pixels, y down.
 #[derive(Debug)]
-pub(super) struct Canvas {
-    pub(super) width: f64,
-    pub(super) height: f64,
+pub(crate) struct Canvas {
+    pub(crate) width: f64,
+    pub(crate) height: f64,
     body: String,
     clips: usize,
 }
 
 impl Canvas {
-    pub(super) fn new(width: f64, height: f64) -> Self {
+    pub(crate) fn new(width: f64, height: f64) -> Self {
         Self {
             width,
             height,
@@ -108,12 +108,12 @@ impl Canvas {
         self.body.push_str("/>\n");
     }
 
-    pub(super) fn line(&mut self, a: [f64; 2], b: [f64; 2], style: &Style<'_>) {
+    pub(crate) fn line(&mut self, a: [f64; 2], b: [f64; 2], style: &Style<'_>) {
         self.lines(&[vec![a, b]], false, style);
     }
 
     /// Several lines or rings as one shape; overlapping rings make holes.
-    pub(super) fn lines(&mut self, lines: &[Vec<[f64; 2]>], closed: bool, style: &Style<'_>) {
+    pub(crate) fn lines(&mut self, lines: &[Vec<[f64; 2]>], closed: bool, style: &Style<'_>) {
         let mut d = String::new();
         for line in lines {
             if line.len() < 2 {
@@ -132,21 +132,21 @@ impl Canvas {
         }
     }
 
-    pub(super) fn polyline(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
+    pub(crate) fn polyline(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
         self.lines(&[points], false, style);
     }
 
-    pub(super) fn polygon(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
+    pub(crate) fn polygon(&mut self, points: Vec<[f64; 2]>, style: &Style<'_>) {
         self.lines(&[points], true, style);
     }
 
-    pub(super) fn rect(&mut self, x: f64, y: f64, w: f64, h: f64, style: &Style<'_>) {
+    pub(crate) fn rect(&mut self, x: f64, y: f64, w: f64, h: f64, style: &Style<'_>) {
         let (w, h) = (w.max(0.0), h.max(0.0));
         let open = format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\"");
         self.shape(&open, style);
     }
 
-    pub(super) fn circle(&mut self, [x, y]: [f64; 2], r: f64, style: &Style<'_>) {
+    pub(crate) fn circle(&mut self, [x, y]: [f64; 2], r: f64, style: &Style<'_>) {
         self.shape(
             &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\""),
             style,
@@ -154,7 +154,7 @@ impl Canvas {
     }
 
     /// A line from `a` to `b` with a head at `b`.
-    pub(super) fn arrow(&mut self, a: [f64; 2], b: [f64; 2], colour: &str, width: f64) {
+    pub(crate) fn arrow(&mut self, a: [f64; 2], b: [f64; 2], colour: &str, width: f64) {
         let d = [b[0] - a[0], b[1] - a[1]];
         let n = (d[0] * d[0] + d[1] * d[1]).sqrt().max(1e-9);
         let u = [d[0] / n, d[1] / n];
@@ -173,23 +173,23 @@ impl Canvas {
     }
 
     /// Plain text in the figure's ink.
-    pub(super) fn text(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+    pub(crate) fn text(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
         self.label(at, size, anchor, s, "");
     }
 
     /// Bold text.
-    pub(super) fn bold(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+    pub(crate) fn bold(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
         self.label(at, size, anchor, s, " font-weight=\"bold\"");
     }
 
     /// Text with a white rim, readable on anything.
-    pub(super) fn rimmed(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
+    pub(crate) fn rimmed(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
         let rim = " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
         self.label(at, size, anchor, s, rim);
     }
 
     /// Text turned a quarter left, centred.
-    pub(super) fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
+    pub(crate) fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
         let turn = format!(" transform=\"rotate(-90 {x:.1} {y:.1})\"");
         self.label([x, y], size, Anchor::Middle, s, &turn);
     }
@@ -209,7 +209,7 @@ impl Canvas {
     }
 
     /// Everything until [`Canvas::unclip`] shows only inside the rectangle.
-    pub(super) fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
+    pub(crate) fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
         self.clips += 1;
         let id = self.clips;
         write!(
@@ -219,12 +219,12 @@ impl Canvas {
         .expect(TEXT);
     }
 
-    pub(super) fn unclip(&mut self) {
+    pub(crate) fn unclip(&mut self) {
         self.body.push_str("</g>\n");
     }
 
     /// The whole figure; `name` keeps its inner ids apart from other figures on one page.
-    pub(super) fn svg(&self, name: &str) -> String {
+    pub(crate) fn svg(&self, name: &str) -> String {
         let (w, h) = (self.width, self.height);
         let body = self
             .body
@@ -239,7 +239,7 @@ impl Canvas {
 }
 
 /// Text safe inside XML and HTML; characters that XML forbids become spaces.
-pub(in super::super) fn escaped(s: &str) -> String {
+pub(crate) fn escaped(s: &str) -> String {
     let mut out = String::with_capacity(s.len());
     for c in s.chars() {
         match c {

@@ -1,19 +1,19 @@
 //! Figures of a run: each drawn once as SVG with helpers of our own, and the PNG is that SVG
 //! rasterised with a font the program carries, so both show the same on a machine without fonts.
 
-mod canvas;
+pub(crate) mod canvas;
 mod contours;
 mod map;
 mod map_layers;
 mod map_legend;
-mod palette;
-mod panel;
+pub(crate) mod palette;
+pub(crate) mod panel;
 mod plume_load;
 mod raster;
 mod series;
 mod series_panels;
 
-pub(super) use canvas::escaped;
+pub(crate) use canvas::escaped;
 pub(super) use map::map;
-pub(super) use raster::png;
+pub(crate) use raster::png;
 pub(super) use series::series;

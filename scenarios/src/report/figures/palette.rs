@@ -3,9 +3,9 @@
 use robots::handoff::Behaviour;
 
 /// Ink of axes and frames.
-pub(super) const INK: &str = "#222222";
+pub(crate) const INK: &str = "#222222";
 /// Ink of what stands back.
-pub(super) const GREY: &str = "#7f7f7f";
+pub(crate) const GREY: &str = "#7f7f7f";
 /// Grid lines.
 pub(super) const GRID: &str = "#e3e3e3";
 /// A true source.

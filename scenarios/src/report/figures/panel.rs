@@ -6,53 +6,53 @@ use world::math;
 
 /// A rectangle of the sheet that shows a rectangle of values; `y` up unless `y_lo > y_hi`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Panel {
+pub(crate) struct Panel {
     /// Left, top, width, height, px.
-    pub(super) left: f64,
-    pub(super) top: f64,
-    pub(super) width: f64,
-    pub(super) height: f64,
+    pub(crate) left: f64,
+    pub(crate) top: f64,
+    pub(crate) width: f64,
+    pub(crate) height: f64,
     /// Values at left and right.
-    pub(super) x: [f64; 2],
+    pub(crate) x: [f64; 2],
     /// Values at bottom and top.
-    pub(super) y: [f64; 2],
+    pub(crate) y: [f64; 2],
 }
 
 impl Panel {
-    pub(super) fn px(&self, x: f64) -> f64 {
+    pub(crate) fn px(&self, x: f64) -> f64 {
         self.left + (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width
     }
 
-    pub(super) fn py(&self, y: f64) -> f64 {
+    pub(crate) fn py(&self, y: f64) -> f64 {
         self.top + self.height - (y - self.y[0]) / (self.y[1] - self.y[0]) * self.height
     }
 
-    pub(super) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub(crate) fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.px(x), self.py(y)]
     }
 
-    pub(super) fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    pub(crate) fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         points.iter().map(|p| self.at(*p)).collect()
     }
 
-    pub(super) fn bottom(&self) -> f64 {
+    pub(crate) fn bottom(&self) -> f64 {
         self.top + self.height
     }
 
-    pub(super) fn right(&self) -> f64 {
+    pub(crate) fn right(&self) -> f64 {
         self.left + self.width
     }
 
     /// Pixels for one unit of x.
-    pub(super) fn px_per_unit(&self) -> f64 {
+    pub(crate) fn px_per_unit(&self) -> f64 {
         self.width / (self.x[1] - self.x[0])
     }
 
-    pub(super) fn clip(&self, c: &mut Canvas) {
+    pub(crate) fn clip(&self, c: &mut Canvas) {
         c.clip(self.left, self.top, self.width, self.height);
     }
 
-    pub(super) fn frame(&self, c: &mut Canvas, width: f64) {
+    pub(crate) fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(
             self.left,
             self.top,
@@ -63,7 +63,7 @@ impl Panel {
     }
 
     /// Ticks and numbers along the bottom.
-    pub(super) fn x_ticks(&self, c: &mut Canvas, numbers: bool, size: f64) {
+    pub(crate) fn x_ticks(&self, c: &mut Canvas, numbers: bool, size: f64) {
         let step = nice_step((self.x[1] - self.x[0]).abs(), self.width / 90.0);
         for v in ticks(self.x, step) {
             let x = self.px(v);
@@ -80,7 +80,7 @@ impl Panel {
     }
 
     /// Ticks and numbers along the left.
-    pub(super) fn y_ticks(&self, c: &mut Canvas, apart_px: f64, size: f64) {
+    pub(crate) fn y_ticks(&self, c: &mut Canvas, apart_px: f64, size: f64) {
         let step = nice_step((self.y[1] - self.y[0]).abs(), self.height / apart_px);
         for v in ticks(self.y, step) {
             let y = self.py(v);
@@ -91,7 +91,7 @@ impl Panel {
     }
 
     /// Faint lines at the ticks of both axes.
-    pub(super) fn grid(&self, c: &mut Canvas, apart_px: f64) {
+    pub(crate) fn grid(&self, c: &mut Canvas, apart_px: f64) {
         let step = nice_step((self.x[1] - self.x[0]).abs(), self.width / 90.0);
         for v in ticks(self.x, step) {
             let x = self.px(v);
@@ -106,17 +106,17 @@ impl Panel {
 }
 
 /// 10 to the power of an integer.
-pub(super) fn power_of_ten(n: i32) -> f64 {
+pub(crate) fn power_of_ten(n: i32) -> f64 {
     10f64.powi(n)
 }
 
 /// Greatest n with 10ⁿ ≤ x.
-pub(super) fn decade(x: f64) -> i32 {
+pub(crate) fn decade(x: f64) -> i32 {
     (math::ln(x) / std::f64::consts::LN_10 + 1e-12).floor() as i32
 }
 
 /// 1, 2 or 5 times a power of ten, for about `wanted` steps over `span`.
-pub(super) fn nice_step(span: f64, wanted: f64) -> f64 {
+pub(crate) fn nice_step(span: f64, wanted: f64) -> f64 {
     let raw = span.max(1e-9) / wanted.max(1.0);
     let base = power_of_ten(decade(raw));
     let times = [1.0, 2.0, 5.0, 10.0];
@@ -127,7 +127,7 @@ pub(super) fn nice_step(span: f64, wanted: f64) -> f64 {
 }
 
 /// Multiples of `step` within the range, which may run either way.
-pub(super) fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
+pub(crate) fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
     let (lo, hi) = (range[0].min(range[1]), range[0].max(range[1]));
     let first = (lo / step - 1e-9).ceil() as i64;
     let last = (hi / step + 1e-9).floor() as i64;
@@ -135,7 +135,7 @@ pub(super) fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
 }
 
 /// A number with the decimals its step asks for and a true minus sign.
-pub(super) fn number(v: f64, step: f64) -> String {
+pub(crate) fn number(v: f64, step: f64) -> String {
     let decimals = usize::try_from(-decade(step)).unwrap_or(0);
     let text = format!("{:.decimals$}", v.abs());
     let zero = text.chars().all(|c| matches!(c, '0' | '.'));
@@ -147,7 +147,7 @@ pub(super) fn number(v: f64, step: f64) -> String {
 }
 
 /// A range that contains every number given, widened by a share and never empty.
-pub(super) fn range_of(values: impl Iterator<Item = f64>, widen: f64) -> Option<[f64; 2]> {
+pub(crate) fn range_of(values: impl Iterator<Item = f64>, widen: f64) -> Option<[f64; 2]> {
     let mut range: Option<[f64; 2]> = None;
     for v in values.filter(|v| v.is_finite()) {
         let r = range.get_or_insert([v, v]);

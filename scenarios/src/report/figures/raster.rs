@@ -12,7 +12,7 @@ const FONTS: [&[u8]; 2] = [
 ];
 
 /// A figure as PNG bytes.
-pub(in super::super) fn png(svg: &str) -> Result<Vec<u8>, String> {
+pub(crate) fn png(svg: &str) -> Result<Vec<u8>, String> {
     let mut options = Options::default();
     let fonts = options.fontdb_mut();
     for font in FONTS {

@@ -1,0 +1,62 @@
+#!/bin/sh
+# Runs the recipes for GNU parallel and Ray on a small campaign and compares their rows with those of one process.
+# Outside the quick tests: needs GNU parallel, and a Python (PYTHON) with ray, duckdb and polars. About two minutes.
+#
+#   cargo build --release && docs/cluster/check.sh
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+PROGRAM=${PROGRAM:-$here/../../target/release/rheotaxis}
+PYTHON=${PYTHON:-python3}
+export PROGRAM
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+sed 's/seeds: 10,/seeds: 3,/' "$here/../../scenarios/catalog/campaigns/uniform_beta.ron" > small.ron
+grep -q 'seeds: 3,' small.ron
+"$PROGRAM" campaign run small.ron --out one --block 12 --jobs 1 --quiet
+
+# Each shard of the recipes is stopped at its first try: they must take it up again.
+cat > stopped_once <<END
+#!/bin/sh
+mark=$work/tried-\$(echo "\$*" | cksum | cut -d' ' -f1)
+if [ -e "\$mark" ]; then exec "$PROGRAM" "\$@"; fi
+touch "\$mark"
+exit 75
+END
+chmod +x stopped_once
+PROGRAM=$work/stopped_once
+BLOCK=2 "$here/gnu_parallel.sh" small.ron parallel 3 -j 2
+"$PYTHON" "$here/ray_campaign.py" small.ron --out ray --shards 3 --block 2 --program "$PROGRAM"
+
+"$PYTHON" - <<'PY'
+import duckdb
+
+ROWS = "SELECT * EXCLUDE (spin_up_wall_s, mission_wall_s) FROM read_parquet('{}/part-*.parquet')"
+
+
+def ask(query):
+    return duckdb.execute(query).fetchall()
+
+
+one = ROWS.format("one")
+n = ask(f"SELECT count(*), count(DISTINCT run), count(error) FROM ({one})")
+assert n == [(12, 12, 0)], n
+for other in ["parallel", "ray"]:
+    blocks = ask(f"SELECT count(*) FROM glob('{other}/part-*.parquet')")
+    assert blocks == [(6,)], (other, blocks)
+    theirs = ROWS.format(other)
+    for a, b in [(one, theirs), (theirs, one)]:
+        odd = ask(f"({a}) EXCEPT ALL ({b})")
+        assert not odd, (other, odd)
+    print(f"{other}: the same 12 rows as one process")
+PY
+test "$(find "$work" -name 'tried-*' | wc -l)" -eq 6
+cd ray
+"$PYTHON" -c "
+import duckdb, sys
+for query in open(sys.argv[1]).read().split(';'):
+    if query.strip():
+        duckdb.sql(query).show()
+" "$here/queries.sql"
+"$PYTHON" "$here/queries.py" .

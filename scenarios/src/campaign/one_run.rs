@@ -1,0 +1,250 @@
+//! One run of a campaign, whatever becomes of it: a row.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "wall times are columns of the table; nothing of them enters the run"
+)]
+
+use super::row::RunRow;
+use crate::frame::Frame;
+use crate::report::{
+    RunEnd, RunInfo, RunOutcome, RunSummary, SourceTruth, Summary, SummaryBuilder, Totals,
+};
+use crate::scenario::Loaded;
+use crate::spun_up::SpunUp;
+use crate::system::Dye;
+use crate::trial::{Ended, Trial, Unwatched, Watch};
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+use std::time::Instant;
+
+/// What names a run in the table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunName {
+    /// Index of the run in the campaign.
+    pub run: u64,
+    /// Name of the arm.
+    pub arm: String,
+    /// Name of the condition.
+    pub condition: String,
+    /// Which of the seeds.
+    pub seed_index: u64,
+    /// The seed itself.
+    pub seed: u64,
+}
+
+/// Makes the run. A run that fails or panics is a row too, with its error.
+#[must_use]
+pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
+    guarded(name, || attempt(loaded, name, None))
+}
+
+/// Makes the run, taking over a spin-up of `spun` that fits or leaving its own there.
+pub(super) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
+    guarded(name, || attempt(loaded, name, Some(spun)))
+}
+
+fn attempt(
+    loaded: &Loaded,
+    name: &RunName,
+    spun: Option<&mut Vec<SpunUp>>,
+) -> Result<RunRow, String> {
+    let begun = Instant::now();
+    let mut trial = Trial::assemble(loaded, name.seed).map_err(|e| e.to_string())?;
+    let mut taken = false;
+    let mut mission_begun = begun;
+    if let Some(spun) = spun {
+        taken = spun.iter().any(|s| trial.take_over(s).is_ok());
+        if !taken {
+            spun.extend(trial.spin_up(&mut Unwatched));
+        }
+        mission_begun = Instant::now();
+    }
+    let mut gatherer = Gatherer {
+        builder: SummaryBuilder::new(&RunInfo {
+            scenario_name: loaded.name.clone(),
+            scenario_text: String::new(),
+            seed: name.seed,
+            version: env!("CARGO_PKG_VERSION").to_string(),
+        }),
+        mission_begun,
+    };
+    let ended = trial.run(&mut gatherer);
+    let spin_up_wall = gatherer.mission_begun - begun;
+    let end = RunEnd {
+        outcome: ended.outcome,
+        error: None,
+        digest: ended.digest.clone(),
+        totals: Totals {
+            mission_s: ended.t_s,
+            mission_wall_s: gatherer.mission_begun.elapsed().as_secs_f64(),
+            spin_up_wall_s: if taken {
+                0.0
+            } else {
+                spin_up_wall.as_secs_f64()
+            },
+            ..Totals::default()
+        },
+    };
+    Ok(row(
+        name,
+        &gatherer.builder.finish(end, &sources(&trial, &ended)),
+    ))
+}
+
+/// Makes a row of `run`, or of the error it returns, or of its panic.
+pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
+    hush();
+    QUIET.set(true);
+    let result = catch_unwind(AssertUnwindSafe(run));
+    QUIET.set(false);
+    match result {
+        Ok(Ok(row)) => row,
+        Ok(Err(error)) => failed(name, error),
+        Err(panic) => {
+            let said = (panic.downcast_ref::<&str>().map(|s| (*s).to_string()))
+                .or_else(|| panic.downcast_ref::<String>().cloned())
+                .unwrap_or_else(|| "of unknown cause".to_string());
+            failed(name, format!("panicked: {said}"))
+        }
+    }
+}
+
+thread_local! {
+    /// Whether this thread is within a run, whose panic is told in its row.
+    static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Panics within runs stay off the screen; all others are shown as ever.
+fn hush() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let shown = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            if !QUIET.get() {
+                shown(info);
+            }
+        }));
+    });
+}
+
+struct Gatherer {
+    builder: SummaryBuilder,
+    mission_begun: Instant,
+}
+
+impl Watch for Gatherer {
+    fn spun_up(&mut self, _share: f64) -> bool {
+        self.mission_begun = Instant::now();
+        true
+    }
+    fn frame(&mut self, frame: &Frame) {
+        self.builder.observe(frame);
+    }
+}
+
+fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
+    let plume = &trial.simulation.world.resource::<Dye>().plume;
+    (plume.sources().iter().zip(&ended.flow_at_sources))
+        .map(|(s, flow)| SourceTruth {
+            id: s.id.clone(),
+            position: s.p_W,
+            flow: flow.xy(),
+        })
+        .collect()
+}
+
+fn row(name: &RunName, summary: &Summary) -> RunRow {
+    let first = (summary
+        .robots
+        .iter()
+        .filter_map(|r| r.declaration.as_ref().map(|d| (r, d))))
+    .min_by(|a, b| a.1.t_s.total_cmp(&b.1.t_s));
+    let declared = first.map(|(_, d)| d);
+    let error = declared.and_then(|d| d.error.as_ref());
+    let RunSummary { totals, .. } = summary.run;
+    RunRow {
+        success: matches!(summary.outcome, RunOutcome::Found | RunOutcome::Completed),
+        outcome: outcome_name(summary.outcome),
+        digest: summary.digest.clone(),
+        mission_s: totals.mission_s,
+        first_detection_s: (summary.robots.iter().filter_map(|r| r.first_detection_s))
+            .min_by(f64::total_cmp),
+        declared_s: declared.map(|d| d.t_s),
+        declared_east_m: declared.map(|d| d.position.east_m),
+        declared_north_m: declared.map(|d| d.position.north_m),
+        error_m: error.map(|e| e.total_m),
+        error_along_m: error.and_then(|e| e.along_flow_m),
+        error_across_m: error.and_then(|e| e.across_flow_m),
+        traced_m: first.and_then(|(r, _)| r.traced_m),
+        travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum(),
+        detections: summary.robots.iter().map(|r| r.detections).sum(),
+        spin_up_wall_s: totals.spin_up_wall_s,
+        mission_wall_s: totals.mission_wall_s,
+        error: None,
+        ..failed(name, String::new())
+    }
+}
+
+/// A row of a run that came to nothing.
+fn failed(name: &RunName, error: String) -> RunRow {
+    RunRow {
+        run: name.run,
+        arm: name.arm.clone(),
+        condition: name.condition.clone(),
+        seed_index: name.seed_index,
+        seed: name.seed,
+        outcome: outcome_name(RunOutcome::Failed),
+        success: false,
+        error: Some(error),
+        digest: String::new(),
+        mission_s: 0.0,
+        first_detection_s: None,
+        declared_s: None,
+        declared_east_m: None,
+        declared_north_m: None,
+        error_m: None,
+        error_along_m: None,
+        error_across_m: None,
+        traced_m: None,
+        travelled_m: 0.0,
+        detections: 0,
+        spin_up_wall_s: 0.0,
+        mission_wall_s: 0.0,
+    }
+}
+
+/// As in `summary.json`.
+fn outcome_name(outcome: RunOutcome) -> String {
+    match serde_json::to_value(outcome) {
+        Ok(serde_json::Value::String(name)) => name,
+        _ => unreachable!("an outcome becomes a word"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panicking_run_is_a_row_with_its_error() {
+        let name = RunName {
+            run: 4,
+            arm: "a".to_string(),
+            seed: 9,
+            ..RunName::default()
+        };
+        let row = guarded(&name, || panic!("the hull is {} m long", -1));
+        assert_eq!(
+            row.error.as_deref(),
+            Some("panicked: the hull is -1 m long")
+        );
+        assert_eq!((row.run, row.arm.as_str(), row.seed), (4, "a", 9));
+        assert_eq!(
+            (row.outcome.as_str(), row.success, row.digest.as_str()),
+            ("failed", false, "")
+        );
+        let row = guarded(&name, || Err("no such mesh".to_string()));
+        assert_eq!(row.error.as_deref(), Some("no such mesh"));
+    }
+}

@@ -1,0 +1,124 @@
+//! The rows of a campaign's folder.
+
+use super::block::{BlockState, read_block};
+use super::error::CampaignError;
+use super::manifest::Manifest;
+use super::row::RunRow;
+use super::table::{TableWriter, csv_head, csv_line};
+use std::fs::File;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+/// All rows there are, in the order of runs; what is not done yet is left out.
+///
+/// # Errors
+/// If there is no campaign, or a block is not whole: `campaign run` does it again.
+pub fn read_rows(dir: &Path) -> Result<Vec<RunRow>, CampaignError> {
+    let mut all = Vec::new();
+    each_block(dir, |rows| {
+        all.extend(rows);
+        Ok(())
+    })?;
+    Ok(all)
+}
+
+fn each_block(
+    dir: &Path,
+    mut take: impl FnMut(Vec<RunRow>) -> Result<(), CampaignError>,
+) -> Result<Manifest, CampaignError> {
+    let manifest = Manifest::of(dir)?;
+    for block in 0..manifest.n_blocks() {
+        match read_block(dir, &manifest, block) {
+            BlockState::Done(rows) => take(rows)?,
+            BlockState::Missing => {}
+            BlockState::Broken(error) => return Err(error),
+        }
+    }
+    Ok(manifest)
+}
+
+/// A run's row; `None` where it is not done yet.
+///
+/// # Errors
+/// If there is no such run, or its block is not whole.
+pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
+    let manifest = Manifest::of(dir)?;
+    let runs = manifest.runs;
+    if run >= runs {
+        return Err(CampaignError::NoRun { run, runs });
+    }
+    match read_block(dir, &manifest, run / manifest.block) {
+        BlockState::Done(rows) => Ok(rows.into_iter().find(|r| r.run == run)),
+        BlockState::Missing => Ok(None),
+        BlockState::Broken(error) => Err(error),
+    }
+}
+
+/// What a merge wrote.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Merged {
+    /// Rows in the file.
+    pub rows: u64,
+    /// Runs of the campaign.
+    pub of: u64,
+}
+
+/// Writes all rows there are into one Parquet file and, if asked, one CSV file. One block at a time is
+/// held in memory.
+///
+/// # Errors
+/// If a block is not whole, or a file cannot be written; what was there before stays then.
+pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, CampaignError> {
+    let unwritten = |path: &Path, problem: String| CampaignError::Write {
+        path: path.to_owned(),
+        problem,
+    };
+    let temporary = |path: &Path| {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".tmp");
+        std::path::PathBuf::from(name)
+    };
+    let create = |path: &Path| {
+        let file = File::create(temporary(path)).map_err(|e| unwritten(path, e.to_string()))?;
+        Ok::<_, CampaignError>(BufWriter::new(file))
+    };
+    let mut table = TableWriter::new(create(to)?, &[]).map_err(|e| unwritten(to, e.to_string()))?;
+    let mut lines = csv
+        .map(|path| create(path).map(|file| (path, file)))
+        .transpose()?;
+    if let Some((path, file)) = &mut lines {
+        writeln!(file, "{}", csv_head()).map_err(|e| unwritten(path, e.to_string()))?;
+    }
+    let mut n = 0;
+    let manifest = each_block(dir, |rows| {
+        n += rows.len() as u64;
+        table
+            .rows(&rows)
+            .map_err(|e| unwritten(to, e.to_string()))?;
+        if let Some((path, file)) = &mut lines {
+            for row in &rows {
+                writeln!(file, "{}", csv_line(row)).map_err(|e| unwritten(path, e.to_string()))?;
+            }
+        }
+        Ok(())
+    })?;
+    let close = |path: &Path, file: BufWriter<File>| {
+        let file = file
+            .into_inner()
+            .map_err(|e| unwritten(path, e.to_string()))?;
+        file.sync_all()
+            .and_then(|()| std::fs::rename(temporary(path), path))
+            .map_err(|e| unwritten(path, e.to_string()))
+    };
+    close(
+        to,
+        table.finish().map_err(|e| unwritten(to, e.to_string()))?,
+    )?;
+    if let Some((path, file)) = lines {
+        close(path, file)?;
+    }
+    Ok(Merged {
+        rows: n,
+        of: manifest.runs,
+    })
+}

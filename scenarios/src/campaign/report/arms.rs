@@ -1,0 +1,186 @@
+//! The figures of each arm, over all conditions and in each.
+
+use super::unit::Unit;
+use crate::campaign::RunRow;
+use crate::campaign::stats::{Interval, finite_sorted, quantile, quantile_interval, wilson};
+
+/// Seed of the bootstrap: a report made again from the same rows is the same.
+pub(super) const SEED: u64 = 1;
+
+/// What is measured of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// Time of the first declaration, of runs that declared.
+    Time,
+    /// Way travelled by all robots, of runs that did not fail.
+    Path,
+    /// Distance of the declaration from the nearest true source, of runs that declared.
+    Error,
+}
+
+impl Measure {
+    /// All of them, in the order of tables.
+    pub const ALL: [Measure; 3] = [Measure::Time, Measure::Path, Measure::Error];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Measure::Time => "time to declaration",
+            Measure::Path => "path",
+            Measure::Error => "error",
+        }
+    }
+
+    /// Its unit.
+    #[must_use]
+    pub fn unit(self) -> Unit {
+        match self {
+            Measure::Time => Unit::Seconds,
+            Measure::Path | Measure::Error => Unit::Metres,
+        }
+    }
+
+    /// Of one run; none where there is nothing to measure.
+    #[must_use]
+    pub fn of(self, row: &RunRow) -> Option<f64> {
+        match self {
+            Measure::Time => row.declared_s,
+            Measure::Path => row.error.is_none().then_some(row.travelled_m),
+            Measure::Error => row.error_m,
+        }
+    }
+}
+
+/// A measure over many runs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// What.
+    pub measure: Measure,
+    /// Runs behind it.
+    pub n: u64,
+    /// Median.
+    pub median: Option<f64>,
+    /// Its 95 % bootstrap interval.
+    pub median_interval: Option<Interval>,
+    /// 90 % quantile.
+    pub q90: Option<f64>,
+    /// Its 95 % bootstrap interval.
+    pub q90_interval: Option<Interval>,
+}
+
+/// A share with what it was counted from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Share {
+    pub(super) count: u64,
+    pub(super) n: u64,
+}
+
+impl Share {
+    pub(super) fn of(rows: &[&RunRow], what: impl Fn(&RunRow) -> bool) -> Self {
+        Self {
+            count: rows.iter().filter(|r| what(r)).count() as u64,
+            n: rows.len() as u64,
+        }
+    }
+
+    pub(super) fn value(self) -> Option<f64> {
+        (self.n > 0).then(|| self.count as f64 / self.n as f64)
+    }
+
+    pub(super) fn interval(self) -> Interval {
+        wilson(self.count, self.n)
+    }
+}
+
+/// What an arm came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArmFigures {
+    /// Its name.
+    pub arm: String,
+    /// Runs that failed: they count as neither declared nor successful.
+    pub failed: u64,
+    pub(super) success: Share,
+    pub(super) declared: Share,
+    /// Time, path and error.
+    pub measured: Vec<Measured>,
+}
+
+/// What an arm came to under one condition.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConditionFigures {
+    /// The condition.
+    pub condition: String,
+    /// The arm.
+    pub arm: String,
+    pub(super) success: Share,
+}
+
+/// The arms in the order asked for, then any others in the order of their rows.
+pub(super) fn arm_names(asked: &[String], rows: &[RunRow]) -> Vec<String> {
+    let mut names = asked.to_vec();
+    for r in rows {
+        if !names.contains(&r.arm) {
+            names.push(r.arm.clone());
+        }
+    }
+    names
+}
+
+pub(super) fn of_arm<'a>(rows: &'a [RunRow], arm: &str) -> Vec<&'a RunRow> {
+    rows.iter().filter(|r| r.arm == arm).collect()
+}
+
+pub(super) fn figures(arm: &str, rows: &[&RunRow]) -> ArmFigures {
+    ArmFigures {
+        arm: arm.to_string(),
+        failed: rows.iter().filter(|r| r.error.is_some()).count() as u64,
+        success: Share::of(rows, |r| r.success),
+        declared: Share::of(rows, |r| r.declared_s.is_some()),
+        measured: Measure::ALL.map(|m| measured(m, rows)).to_vec(),
+    }
+}
+
+fn measured(measure: Measure, rows: &[&RunRow]) -> Measured {
+    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
+    let interval = |p| quantile_interval(&sorted, p, SEED, measure.words());
+    Measured {
+        measure,
+        n: sorted.len() as u64,
+        median: quantile(&sorted, 0.5),
+        median_interval: interval(0.5),
+        q90: quantile(&sorted, 0.9),
+        q90_interval: interval(0.9),
+    }
+}
+
+/// Success of each arm under each condition, in the order of the rows; nothing where there is only one.
+pub(super) fn conditions(arms: &[String], rows: &[RunRow]) -> Vec<ConditionFigures> {
+    use std::collections::BTreeMap;
+    let mut order: Vec<&str> = Vec::new();
+    let mut counts: BTreeMap<(&str, &str), Share> = BTreeMap::new();
+    let mut known: std::collections::BTreeSet<&str> = std::collections::BTreeSet::new();
+    for r in rows {
+        if known.insert(&r.condition) {
+            order.push(&r.condition);
+        }
+        let share = (counts.entry((&r.condition, &r.arm))).or_insert(Share { count: 0, n: 0 });
+        share.n += 1;
+        share.count += u64::from(r.success);
+    }
+    if order.len() < 2 {
+        return Vec::new();
+    }
+    let one = |condition: &str, arm: &str| {
+        counts
+            .get(&(condition, arm))
+            .map(|success| ConditionFigures {
+                condition: condition.to_string(),
+                arm: arm.to_string(),
+                success: *success,
+            })
+    };
+    (order.iter())
+        .flat_map(|c| arms.iter().filter_map(|a| one(c, a)).collect::<Vec<_>>())
+        .collect()
+}

@@ -1,0 +1,25 @@
+//! What a campaign came to: tables, CSVs, figures, one page.
+
+mod arms;
+mod curves;
+mod page;
+mod pairs;
+mod plots;
+mod tables;
+mod text;
+mod unit;
+mod walls;
+mod write;
+
+#[cfg(test)]
+pub(crate) mod sample;
+#[cfg(test)]
+mod tests;
+
+pub use arms::{ArmFigures, ConditionFigures, Measure, Measured};
+pub use curves::{Curve, Point};
+pub use pairs::{Compares, Comparison};
+pub(crate) use text::{align, csv_field, runs_csv};
+pub use unit::Unit;
+pub(crate) use walls::Walls;
+pub use write::{About, Written, write};

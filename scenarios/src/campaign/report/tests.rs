@@ -1,0 +1,158 @@
+//! The whole report from rows made by hand.
+
+use super::sample::row;
+use super::*;
+use crate::campaign::RunRow;
+use std::fs;
+use std::path::Path;
+
+fn arm(name: &str, seeds: u64, error: impl Fn(u64) -> Option<(f64, f64)>) -> Vec<RunRow> {
+    let one = |k| RunRow {
+        arm: name.to_string(),
+        ..row(k, error(k))
+    };
+    (0..seeds).map(one).collect()
+}
+
+fn about(planned: u64) -> About<'static> {
+    About {
+        name: "c<1>",
+        scenario: "duck_st",
+        hash: "00",
+        version: "0",
+        arms: &[],
+        planned,
+    }
+}
+
+/// No file of the folder names a number that is none.
+fn sound(dir: &Path) {
+    for file in fs::read_dir(dir).unwrap() {
+        let path = file.unwrap().path();
+        if path.extension().is_some_and(|e| e == "png") {
+            assert!(fs::read(&path).unwrap().starts_with(b"\x89PNG"));
+            continue;
+        }
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(
+            !text.contains("NaN") && !text.contains("inf,"),
+            "{}",
+            path.display()
+        );
+        if path.extension().is_some_and(|e| e == "csv") {
+            let mut commas = text.lines().map(|l| l.matches(',').count());
+            let first = commas.next().unwrap();
+            assert!(commas.all(|n| n == first), "{}: {text}", path.display());
+        }
+    }
+}
+
+#[test]
+fn says_which_arm_is_better_and_by_how_much() {
+    let near = arm("near", 40, |k| Some((5.0 + (k % 7) as f64, 1.0)));
+    let far = arm("far", 40, |k| {
+        (k % 2 == 0).then_some((25.0 + (k % 5) as f64, 1.0))
+    });
+    let mut rows = [near, far].concat();
+    let dir = tempfile::tempdir().unwrap();
+    let written = write(dir.path(), &about(80), &rows).unwrap();
+    sound(dir.path());
+    assert_eq!(written.files.len(), 4 + 8 + 1);
+    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
+    let of = |by: &str| -> Vec<String> {
+        let line = pairs
+            .lines()
+            .find(|l| l.starts_with(&format!("near,far,{by},")));
+        line.unwrap().split(',').map(str::to_string).collect()
+    };
+    let success = of("success");
+    assert_eq!((success[3].as_str(), success[4].as_str()), ("40", "0.5"));
+    assert_eq!(success[7], "better");
+    assert_eq!(
+        (of("error")[3].as_str(), of("error")[7].as_str()),
+        ("20", "better")
+    );
+    assert_eq!(of("path")[7], "not separable at this n");
+    assert!(
+        written.text.contains("100.0 %") && written.text.contains("80 runs;"),
+        "{}",
+        written.text
+    );
+    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+    assert!(html.contains("<h1>c&lt;1&gt;</h1>") && html.matches("<svg").count() == 4);
+
+    // Blocks come in any order: the numbers are the same, and the arms as asked.
+    rows.reverse();
+    let other = tempfile::tempdir().unwrap();
+    let names = ["near".to_string(), "far".to_string()];
+    let asked = About {
+        arms: &names,
+        ..about(80)
+    };
+    assert_eq!(
+        write(other.path(), &asked, &rows).unwrap().text,
+        written.text
+    );
+    for file in [
+        "arms.csv",
+        "differences.csv",
+        "errors.csv",
+        "not_yet_declared.csv",
+    ] {
+        let text = |d: &Path| fs::read_to_string(d.join(file)).unwrap();
+        assert_eq!(text(dir.path()), text(other.path()), "{file}");
+    }
+}
+
+#[test]
+fn success_is_shown_for_each_condition() {
+    let mut rows = arm("a", 10, |_| Some((1.0, 1.0)));
+    for r in &mut rows {
+        r.condition = format!("water.speed={}", r.seed_index % 2);
+    }
+    let dir = tempfile::tempdir().unwrap();
+    write(dir.path(), &about(10), &rows).unwrap();
+    let text = fs::read_to_string(dir.path().join("conditions.csv")).unwrap();
+    assert_eq!(text.lines().count(), 3);
+    assert!(text.contains("water.speed=1,a,5,5,1,"), "{text}");
+}
+
+#[test]
+fn nothing_one_run_and_only_failures_make_a_report_too() {
+    let failed = |k| RunRow {
+        error: Some("no water".into()),
+        mission_s: 0.0,
+        spin_up_wall_s: 0.0,
+        mission_wall_s: 0.0,
+        ..row(k, None)
+    };
+    let cases = [
+        vec![],
+        vec![row(0, Some((1.0, 1.0)))],
+        (0..4).map(failed).collect(),
+        [arm("a", 3, |_| None), arm("b", 3, |_| None)].concat(),
+        arm("a", 30, |_| Some((2.0, 0.0))),
+    ];
+    for rows in cases {
+        let dir = tempfile::tempdir().unwrap();
+        let written = write(dir.path(), &about(100), &rows).unwrap();
+        sound(dir.path());
+        assert!(written.text.contains("a part of the campaign"));
+        let failures = rows.iter().any(|r| r.error.is_some());
+        assert_eq!(
+            written.text.contains("First failure: run 0: no water"),
+            failures
+        );
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = dir.path().join("f");
+    fs::write(&file, b"").unwrap();
+    let said = write(&file.join("out"), &about(1), &[])
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("f/out"), "{said}");
+}

@@ -1,0 +1,88 @@
+//! Plain tables and CSV.
+
+use crate::campaign::RunRow;
+use crate::campaign::table::{csv_head, csv_line};
+use std::fmt::Write as _;
+
+const TEXT: &str = "writing to a String succeeds";
+
+/// A table with columns aligned by spaces; the first column of words, as wide as it must be.
+pub(crate) fn align<const N: usize>(head: &[&str; N], rows: &[[String; N]]) -> String {
+    let width = |k: usize| {
+        (rows.iter().map(|r| r[k].chars().count()))
+            .chain([head[k].chars().count()])
+            .max()
+            .unwrap_or(0)
+    };
+    let widths: [usize; N] = std::array::from_fn(width);
+    let mut out = String::new();
+    let mut line = |cells: [&str; N]| {
+        let mut text = String::new();
+        for (cell, width) in cells.iter().zip(widths) {
+            write!(text, "{cell:<width$}  ").expect(TEXT);
+        }
+        out.push_str(text.trim_end());
+        out.push('\n');
+    };
+    line(*head);
+    let rules = widths.map(|w| "-".repeat(w));
+    line(std::array::from_fn(|k| rules[k].as_str()));
+    for row in rows {
+        line(std::array::from_fn(|k| row[k].as_str()));
+    }
+    out
+}
+
+/// A field of a CSV, quoted where it must be (RFC 4180).
+pub(crate) fn csv_field(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_string()
+    }
+}
+
+/// Rows of runs as CSV, every column.
+pub(crate) fn runs_csv(rows: &[RunRow]) -> String {
+    let mut out = csv_head();
+    out.push('\n');
+    for row in rows {
+        out.push_str(&csv_line(row));
+        out.push('\n');
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::row;
+    use super::*;
+
+    #[test]
+    fn columns_stand_under_each_other() {
+        let rows = [
+            ["a".to_string(), "12".to_string()],
+            ["bcd".to_string(), "3".to_string()],
+        ];
+        assert_eq!(
+            align(&["x", "value"], &rows),
+            "x    value\n---  -----\na    12\nbcd  3\n"
+        );
+    }
+
+    #[test]
+    fn fields_are_quoted_where_they_must_be() {
+        assert_eq!(csv_field("a,b\n"), "\"a,b\n\"");
+        assert_eq!(csv_field("no \"bed\""), "\"no \"\"bed\"\"\"");
+        assert_eq!(csv_field("plain"), "plain");
+    }
+
+    #[test]
+    fn every_run_is_a_line_under_the_names() {
+        let text = runs_csv(&[row(0, Some((1.0, 2.0))), row(1, None)]);
+        let commas: Vec<usize> = text.lines().map(|l| l.matches(',').count()).collect();
+        assert_eq!(commas.len(), 3);
+        assert!(commas.iter().all(|n| *n == commas[0]));
+        assert!(text.starts_with("run,") && !text.contains("NaN"));
+    }
+}

@@ -1,0 +1,19 @@
+//! What many runs say: shares, quantiles, waiting times and differences, each with its interval.
+
+mod adaptive;
+mod bootstrap;
+mod ecdf;
+mod interval;
+mod paired;
+mod quantile;
+mod survival;
+mod wilson;
+
+pub use adaptive::next_n;
+pub use bootstrap::{RESAMPLES, quantile_interval};
+pub use ecdf::Ecdf;
+pub use interval::Interval;
+pub use paired::{Better, Difference, LEAST_PAIRS, Verdict, paired_median, paired_share};
+pub use quantile::{finite_sorted, quantile};
+pub use survival::{Survival, SurvivalStep};
+pub use wilson::{Z95, wilson};

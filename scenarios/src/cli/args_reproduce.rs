@@ -1,0 +1,78 @@
+//! What `rheotaxis reproduce` can be asked.
+
+use std::path::PathBuf;
+
+/// Arguments of `reproduce`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(
+    long_about = "Runs the experiments of the papers over many seeds and prints each figure of ours with \
+        its 95 % interval, the paper's, and whether the paper's lies inside. Shares have Wilson's interval, \
+        medians and 90 % quantiles a bootstrap interval.\n\nLeaves REPRODUCTION.md, figures.csv (the table) and rows.csv \
+        (every run). Seeds are 1 to n; the figures do not depend on the number of jobs.",
+    after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
+        rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
+        Exit codes: 0 ran, whatever the figures say; 130 interrupted; 1 error; 2 usage."
+)]
+pub struct ReproduceArgs {
+    /// Rows by name, or row files of your own (RON); without any, all that come with the program.
+    #[arg(value_name = "ROW")]
+    pub rows: Vec<PathBuf>,
+    /// Runs for each row.
+    #[arg(long, value_name = "N", default_value_t = 200, conflicts_with = "until_width",
+        value_parser = clap::value_parser!(u64).range(1..))]
+    pub seeds: u64,
+    /// 20 runs for each row: a first look.
+    #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
+    pub quick: bool,
+    /// Run until the success share is known to this half width (0.05: plus or minus 5 %).
+    #[arg(long, value_name = "W", value_parser = half_width)]
+    pub until_width: Option<f64>,
+    /// At most so many runs for each row.
+    #[arg(long, value_name = "N", default_value_t = 2000, requires = "until_width",
+        value_parser = clap::value_parser!(u64).range(1..))]
+    pub max: u64,
+    /// Runs at a time; 0 for one on each core.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+    /// Folder for the results.
+    #[arg(long, value_name = "DIR", default_value = "runs/reproduce")]
+    pub out: PathBuf,
+    /// Show no progress.
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+/// Runs of a first look.
+const QUICK: u64 = 20;
+
+impl ReproduceArgs {
+    /// Runs for each row; with a width to reach, at most.
+    #[must_use]
+    pub fn n(&self) -> u64 {
+        match (self.quick, self.until_width) {
+            (true, _) => QUICK,
+            (false, Some(_)) => self.max,
+            (false, None) => self.seeds,
+        }
+    }
+}
+
+fn half_width(s: &str) -> Result<f64, String> {
+    match s.parse::<f64>() {
+        Ok(w) if w > 0.0 && w < 0.5 => Ok(w),
+        _ => Err("must be > 0 and < 0.5".to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn widths_are_shares_below_a_half() {
+        assert_eq!(half_width("0.05"), Ok(0.05));
+        for bad in ["0", "0.5", "-0.1", "nan", "inf", "5%", ""] {
+            assert!(half_width(bad).is_err(), "{bad}");
+        }
+    }
+}

@@ -1,0 +1,276 @@
+//! What a paper reports and with which scenario we ask for it: one row file each.
+
+use super::quantity::Quantity;
+use crate::report::ReportError;
+use crate::scenario::{Loaded, ScenarioError, load, parse, template};
+use ron::extensions::Extensions;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use world::record::Digest;
+
+/// A row of the reproduction table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// Its name.
+    pub id: String,
+    /// What is done.
+    pub what: String,
+    /// Paper, section, table or figure.
+    pub source: String,
+    /// A scenario that comes with the program, or a file beside the row's.
+    pub scenario: String,
+    /// What is compared.
+    pub figures: Vec<Figure>,
+}
+
+/// One figure of a row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// What people call it.
+    pub name: String,
+    /// What is computed from our runs.
+    pub quantity: Quantity,
+    /// What the paper has; absent where it has nothing to compare.
+    #[serde(default)]
+    pub paper: Option<Paper>,
+    /// What must be known to compare.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// A paper's figure.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Paper {
+    /// A figure over many runs, in the quantity's unit (shares from 0 to 1).
+    Value(f64),
+    /// A figure of a single run, in the quantity's unit.
+    Run(f64),
+    /// So many of so many.
+    Count(u64, u64),
+    /// So many of so few that it is no share: one run that did or did not.
+    RunCount(u64, u64),
+}
+
+impl Paper {
+    /// As a number in the quantity's unit.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        match self {
+            Paper::Value(v) | Paper::Run(v) => v,
+            Paper::Count(k, n) | Paper::RunCount(k, n) => k as f64 / n as f64,
+        }
+    }
+
+    fn is_sound(self) -> bool {
+        match self {
+            Paper::Value(v) | Paper::Run(v) => v.is_finite(),
+            Paper::Count(k, n) | Paper::RunCount(k, n) => n > 0 && k <= n,
+        }
+    }
+}
+
+/// Why a row cannot be reproduced.
+#[derive(Debug, thiserror::Error)]
+pub enum ReproduceError {
+    /// No such row.
+    #[error(
+        "there is no row `{name}`; there are: {known}. A row file of your own may be named, too"
+    )]
+    Unknown {
+        /// As asked.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// A row file that cannot be read.
+    #[error("{name}: {problem}")]
+    Row {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Its scenario.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// Its results.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// The threads.
+    #[error("cannot start {jobs} threads: {problem}")]
+    Threads {
+        /// As asked; 0 for one a core.
+        jobs: usize,
+        /// What the system said.
+        problem: String,
+    },
+    /// Ctrl-C or a termination signal.
+    #[error("interrupted: nothing is written, for the runs that end first are not a fair sample")]
+    Interrupted,
+}
+
+/// A row with the scenario it runs.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// The row.
+    pub row: Row,
+    /// Its scenario.
+    pub loaded: Loaded,
+}
+
+/// Row files that come with the program.
+const ROWS: &[(&str, &str)] = &[(
+    "duck_st",
+    include_str!("../../../tests/reference/rows/duck_st.ron"),
+)];
+
+/// All rows that come with the program.
+///
+/// # Errors
+/// If one is broken (tests keep this from happening).
+pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
+    ROWS.iter()
+        .map(|(name, text)| embedded(name, text))
+        .collect()
+}
+
+/// The rows asked for by name or by file; all of them if none is.
+///
+/// # Errors
+/// If one is not known, or its file or scenario is broken.
+pub fn wanted(names: &[PathBuf]) -> Result<Vec<Reference>, ReproduceError> {
+    if names.is_empty() {
+        return rows();
+    }
+    names.iter().map(|name| one(name)).collect()
+}
+
+fn one(path: &Path) -> Result<Reference, ReproduceError> {
+    let name = path.display().to_string();
+    if let Some((name, text)) = ROWS.iter().find(|(id, _)| *id == name) {
+        return embedded(name, text);
+    }
+    if !path.is_file() {
+        let known: Vec<&str> = ROWS.iter().map(|(id, _)| *id).collect();
+        return Err(ReproduceError::Unknown {
+            name,
+            known: known.join(", "),
+        });
+    }
+    let text = std::fs::read_to_string(path).map_err(|e| ReproduceError::Row {
+        name: name.clone(),
+        problem: format!("cannot be read: {e}"),
+    })?;
+    let row = read(&name, &text)?;
+    let beside = path.parent().unwrap_or(Path::new("")).join(&row.scenario);
+    let loaded = if beside.is_file() {
+        load(&beside)?
+    } else {
+        scenario(&name, &row)?
+    };
+    loaded.check()?;
+    Ok(Reference { row, loaded })
+}
+
+fn embedded(name: &str, text: &str) -> Result<Reference, ReproduceError> {
+    let row = read(name, text)?;
+    let loaded = scenario(name, &row)?;
+    Ok(Reference { row, loaded })
+}
+
+/// The scenario that comes with the program, whatever lies in the folder we are in.
+fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
+    let template = template(&row.scenario).ok_or_else(|| ReproduceError::Row {
+        name: name.to_string(),
+        problem: format!("there is no scenario `{}`", row.scenario),
+    })?;
+    let mut digest = Digest::default();
+    digest.text(template.text);
+    Ok(Loaded {
+        scenario: parse(template.name, template.text)?,
+        text: template.text.to_string(),
+        path: PathBuf::from(template.name),
+        name: template.name.to_string(),
+        base_dir: PathBuf::new(),
+        hash: digest.hex(),
+    })
+}
+
+fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
+    let wrong = |problem: String| ReproduceError::Row {
+        name: name.to_string(),
+        problem,
+    };
+    let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+    let row: Row = reader.from_str(text).map_err(|e| wrong(e.to_string()))?;
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if row.id.is_empty() || !row.id.chars().all(plain) {
+        return Err(wrong(format!(
+            "id: must be of a-z, 0-9 and _, got `{}`",
+            row.id
+        )));
+    }
+    if row.figures.is_empty() {
+        return Err(wrong("figures: must name at least one".to_string()));
+    }
+    match (row.figures.iter()).find(|f| f.paper.is_some_and(|p| !p.is_sound())) {
+        Some(f) => Err(wrong(format!(
+            "{}: paper: must be finite, a count at most its total, and the total > 0, got {:?}",
+            f.name, f.paper
+        ))),
+        None => Ok(row),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference/rows");
+        let mut files: Vec<String> = std::fs::read_dir(folder)
+            .unwrap()
+            .map(|f| f.unwrap().file_name().into_string().unwrap())
+            .collect();
+        files.sort();
+        let rows = rows().unwrap();
+        let mut ids: Vec<String> = rows.iter().map(|r| format!("{}.ron", r.row.id)).collect();
+        ids.sort();
+        assert_eq!(files, ids);
+        for r in &rows {
+            assert!(!r.row.source.is_empty() && !r.row.what.is_empty());
+            assert!(r.row.figures.iter().any(|f| f.paper.is_some()));
+            assert!(r.loaded.check().is_ok());
+        }
+    }
+
+    #[test]
+    fn broken_rows_are_named_with_what_is_wrong() {
+        let row = |id: &str, paper: &str| {
+            format!(
+                "(id: \"{id}\", what: \"w\", source: \"s\", scenario: \"duck_st\", \
+                 figures: [(name: \"f\", quantity: success_rate, paper: {paper})])"
+            )
+        };
+        assert!(read("r", &row("a_1", "Count(7, 8)")).is_ok());
+        for (text, says) in [
+            (row("A b", "Count(7, 8)"), "id: must be"),
+            (row("a", "Count(9, 8)"), "a count at most its total"),
+            (row("a", "Count(0, 0)"), "the total > 0"),
+            (row("a", "Value(NaN)"), "must be finite"),
+            (row("a", "Median(3)"), "Median"),
+            ("(".to_string(), "r: "),
+        ] {
+            let said = read("r", &text).unwrap_err().to_string();
+            assert!(said.contains(says), "{said}");
+        }
+        let said = wanted(&["nobody".into()]).unwrap_err().to_string();
+        assert!(
+            said.contains("`nobody`") && said.contains("duck_st"),
+            "{said}"
+        );
+    }
+}

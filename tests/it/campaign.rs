@@ -1,0 +1,451 @@
+//! Campaigns: the same rows however the work is dealt out, and nothing lost when it is cut off.
+
+use crate::common;
+use rheotaxis::campaign::{RunRow, block_path, read_rows};
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Output, Stdio};
+use std::time::Duration;
+use world::seeds::Stream;
+
+/// Two arms, two conditions, in a channel so short that a run takes hundredths of a second.
+const CAMPAIGN: &str = r#"(
+    version: 1,
+    title: "Two speeds",
+    base: "pond.ron",
+    seeds: SEEDS,
+    arms: [
+        (name: "slow", set: [("robots[0].strategy.speed_m_s", "1.2")]),
+        (name: "fast"),
+    ],
+    conditions: Grid([("sources[0].rate_g_s", ["0.02", "0.04"])]),
+)
+"#;
+
+/// A folder with the campaign `c.ron` of `4 * seeds` runs and its scenario.
+fn folder(seeds: u64, spin_up_s: &str, limit_s: &str) -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    let channel = include_str!("../../scenarios/catalog/uniform_channel.ron");
+    let times = [("spin_up_s", spin_up_s), ("limit_s", limit_s)];
+    fs::write(
+        dir.path().join("pond.ron"),
+        common::with_fields(channel, &times),
+    )
+    .unwrap();
+    let text = CAMPAIGN.replace("SEEDS", &seeds.to_string());
+    fs::write(dir.path().join("c.ron"), text).unwrap();
+    dir
+}
+
+fn campaign(dir: &Path, args: &[&str]) -> Output {
+    let mut all = vec!["campaign"];
+    all.extend_from_slice(args);
+    scheduler_free(common::command(dir, &all))
+        .output()
+        .expect("rheotaxis starts")
+}
+
+/// Whoever runs the tests may do so in a cluster's job.
+fn scheduler_free(mut command: std::process::Command) -> std::process::Command {
+    for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"] {
+        command.env_remove(name);
+    }
+    command
+}
+
+#[track_caller]
+fn ends(dir: &Path, code: i32, args: &[&str]) -> (String, String) {
+    let end = campaign(dir, args);
+    let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
+    let (out, err) = (text(&end.stdout), text(&end.stderr));
+    assert_eq!(end.status.code(), Some(code), "{args:?}\n{out}{err}");
+    (out, err)
+}
+
+/// The rows without what the wall clock says.
+fn rows(dir: &Path) -> Vec<RunRow> {
+    let timeless = |row| RunRow {
+        spin_up_wall_s: 0.0,
+        mission_wall_s: 0.0,
+        ..row
+    };
+    read_rows(dir).unwrap().into_iter().map(timeless).collect()
+}
+
+/// All files of blocks under their final name, with their bytes.
+fn blocks(dir: &Path) -> BTreeMap<String, Vec<u8>> {
+    let Ok(files) = fs::read_dir(dir) else {
+        return BTreeMap::new();
+    };
+    files
+        .map(|f| f.unwrap())
+        .map(|f| (f.file_name().into_string().unwrap(), f.path()))
+        .filter(|(name, _)| name.starts_with("part-") && name.ends_with(".parquet"))
+        .map(|(name, path)| (name, fs::read(path).unwrap()))
+        .collect()
+}
+
+#[test]
+fn rows_do_not_depend_on_shards_jobs_or_blocks() {
+    let dir = folder(6, "30", "4");
+    let dir = dir.path();
+    let out = |name: &str, shards: u64, more: &[&str]| -> Vec<RunRow> {
+        for i in 1..=shards {
+            let shard = format!("{i}/{shards}");
+            let mut args = vec!["run", "c.ron", "--quiet", "--out", name, "--shard", &shard];
+            args.extend_from_slice(more);
+            ends(dir, 0, &args);
+        }
+        rows(&dir.join(name))
+    };
+    let one = out("one", 1, &["--jobs", "1", "--block", "4"]);
+    assert_eq!(one.len(), 24);
+    assert!(one.iter().enumerate().all(|(i, row)| row.run == i as u64));
+    assert!(
+        one.iter()
+            .all(|row| row.error.is_none() && !row.digest.is_empty())
+    );
+    // The arms have seed and water in common, but not the run; other seeds and conditions neither.
+    for pair in one.chunks(2) {
+        assert_eq!(pair[0].seed, pair[1].seed);
+        assert_eq!(
+            (pair[0].arm.as_str(), pair[1].arm.as_str()),
+            ("slow", "fast")
+        );
+    }
+    let mut digests: Vec<&String> = one.iter().map(|row| &row.digest).collect();
+    digests.sort();
+    digests.dedup();
+    assert_eq!(digests.len(), 24);
+    assert_eq!(one, out("jobs", 1, &["--jobs", "2", "--block", "4"]));
+    assert_eq!(one, out("three", 3, &["--jobs", "2", "--block", "4"]));
+    assert_eq!(one, out("seven", 7, &["--jobs", "1", "--block", "2"]));
+    assert_eq!(one, out("whole", 1, &["--jobs", "2"]));
+    // The second arm of each pair took over the first one's spun-up state.
+    let wall: Vec<f64> = read_rows(&dir.join("one"))
+        .unwrap()
+        .iter()
+        .map(|r| r.spin_up_wall_s)
+        .collect();
+    assert!(
+        wall.chunks(2).all(|pair| pair[0] > 0.0 && pair[1] == 0.0),
+        "{wall:?}"
+    );
+    // A run made again, by the ordinary way and spinning up itself, is the row's.
+    let (said, _) = ends(
+        dir,
+        0,
+        &["rerun", "one", "--run", "13", "--record", "--quiet"],
+    );
+    assert_eq!(
+        said,
+        format!("run 13: the same digest as its row, {}\n", one[13].digest)
+    );
+    assert!(dir.join("one/run-13/run.mcap").is_file());
+    let (_, said) = ends(dir, 1, &["rerun", "one", "--run", "24"]);
+    assert!(
+        said.contains("there is no run 24: the campaign has 24, counted from 0"),
+        "{said}"
+    );
+    // Merged, all rows are in both files.
+    let (said, _) = ends(dir, 0, &["merge", "three", "-o", "all.parquet", "--csv"]);
+    assert_eq!(said, "24 rows in all.parquet\n");
+    assert!(
+        fs::read(dir.join("all.parquet"))
+            .unwrap()
+            .ends_with(b"PAR1")
+    );
+    let csv = fs::read_to_string(dir.join("all.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 25);
+    assert!(
+        csv.lines().nth(14).unwrap().contains(&one[13].digest),
+        "{csv}"
+    );
+}
+
+fn start(dir: &Path) -> Child {
+    let args = [
+        "campaign", "run", "c.ron", "--out", "out", "--block", "4", "--quiet", "--jobs", "2",
+    ];
+    scheduler_free(common::command(dir, &args))
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("rheotaxis starts")
+}
+
+#[test]
+fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
+    let folder = folder(100, "30", "4");
+    let dir = folder.path();
+    let out = dir.join("out");
+    let mut draw = Stream::new(1, "kill", "after");
+    let (mut kills, mut grew) = (0, 0);
+    let mut before = blocks(&out);
+    loop {
+        let mut child = start(dir);
+        std::thread::sleep(Duration::from_secs_f64(0.02 + 0.25 * draw.uniform()));
+        let over = child.try_wait().unwrap();
+        // Blocks never change once they have their name: not while it runs, nor by the kill.
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let now = blocks(&out);
+        for (name, bytes) in &before {
+            assert!(
+                now.get(name) == Some(bytes),
+                "{name} was lost or done again"
+            );
+        }
+        grew += usize::from(now.len() > before.len());
+        before = now;
+        if let Some(status) = over {
+            assert!(status.success(), "{status}");
+            break;
+        }
+        kills += 1;
+        let (_, said) = ends(dir, if out.exists() { 75 } else { 1 }, &["status", "out"]);
+        assert!(!said.contains("not whole"), "{said}");
+        assert!(kills < 500, "it never comes to its end");
+    }
+    assert!(kills >= 20, "{kills} kills");
+    assert!(grew >= 5, "{grew} of {kills} starts wrote a block");
+    ends(
+        dir,
+        0,
+        &[
+            "run", "c.ron", "--out", "straight", "--block", "4", "--quiet",
+        ],
+    );
+    assert_eq!(rows(&out), rows(&dir.join("straight")));
+    assert_eq!(rows(&out).len(), 400);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_termination_signal_ends_it_between_blocks_with_code_75() {
+    let folder = folder(500, "30", "4");
+    let dir = folder.path();
+    let child = start(dir);
+    while blocks(&dir.join("out")).len() < 2 {
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let id = child.id().to_string();
+    assert!(
+        std::process::Command::new("kill")
+            .args(["-TERM", &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+    let end = child.wait_with_output().unwrap();
+    assert_eq!(end.status.code(), Some(75));
+    let names = fs::read_dir(dir.join("out"))
+        .unwrap()
+        .map(|f| f.unwrap().file_name());
+    let temporary = names
+        .filter(|name| name.to_string_lossy().ends_with(".tmp"))
+        .count();
+    assert_eq!(temporary, 0);
+    let done = rows(&dir.join("out")).len();
+    assert!(done >= 8 && done.is_multiple_of(4), "{done}");
+    // A limit of wall time ends it the same way.
+    let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s"];
+    let (_, said) = ends(dir, 75, &args);
+    assert!(said.contains("the same command goes on"), "{said}");
+    assert!(rows(&dir.join("out")).len() >= done);
+}
+
+#[test]
+fn another_scenario_campaign_or_block_size_is_refused_by_name() {
+    let folder = folder(1, "30", "1");
+    let dir = folder.path();
+    let run = ["run", "c.ron", "--out", "out", "--quiet"];
+    ends(dir, 0, &[&run[..], &["--block", "2"]].concat());
+    let manifest = fs::read_to_string(dir.join("out/campaign.json")).unwrap();
+    let manifest: serde_json::Value = serde_json::from_str(&manifest).unwrap();
+    let was = |key: &str| manifest[key].as_str().unwrap().to_string();
+    let before = blocks(&dir.join("out"));
+
+    let pond = fs::read_to_string(dir.join("pond.ron")).unwrap();
+    fs::write(dir.join("pond.ron"), format!("{pond}// another\n")).unwrap();
+    let (_, said) = ends(dir, 1, &[&run[..], &["--block", "4"]].concat());
+    let scenario = rheotaxis::scenario::load(&dir.join("pond.ron"))
+        .unwrap()
+        .hash;
+    let differs = format!(
+        "out holds runs of another campaign: scenario {} there, {scenario} here; block size 2 there, 4 here",
+        was("scenario_hash")
+    );
+    assert!(said.contains(&differs), "{said}\n{differs}");
+    assert!(said.contains("give another --out; or --force"), "{said}");
+
+    fs::write(dir.join("pond.ron"), &pond).unwrap();
+    let text = fs::read_to_string(dir.join("c.ron")).unwrap();
+    fs::write(dir.join("c.ron"), text.replace("Two speeds", "2 speeds")).unwrap();
+    let (_, said) = ends(dir, 1, &run);
+    let differs = format!(
+        "out holds runs of another campaign: campaign {} there, ",
+        was("campaign_hash")
+    );
+    assert!(
+        said.contains(&differs) && !said.contains("scenario "),
+        "{said}"
+    );
+    assert_eq!(blocks(&dir.join("out")), before);
+    ends(dir, 0, &[&run[..], &["--force"]].concat());
+    assert_eq!(blocks(&dir.join("out")), before);
+    ends(dir, 0, &run);
+
+    let mut other = manifest.clone();
+    other["version"] = "0.0.1".into();
+    fs::write(dir.join("out/campaign.json"), other.to_string()).unwrap();
+    fs::write(dir.join("c.ron"), text).unwrap();
+    let (_, said) = ends(dir, 1, &run);
+    let here = format!(
+        "another campaign: version 0.0.1 there, {} here",
+        was("version")
+    );
+    assert!(said.contains(&here), "{said}");
+}
+
+#[test]
+fn blocks_that_are_not_whole_are_found_named_and_done_again() {
+    let folder = folder(2, "30", "1");
+    let dir = folder.path();
+    let out = dir.join("out");
+    let run = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
+    ends(dir, 0, &run);
+    let good = rows(&out);
+    let bytes = fs::read(block_path(&out, 1)).unwrap();
+    let mut turned = bytes.clone();
+    turned[bytes.len() / 4] ^= 0x40;
+    let other = fs::read(block_path(&out, 2)).unwrap();
+    for broken in [&bytes[..bytes.len() / 2], &bytes[..0], &turned, &other] {
+        fs::write(block_path(&out, 1), broken).unwrap();
+        let (said, _) = ends(dir, 75, &["status", "out"]);
+        assert!(said.contains("6 of 8 runs done, 3 of 4 blocks"), "{said}");
+        assert!(
+            said.contains("out/part-000001.parquet is not whole: "),
+            "{said}"
+        );
+        let (_, said) = ends(dir, 1, &["merge", "out", "-o", "all.parquet"]);
+        assert!(
+            said.contains("out/part-000001.parquet is not whole: "),
+            "{said}"
+        );
+        let (_, said) = ends(dir, 0, &run);
+        assert!(
+            said.starts_with("out/part-000001.parquet is not whole: "),
+            "{said}"
+        );
+        assert!(said.ends_with("; it is done again\n"), "{said}");
+        assert_eq!(rows(&out), good);
+        ends(dir, 0, &["status", "out"]);
+    }
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_and_the_rest_stays() {
+    let folder = folder(2, "30", "1");
+    let dir = folder.path();
+    fs::write(dir.join("file"), "").unwrap();
+    let (_, said) = ends(dir, 1, &["run", "c.ron", "--out", "file/out"]);
+    assert!(said.contains("file/out"), "{said}");
+    // Something in the way of the third block, whoever runs the tests: root writes anywhere.
+    let out = dir.join("out");
+    fs::create_dir_all(out.join("part-000002.parquet.tmp")).unwrap();
+    let run = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
+    let (_, said) = ends(dir, 1, &run);
+    assert!(
+        said.contains("cannot write out/part-000002.parquet: "),
+        "{said}"
+    );
+    assert!(said.contains("blocks written before are whole"), "{said}");
+    assert_eq!(rows(&out).len(), 4);
+    fs::remove_dir(out.join("part-000002.parquet.tmp")).unwrap();
+    ends(dir, 0, &run);
+    assert_eq!(rows(&out).len(), 8);
+}
+
+#[test]
+fn a_full_disk_is_said_and_what_was_done_stays_readable() {
+    let folder = folder(2, "30", "1");
+    let dir = folder.path();
+    let out = dir.join("out");
+    let run = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
+    ends(dir, 0, &run);
+    fs::remove_file(block_path(&out, 3)).unwrap();
+    // The temporary file leads to a device without room.
+    if !Path::new("/dev/full").exists() {
+        return;
+    }
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("/dev/full", out.join("part-000003.parquet.tmp")).unwrap();
+    let (_, said) = ends(dir, 1, &run);
+    assert!(
+        said.contains("cannot write out/part-000003.parquet: No space left on device"),
+        "{said}"
+    );
+    assert_eq!(rows(&out).len(), 6);
+    ends(dir, 0, &run);
+    assert_eq!(rows(&out).len(), 8);
+}
+
+#[test]
+fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
+    let folder = folder(3, "30", "1");
+    let dir = folder.path();
+    let (said, _) = ends(dir, 0, &["plan", "c.ron", "--block", "5"]);
+    for part in [
+        "c: Two speeds\n  12 runs: 2 arms x 2 conditions x 3 seeds on pond\n  2 blocks of 6 runs\n",
+        "  arm slow: robots[0].strategy.speed_m_s=1.2\n  arm fast: as it is\n",
+        "  condition 1: sources[0].rate_g_s=0.04\n",
+        "the first run took",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+    let text = fs::read_to_string(dir.join("c.ron")).unwrap();
+    fs::write(dir.join("c.ron"), text.replace("\"1.2\"", "\"-1\"")).unwrap();
+    for args in [&["plan", "c.ron"][..], &["run", "c.ron", "--out", "out"]] {
+        let (_, said) = ends(dir, 1, args);
+        assert!(
+            said.contains("robots[0].strategy.speed_m_s: must be a finite number > 0, got -1"),
+            "{said}"
+        );
+        assert!(
+            said.contains("pond (arm slow, sources[0].rate_g_s=0.02):"),
+            "{said}"
+        );
+    }
+    assert!(!dir.join("out").exists());
+}
+
+#[test]
+fn the_share_is_read_from_the_scheduler() {
+    let folder = folder(2, "30", "1");
+    let dir = folder.path();
+    let args = [
+        "campaign", "run", "c.ron", "--out", "out", "--block", "2", "--quiet",
+    ];
+    let run = |variables: &[(&str, &str)]| {
+        let mut command = scheduler_free(common::command(dir, &args));
+        command.envs(variables.iter().copied());
+        command.output().unwrap()
+    };
+    let array = |id| {
+        [
+            ("SLURM_ARRAY_TASK_ID", id),
+            ("SLURM_ARRAY_TASK_MIN", "1"),
+            ("SLURM_ARRAY_TASK_COUNT", "3"),
+        ]
+    };
+    assert!(run(&array("2")).status.success());
+    assert_eq!(blocks(&dir.join("out")).len(), 1);
+    assert!(block_path(&dir.join("out"), 1).is_file());
+    assert!(run(&array("1")).status.success());
+    assert_eq!(blocks(&dir.join("out")).len(), 3);
+    let lost = run(&[("JOB_COMPLETION_INDEX", "0")]);
+    assert_eq!(lost.status.code(), Some(1));
+    assert!(String::from_utf8_lossy(&lost.stderr).contains("set JOB_COMPLETIONS"));
+}

@@ -1,0 +1,140 @@
+//! The table of the papers' figures: from a row file to its results.
+
+use crate::common::rheotaxis_in;
+use std::fs;
+use std::path::Path;
+
+const ROW: &str = r#"(
+    id: "channel",
+    what: "A channel, cut short",
+    source: "made for this test",
+    scenario: "channel.ron",
+    figures: [
+        (name: "declared", quantity: share_declared, paper: Count(7, 8), note: "of | 8"),
+        (name: "error", quantity: median_error_m, paper: Run(1e6)),
+        (name: "path", quantity: median_travelled_m),
+    ],
+)"#;
+
+/// A row whose scenario runs in a fraction of a second.
+fn write_row(dir: &Path) {
+    let text = include_str!("../../scenarios/catalog/uniform_channel.ron");
+    let short = crate::common::with_fields(text, &[("spin_up_s", "200"), ("limit_s", "120")]);
+    fs::write(dir.join("channel.ron"), short).unwrap();
+    fs::write(dir.join("row.ron"), ROW).unwrap();
+}
+
+fn reproduce(dir: &Path, options: &[&str]) -> (Option<i32>, String, String) {
+    let mut args = vec!["reproduce", "--quiet"];
+    args.extend_from_slice(options);
+    let end = rheotaxis_in(dir, &args);
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (end.status.code(), text(&end.stdout), text(&end.stderr))
+}
+
+/// Lines of a CSV without the columns of wall time.
+fn without_walls(path: &Path) -> Vec<String> {
+    let text = fs::read_to_string(path).unwrap();
+    let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
+    let keep = |line: &str| {
+        let cells = line
+            .split(',')
+            .zip(&head)
+            .filter(|(_, name)| !name.ends_with("_wall_s"));
+        cells.map(|(cell, _)| cell).collect::<Vec<_>>().join(",")
+    };
+    text.lines().map(keep).collect()
+}
+
+#[test]
+fn writes_the_same_table_with_one_thread_and_with_two() {
+    let dir = tempfile::tempdir().unwrap();
+    write_row(dir.path());
+    for jobs in ["1", "2"] {
+        let (code, out, error) = reproduce(
+            dir.path(),
+            &["row.ron", "--seeds", "3", "--jobs", jobs, "--out", jobs],
+        );
+        assert_eq!(code, Some(0), "{error}");
+        assert!(out.contains("3 runs, seeds 1 to 3"), "{out}");
+        assert!(out.contains("7/8 = 87.5 % [52.9 to 97.8 %]"), "{out}");
+        assert!(out.contains("spin-up") && out.contains("mission"), "{out}");
+    }
+    let table = |jobs: &str| fs::read_to_string(dir.path().join(jobs).join("figures.csv")).unwrap();
+    assert_eq!(table("1"), table("2"));
+    assert_eq!(table("1").lines().count(), 1 + 3);
+    let rows = |jobs: &str| without_walls(&dir.path().join(jobs).join("rows.csv"));
+    assert_eq!(rows("1"), rows("2"));
+    assert_eq!(rows("1").len(), 1 + 3);
+    let page = fs::read_to_string(dir.path().join("1/REPRODUCTION.md")).unwrap();
+    for says in [
+        "## channel",
+        "made for this test",
+        "| declared | ",
+        "- declared: of | 8.",
+    ] {
+        assert!(page.contains(says), "{says}: {page}");
+    }
+}
+
+#[test]
+fn stops_by_width_or_at_the_most_allowed() {
+    let dir = tempfile::tempdir().unwrap();
+    write_row(dir.path());
+    let n = |width: &str, most: &str| {
+        let (code, _, error) = reproduce(
+            dir.path(),
+            &[
+                "row.ron",
+                "--until-width",
+                width,
+                "--max",
+                most,
+                "--out",
+                "o",
+            ],
+        );
+        assert_eq!(code, Some(0), "{error}");
+        without_walls(&dir.path().join("o/rows.csv")).len() - 1
+    };
+    // A half width of 0.3 needs 8 runs at most, but the first look comes after 20.
+    assert_eq!(n("0.3", "100"), 20);
+    assert_eq!(n("0.001", "2"), 2);
+}
+
+#[test]
+fn wrong_rows_folders_and_options_are_refused_before_anything_runs() {
+    let dir = tempfile::tempdir().unwrap();
+    let (code, _, error) = reproduce(dir.path(), &["nobody"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        error.contains("no row `nobody`") && error.contains("duck_st"),
+        "{error}"
+    );
+
+    fs::write(
+        dir.path().join("bad.ron"),
+        ROW.replace("share_declared", "luck"),
+    )
+    .unwrap();
+    let (code, _, error) = reproduce(dir.path(), &["bad.ron"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        error.contains("bad.ron") && error.contains("luck"),
+        "{error}"
+    );
+
+    fs::write(dir.path().join("file"), "").unwrap();
+    let (code, _, error) = reproduce(dir.path(), &["duck_st", "--out", "file/out"]);
+    assert_eq!(code, Some(1));
+    assert!(error.contains("file/out"), "{error}");
+
+    for usage in [
+        &["--quick", "--seeds", "5"][..],
+        &["--max", "5"],
+        &["--until-width", "0.5"],
+        &["--seeds", "0"],
+    ] {
+        assert_eq!(reproduce(dir.path(), usage).0, Some(2), "{usage:?}");
+    }
+}

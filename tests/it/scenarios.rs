@@ -1,0 +1,94 @@
+//! Scenarios as users write them: those that come with the program, and any number of everything.
+
+use crate::common;
+use rheotaxis::scenario::{CATALOG, load};
+use serde_json::Value;
+use std::path::Path;
+
+/// The quick channel with two sources, a block and a pile, and as many robots as asked for.
+fn crowded(robots: usize) -> String {
+    let text = include_str!("../../scenarios/catalog/uniform_channel.ron");
+    let text = common::with_fields(text, &[("spin_up_s", "60"), ("limit_s", "30")]);
+    let block = "obstacles: [
+        (id: \"block\", shape: Box(size_m: (4, 20, 3)), east_m: -120, north_m: 5),
+        (id: \"pile\", shape: Cylinder(radius_m: 1, height_m: 10), east_m: -130, north_m: -8),
+    ],
+    sources: [
+        (id: \"s0\", east_m: -140, north_m: 20, depth_m: 5, rate_g_s: 0.01, release: (rate_hz: 2)),";
+    let text = text.replacen("sources: [", block, 1);
+    let begin = text.find("    robots: [").unwrap();
+    let end = begin + text[begin..].find("\n    ],\n").unwrap();
+    let one = &text[begin + "    robots: [".len()..end];
+    let many: String = (0..robots)
+        .map(|k| {
+            one.replace("auv0", &format!("auv{k}"))
+                .replace("north_m: -30", &format!("north_m: {}", 12 * k as i32 - 30))
+        })
+        .collect();
+    format!("{}    robots: [{many}{}", &text[..begin], &text[end..])
+}
+
+fn run(dir: &Path, robots: usize) -> Value {
+    let file = dir.join(format!("crowded_{robots}.ron"));
+    std::fs::write(&file, crowded(robots)).unwrap();
+    let out = dir.join(robots.to_string());
+    let args = [
+        "run",
+        file.to_str().unwrap(),
+        "--no-zenoh",
+        "--quiet",
+        "--out",
+    ];
+    let mut args = args.to_vec();
+    args.push(out.to_str().unwrap());
+    let end = common::rheotaxis(&args);
+    let said = String::from_utf8_lossy(&end.stderr);
+    assert_eq!(end.status.code(), Some(3), "{said}");
+    serde_json::from_str(&std::fs::read_to_string(out.join("summary.json")).unwrap()).unwrap()
+}
+
+#[test]
+fn any_number_of_robots_sources_and_obstacles() {
+    let dir = tempfile::tempdir().unwrap();
+    for robots in [0, 1, 3] {
+        let summary = run(dir.path(), robots);
+        assert_eq!(summary["robots"].as_array().unwrap().len(), robots);
+        assert_eq!(summary["sources"].as_array().unwrap().len(), 2);
+        for robot in summary["robots"].as_array().unwrap() {
+            // 30 s from a flying start at 1.5 m/s.
+            let way = robot["travelled_m"].as_f64().unwrap();
+            assert!((30.0..60.0).contains(&way), "{way} m");
+        }
+        assert!(dir.path().join(robots.to_string()).join("map.png").exists());
+    }
+}
+
+/// A robot's numbers do not change because another one is there.
+#[test]
+fn a_second_robot_shifts_nobody_s_numbers() {
+    let dir = tempfile::tempdir().unwrap();
+    run(dir.path(), 1);
+    run(dir.path(), 3);
+    let track = |k: &str| std::fs::read_to_string(dir.path().join(k).join("track.csv")).unwrap();
+    let of_first = |text: String| -> Vec<String> {
+        let rows = text.lines().filter(|l| l.contains(",auv0,"));
+        rows.map(str::to_string).collect()
+    };
+    let alone = of_first(track("1"));
+    assert!(alone.len() > 250);
+    assert_eq!(alone, of_first(track("3")));
+}
+
+#[test]
+fn those_that_come_with_the_program_are_fine() {
+    for template in CATALOG {
+        let loaded = load(Path::new(template.name)).unwrap();
+        let warnings = loaded.check().unwrap();
+        assert!(warnings.is_empty(), "{}: {warnings:?}", template.name);
+        assert!(
+            !loaded.scenario.source.is_empty(),
+            "{} says no source",
+            template.name
+        );
+    }
+}

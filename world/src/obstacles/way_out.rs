@@ -1,0 +1,99 @@
+//! The way out of solids for what water carries: sideways or up, never down into the bed.
+
+use super::{Obstacle, Obstacles};
+use crate::math;
+use nalgebra::Vector3;
+use parry3d::math::Vector;
+use parry3d::query::Ray;
+use std::f64::consts::TAU;
+
+/// Directions tried sideways.
+const SIDES: usize = 8;
+/// How far outside a surface the way ends, m: above rounding of single-precision positions of a kilometre.
+const CLEAR_M: f64 = 1e-3;
+/// Solids that a way may lead through one after the other.
+const IN_A_ROW: usize = 16;
+
+impl Obstacle {
+    /// Way along a unit vector from a point inside to the surface, m.
+    fn thickness(&self, p: &Vector3<f64>, along: &Vector3<f64>) -> Option<f64> {
+        let to = |v: &Vector3<f64>| Vector::new(v.x, v.y, v.z);
+        let ray = Ray::new(to(p), to(along));
+        (self.shape).cast_ray(&self.parry_pose(), &ray, f64::MAX, false)
+    }
+}
+
+impl Obstacles {
+    /// The nearest free point to one inside a solid, looking sideways and up to the surface; the
+    /// point itself if it is free, or if there is no way out below the surface.
+    #[must_use]
+    pub fn way_out(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        if self.containing(p).is_none() {
+            return *p;
+        }
+        let sideways = (0..SIDES).map(|k| {
+            let (s, c) = math::sin_cos(TAU * k as f64 / SIDES as f64);
+            Vector3::new(c, s, 0.0)
+        });
+        sideways
+            .chain([Vector3::z()])
+            .filter_map(|along| self.out_along(p, &along))
+            .min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()))
+            .unwrap_or(*p)
+    }
+
+    fn out_along(&self, p: &Vector3<f64>, along: &Vector3<f64>) -> Option<Vector3<f64>> {
+        let mut q = *p;
+        for _ in 0..IN_A_ROW {
+            match self.containing(&q) {
+                None => return (q.z <= 0.0).then_some(q),
+                Some(solid) => q += along * (solid.thickness(&q, along)? + CLEAR_M),
+            }
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Base, BoxShape, ObstacleSpec, ShapeSpec};
+    use super::*;
+    use crate::ranges::{Finite, HeadingDeg, Positive};
+    use crate::terrain::Terrain;
+    use std::path::Path;
+
+    fn block(id: &str, east_m: f64) -> Obstacle {
+        let m = Positive::new;
+        let spec = ObstacleSpec {
+            id: id.into(),
+            shape: ShapeSpec::Box(BoxShape {
+                size_m: (m(4.0), m(6.0), m(3.0)),
+            }),
+            east_m: Finite::new(east_m),
+            north_m: Finite::new(0.0),
+            base: Base::default(),
+            heading_deg: HeadingDeg::new(90.0),
+        };
+        Obstacle::build(&spec, &Terrain::Level { depth_m: 10.0 }, Path::new(".")).unwrap()
+    }
+
+    #[test]
+    fn leads_to_the_nearest_side_or_top_and_never_down() {
+        let one = Obstacles(vec![block("a", 0.0)]);
+        let free = Vector3::new(9.0, 0.0, -9.0);
+        assert_eq!(one.way_out(&free), free);
+        let side = one.way_out(&Vector3::new(1.5, 0.0, -9.9));
+        assert!((side - Vector3::new(2.001, 0.0, -9.9)).norm() < 1e-9);
+        let top = one.way_out(&Vector3::new(0.0, 0.0, -7.2));
+        assert!((top - Vector3::new(0.0, 0.0, -6.999)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn leads_through_solids_that_overlap() {
+        let two = Obstacles(vec![block("a", 0.0), block("b", 3.0)]);
+        let out = two.way_out(&Vector3::new(1.9, 0.0, -9.9));
+        assert!(two.containing(&out).is_none());
+        // East through the rest of both is 3.1 m, up 2.9 m, west 3.9 m, north or south 3 m.
+        assert!((out.z + 6.999).abs() < 1e-9);
+    }
+}
