@@ -1,13 +1,13 @@
 //! Campaigns: the same rows however the work is dealt out, and nothing lost when it is cut off.
 
+mod cut_off;
+
 use crate::common;
 use rheotaxis::campaign::{RunRow, block_path, read_rows};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Output, Stdio};
-use std::time::Duration;
-use world::seeds::Stream;
+use std::process::Output;
 
 /// Two arms, two conditions, in a channel so short that a run takes hundredths of a second.
 const CAMPAIGN: &str = r#"(
@@ -164,98 +164,6 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     );
 }
 
-fn start(dir: &Path) -> Child {
-    let args = [
-        "campaign", "run", "c.ron", "--out", "out", "--block", "4", "--quiet", "--jobs", "2",
-    ];
-    scheduler_free(common::command(dir, &args))
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .expect("rheotaxis starts")
-}
-
-#[test]
-fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
-    let folder = folder(100, "30", "4");
-    let dir = folder.path();
-    let out = dir.join("out");
-    let mut draw = Stream::new(1, "kill", "after");
-    let (mut kills, mut grew) = (0, 0);
-    let mut before = blocks(&out);
-    loop {
-        let mut child = start(dir);
-        std::thread::sleep(Duration::from_secs_f64(0.02 + 0.25 * draw.uniform()));
-        let over = child.try_wait().unwrap();
-        // Blocks never change once they have their name: not while it runs, nor by the kill.
-        child.kill().unwrap();
-        child.wait().unwrap();
-        let now = blocks(&out);
-        for (name, bytes) in &before {
-            assert!(
-                now.get(name) == Some(bytes),
-                "{name} was lost or done again"
-            );
-        }
-        grew += usize::from(now.len() > before.len());
-        before = now;
-        if let Some(status) = over {
-            assert!(status.success(), "{status}");
-            break;
-        }
-        kills += 1;
-        let (_, said) = ends(dir, if out.exists() { 75 } else { 1 }, &["status", "out"]);
-        assert!(!said.contains("not whole"), "{said}");
-        assert!(kills < 500, "it never comes to its end");
-    }
-    assert!(kills >= 20, "{kills} kills");
-    assert!(grew >= 5, "{grew} of {kills} starts wrote a block");
-    ends(
-        dir,
-        0,
-        &[
-            "run", "c.ron", "--out", "straight", "--block", "4", "--quiet",
-        ],
-    );
-    assert_eq!(rows(&out), rows(&dir.join("straight")));
-    assert_eq!(rows(&out).len(), 400);
-}
-
-#[cfg(unix)]
-#[test]
-fn a_termination_signal_ends_it_between_blocks_with_code_75() {
-    let folder = folder(500, "30", "4");
-    let dir = folder.path();
-    let child = start(dir);
-    while blocks(&dir.join("out")).len() < 2 {
-        std::thread::sleep(Duration::from_millis(5));
-    }
-    let id = child.id().to_string();
-    assert!(
-        std::process::Command::new("kill")
-            .args(["-TERM", &id])
-            .status()
-            .unwrap()
-            .success()
-    );
-    let end = child.wait_with_output().unwrap();
-    assert_eq!(end.status.code(), Some(75));
-    let names = fs::read_dir(dir.join("out"))
-        .unwrap()
-        .map(|f| f.unwrap().file_name());
-    let temporary = names
-        .filter(|name| name.to_string_lossy().ends_with(".tmp"))
-        .count();
-    assert_eq!(temporary, 0);
-    let done = rows(&dir.join("out")).len();
-    assert!(done >= 8 && done.is_multiple_of(4), "{done}");
-    // A limit of wall time ends it the same way.
-    let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s"];
-    let (_, said) = ends(dir, 75, &args);
-    assert!(said.contains("the same command goes on"), "{said}");
-    assert!(rows(&dir.join("out")).len() >= done);
-}
-
 #[test]
 fn another_scenario_campaign_or_block_size_is_refused_by_name() {
     let folder = folder(1, "30", "1");
@@ -319,7 +227,9 @@ fn blocks_that_are_not_whole_are_found_named_and_done_again() {
     let good = rows(&out);
     let bytes = fs::read(block_path(&out, 1)).unwrap();
     let mut turned = bytes.clone();
-    turned[bytes.len() / 4] ^= 0x40;
+    // Wide enough to hit what the rows are made from, wherever the writer puts it.
+    let some = bytes.len() / 4;
+    turned[some..some + 64].fill(0xff);
     let other = fs::read(block_path(&out, 2)).unwrap();
     for broken in [&bytes[..bytes.len() / 2], &bytes[..0], &turned, &other] {
         fs::write(block_path(&out, 1), broken).unwrap();
@@ -410,7 +320,7 @@ fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
     for args in [&["plan", "c.ron"][..], &["run", "c.ron", "--out", "out"]] {
         let (_, said) = ends(dir, 1, args);
         assert!(
-            said.contains("robots[0].strategy.speed_m_s: must be a finite number > 0, got -1"),
+            said.contains("robots[0].strategy.speed_m_s: must be > 0, got -1"),
             "{said}"
         );
         assert!(

@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 use std::sync::OnceLock;
 
 /// The program, built once a test run in the profile and target folder of the tests.
-pub fn binary() -> &'static Path {
+pub(crate) fn binary() -> &'static Path {
     static BINARY: OnceLock<PathBuf> = OnceLock::new();
     BINARY.get_or_init(|| {
         // target/<profile>/deps/it-<hash>
@@ -35,7 +35,7 @@ pub fn binary() -> &'static Path {
 
 /// The command `rheotaxis` with these arguments, ready to start in `dir`; colour and zenoh settings
 /// of whoever runs the tests are left out.
-pub fn command(dir: &Path, args: &[&str]) -> Command {
+pub(crate) fn command(dir: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(binary());
     command
         .args(args)
@@ -48,17 +48,17 @@ pub fn command(dir: &Path, args: &[&str]) -> Command {
 }
 
 /// Runs `rheotaxis` with these arguments in `dir` to its end.
-pub fn rheotaxis_in(dir: &Path, args: &[&str]) -> Output {
+pub(crate) fn rheotaxis_in(dir: &Path, args: &[&str]) -> Output {
     command(dir, args).output().expect("rheotaxis starts")
 }
 
 /// Runs `rheotaxis` with these arguments to its end.
-pub fn rheotaxis(args: &[&str]) -> Output {
+pub(crate) fn rheotaxis(args: &[&str]) -> Output {
     rheotaxis_in(Path::new("."), args)
 }
 
 /// A scenario's text with other numbers: each field must stand in it exactly once.
-pub fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
+pub(crate) fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
     let mut text = text.to_string();
     for (name, value) in fields {
         let named = format!("{name}:");

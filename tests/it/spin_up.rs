@@ -109,7 +109,8 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
         differs(|s| s.sources[0].rate_g_s = Positive::new(0.03)),
         "sources"
     );
-    let times: [(fn(&mut Scenario), &str); 3] = [
+    type Change = (fn(&mut Scenario), &'static str);
+    let times: [Change; 3] = [
         (
             |s| s.time.spin_up_s = NonNegative::new(121.0),
             "time.spin_up_s",

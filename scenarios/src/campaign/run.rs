@@ -15,6 +15,7 @@ use crate::scenario::Loaded;
 use crate::spun_up::SpunUp;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
@@ -174,9 +175,9 @@ fn block_rows(
     let mut scenarios: BTreeMap<u64, Vec<Loaded>> = BTreeMap::new();
     for run in runs.clone() {
         let condition = campaign.place(run).condition;
-        if !scenarios.contains_key(&condition) {
+        if let Entry::Vacant(place) = scenarios.entry(condition) {
             let arms = (0..campaign.spec.arms.len()).map(|arm| campaign.loaded(condition, arm));
-            scenarios.insert(condition, arms.collect::<Result<_, _>>()?);
+            place.insert(arms.collect::<Result<_, _>>()?);
         }
     }
     let n_arms = campaign.n_arms();
