@@ -113,7 +113,7 @@ pub struct RunArgs {
 const RUN_AFTER: &str = "\
 Examples:
   rheotaxis run duck_st
-  rheotaxis run mine.ron --seed 7 --out /tmp/mine --no-zenoh
+  rheotaxis run mine.ron --seed 7 --out results/mine --no-zenoh
   rheotaxis run duck_st --speed realtime --zenoh-listen tcp/127.0.0.1:7500
 
 Exit codes: 0 success as the scenario defines it; 3 ran, not found; 130 interrupted; 1 error; 2 usage.

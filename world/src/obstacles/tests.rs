@@ -179,11 +179,11 @@ fn broken_meshes_are_refused_with_file_and_place() {
     });
     let flat = mesh("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n").expect_err("two sides");
     assert!(flat.to_string().contains("encloses no volume"), "{flat}");
-    let missing = Obstacle::build(&spec(shape, Base::OnBed, 0.0), &LEVEL, Path::new("/tmp/no"))
+    let missing = Obstacle::build(&spec(shape, Base::OnBed, 0.0), &LEVEL, Path::new("/no"))
         .expect_err("no such file")
         .to_string();
     assert!(
-        missing.starts_with("/tmp/no/nowhere.stl: No such file"),
+        missing.starts_with("/no/nowhere.stl: No such file"),
         "{missing}"
     );
 }
