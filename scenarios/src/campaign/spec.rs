@@ -219,7 +219,7 @@ mod tests {
         );
         assert_eq!(
             faults(&good.replace("seeds: 3", "seeds: 0")),
-            ["c.ron:1:45: seeds: must be at least 1, got 0"]
+            ["c.ron:1:43: seeds: must be at least 1, got 0"]
         );
         let twins = good.replace("(name: \"a\")", "(name: \"a\"), (name: \"a\")");
         assert_eq!(
