@@ -268,10 +268,7 @@ mod tests {
             negative.starts_with("uniform_channel (arm odd):"),
             "{negative}"
         );
-        assert!(
-            negative.contains("time.limit_s: must be > 0"),
-            "{negative}"
-        );
+        assert!(negative.contains("time.limit_s: must be > 0"), "{negative}");
         let unknown = said("time.limits", "1");
         assert!(unknown.contains("there is no field `limits`"), "{unknown}");
         let outside = said("sources[0].east_m", "9000");
