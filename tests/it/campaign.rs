@@ -1,5 +1,6 @@
 //! Campaigns: the same rows however the work is dealt out, and nothing lost when it is cut off.
 
+mod adaptive;
 mod cut_off;
 
 use crate::common;

@@ -10,9 +10,9 @@ const ROW: &str = r#"(
     source: "made for this test",
     scenario: "channel.ron",
     figures: [
-        (name: "declared", quantity: share_declared, paper: Count(7, 8), note: "of | 8"),
-        (name: "error", quantity: median_error_m, paper: Run(1e6)),
-        (name: "path", quantity: median_travelled_m),
+        (name: "declared", quantity: Share(declared), paper: Count(7, 8), note: "of | 8"),
+        (name: "error", quantity: Median(error_m), paper: Run(1e6)),
+        (name: "path", quantity: Median(travelled_m)),
     ],
 )"#;
 
@@ -114,7 +114,7 @@ fn wrong_rows_folders_and_options_are_refused_before_anything_runs() {
 
     fs::write(
         dir.path().join("bad.ron"),
-        ROW.replace("share_declared", "luck"),
+        ROW.replace("declared)", "luck)"),
     )
     .unwrap();
     let (code, _, error) = reproduce(dir.path(), &["bad.ron"]);

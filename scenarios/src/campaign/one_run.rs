@@ -40,7 +40,7 @@ pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
 }
 
 /// Makes the run, taking over a spin-up of `spun` that fits or leaving its own there.
-pub(super) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
+pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
     guarded(name, || attempt(loaded, name, Some(spun)))
 }
 
@@ -195,22 +195,8 @@ fn failed(name: &RunName, error: String) -> RunRow {
         seed_index: name.seed_index,
         seed: name.seed,
         outcome: outcome_name(RunOutcome::Failed),
-        success: false,
         error: Some(error),
-        digest: String::new(),
-        mission_s: 0.0,
-        first_detection_s: None,
-        declared_s: None,
-        declared_east_m: None,
-        declared_north_m: None,
-        error_m: None,
-        error_along_m: None,
-        error_across_m: None,
-        traced_m: None,
-        travelled_m: 0.0,
-        detections: 0,
-        spin_up_wall_s: 0.0,
-        mission_wall_s: 0.0,
+        ..RunRow::default()
     }
 }
 

@@ -6,7 +6,7 @@ use crate::scenario::Outline;
 ///
 /// # Errors
 /// What is wrong with path or value; whether the scenario allows the value, its reader says.
-pub(super) fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
+pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = value.trim();
     whole(value)?;
     let outline = Outline::of(text);

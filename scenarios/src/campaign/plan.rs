@@ -67,6 +67,12 @@ impl Campaign {
         self.spec.arms.len() as u64
     }
 
+    /// Arms under each condition.
+    #[must_use]
+    pub fn n_cells(&self) -> u64 {
+        self.spec.n_conditions() * self.n_arms()
+    }
+
     /// The arm of that index.
     #[must_use]
     pub fn arm(&self, arm: usize) -> &Arm {
@@ -77,7 +83,14 @@ impl Campaign {
     #[must_use]
     pub fn place(&self, run: u64) -> Place {
         let group = run / self.n_arms();
-        let (condition, seed_index) = (group / self.spec.seeds, group % self.spec.seeds);
+        let (condition, seed_index) = match &self.spec.until {
+            None => (group / self.spec.seeds, group % self.spec.seeds),
+            // Seed by seed, so that a campaign that ends early has as many of each condition.
+            Some(_) => (
+                group % self.spec.n_conditions(),
+                group / self.spec.n_conditions(),
+            ),
+        };
         let (entity, purpose) = (
             format!("condition {condition}"),
             format!("seed {seed_index}"),

@@ -1,6 +1,7 @@
 //! The rows of a campaign's folder.
 
 use super::block::{BlockState, read_block};
+use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
@@ -59,7 +60,7 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
 pub struct Merged {
     /// Rows in the file.
     pub rows: u64,
-    /// Runs of the campaign.
+    /// Runs the campaign wants, as far as is known.
     pub of: u64,
 }
 
@@ -119,6 +120,6 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
     }
     Ok(Merged {
         rows: n,
-        of: manifest.runs,
+        of: wanted(&manifest.campaign()?, dir, &manifest).runs(&manifest),
     })
 }

@@ -44,6 +44,22 @@ pub struct RunRow {
     pub travelled_m: f64,
     /// Detections by all robots.
     pub detections: u64,
+    /// When a gantry's first sweep was over, s.
+    pub sweep_s: Option<f64>,
+    /// A gantry's speed along its path from there to its stop, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Its net-to-gross displacement ratio on that path.
+    pub ngdr: Option<f64>,
+    /// Its speed in the farther half of the way to the source, m/s.
+    pub far_speed_m_s: Option<f64>,
+    /// Its speed in the nearer half, m/s.
+    pub near_speed_m_s: Option<f64>,
+    /// Its mean distance from the source's line along the flow in the farther half, m.
+    pub far_offset_m: Option<f64>,
+    /// The same in the nearer half, m.
+    pub near_offset_m: Option<f64>,
+    /// When a belief's best cell came to be the source's and stayed so to the end, s.
+    pub correct_cell_s: Option<f64>,
     /// Wall time of the spin-up, s; zero where it was taken over from another run.
     pub spin_up_wall_s: f64,
     /// Wall time of the mission, s.

@@ -5,6 +5,7 @@
 )]
 
 use super::block::{BlockState, read_block, write_block};
+use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::one_run::{RunName, sharing_run};
@@ -68,6 +69,11 @@ pub enum RunEnded {
         /// Blocks of the share still to do.
         left: u64,
     },
+    /// The share is done as far as is known; whether more runs are needed hangs on blocks of others.
+    Waiting {
+        /// Blocks of other shares that are not there.
+        missing: u64,
+    },
 }
 
 /// Runs what is left of a share of a campaign into `dir`. Once `stop` is set the runs in hand are
@@ -84,51 +90,99 @@ pub fn run(
 ) -> Result<RunEnded, CampaignError> {
     let begun = Instant::now();
     let manifest = settle(campaign, dir, options)?;
-    let mut to_do = Vec::new();
-    let (mut runs, mut done) = (0, 0);
-    for block in (0..manifest.n_blocks()).filter(|b| options.shard.has(*b)) {
-        let n = manifest.runs_of(block).count() as u64;
-        runs += n;
-        match read_block(dir, &manifest, block) {
-            BlockState::Done(_) => done += n,
-            BlockState::Missing => to_do.push(block),
-            BlockState::Broken(error) => {
-                tell(Event::Broken(&error));
-                to_do.push(block);
+    let share = Share {
+        campaign,
+        dir,
+        manifest: &manifest,
+        options,
+        begun,
+        stop,
+        tell,
+    };
+    let mut written = 0;
+    let mut reached = None;
+    loop {
+        let wanted = wanted(campaign, dir, &manifest);
+        if reached == Some(wanted) {
+            let there = |b: &u64| matches!(read_block(dir, &manifest, *b), BlockState::Done(_));
+            let missing = (0..wanted.blocks).filter(|b| !there(b)).count() as u64;
+            return Ok(RunEnded::Waiting { missing });
+        }
+        let ended = share.run_to(wanted.blocks, &mut written)?;
+        if wanted.decided || ended != RunEnded::Complete {
+            return Ok(ended);
+        }
+        reached = Some(wanted);
+    }
+}
+
+/// A share of a campaign being run.
+struct Share<'a> {
+    campaign: &'a Campaign,
+    dir: &'a Path,
+    manifest: &'a Manifest,
+    options: &'a RunOptions,
+    begun: Instant,
+    stop: &'a AtomicBool,
+    tell: &'a (dyn Fn(Event<'_>) + Sync),
+}
+
+impl Share<'_> {
+    /// Does what is not done of the share's blocks below `end`; counts in `written` those it writes.
+    fn run_to(&self, end: u64, written: &mut u64) -> Result<RunEnded, CampaignError> {
+        let Self {
+            campaign,
+            dir,
+            manifest,
+            options,
+            begun,
+            stop,
+            tell,
+        } = *self;
+        let mut to_do = Vec::new();
+        let (mut runs, mut done) = (0, 0);
+        for block in (0..end).filter(|b| options.shard.has(*b)) {
+            let n = manifest.runs_of(block).count() as u64;
+            runs += n;
+            match read_block(dir, manifest, block) {
+                BlockState::Done(_) => done += n,
+                BlockState::Missing => to_do.push(block),
+                BlockState::Broken(error) => {
+                    tell(Event::Broken(&error));
+                    to_do.push(block);
+                }
             }
         }
-    }
-    tell(Event::Begun { runs, done });
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(options.jobs)
-        .build()
-        .map_err(|e| CampaignError::Shard(format!("cannot start threads: {e}")))?;
-    let first = Instant::now();
-    for (written, &block) in to_do.iter().enumerate() {
-        let stopped = || RunEnded::Stopped {
-            written: written as u64,
-            left: (to_do.len() - written) as u64,
-        };
-        // A block that would be cut off is not begun.
-        let expected = first
-            .elapsed()
-            .checked_div(written as u32)
-            .unwrap_or_default();
-        if (options.max_wall).is_some_and(|max| begun.elapsed() + expected > max) {
-            return Ok(stopped());
+        tell(Event::Begun { runs, done });
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(options.jobs)
+            .build()
+            .map_err(|e| CampaignError::Shard(format!("cannot start threads: {e}")))?;
+        let first = Instant::now();
+        for (k, &block) in to_do.iter().enumerate() {
+            let stopped = |written: &u64| RunEnded::Stopped {
+                written: *written,
+                left: (to_do.len() - k) as u64,
+            };
+            // A block that would be cut off is not begun.
+            let expected = first.elapsed().checked_div(k as u32).unwrap_or_default();
+            if (options.max_wall).is_some_and(|max| begun.elapsed() + expected > max) {
+                return Ok(stopped(written));
+            }
+            let going = || {
+                !stop.load(Ordering::Relaxed)
+                    && options.max_wall.is_none_or(|max| begun.elapsed() <= max)
+            };
+            let rows = pool.install(|| block_rows(campaign, manifest, block, &going, tell))?;
+            let Some(rows) = rows else {
+                return Ok(stopped(written));
+            };
+            write_block(dir, block, &rows)?;
+            *written += 1;
+            tell(Event::Wrote(block));
         }
-        let going = || {
-            !stop.load(Ordering::Relaxed)
-                && options.max_wall.is_none_or(|max| begun.elapsed() <= max)
-        };
-        let rows = pool.install(|| block_rows(campaign, &manifest, block, &going, tell))?;
-        let Some(rows) = rows else {
-            return Ok(stopped());
-        };
-        write_block(dir, block, &rows)?;
-        tell(Event::Wrote(block));
+        Ok(RunEnded::Complete)
     }
-    Ok(RunEnded::Complete)
 }
 
 /// Makes the folder the campaign's, or makes sure that it is.

@@ -22,11 +22,22 @@ pub struct CampaignSpec {
     pub seed: u64,
     /// Seeds for each condition; every arm runs with each of them.
     pub seeds: u64,
+    /// Stop before that, once every success share is known well enough.
+    #[serde(default)]
+    pub until: Option<Until>,
     /// What is compared.
     pub arms: Vec<Arm>,
     /// Circumstances in which it is compared.
     #[serde(default)]
     pub conditions: Conditions,
+}
+
+/// When enough is known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Until {
+    /// Greatest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
+    pub half_width: f64,
 }
 
 fn one() -> u64 {
@@ -124,6 +135,15 @@ impl CampaignSpec {
         if self.seeds == 0 {
             wrong("seeds", "must be at least 1, got 0".to_string());
         }
+        if let Some(until) = &self.until
+            && !(until.half_width > 0.0 && until.half_width < 0.5)
+        {
+            let got = until.half_width;
+            wrong(
+                "until.half_width",
+                format!("must be above 0 and below 0.5, got {got}"),
+            );
+        }
         if self.arms.is_empty() {
             wrong("arms", "there must be at least one arm".to_string());
         }
@@ -220,6 +240,11 @@ mod tests {
         assert_eq!(
             faults(&good.replace("seeds: 3", "seeds: 0")),
             ["c.ron:1:43: seeds: must be at least 1, got 0"]
+        );
+        let wide = good.replace("seeds: 3", "seeds: 3, until: (half_width: 0.5)");
+        assert_eq!(
+            faults(&wide),
+            ["c.ron:1:68: until.half_width: must be above 0 and below 0.5, got 0.5"]
         );
         let twins = good.replace("(name: \"a\")", "(name: \"a\"), (name: \"a\")");
         assert_eq!(

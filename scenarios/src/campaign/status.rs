@@ -1,6 +1,7 @@
 //! How far a campaign has come.
 
 use super::block::{BlockState, read_block};
+use super::enough::{Wanted, wanted};
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use std::path::Path;
@@ -21,6 +22,8 @@ pub struct ArmStatus {
 /// How a campaign stands.
 #[derive(Debug)]
 pub struct Status {
+    /// What it needs, as far as its blocks say.
+    pub wanted: Wanted,
     /// What the folder was made from.
     pub manifest: Manifest,
     /// Blocks that are done.
@@ -49,6 +52,7 @@ impl Status {
         };
         let mut status = Self {
             arms: campaign.spec.arms.iter().map(|a| named(&a.name)).collect(),
+            wanted: wanted(&campaign, dir, &manifest),
             blocks_done: 0,
             broken: Vec::new(),
             runs_done: 0,
@@ -81,6 +85,6 @@ impl Status {
     /// Whether every block is there and whole.
     #[must_use]
     pub fn complete(&self) -> bool {
-        self.blocks_done == self.manifest.n_blocks()
+        self.wanted.decided && self.blocks_done >= self.wanted.blocks
     }
 }

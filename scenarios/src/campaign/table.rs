@@ -60,7 +60,7 @@ macro_rules! maybe {
 }
 
 /// Name, whether it may be empty, and access.
-const COLUMNS: [(&str, bool, Column); 22] = [
+const COLUMNS: [(&str, bool, Column); 30] = [
     number!(run),
     text!(arm),
     text!(condition),
@@ -89,6 +89,14 @@ const COLUMNS: [(&str, bool, Column); 22] = [
     maybe!(traced_m),
     real!(travelled_m),
     number!(detections),
+    maybe!(sweep_s),
+    maybe!(speed_m_s),
+    maybe!(ngdr),
+    maybe!(far_speed_m_s),
+    maybe!(near_speed_m_s),
+    maybe!(far_offset_m),
+    maybe!(near_offset_m),
+    maybe!(correct_cell_s),
     real!(spin_up_wall_s),
     real!(mission_wall_s),
 ];

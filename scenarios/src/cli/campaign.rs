@@ -70,6 +70,12 @@ fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
         count(campaign.spec.seeds, "seed"),
         campaign.base.name
     ));
+    if let Some(until) = &campaign.spec.until {
+        say::line(format_args!(
+            "  or fewer: until every success share is known to plus or minus {:.1} %",
+            100.0 * until.half_width
+        ));
+    }
     say::line(format_args!(
         "  {} of {block} runs",
         count(runs.div_ceil(block), "block")
@@ -210,6 +216,15 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
             ));
             Exit::Success
         }
+        RunEnded::Waiting { missing } => {
+            say_so(&format!(
+                "{}: this share is done so far; {} of other shares will say whether more runs are needed: \
+                 run the same command again then",
+                campaign.name,
+                count(missing, "missing block")
+            ));
+            Exit::Unfinished
+        }
         RunEnded::Stopped { written, left } => {
             say_so(&format!(
                 "{}: stopped: {} written now, {left} to do; the same command goes on",
@@ -235,13 +250,15 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
 fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
     let status = Status::of(&args.dir)?;
     let manifest = &status.manifest;
+    let adaptive = status.wanted.blocks < manifest.n_blocks();
     say::line(format_args!(
-        "{}: {} of {} done, {} of {}",
+        "{}: {} of {}{} done, {} of {}",
         manifest.name,
         status.runs_done,
+        if adaptive { "at most " } else { "" },
         count(manifest.runs, "run"),
         status.blocks_done,
-        count(manifest.n_blocks(), "block")
+        count(status.wanted.blocks, "block")
     ));
     for arm in &status.arms {
         say::line(format_args!(

@@ -5,11 +5,11 @@ use super::campaign::refused;
 use super::exit::Exit;
 use super::say;
 use crate::campaign::report::{About, write};
-use crate::campaign::{CampaignError, Manifest, RunRow, read_rows};
+use crate::campaign::{CampaignError, Manifest, RunRow, read_rows, wanted};
 
 /// Writes the report and prints its tables.
 pub(super) fn report(args: &ReportArgs) -> Exit {
-    let (manifest, arms, rows) = match read(args) {
+    let (manifest, planned, arms, rows) = match read(args) {
         Ok(read) => read,
         Err(error) => return refused(error),
     };
@@ -19,7 +19,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
         hash: &manifest.campaign_hash,
         version: &manifest.version,
         arms: &arms,
-        planned: manifest.runs,
+        planned,
     };
     let out = args.out.clone().unwrap_or_else(|| args.dir.join("report"));
     match write(&out, &about, &rows) {
@@ -38,7 +38,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     }
 }
 
-fn read(args: &ReportArgs) -> Result<(Manifest, Vec<String>, Vec<RunRow>), CampaignError> {
+fn read(args: &ReportArgs) -> Result<(Manifest, u64, Vec<String>, Vec<RunRow>), CampaignError> {
     let manifest = Manifest::of(&args.dir)?;
     let campaign = manifest.campaign()?;
     let arms = campaign
@@ -47,5 +47,6 @@ fn read(args: &ReportArgs) -> Result<(Manifest, Vec<String>, Vec<RunRow>), Campa
         .iter()
         .map(|a| a.name.to_string())
         .collect();
-    Ok((manifest, arms, read_rows(&args.dir)?))
+    let planned = wanted(&campaign, &args.dir, &manifest).runs(&manifest);
+    Ok((manifest, planned, arms, read_rows(&args.dir)?))
 }

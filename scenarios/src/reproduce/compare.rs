@@ -47,13 +47,17 @@ pub struct Compared {
     pub standing: Standing,
 }
 
-/// All figures of a row, from our runs.
+/// All figures of a row, from our runs of all its arms.
 #[must_use]
 pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<Compared> {
-    row.figures
-        .iter()
-        .map(|f| one(f, f.quantity.of(runs)))
-        .collect()
+    let ours = |f: &Figure| match &f.arm {
+        None => f.quantity.of(runs),
+        Some(arm) => {
+            let of: Vec<RunRow> = runs.iter().filter(|r| r.arm == *arm).cloned().collect();
+            f.quantity.of(&of)
+        }
+    };
+    row.figures.iter().map(|f| one(f, ours(f))).collect()
 }
 
 fn one(figure: &Figure, ours: Estimate) -> Compared {
@@ -89,14 +93,15 @@ fn one(figure: &Figure, ours: Estimate) -> Compared {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Quantity;
+    use super::super::{Measure, Quantity};
     use super::*;
 
     fn standing(paper: Option<Paper>, interval: Option<[f64; 2]>, spread: [f64; 2]) -> Standing {
         let of = |[low, high]: [f64; 2]| Interval { low, high };
         let figure = Figure {
             name: "f".into(),
-            quantity: Quantity::MedianErrorM,
+            arm: None,
+            quantity: Quantity::Median(Measure::ErrorM),
             paper,
             note: String::new(),
         };

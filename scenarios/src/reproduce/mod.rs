@@ -1,12 +1,14 @@
 //! Our figures beside the papers': rows of `tests/reference/rows`, run over many seeds.
 
 mod compare;
+mod measure;
 mod quantity;
 mod row;
 mod run;
 mod write;
 
 pub use compare::{Compared, Standing, compare};
+pub use measure::{Event, Measure};
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};
 pub use run::{Plan, Reproduced, reproduce};

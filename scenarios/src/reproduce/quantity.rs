@@ -1,38 +1,24 @@
-//! What is computed from the rows of a campaign to stand beside a paper's figure.
+//! What is computed from the rows of many runs to stand beside a paper's figure.
 
+use super::measure::{Event, Measure};
 use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
-use crate::campaign::stats::{Interval, finite_sorted, quantile, quantile_interval, wilson};
+use crate::campaign::stats::{
+    Interval, finite_sorted, mean_interval, quantile, quantile_interval, wilson,
+};
 use serde::{Deserialize, Serialize};
 
-/// A quantity of many runs. Errors are of declarations, against the nearest true source.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
+/// A quantity of many runs.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Quantity {
-    /// Share of runs that succeed as the scenario defines it.
-    SuccessRate,
-    /// Share of runs that declare a source, wherever.
-    ShareDeclared,
-    /// Share of declarations whose error is more along the flow than across.
-    ShareMostlyAlong,
-    /// Median error, m.
-    MedianErrorM,
-    /// 90 % quantile of the error, m.
-    Q90ErrorM,
-    /// Median of the error's size along the flow, m.
-    MedianErrorAlongM,
-    /// 90 % quantile of the error's size along the flow, m.
-    Q90ErrorAlongM,
-    /// Median of the error's size across the flow, m.
-    MedianErrorAcrossM,
-    /// 90 % quantile of the error's size across the flow, m.
-    Q90ErrorAcrossM,
-    /// Median way from the first detection to the declared source, m.
-    MedianTracedM,
-    /// Median time of the declaration, s.
-    MedianDeclaredS,
-    /// Median way travelled, m, over all runs that did not fail.
-    MedianTravelledM,
+    /// Share of runs in which something happened.
+    Share(Event),
+    /// Mean of a measure over the runs that have it.
+    Mean(Measure),
+    /// Median of a measure over the runs that have it.
+    Median(Measure),
+    /// Quantile of a measure over the runs that have it; the share from 0 to 1.
+    Quantile(Measure, f64),
 }
 
 /// A quantity as our runs have it.
@@ -44,9 +30,9 @@ pub struct Estimate {
     pub count: Option<u64>,
     /// The figure; none where nothing is behind it.
     pub value: Option<f64>,
-    /// Its 95 % interval: Wilson's for shares, bootstrap's for quantiles.
+    /// Its 95 % interval: Wilson's for shares, bootstrap's for quantiles, Student's for means.
     pub interval: Option<Interval>,
-    /// Where 95 % of single runs lie (2.5 % to 97.5 % quantile), for quantiles.
+    /// Where 95 % of single runs lie (2.5 % to 97.5 % quantile), but for shares.
     pub spread: Option<Interval>,
 }
 
@@ -55,41 +41,42 @@ impl Quantity {
     #[must_use]
     pub fn unit(self) -> Unit {
         match self {
-            Quantity::SuccessRate | Quantity::ShareDeclared | Quantity::ShareMostlyAlong => {
-                Unit::Share
-            }
-            Quantity::MedianDeclaredS => Unit::Seconds,
-            _ => Unit::Metres,
+            Quantity::Share(_) => Unit::Share,
+            Quantity::Mean(m) | Quantity::Median(m) | Quantity::Quantile(m, _) => m.unit(),
         }
     }
 
-    /// From rows of runs. A failed run is one that neither declared nor succeeded.
+    /// From rows of runs. In a failed run nothing happened and nothing was measured.
     #[must_use]
     pub fn of(self, rows: &[RunRow]) -> Estimate {
-        let all = rows.len() as u64;
-        let count = |what: fn(&RunRow) -> bool| rows.iter().filter(|r| what(r)).count() as u64;
+        let quantile_of = |m: Measure, p: f64| {
+            of_values(rows, m, |sorted| {
+                let interval = quantile_interval(sorted, p, SEED, "reproduce");
+                (quantile(sorted, p), interval)
+            })
+        };
         match self {
-            Quantity::SuccessRate => share(count(|r| r.success), all),
-            Quantity::ShareDeclared => share(count(|r| r.declared_s.is_some()), all),
-            Quantity::ShareMostlyAlong => {
-                let parts = |r: &RunRow| r.error_along_m.zip(r.error_across_m);
-                let along = (rows.iter().filter_map(parts)).filter(|(a, b)| a.abs() > b.abs());
-                let of = rows.iter().filter_map(parts).count() as u64;
-                share(along.count() as u64, of)
+            Quantity::Share(event) => {
+                let asked: Vec<bool> = rows.iter().filter_map(|r| event.of(r)).collect();
+                let k = asked.iter().filter(|yes| **yes).count() as u64;
+                share(k, asked.len() as u64)
             }
-            Quantity::MedianErrorM => of_values(rows, 0.5, |r| r.error_m),
-            Quantity::Q90ErrorM => of_values(rows, 0.9, |r| r.error_m),
-            Quantity::MedianErrorAlongM => of_values(rows, 0.5, |r| r.error_along_m.map(f64::abs)),
-            Quantity::Q90ErrorAlongM => of_values(rows, 0.9, |r| r.error_along_m.map(f64::abs)),
-            Quantity::MedianErrorAcrossM => {
-                of_values(rows, 0.5, |r| r.error_across_m.map(f64::abs))
-            }
-            Quantity::Q90ErrorAcrossM => of_values(rows, 0.9, |r| r.error_across_m.map(f64::abs)),
-            Quantity::MedianTracedM => of_values(rows, 0.5, |r| r.traced_m),
-            Quantity::MedianDeclaredS => of_values(rows, 0.5, |r| r.declared_s),
-            Quantity::MedianTravelledM => {
-                of_values(rows, 0.5, |r| r.error.is_none().then_some(r.travelled_m))
-            }
+            Quantity::Mean(m) => of_values(rows, m, |sorted| {
+                let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
+                ((!sorted.is_empty()).then_some(mean), mean_interval(sorted))
+            }),
+            Quantity::Median(m) => quantile_of(m, 0.5),
+            Quantity::Quantile(m, p) => quantile_of(m, p),
+        }
+    }
+
+    /// What is wrong with its numbers, if anything.
+    pub(super) fn fault(self) -> Option<String> {
+        match self {
+            Quantity::Quantile(_, p) if !(p > 0.0 && p < 1.0) => Some(format!(
+                "quantity: a quantile's share must be above 0 and below 1, got {p}"
+            )),
+            _ => None,
         }
     }
 }
@@ -107,13 +94,18 @@ fn share(k: u64, n: u64) -> Estimate {
 /// Seed of the bootstrap: a table made again from the same runs is the same.
 const SEED: u64 = 1;
 
-fn of_values(rows: &[RunRow], p: f64, of: impl Fn(&RunRow) -> Option<f64>) -> Estimate {
-    let sorted = finite_sorted(rows.iter().filter_map(of));
+fn of_values(
+    rows: &[RunRow],
+    measure: Measure,
+    figure: impl Fn(&[f64]) -> (Option<f64>, Option<Interval>),
+) -> Estimate {
+    let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
+    let (value, interval) = figure(&sorted);
     Estimate {
         n: sorted.len() as u64,
         count: None,
-        value: quantile(&sorted, p),
-        interval: quantile_interval(&sorted, p, SEED, "reproduce"),
+        value,
+        interval,
         spread: quantile(&sorted, 0.025)
             .zip(quantile(&sorted, 0.975))
             .map(|(low, high)| Interval { low, high }),
@@ -136,27 +128,34 @@ mod tests {
                 ..row(3, None)
             },
         ];
-        let declared = Quantity::ShareDeclared.of(&rows);
+        let declared = Quantity::Share(Event::Declared).of(&rows);
         assert_eq!((declared.count, declared.n), (Some(2), 4));
-        let success = Quantity::SuccessRate.of(&rows);
+        let success = Quantity::Share(Event::Success).of(&rows);
         assert_eq!(
             (success.count, success.interval),
             (Some(1), Some(wilson(1, 4)))
         );
-        let along = Quantity::ShareMostlyAlong.of(&rows);
+        let along = Quantity::Share(Event::MostlyAlong).of(&rows);
         assert_eq!((along.count, along.n), (Some(0), 2));
-        assert_eq!(Quantity::MedianErrorM.of(&rows).value, Some(27.5));
-        assert_eq!(Quantity::MedianErrorAlongM.of(&rows).value, Some(16.5));
-        assert_eq!(Quantity::MedianErrorAcrossM.of(&rows).value, Some(22.0));
-        assert_eq!(Quantity::MedianTravelledM.of(&rows).n, 3);
+        let median = |m| Quantity::Median(m).of(&rows).value;
+        assert_eq!(median(Measure::ErrorM), Some(27.5));
+        assert_eq!(median(Measure::ErrorAlongM), Some(16.5));
+        assert_eq!(median(Measure::ErrorAcrossM), Some(22.0));
+        assert_eq!(Quantity::Median(Measure::TravelledM).of(&rows).n, 3);
+        let mean = Quantity::Mean(Measure::ErrorM).of(&rows);
+        assert_eq!(mean.value, Some(27.5));
+        // Two values 45 apart: Student's t for one degree of freedom is 12.706, the standard error 22.5.
+        let i = mean.interval.unwrap();
+        assert!((i.half_width() - 12.706_204_7 * 22.5).abs() < 1e-3, "{i:?}");
     }
 
     #[test]
     fn of_no_run_there_is_no_figure() {
         for q in [
-            Quantity::SuccessRate,
-            Quantity::MedianErrorM,
-            Quantity::ShareMostlyAlong,
+            Quantity::Share(Event::Success),
+            Quantity::Median(Measure::ErrorM),
+            Quantity::Mean(Measure::ErrorM),
+            Quantity::Share(Event::MostlyAlong),
         ] {
             let e = q.of(&[]);
             assert_eq!((e.n, e.value, e.interval), (0, None, None));

@@ -1,6 +1,7 @@
 //! What a paper reports and with which scenario we ask for it: one row file each.
 
 use super::quantity::Quantity;
+use crate::campaign::{Arm, put};
 use crate::report::ReportError;
 use crate::scenario::{Loaded, ScenarioError, load, parse, template};
 use ron::extensions::Extensions;
@@ -20,6 +21,9 @@ pub struct Row {
     pub source: String,
     /// A scenario that comes with the program, or a file beside the row's.
     pub scenario: String,
+    /// What is changed in it, by arm; all arms run with the same seeds. Without any, the scenario as it is.
+    #[serde(default)]
+    pub arms: Vec<Arm>,
     /// What is compared.
     pub figures: Vec<Figure>,
 }
@@ -30,6 +34,9 @@ pub struct Row {
 pub struct Figure {
     /// What people call it.
     pub name: String,
+    /// Of which arm; needed where there are any.
+    #[serde(default)]
+    pub arm: Option<String>,
     /// What is computed from our runs.
     pub quantity: Quantity,
     /// What the paper has; absent where it has nothing to compare.
@@ -118,6 +125,8 @@ pub struct Reference {
     pub row: Row,
     /// Its scenario.
     pub loaded: Loaded,
+    /// The scenario as each arm changes it, with the arm's name: one at least.
+    pub arms: Vec<(String, Loaded)>,
 }
 
 /// Row files that come with the program.
@@ -144,13 +153,18 @@ pub fn wanted(names: &[PathBuf]) -> Result<Vec<Reference>, ReproduceError> {
     if names.is_empty() {
         return rows();
     }
-    names.iter().map(|name| one(name)).collect()
+    let found: Vec<Vec<Reference>> = names.iter().map(|n| some(n)).collect::<Result<_, _>>()?;
+    Ok(found.into_iter().flatten().collect())
 }
 
-fn one(path: &Path) -> Result<Reference, ReproduceError> {
+/// A row by its name, all rows whose names begin with that and `_`, or a row file.
+fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
     let name = path.display().to_string();
-    if let Some((name, text)) = ROWS.iter().find(|(id, _)| *id == name) {
-        return embedded(name, text);
+    let group = format!("{name}_");
+    let of_group = |id: &str| id == name || id.starts_with(&group);
+    let rows: Vec<_> = ROWS.iter().filter(|(id, _)| of_group(id)).collect();
+    if !rows.is_empty() {
+        return rows.iter().map(|(id, text)| embedded(id, text)).collect();
     }
     if !path.is_file() {
         let known: Vec<&str> = ROWS.iter().map(|(id, _)| *id).collect();
@@ -171,13 +185,42 @@ fn one(path: &Path) -> Result<Reference, ReproduceError> {
         scenario(&name, &row)?
     };
     loaded.check()?;
-    Ok(Reference { row, loaded })
+    Ok(vec![Reference::new(&name, row, loaded)?])
+}
+
+impl Reference {
+    fn new(name: &str, row: Row, loaded: Loaded) -> Result<Self, ReproduceError> {
+        let mut arms = Vec::new();
+        for arm in &row.arms {
+            let wrong = |path: &str, problem: String| ReproduceError::Row {
+                name: name.to_string(),
+                problem: format!("arm `{}`: {path}: {problem}", arm.name),
+            };
+            let mut text = loaded.text.clone();
+            for (path, value) in &arm.set {
+                text = put(&text, path, value).map_err(|problem| wrong(path, problem))?;
+            }
+            let shown = format!("{} (arm {})", loaded.name, arm.name);
+            let changed = Loaded {
+                scenario: parse(&shown, &text)?,
+                path: PathBuf::from(shown),
+                text,
+                ..loaded.clone()
+            };
+            changed.check()?;
+            arms.push((arm.name.clone(), changed));
+        }
+        if arms.is_empty() {
+            arms.push((row.id.clone(), loaded.clone()));
+        }
+        Ok(Self { row, loaded, arms })
+    }
 }
 
 fn embedded(name: &str, text: &str) -> Result<Reference, ReproduceError> {
     let row = read(name, text)?;
     let loaded = scenario(name, &row)?;
-    Ok(Reference { row, loaded })
+    Reference::new(name, row, loaded)
 }
 
 /// The scenario that comes with the program, whatever lies in the folder we are in.
@@ -214,6 +257,19 @@ fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
     }
     if row.figures.is_empty() {
         return Err(wrong("figures: must name at least one".to_string()));
+    }
+    for f in &row.figures {
+        let known = |arm: &String| row.arms.iter().any(|a| a.name == *arm);
+        let problem = match &f.arm {
+            None if !row.arms.is_empty() => {
+                Some("arm: must name one of the row's arms".to_string())
+            }
+            Some(arm) if !known(arm) => Some(format!("arm: the row has no arm `{arm}`")),
+            _ => f.quantity.fault(),
+        };
+        if let Some(problem) = problem {
+            return Err(wrong(format!("{}: {problem}", f.name)));
+        }
     }
     match (row.figures.iter()).find(|f| f.paper.is_some_and(|p| !p.is_sound())) {
         Some(f) => Err(wrong(format!(
@@ -252,7 +308,7 @@ mod tests {
         let row = |id: &str, paper: &str| {
             format!(
                 "(id: \"{id}\", what: \"w\", source: \"s\", scenario: \"duck_st\", \
-                 figures: [(name: \"f\", quantity: success_rate, paper: {paper})])"
+                 figures: [(name: \"f\", quantity: Share(success), paper: {paper})])"
             )
         };
         assert!(read("r", &row("a_1", "Count(7, 8)")).is_ok());
@@ -262,6 +318,11 @@ mod tests {
             (row("a", "Count(0, 0)"), "the total > 0"),
             (row("a", "Value(NaN)"), "must be finite"),
             (row("a", "Median(3)"), "Median"),
+            (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
+            (
+                row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"),
+                "below 1",
+            ),
             ("(".to_string(), "r: "),
         ] {
             let said = read("r", &text).unwrap_err().to_string();

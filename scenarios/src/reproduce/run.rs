@@ -3,7 +3,8 @@
 use super::compare::{Compared, compare};
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
-use crate::campaign::{RunName, RunRow, one_run};
+use crate::campaign::{RunName, RunRow, sharing_run};
+use crate::scenario::Loaded;
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -11,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// How many runs, on how many threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Runs; with `until_half_width` at most.
+    /// Seeds; with `until_half_width` at most.
     pub n: u64,
     /// Stop when the half width of the success interval is this or less.
     pub until_half_width: Option<f64>,
@@ -26,7 +27,7 @@ pub struct Reproduced {
     pub row: Row,
     /// Name and hash of its scenario.
     pub scenario: (String, String),
-    /// The runs, by seed.
+    /// The runs, by seed and arm.
     pub runs: Vec<RunRow>,
     /// The figures.
     pub figures: Vec<Compared>,
@@ -49,24 +50,38 @@ pub fn reproduce(
             jobs: plan.jobs,
             problem: e.to_string(),
         })?;
+    let n_arms = reference.arms.len() as u64;
     let mut runs: Vec<RunRow> = Vec::new();
-    while let Some(n) = next(&runs, plan) {
-        let from = runs.len() as u64;
-        let batch: Vec<Option<RunRow>> = pool.install(|| {
+    while let Some(n) = next(&runs, reference, plan) {
+        let from = runs.len() as u64 / n_arms;
+        let batch: Vec<Option<Vec<RunRow>>> = pool.install(|| {
             (from..n)
                 .into_par_iter()
                 .map(|index| {
-                    if stop.load(Ordering::Relaxed) {
-                        return None;
-                    }
-                    let row = one_run(&reference.loaded, &name(&reference.row, index));
-                    heard(&row, n);
-                    Some(row)
+                    // The arms of a seed one after the other, so that they can share a spun-up state.
+                    let mut spun = Vec::new();
+                    let one = |(k, (arm, loaded)): (usize, &(String, Loaded))| {
+                        if stop.load(Ordering::Relaxed) {
+                            return None;
+                        }
+                        let name = RunName {
+                            run: index * n_arms + k as u64,
+                            arm: arm.clone(),
+                            condition: String::new(),
+                            seed_index: index,
+                            seed: index + 1,
+                        };
+                        let row = sharing_run(loaded, &name, &mut spun);
+                        heard(&row, n * n_arms);
+                        Some(row)
+                    };
+                    reference.arms.iter().enumerate().map(one).collect()
                 })
                 .collect()
         });
-        let batch: Option<Vec<RunRow>> = batch.into_iter().collect();
-        runs.extend(batch.ok_or(ReproduceError::Interrupted)?);
+        let batch: Option<Vec<Vec<RunRow>>> = batch.into_iter().collect();
+        let batch = batch.ok_or(ReproduceError::Interrupted)?;
+        runs.extend(batch.into_iter().flatten());
     }
     Ok(Reproduced {
         figures: compare(&reference.row, &runs),
@@ -76,24 +91,15 @@ pub fn reproduce(
     })
 }
 
-/// How many runs there shall be next; `None` when there are enough.
-fn next(runs: &[RunRow], plan: Plan) -> Option<u64> {
-    let n = runs.len() as u64;
-    match plan.until_half_width {
-        Some(half_width) => {
-            let found = runs.iter().filter(|r| r.success).count() as u64;
-            next_n(found, n, half_width, plan.n)
-        }
-        None => (n < plan.n).then_some(plan.n),
-    }
-}
-
-fn name(row: &Row, index: u64) -> RunName {
-    RunName {
-        run: index,
-        arm: row.id.clone(),
-        condition: String::new(),
-        seed_index: index,
-        seed: index + 1,
-    }
+/// How many seeds there shall be next; `None` when there are enough for every arm.
+fn next(runs: &[RunRow], reference: &Reference, plan: Plan) -> Option<u64> {
+    let n = (runs.len() / reference.arms.len()) as u64;
+    let Some(half_width) = plan.until_half_width else {
+        return (n < plan.n).then_some(plan.n);
+    };
+    let of_arm = |(arm, _): &(String, Loaded)| {
+        let found = runs.iter().filter(|r| r.arm == *arm && r.success).count() as u64;
+        next_n(found, n, half_width, plan.n)
+    };
+    reference.arms.iter().filter_map(of_arm).max()
 }

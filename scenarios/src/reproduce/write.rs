@@ -53,7 +53,11 @@ fn cells(c: &Compared) -> [String; 6] {
 
 fn runs_line(r: &Reproduced) -> String {
     let failed = r.runs.iter().filter(|x| x.error.is_some()).count();
-    let mut line = format!("{} runs, seeds 1 to {}", r.runs.len(), r.runs.len());
+    let seeds = r.runs.iter().map(|x| x.seed).max().unwrap_or(0);
+    let mut line = format!("{} runs, seeds 1 to {seeds}", r.runs.len());
+    if r.row.arms.len() > 1 {
+        write!(line, ", {} arms", r.row.arms.len()).expect(TEXT);
+    }
     if failed > 0 {
         write!(line, ", {failed} of them FAILED (counted as not declared)").expect(TEXT);
     }
@@ -98,7 +102,7 @@ fn markdown(all: &[Reproduced]) -> String {
     let mut out = format!(
         "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every figure in figures.csv.\n\n\
          Shares come with Wilson's 95 % interval (in brackets the paper's own, from its counts); quantiles (linear \
-         between order statistics) with a 95 % bootstrap interval of the quantile, {} resamples. Errors are of those \
+         between order statistics) with a 95 % bootstrap interval of the quantile, {} resamples; means with Student's. Errors are of those \
          runs that declared: n says how many. A paper's figure marked \"one run\" is a single mission: \"among our single \
          runs\" says that 95 % of ours lie about it, though it lies outside the interval of our median.\n",
         env!("CARGO_PKG_VERSION"),

@@ -147,6 +147,8 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
             Unit::Share => (100.0, "% points"),
             Unit::Metres => (1.0, "m"),
             Unit::Seconds => (1.0, "s"),
+            Unit::Speed => (100.0, "cm/s"),
+            Unit::Number => (1.0, ""),
         };
         let entries: Vec<Entry> = each(by)
             .map(|c| Entry {

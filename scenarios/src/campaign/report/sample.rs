@@ -31,5 +31,6 @@ pub(crate) fn row(seed_index: u64, error: Option<(f64, f64)>) -> RunRow {
         detections: 50,
         spin_up_wall_s: 2.0,
         mission_wall_s: 1.0,
+        ..RunRow::default()
     }
 }

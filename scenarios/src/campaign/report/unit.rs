@@ -11,6 +11,10 @@ pub enum Unit {
     Metres,
     /// s.
     Seconds,
+    /// m/s.
+    Speed,
+    /// Without a unit.
+    Number,
 }
 
 impl Unit {
@@ -19,23 +23,26 @@ impl Unit {
     pub fn show(self, value: f64) -> String {
         match self {
             Unit::Share => format!("{:.1} %", 100.0 * value),
+            Unit::Metres if value.abs() < 0.9995 => format!("{:.1} cm", 100.0 * value),
             Unit::Metres if value.abs() < 99.95 => format!("{value:.1} m"),
             Unit::Metres => format!("{value:.0} m"),
+            Unit::Seconds if value.abs() < 99.95 => format!("{value:.1} s"),
             Unit::Seconds => format!("{value:.0} s"),
+            Unit::Speed if value.abs() < 0.9995 => format!("{:.2} cm/s", 100.0 * value),
+            Unit::Speed => format!("{value:.2} m/s"),
+            Unit::Number => format!("{value:.3}"),
         }
     }
 
     /// An interval for people.
     #[must_use]
     pub fn show_interval(self, i: Interval) -> String {
-        let bare = |v| {
-            self.show(v)
-                .split(' ')
-                .next()
-                .unwrap_or_default()
-                .to_string()
-        };
-        format!("{} to {}", bare(i.low), self.show(i.high))
+        let (low, high) = (self.show(i.low), self.show(i.high));
+        // The unit once, where both ends have the same.
+        match (low.split_once(' '), high.split_once(' ')) {
+            (Some((bare, unit)), Some((_, other))) if unit == other => format!("{bare} to {high}"),
+            _ => format!("{low} to {high}"),
+        }
     }
 }
 
@@ -52,5 +59,12 @@ mod tests {
             high: 1001.0,
         };
         assert_eq!(Unit::Metres.show_interval(i), "900 to 1001 m");
+        assert_eq!(Unit::Metres.show(0.143), "14.3 cm");
+        let i = Interval {
+            low: 0.5,
+            high: 1.5,
+        };
+        assert_eq!(Unit::Metres.show_interval(i), "50.0 cm to 1.5 m");
+        assert_eq!(Unit::Speed.show(0.0305), "3.05 cm/s");
     }
 }
