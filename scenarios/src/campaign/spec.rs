@@ -244,7 +244,7 @@ mod tests {
         let wide = good.replace("seeds: 3", "seeds: 3, until: (half_width: 0.5)");
         assert_eq!(
             faults(&wide),
-            ["c.ron:1:68: until.half_width: must be above 0 and below 0.5, got 0.5"]
+            ["c.ron:1:61: until.half_width: must be above 0 and below 0.5, got 0.5"]
         );
         let twins = good.replace("(name: \"a\")", "(name: \"a\"), (name: \"a\")");
         assert_eq!(
