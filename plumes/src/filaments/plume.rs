@@ -136,7 +136,10 @@ impl Plume {
         let carries = t1_s - carried_s >= CARRY_S - 1e-6;
         for n in 0..self.stores.len() {
             let key = step_key(self.keys[n], self.steps);
-            let k = self.sources[n].release.eddy_size_m.map(|_| flow.mixing(&self.sources[n].p_W, t0_s));
+            let k = self.sources[n]
+                .release
+                .eddy_size_m
+                .map(|_| flow.mixing(&self.sources[n].p_W, t0_s));
             let store = &mut self.stores[n];
             if let Some(k) = k {
                 store.size.stirred_by(k.k_h_m2_s);
@@ -300,12 +303,7 @@ impl Concentration for Plume {
 
 /// Sends the store through `step` block by block; `old` of its filaments move for the whole step, the newer ones from their
 /// release on. Those that leave are taken out on the way.
-fn sweep(
-    store: &mut Store,
-    old: usize,
-    t0_s: f64,
-    t1_s: f64,
-    mut step: impl FnMut(&mut Block)) {
+fn sweep(store: &mut Store, old: usize, t0_s: f64, t1_s: f64, mut step: impl FnMut(&mut Block)) {
     let mut b = Block {
         x: [0.0; BLOCK],
         y: [0.0; BLOCK],

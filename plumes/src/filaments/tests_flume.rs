@@ -2,7 +2,7 @@
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::pour;
-use crate::flow::eddies::tests::{BED, flume, water};
+use crate::flow::eddies::tests_eddies::{BED, flume, water};
 use crate::flow::grid::GridShape;
 use crate::release::{NozzleSpec, ReleaseSpec, SourceSpec};
 use world::fields::Flow;
@@ -70,12 +70,15 @@ fn mixed(seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
         plume.drift(&water, t, t + dt_s);
     }
     // Only those poured: they have no kernel of their own; the source's own lie behind the middle part.
-    plume.iter().filter(|f| (2.0..7.0).contains(&f[0])).collect()
+    plume
+        .iter()
+        .filter(|f| (2.0..7.0).contains(&f[0]))
+        .collect()
 }
 
 #[test]
 fn mixed_water_stays_mixed() {
-    for dt in [0.05, 0.25] {
+    for dt in [0.1, 0.25] {
         let cloud = mixed(3, dt);
         for (axis, low, high, bins) in [(1, -0.535_f32, 0.535_f32, 10), (2, -0.2, 0.0, 10)] {
             let mut counts = vec![0.0_f64; bins];
@@ -85,7 +88,9 @@ fn mixed_water_stays_mixed() {
             }
             let even = cloud.len() as f64 / bins as f64;
             // Poisson counts of about 2500: 2 %; four of them, and 3 % for the divergence of the trilinear look-up.
-            let worst = counts.iter().fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
+            let worst = counts
+                .iter()
+                .fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
             assert!(worst < 0.11, "dt {dt}, axis {axis}: {worst}: {counts:?}");
         }
     }
@@ -104,7 +109,11 @@ fn spread_is_that_of_open_channels() {
     let mut start = Vec::new();
     pour(&mut plume, n, -0.2, |_| {
         start.push(0.4 * (r.uniform() - 0.5));
-        [4.0 * r.uniform(), *start.last().unwrap(), -0.2 * r.uniform()]
+        [
+            4.0 * r.uniform(),
+            *start.last().unwrap(),
+            -0.2 * r.uniform(),
+        ]
     });
     let mut variance = [0.0; 2];
     for (k, until) in [80, 160].into_iter().enumerate() {
@@ -121,5 +130,10 @@ fn spread_is_that_of_open_channels() {
     assert!((0.5..2.0).contains(&ratio), "K_y {k}, {ratio} of Fischer's");
     // Before its memory is gone a filament goes with its velocity: variance below 2Kt.
     assert!(variance[0] < 2.0 * k * 20.0, "{variance:?}");
-    assert!(water.mixing(&nalgebra::Vector3::new(1.0, 0.0, -0.1), 0.0).k_h_m2_s < 0.5 * k);
+    assert!(
+        water
+            .mixing(&nalgebra::Vector3::new(1.0, 0.0, -0.1), 0.0)
+            .k_h_m2_s
+            < 0.5 * k
+    );
 }

@@ -46,7 +46,9 @@ impl Flume {
             ));
         }
         let Terrain::Level { depth_m } = *terrain else {
-            return Err(bad("an OpenChannel needs a level bed: terrain: Level(depth_m: ...)"));
+            return Err(bad(
+                "an OpenChannel needs a level bed: terrain: Level(depth_m: ...)",
+            ));
         };
         let channel = spec.build(field, depth_m)?;
         let axis = area.axis.unit();

@@ -95,6 +95,31 @@ pub enum GantryBehaviour {
     Done,
 }
 
+impl GantryBehaviour {
+    /// All of them.
+    pub const ALL: [GantryBehaviour; 6] = [
+        GantryBehaviour::Idle,
+        GantryBehaviour::Sweep,
+        GantryBehaviour::ToBest,
+        GantryBehaviour::StepUp,
+        GantryBehaviour::Cast,
+        GantryBehaviour::Done,
+    ];
+
+    /// Its name in records and on the wire.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            GantryBehaviour::Idle => "idle",
+            GantryBehaviour::Sweep => "sweep",
+            GantryBehaviour::ToBest => "to_best",
+            GantryBehaviour::StepUp => "step_up",
+            GantryBehaviour::Cast => "cast",
+            GantryBehaviour::Done => "done",
+        }
+    }
+}
+
 /// What a gantry's searcher asks for.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct GantryDecision {

@@ -5,8 +5,8 @@
 //!
 //! *Parameters*: `Fixed`: least contrast `threshold`, 0.3; contrast of `of`: `MeanPeak`, the mean of the step's spike
 //! magnitudes, or `GreatestPeak`; the paper says "peak concentration" and, of the step, "average recorded peak", hence
-//! the mean. `Adaptive`: the difference in standard errors `errors`, 1.5: more than the one
-//! error a lone spike always gives and more than two on both sides can, so that at least three in accord steer.
+//! the mean. `Adaptive`: the difference in standard errors `errors`, 1.5: more than a
+//! lone spike (1) or two alike on one side (1.41) can give, so that at least three in accord steer.
 //!
 //! *Deviations*: the percentage is taken of the larger side, (left - right) / larger, as it stays finite when one
 //! side has nothing. `Adaptive` compares sums of magnitudes, in which both rate and strength count, and takes their

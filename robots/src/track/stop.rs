@@ -268,4 +268,30 @@ mod tests {
         );
         assert_eq!(StopRule::new(&spec).trail_end(), Some(3));
     }
+
+    #[test]
+    fn a_silence_is_proof_by_the_frequency_met_before() {
+        // Twenty spikes in twenty seconds: seven seconds of silence; forty: three and a half.
+        for (every_scans, proof_s) in [(20, 7.0), (10, 3.5)] {
+            let mut rule = StopRule::new(&StopSpec::Experience(Experience::default()));
+            let mut proven = None;
+            for k in 1..=700 {
+                let t = f64::from(k) * 0.05;
+                rule.scan(&sample(t, [0.0; 3]));
+                if k <= 400 && k % every_scans == 0 {
+                    rule.spike(&spike(t, k as usize % 3, 1.0));
+                }
+                assert!(k > 400 || rule.silent().is_none());
+                if proven.is_none() && rule.silent().is_some() {
+                    proven = Some(t - 20.0);
+                }
+            }
+            let s = proven.expect("silent for 15 s");
+            // The first second counts from the first scan: one scan in four hundred.
+            assert!((s - proof_s).abs() < 0.11, "{s} s");
+        }
+        let mut fixed = StopRule::new(&StopSpec::default());
+        fixed.scan(&sample(0.0, [0.0; 3]));
+        assert_eq!(fixed.silent(), None);
+    }
 }

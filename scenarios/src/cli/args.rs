@@ -69,8 +69,8 @@ pub enum Command {
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
     long_about = "Runs scenarios, one after the other: spin-up of the plume, then the mission. Each \
-        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, run.mcap, \
-        figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
+        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, \
+        probes-<gantry>.csv, run.mcap, figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
         however fast it goes and whoever listens.",
     after_help = RUN_AFTER
 )]

@@ -41,6 +41,13 @@ pub struct PlaceSpec {
     pub north_m: Finite,
     /// Where its first axis points: up-stream.
     pub heading_deg: HeadingDeg,
+    /// How much higher than on the bed, m: with it all probes are higher.
+    #[serde(default = "zero")]
+    pub raised_m: Finite,
+}
+
+fn zero() -> Finite {
+    Finite::new(0.0)
 }
 
 /// Where the head is, in the gantry's own frame.
@@ -56,8 +63,8 @@ pub struct HeadSpec {
 impl Default for HeadSpec {
     fn default() -> Self {
         Self {
-            forward_m: Finite::new(0.0),
-            left_m: Finite::new(0.0),
+            forward_m: zero(),
+            left_m: zero(),
         }
     }
 }
@@ -67,7 +74,7 @@ impl GantryBlock {
     #[must_use]
     pub fn base(&self, terrain: &Terrain) -> Pose {
         let (x, y) = (self.place.east_m.get(), self.place.north_m.get());
-        let p_W = Vector3::new(x, y, terrain.bed_z(x, y));
+        let p_W = Vector3::new(x, y, terrain.bed_z(x, y) + self.place.raised_m.get());
         Pose::level(p_W, self.place.heading_deg.heading())
     }
 

@@ -140,6 +140,10 @@ const ROWS: &[(&str, &str)] = &[
         include_str!("../../../tests/reference/rows/crab.ron"),
     ),
     (
+        "crab_arms",
+        include_str!("../../../tests/reference/rows/crab_arms.ron"),
+    ),
+    (
         "duck_st",
         include_str!("../../../tests/reference/rows/duck_st.ron"),
     ),

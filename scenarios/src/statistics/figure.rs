@@ -1,7 +1,7 @@
 //! One figure of a plume, and all of them.
 
 /// Beyond this factor from what is expected a figure is flagged.
-pub const FACTOR: f64 = 2.0;
+const FACTOR: f64 = 2.0;
 
 /// A figure of ours beside what is expected.
 #[derive(Clone, Debug, PartialEq)]

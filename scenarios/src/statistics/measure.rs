@@ -39,7 +39,9 @@ pub enum StatisticsError {
     #[error("{0} has no source: there is no plume to measure; add one under `sources`")]
     NoSource(String),
     /// The water stands at the source.
-    #[error("the water at the source of {0} stands still: there is no down-stream to measure along")]
+    #[error(
+        "the water at the source of {0} stands still: there is no down-stream to measure along"
+    )]
     Still(String),
     /// The plume did not come to the first distance.
     #[error(
@@ -152,7 +154,11 @@ impl Watch {
         t_s: f64,
     ) -> Result<Self, StatisticsError> {
         let area = loaded.scenario.area.build();
-        let bed_z = loaded.scenario.terrain.build(&area).bed_z(source.x, source.y);
+        let bed_z = loaded
+            .scenario
+            .terrain
+            .build(&area)
+            .bed_z(source.x, source.y);
         let mean = match water.channel() {
             Some(channel) => channel.along * channel.mean_m_s,
             None => water.velocity(&source, t_s).xy(),
@@ -263,11 +269,89 @@ impl Watch {
         let expected = channel.map(Expected::of);
         self.widths(expected.as_ref(), &mut figures);
         let nozzle = plume.sources()[0].release.nozzle.as_ref();
-        self.centreline(expected.as_ref(), nozzle.map(|n| n.volume_m3_s()), plume, &mut figures);
+        self.centreline(
+            expected.as_ref(),
+            nozzle.map(|n| n.volume_m3_s()),
+            plume,
+            &mut figures,
+        );
         self.spikes(threshold, &mut figures);
         if let Some(channel) = channel {
             self.water(channel, &mut figures);
         }
         Ok(figures)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::load;
+    use std::path::Path;
+
+    fn of(name: &str, seconds: f64) -> Statistics {
+        let loaded = load(Path::new(name)).unwrap();
+        statistics(&loaded, 1, Some(seconds), |share| {
+            assert!((0.0..=1.0).contains(&share));
+        })
+        .unwrap()
+    }
+
+    /// The flume's figures have expectations and, but for the gaps and what so short a record leaves open, lie within a factor of 2.
+    #[test]
+    fn flume_has_all_its_figures() {
+        let s = of("flume_crab", 120.0);
+        let named = |name: &str| {
+            let mut found = s.figures.iter().filter(|f| f.name.starts_with(name));
+            let first = found.next().unwrap_or_else(|| panic!("no {name}"));
+            (first.clone(), 1 + found.count())
+        };
+        assert_eq!(named("width sigma_y").1, 4);
+        assert_eq!(named("centreline C/C0").1, 4);
+        assert_eq!(named("intermittency").1, 16);
+        assert_eq!(named("resolved w'").1, PROFILE.len());
+        for name in ["gaps below", "gamma shape", "integral time of the speed"] {
+            assert!(named(name).0.expected.is_some(), "{name}");
+        }
+        for name in [
+            "width sigma_y",
+            "centreline C/C0",
+            "mean speed",
+            "resolved u'",
+        ] {
+            let (figure, _) = named(name);
+            assert!(!figure.flagged(), "{figure:?}");
+        }
+    }
+
+    #[test]
+    fn any_plume_has_widths_and_intermittency() {
+        let s = of("uniform_channel", 20.0);
+        let width = |n: usize| {
+            let mut widths = s.figures.iter().filter(|f| f.name.starts_with("width"));
+            widths.nth(n).unwrap().ours
+        };
+        assert!(width(0) > 0.0 && width(2) > width(0), "{:?}", s.figures);
+        assert!(
+            s.figures
+                .iter()
+                .all(|f| f.expected.is_none() || f.unit.is_empty())
+        );
+        assert!(
+            s.figures
+                .iter()
+                .any(|f| f.name.starts_with("intermittency"))
+        );
+    }
+
+    #[test]
+    fn without_a_source_there_is_nothing_to_measure() {
+        let mut loaded = load(Path::new("uniform_channel")).unwrap();
+        loaded.scenario.sources.clear();
+        let said = statistics(&loaded, 1, Some(1.0), |_| ()).unwrap_err();
+        assert!(
+            said.to_string().contains("uniform_channel has no source"),
+            "{said}"
+        );
     }
 }

@@ -18,12 +18,6 @@ impl Series {
         self.values.iter().sum::<f64>() / self.values.len() as f64
     }
 
-    pub(super) fn std(&self) -> f64 {
-        let mean = self.mean();
-        let squares = self.values.iter().map(|v| (v - mean) * (v - mean));
-        (squares.sum::<f64>() / self.values.len() as f64).sqrt()
-    }
-
     /// Share of the time above a threshold.
     pub(super) fn above(&self, threshold: f64) -> f64 {
         let n = self.values.iter().filter(|v| **v > threshold).count();
@@ -109,7 +103,6 @@ mod tests {
         let s = Series { values, step_s };
         let got = s.integral_time_s().unwrap();
         assert!((got / tau - 1.0).abs() < 0.15, "{got}");
-        assert!((s.std() - 1.0).abs() < 0.05);
         let flat = Series {
             values: vec![1.0; 50],
             step_s,

@@ -168,7 +168,9 @@ impl Eddies {
             let mut e = Vector3::zeros();
             e[d] = WIDE;
             let slope = (at(e, 0.0) - at(-e, 0.0)) / (2.0 * WIDE);
-            sample.gradient.set_column(d, &(sample.gradient.column(d) + slope));
+            sample
+                .gradient
+                .set_column(d, &(sample.gradient.column(d) + slope));
         }
         // They pass with the stream: a tenth of a second is some millimetres.
         const WHILE: f64 = 0.1;

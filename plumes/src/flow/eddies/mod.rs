@@ -5,8 +5,7 @@ mod fourier;
 mod spectrum;
 mod stretch;
 #[cfg(test)]
-#[path = "tests_eddies.rs"]
-pub(crate) mod tests;
+pub(crate) mod tests_eddies;
 
 pub use field::{Eddies, EddiesSpec};
 pub use spectrum::Spectrum;

@@ -50,7 +50,8 @@ impl Spectrum {
     #[must_use]
     pub fn energy(&self, k: f64) -> f64 {
         let x2 = (k / self.k_e) * (k / self.k_e);
-        x2 * x2 * math::powf(1.0 + x2, -17.0 / 6.0)
+        x2 * x2
+            * math::powf(1.0 + x2, -17.0 / 6.0)
             * math::exp(-2.25 * math::powf(k * self.eta, 4.0 / 3.0))
     }
 
@@ -74,8 +75,8 @@ impl Spectrum {
     #[must_use]
     pub fn sub_grid(&self, channel: &Channel, height_m: f64) -> f64 {
         let epsilon = channel.dissipation(height_m);
-        let inertial = 0.444 / 0.7 * math::powf(epsilon, 1.0 / 3.0)
-            * math::powf(self.k_c, -4.0 / 3.0);
+        let inertial =
+            0.444 / 0.7 * math::powf(epsilon, 1.0 / 3.0) * math::powf(self.k_c, -4.0 / 3.0);
         inertial.min(parabolic(channel.u_star_m_s, height_m, channel.depth_m))
     }
 }

@@ -125,7 +125,11 @@ fn intensities_are_those_stated() {
             for (n, v) in nodes.chunks_exact(shape.up + 1).enumerate() {
                 // Ends of the width count half.
                 let j = n % (shape.across + 1);
-                let w = if j == 0 || j == shape.across { 0.5 } else { 1.0 };
+                let w = if j == 0 || j == shape.across {
+                    0.5
+                } else {
+                    1.0
+                };
                 count += w;
                 for c in 0..3 {
                     sum[c] += w * f64::from(v[*level][c]).powi(2);
@@ -196,9 +200,18 @@ fn eddies_live_as_stated() {
     // Products of unit normals: standard errors √2 and 1 over √n = 77; the one stretch that all draw from adds about as much again
     // to the squares (some 500 independent eddies at a height), which the test of intensities has found.
     let error = 1.0 / (n as f64).sqrt();
-    assert!((square[0] / square[1] - 1.0).abs() < 4.0 * 2.0 * error, "{square:?}");
-    assert!((square[0] - 1.0).abs() < 4.0 * (2.0_f64 / 500.0).sqrt(), "{square:?}");
-    assert!((one / square[0] - std::f64::consts::FRAC_1_PI).abs() < 4.0 * error, "{one}");
+    assert!(
+        (square[0] / square[1] - 1.0).abs() < 4.0 * 2.0 * error,
+        "{square:?}"
+    );
+    assert!(
+        (square[0] - 1.0).abs() < 4.0 * (2.0_f64 / 500.0).sqrt(),
+        "{square:?}"
+    );
+    assert!(
+        (one / square[0] - std::f64::consts::FRAC_1_PI).abs() < 4.0 * error,
+        "{one}"
+    );
     assert!(two.abs() < 4.0 * error, "{two}");
 }
 
@@ -244,9 +257,15 @@ fn what_cannot_be_is_refused() {
     let text = said(across, flume(2.5), BED);
     assert!(text.contains("currents[0].heading_deg: an OpenChannel flows along the area's axis, 90 or 270 degrees, got 30"), "{text}");
     let text = said(channel_spec(0.005, 0.0), flume(2.5), BED);
-    assert!(text.contains("currents[0].mean_m_s: gives a Reynolds number of 1000, must be >= 0.01"), "{text}");
+    assert!(
+        text.contains("currents[0].mean_m_s: gives a Reynolds number of 1000, must be >= 0.01"),
+        "{text}"
+    );
     let text = said(channel_spec(0.05, 0.15), flume(2.5), BED);
-    assert!(text.contains("roughness_m: must be >= 0 and at most 0.1"), "{text}");
+    assert!(
+        text.contains("roughness_m: must be >= 0 and at most 0.1"),
+        "{text}"
+    );
     let text = said(fine.clone(), flume(2.5), Terrain::Level { depth_m: 0.6 });
     assert!(text.contains("2 to 20 times as wide as deep"), "{text}");
     let coarse = OpenChannelSpec {
@@ -254,5 +273,8 @@ fn what_cannot_be_is_refused() {
         ..fine
     };
     let text = said(coarse, flume(2.5), BED);
-    assert!(text.contains("eddies.cells_a_depth: must be from 8 to 32, got 4"), "{text}");
+    assert!(
+        text.contains("eddies.cells_a_depth: must be from 8 to 32, got 4"),
+        "{text}"
+    );
 }
