@@ -1,14 +1,15 @@
-//! Steps of a vehicle alone, with and without rapier's solver. `cargo bench -p robots --bench vehicle`
+//! Steps of a vehicle alone, with and without rapier's solver, and of a gantry. `cargo bench -p robots --bench vehicle`
 
 use divan::Bencher;
-use nalgebra::{Matrix3, Vector3};
-use robots::handoff::ActuatorCommand;
-use robots::vehicles::{ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use nalgebra::{Matrix3, Vector2, Vector3};
+use robots::handoff::{ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
+use robots::vehicles::{Gantry, GantrySpec, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{Physics, Solver};
+use world::seeds::Stream;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -89,6 +90,53 @@ fn with_physics(bencher: Bencher, solver: Solver) {
                 let free = vehicle.step(&physics.truth(id), &level, &TURN, STEP_S);
                 physics.push(id, free);
                 physics.step();
+            }
+        });
+}
+
+/// 1000 steps of the gantry, drives and joints, in sight of the bed; diagonal steps to and fro.
+#[divan::bench]
+fn gantry(bencher: Bencher) {
+    let mut gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    let mut physics = Physics::new(STEP_S);
+    let area = Area {
+        centre: Vector2::zeros(),
+        length_m: 24.0,
+        width_m: 1.07,
+        axis: Heading::from_deg(90.0),
+    };
+    let bed = Terrain::sloping_over(&area, Heading::from_deg(0.0), 0.2, 0.2);
+    physics.add_terrain(&bed, &area);
+    let base = Pose::level(Vector3::new(0.0, 0.0, -0.2), Heading::from_deg(270.0));
+    let body = gantry.body_spec("gantry", &base, Vector2::new(0.5, 0.0));
+    let id = physics.add_gantry(body.expect("inside its travel"));
+    let mut rng = Stream::new(1, "gantry", "drives");
+    let mut decision = GantryDecision {
+        behaviour: GantryBehaviour::StepUp,
+        id: 0,
+        target_m: Vector2::zeros(),
+        speed_m_s: Vector2::new(0.061, 0.03),
+        working: TrackerState::default(),
+        stopped: None,
+    };
+    bencher
+        .counter(divan::counter::ItemsCount::new(STEPS))
+        .bench_local(|| {
+            for i in 0..STEPS {
+                if i % 100 == 0 {
+                    decision.id += 1;
+                    let side = if decision.id.is_multiple_of(2) {
+                        1.0
+                    } else {
+                        -1.0
+                    };
+                    decision.target_m = Vector2::new(1.0 + 0.05 * side, 0.025 * side);
+                }
+                let joints = physics.joints(id);
+                let drives = gantry.drive(&decision, &joints, STEP_S, &mut rng);
+                physics.drive(id, drives);
+                physics.step();
+                divan::black_box(gantry.readings(&physics.joints(id)));
             }
         });
 }

@@ -11,4 +11,5 @@ pub mod guide;
 pub mod handoff;
 pub mod sense;
 pub mod strategy;
+pub mod track;
 pub mod vehicles;

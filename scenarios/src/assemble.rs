@@ -1,5 +1,7 @@
 //! From a scenario to a world that ticks: everything that lives in it, put in its place.
 
+use crate::gantry::assemble as gantry;
+use crate::gantry::system::outcome;
 use crate::scenario::{RobotSpec, Scenario};
 use crate::system::{
     Dye, Helm, Hull, Instruments, Log, Mind, Navigator, Outbox, Pilotage, RobotId, Water,
@@ -9,13 +11,14 @@ use bevy_ecs::prelude::{Schedule, World};
 use nalgebra::Vector3;
 use plumes::error::PlumeError;
 use plumes::filaments::{Plume, PlumeSettings};
+use plumes::flow::GridShape;
 use robots::actuate::Autopilot;
 use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Outcome,
-    Readings, Vertical,
+    ActuatorCommand, Behaviour, Command, Decision, GantryDecision, Goal, GuidanceStatus, Manoeuvre,
+    Outcome, Readings, Vertical,
 };
 use robots::sense::SensorSuite;
 use robots::vehicles::Vehicle;
@@ -82,14 +85,14 @@ impl Simulation {
             seed,
             PlumeSettings {
                 refresh_s: scenario.time.flow_period_s.get(),
-                ..PlumeSettings::default()
+                grid: GridShape::fitting(&area),
             },
         )?
         .with_obstacles(Obstacles(obstacles.clone()))?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);
         for obstacle in &obstacles {
-            physics.add_fixed(&obstacle.pose, obstacle.shape.clone());
+            physics.add_obstacle(obstacle);
         }
 
         let mut world = World::new();
@@ -107,6 +110,14 @@ impl Simulation {
                 id: spec.id.as_str().to_string(),
                 source,
             })?;
+        }
+        for block in &scenario.gantries {
+            gantry::spawn(&mut world, &mut physics, block, &terrain, base_dir, seed).map_err(
+                |source| AssembleError::Robot {
+                    id: block.id.as_str().to_string(),
+                    source,
+                },
+            )?;
         }
         let spin_up_s = scenario.time.spin_up_s.get();
         let every = |period_s: f64| Every::period(period_s, dt_s);
@@ -192,10 +203,13 @@ impl Simulation {
         self.world.resource::<Water>().velocity(p_W, self.t_s())
     }
 
-    /// How each robot's mission ended, in the scenario's order; `None` while it lasts.
+    /// How each robot's and then each gantry's mission ended, in the scenario's order; `None` while it lasts.
     pub fn outcomes(&mut self) -> Vec<Option<Outcome>> {
-        let mut query = self.world.query::<&Decision>();
-        query.iter(&self.world).map(|d| d.outcome).collect()
+        let mut robots = self.world.query::<&Decision>();
+        let mut ended: Vec<_> = robots.iter(&self.world).map(|d| d.outcome).collect();
+        let mut gantries = self.world.query::<&GantryDecision>();
+        ended.extend(gantries.iter(&self.world).map(outcome));
+        ended
     }
 }
 

@@ -1,6 +1,7 @@
 //! A picture of the whole run at one instant, as plain data: what recording, live state, files and
 //! figures are made from. Made in the Report stage; nobody who reads it can reach back.
 
+use crate::gantry::GantryFrame;
 use nalgebra::Vector2;
 use robots::handoff::{
     ActuatorCommand, Behaviour, ChemicalReading, Command, Declaration, Estimate, Goal,
@@ -45,6 +46,8 @@ pub struct Frame {
     pub step: u64,
     /// All robots, in the scenario's order.
     pub robots: Vec<RobotFrame>,
+    /// All gantries, in the scenario's order.
+    pub gantries: Vec<GantryFrame>,
 }
 
 /// Some of the plume's filaments at one instant.

@@ -1,6 +1,7 @@
 //! The systems of the tick: each hands the parts of a robot, and the world, to plain state machines.
 
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
+use crate::gantry::system::{Pictured, picture};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::Plume;
@@ -273,7 +274,9 @@ pub(crate) fn take_frame(
     terrain: Res<Terrain>,
     dye: Res<Dye>,
     mut outbox: ResMut<Outbox>,
+    physics: Res<Physics>,
     mut robots: Query<Whole>,
+    gantries: Query<Pictured>,
 ) {
     let mut ends = false;
     for (_, _, _, readings, decision, _, _, mut log) in &mut robots {
@@ -286,6 +289,9 @@ pub(crate) fn take_frame(
         ends |= decision.outcome.is_some() && !log.over;
         log.over = decision.outcome.is_some();
     }
+    ends |= gantries
+        .iter()
+        .any(|(.., searcher)| searcher.stopped_s == Some(clock.t_s()));
     if ends || outbox.frame_every.due(&clock) {
         let robots = robots.iter_mut().map(
             |(id, truth, estimate, _, decision, command, set, mut log)| {
@@ -310,6 +316,7 @@ pub(crate) fn take_frame(
             t_s: clock.t_next_s(),
             step: clock.step + 1,
             robots: robots.collect(),
+            gantries: picture(&physics, &gantries),
         });
     }
     if outbox.plume_every.due(&clock) {

@@ -3,6 +3,7 @@
 //! One thread, one order, one writer for each type; an ambiguity between two systems is an error
 //! when the schedule is built. Parallelism is across runs, so a run is the same on any machine load.
 
+use crate::gantry::system as gantry;
 use crate::system;
 use bevy_ecs::prelude::{IntoScheduleConfigs, Schedule};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
@@ -40,14 +41,19 @@ pub fn tick() -> Schedule {
             .chain(),
     );
     tick.add_systems((
-        system::read_instruments.in_set(Stage::Sense),
+        (system::read_instruments, gantry::read_probes).in_set(Stage::Sense),
         system::estimate_state.in_set(Stage::Estimate),
-        system::decide.in_set(Stage::Decide),
+        (system::decide, gantry::track).in_set(Stage::Decide),
         system::guide.in_set(Stage::Guide),
-        system::actuate.in_set(Stage::Actuate),
+        (system::actuate, gantry::drive_gantries).in_set(Stage::Actuate),
         system::move_bodies.in_set(Stage::Physics),
         system::drift_plume.in_set(Stage::Drift),
-        (system::digest_state, system::take_frame, system::pass_time)
+        (
+            system::digest_state,
+            gantry::digest_gantries,
+            system::take_frame,
+            system::pass_time,
+        )
             .chain()
             .in_set(Stage::Report),
     ));

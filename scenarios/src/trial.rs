@@ -214,6 +214,11 @@ impl Trial {
                     self.declarations.insert(robot.id.clone(), declared);
                 }
             }
+            for gantry in &frame.gantries {
+                if let Some(declared) = gantry.declaration {
+                    self.declarations.insert(gantry.id.clone(), declared);
+                }
+            }
             watch.frame(&frame);
         }
         if let Some(plume) = plume {

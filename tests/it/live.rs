@@ -28,12 +28,19 @@ fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
     assert_eq!(json(&seen["meta/scenario"])["name"], "Duck");
     assert_eq!(json(&seen["meta/version"])["version"], "0.1.0");
     assert_eq!(json(&seen["auv/auv0/behaviour"])["behaviour"], "track_in");
+    assert_eq!(json(&seen["gantry/crab0/behaviour"])["found"], true);
     assert_eq!(json(&seen["meta/digest"]), json!({"digest": "d1"}));
     let clock = json(&seen["clock"]);
     assert_eq!(
         (clock["step"].as_u64(), &clock["ended"]),
         (Some(last_step), &json!(true))
     );
+}
+
+/// A topic's key for the vehicle or the gantry of the run.
+fn key_of(key: &str) -> String {
+    key.replace("auv/<id>", "auv/auv0")
+        .replace("gantry/<id>", "gantry/crab0")
 }
 
 #[test]
@@ -209,7 +216,7 @@ fn every_message_keeps_its_published_schema() {
     }
     for topic in topics() {
         let schema = json(&seen[&format!("meta/schema/{}", topic.name)]);
-        let key = topic.key.replace("<id>", "auv0").replace("<name>", "clock");
+        let key = key_of(topic.key).replace("<name>", "clock");
         let sample = seen
             .get(&key)
             .unwrap_or_else(|| panic!("{key} is not published"));
@@ -227,10 +234,7 @@ fn every_message_keeps_its_published_schema() {
         broken(&schema, &json!({}), &key, &mut wrong);
         assert!(!wrong.is_empty(), "{key}: the schema asks for nothing");
     }
-    let known: Vec<String> = topics()
-        .iter()
-        .map(|t| t.key.replace("<id>", "auv0"))
-        .collect();
+    let known: Vec<String> = topics().iter().map(|t| key_of(t.key)).collect();
     for key in seen.keys().filter(|k| !k.starts_with("meta/schema/")) {
         assert!(known.contains(key), "{key} is published but in no table");
     }

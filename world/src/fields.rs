@@ -15,6 +15,17 @@ pub struct WaterSample {
     pub density_kg_m3: f64,
 }
 
+/// Two parallel vertical walls with the water between them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SideWalls {
+    /// A point half-way between them (east, north), m.
+    pub centre: Vector2<f64>,
+    /// Unit vector (east, north) from one to the other.
+    pub across: Vector2<f64>,
+    /// Half their distance, m.
+    pub half_width_m: f64,
+}
+
 /// Eddy diffusivities at a point, m²/s.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mixing {
@@ -47,7 +58,7 @@ pub trait Flow: Send + Sync {
     }
 
     /// Velocity and diffusivity at several heights above one place (east, north), m: what is the same
-    /// in the whole column may then be worked out once.
+    /// in the whole column may then be worked out once. Eddies given by [`Flow::carry`] are left out.
     fn column(
         &self,
         place: Vector2<f64>,
@@ -59,6 +70,15 @@ pub trait Flow: Send + Sync {
             let p = Vector3::new(place.x, place.y, *z);
             *node = (self.velocity(&p, t_s), self.mixing(&p, t_s));
         }
+    }
+
+    /// Carries places (ENU, m) with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place for `dt_s[n]`.
+    /// By default there are none.
+    fn carry(&self, _t_s: f64, _dt_s: &[f32], _places: [&mut [f32]; 3]) {}
+
+    /// Vertical walls along both sides, if the water stands between such.
+    fn walls(&self) -> Option<SideWalls> {
+        None
     }
 
     /// Velocity with gradient, rate of change and density; central differences unless overridden.

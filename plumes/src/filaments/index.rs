@@ -12,6 +12,7 @@ use super::kernel::Path;
 pub use super::leaf::CUT_SIGMAS;
 use super::leaf::{LEAF, Leaf};
 use super::store::Store;
+use super::thread;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 
@@ -47,7 +48,7 @@ struct Leaves {
 impl Index {
     pub(super) fn new(stores: &[Store], now_s: f64) -> Self {
         let mut groups = Vec::new();
-        for (store, s) in stores.iter().enumerate() {
+        for (store, s) in stores.iter().enumerate().filter(|(_, s)| !s.size.shares()) {
             for from in (0..s.len()).step_by(GROUP) {
                 let n = GROUP.min(s.len() - from);
                 // The first is the oldest, and so the largest.
@@ -77,6 +78,9 @@ impl Index {
             return 0.0;
         }
         let mut total = 0.0;
+        for s in stores.iter().filter(|s| s.size.shares()) {
+            total += thread::at(s, self.now_s, path, p);
+        }
         for g in &self.groups {
             if (0..3).all(|d| p[d] >= g.lo[d] && p[d] <= g.hi[d]) {
                 let leaves = g

@@ -46,6 +46,8 @@ pub(super) struct Block {
     pub(super) bed: [f32; BLOCK],
     pub(super) dt: [f32; BLOCK],
     pub(super) number: [u32; BLOCK],
+    /// Part of the diffusivities that kicks it.
+    pub(super) kicked: [f32; BLOCK],
     /// Set by the step: 1 if it has left the grid.
     pub(super) outside: [u32; BLOCK],
 }
@@ -121,7 +123,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
     }
     fetch(cells, nodes, &column, &level, &mut here, Some(&mut slope));
     for l in 0..BLOCK {
-        kick[l] = (2.0 * here[3][l] * b.dt[l]).sqrt() * noise[2][l];
+        kick[l] = (2.0 * here[3][l] * b.dt[l] * b.kicked[l]).sqrt() * noise[2][l];
         level.set(
             l,
             cells.level(folded(b.z[l] + kick[l], b.bed[l], up[l]), up[l]),
@@ -130,16 +132,17 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
     fetch(cells, nodes, &column, &level, &mut there, None);
     if let Some(k_h) = cells.even_k_h {
         for l in 0..BLOCK {
-            let kick = (2.0 * k_h * b.dt[l]).sqrt();
+            let kick = (2.0 * k_h * b.dt[l] * b.kicked[l]).sqrt();
             b.x[l] += kick * noise[0][l];
             b.y[l] += kick * noise[1][l];
         }
     } else {
         for l in 0..BLOCK {
             let (k_h, gradient) = cells.k_h(column.get(l));
-            let kick = (2.0 * k_h * b.dt[l]).sqrt();
-            b.x[l] += kick * noise[0][l] + gradient[0] * b.dt[l];
-            b.y[l] += kick * noise[1][l] + gradient[1] * b.dt[l];
+            let dt = b.dt[l] * b.kicked[l];
+            let kick = (2.0 * k_h * dt).sqrt();
+            b.x[l] += kick * noise[0][l] + gradient[0] * dt;
+            b.y[l] += kick * noise[1][l] + gradient[1] * dt;
         }
     }
     for l in 0..BLOCK {
@@ -153,7 +156,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
         b.y[l] += half * (here[1][l] + there[1][l]);
         b.z[l] += half * (here[2][l] + there[2][l])
             + kick[l]
-            + half * (0.5 * (slope[l] + secant)) * squares;
+            + half * b.kicked[l] * (0.5 * (slope[l] + secant)) * squares;
     }
     for l in 0..BLOCK {
         let c = cells.column(b.x[l], b.y[l]);
@@ -236,6 +239,7 @@ mod tests {
             bed,
             dt: std::array::from_fn(|n| 0.5 + 0.001 * n as f32),
             number: std::array::from_fn(|n| n as u32),
+            kicked: [1.0; BLOCK],
             outside: [0; BLOCK],
         }
     }

@@ -7,12 +7,14 @@ mod leaf;
 mod lookup;
 mod noise;
 mod plume;
-mod quad;
+pub(crate) mod quad;
 mod size;
 mod solids;
 mod store;
 #[cfg(test)]
 mod tests_drift;
+#[cfg(test)]
+mod tests_flume;
 #[cfg(test)]
 mod tests_mass;
 #[cfg(test)]
@@ -21,6 +23,8 @@ mod tests_mean;
 mod tests_mixed;
 #[cfg(test)]
 mod tests_water;
+mod thread;
+mod walls;
 
 pub use index::CUT_SIGMAS;
 pub use plume::{Plume, PlumeSettings};

@@ -15,6 +15,7 @@ use super::noise::step_key;
 use super::size::Size;
 use super::solids::Solids;
 use super::store::Store;
+use super::walls::{CARRY_S, carry, keep_between};
 use crate::error::PlumeError;
 use crate::flow::grid::{FlowGrid, GridShape};
 use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
@@ -57,6 +58,7 @@ pub struct Plume {
     cells: Cells,
     refresh_s: f64,
     next_refresh_s: Option<f64>,
+    carried_s: Option<f64>,
     steps: u64,
     now_s: f64,
     path: Path,
@@ -96,6 +98,7 @@ impl Plume {
             grid,
             refresh_s: settings.refresh_s,
             next_refresh_s: None,
+            carried_s: None,
             steps: 0,
             now_s: 0.0,
             path: Path::detect(),
@@ -127,9 +130,20 @@ impl Plume {
         self.index.take();
         self.refresh(flow, t0_s, t1_s);
         self.now_s = t1_s;
+        let walls = flow.walls();
+        let carried_s = *self.carried_s.get_or_insert(t0_s);
+        // A hair early, as for the refresh.
+        let carries = t1_s - carried_s >= CARRY_S - 1e-6;
         for n in 0..self.stores.len() {
             let key = step_key(self.keys[n], self.steps);
+            let k = self.sources[n]
+                .release
+                .eddy_size_m
+                .map(|_| flow.mixing(&self.sources[n].p_W, t0_s));
             let store = &mut self.stores[n];
+            if let Some(k) = k {
+                store.size.stirred_by(k.k_h_m2_s);
+            }
             let old = store.len();
             let p = self.sources[n].p_W.map(|v| v as f32);
             let column = self.cells.column(p.x, p.y);
@@ -139,7 +153,16 @@ impl Plume {
             sweep(store, old, t0_s, t1_s, |block| {
                 kernel::step(self.path, &self.cells, &self.grid.data, key, block);
             });
+            if let Some(walls) = &walls {
+                if carries {
+                    carry(flow, store, carried_s, t1_s);
+                }
+                keep_between(walls, store);
+            }
             self.solids.keep_out(store);
+        }
+        if carries {
+            self.carried_s = Some(t1_s);
         }
         self.steps += 1;
     }
@@ -288,6 +311,7 @@ fn sweep(store: &mut Store, old: usize, t0_s: f64, t1_s: f64, mut step: impl FnM
         bed: [-1.0; BLOCK],
         dt: [(t1_s - t0_s) as f32; BLOCK],
         number: [0; BLOCK],
+        kicked: [1.0; BLOCK],
         outside: [0; BLOCK],
     };
     let (total, mut to) = (store.len(), 0);
@@ -300,6 +324,12 @@ fn sweep(store: &mut Store, old: usize, t0_s: f64, t1_s: f64, mut step: impl FnM
         b.number[..n].copy_from_slice(&store.number[from..from + n]);
         for l in old.saturating_sub(from).min(n)..n {
             b.dt[l] = (t1_s - store.born_s[from + l]) as f32;
+        }
+        if store.size.shares() {
+            for l in 0..n {
+                let middle = t1_s - 0.5 * f64::from(b.dt[l]);
+                b.kicked[l] = store.size.kicked(middle - store.born_s[from + l]);
+            }
         }
         step(&mut b);
         if b.outside[..n].iter().any(|o| *o != 0) {

@@ -13,37 +13,46 @@ use std::arch::x86_64 as x86;
 /// Four f32.
 #[derive(Clone, Copy)]
 #[cfg(target_arch = "x86_64")]
-pub(super) struct Quad(x86::__m128);
+pub(crate) struct Quad(x86::__m128);
 
 #[cfg(target_arch = "x86_64")]
 impl Quad {
     #[inline(always)]
-    pub(super) fn new(v: &[f32; 4]) -> Self {
+    pub(crate) fn new(v: &[f32; 4]) -> Self {
         // SAFETY: reads four f32 at any alignment.
         Self(unsafe { x86::_mm_loadu_ps(v.as_ptr()) })
     }
 
     #[inline(always)]
-    pub(super) fn add(self, b: Self) -> Self {
+    pub(crate) fn add(self, b: Self) -> Self {
         // SAFETY: SSE is part of every x86-64.
         unsafe { Self(x86::_mm_add_ps(self.0, b.0)) }
     }
 
     #[inline(always)]
-    pub(super) fn sub(self, b: Self) -> Self {
+    pub(crate) fn sub(self, b: Self) -> Self {
         // SAFETY: SSE is part of every x86-64.
         unsafe { Self(x86::_mm_sub_ps(self.0, b.0)) }
     }
 
     #[inline(always)]
-    pub(super) fn times(self, s: f32) -> Self {
+    pub(crate) fn times(self, s: f32) -> Self {
         // SAFETY: SSE is part of every x86-64.
         unsafe { Self(x86::_mm_mul_ps(self.0, x86::_mm_set1_ps(s))) }
     }
 
+    /// As numbers.
+    #[inline(always)]
+    pub(crate) fn array(self) -> [f32; 4] {
+        let mut out = [0.0; 4];
+        // SAFETY: writes four f32 at any alignment.
+        unsafe { x86::_mm_storeu_ps(out.as_mut_ptr(), self.0) };
+        out
+    }
+
     /// Four quads as rows become columns.
     #[inline(always)]
-    pub(super) fn columns(r: [Self; 4]) -> [[f32; 4]; 4] {
+    pub(crate) fn columns(r: [Self; 4]) -> [[f32; 4]; 4] {
         // SAFETY: SSE is part of every x86-64.
         let rows = unsafe {
             let ab = x86::_mm_unpacklo_ps(r[0].0, r[1].0);
@@ -69,33 +78,39 @@ impl Quad {
 /// Four f32.
 #[derive(Clone, Copy)]
 #[cfg(not(target_arch = "x86_64"))]
-pub(super) struct Quad([f32; 4]);
+pub(crate) struct Quad([f32; 4]);
 
 #[cfg(not(target_arch = "x86_64"))]
 impl Quad {
     #[inline(always)]
-    pub(super) fn new(v: &[f32; 4]) -> Self {
+    pub(crate) fn new(v: &[f32; 4]) -> Self {
         Self(*v)
     }
 
     #[inline(always)]
-    pub(super) fn add(self, b: Self) -> Self {
+    pub(crate) fn add(self, b: Self) -> Self {
         Self(std::array::from_fn(|d| self.0[d] + b.0[d]))
     }
 
     #[inline(always)]
-    pub(super) fn sub(self, b: Self) -> Self {
+    pub(crate) fn sub(self, b: Self) -> Self {
         Self(std::array::from_fn(|d| self.0[d] - b.0[d]))
     }
 
     #[inline(always)]
-    pub(super) fn times(self, s: f32) -> Self {
+    pub(crate) fn times(self, s: f32) -> Self {
         Self(self.0.map(|v| v * s))
+    }
+
+    /// As numbers.
+    #[inline(always)]
+    pub(crate) fn array(self) -> [f32; 4] {
+        self.0
     }
 
     /// Four quads as rows become columns.
     #[inline(always)]
-    pub(super) fn columns(r: [Self; 4]) -> [[f32; 4]; 4] {
+    pub(crate) fn columns(r: [Self; 4]) -> [[f32; 4]; 4] {
         std::array::from_fn(|d| std::array::from_fn(|n| r[n].0[d]))
     }
 }
@@ -115,5 +130,6 @@ mod tests {
         {
             assert_eq!(got[d], [x + y, x - y, x * 3.0, y]);
         }
+        assert_eq!(b.array(), [0.5, -1.0, 8.0, 0.25]);
     }
 }

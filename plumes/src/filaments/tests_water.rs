@@ -53,6 +53,7 @@ pub(super) fn source(height_m: f64, rate_hz: f64, growth_m2_s: f64, size_m: f64)
             growth_m2_s: NonNegative::new(growth_m2_s),
             vertical_size_limit_m: None,
             poisson: true,
+            ..ReleaseSpec::default()
         },
     }
 }

@@ -3,6 +3,7 @@
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
+use crate::flow::channel::OpenChannelSpec;
 use crate::flow::layered::LayeredSpec;
 use crate::flow::meander::MeanderSpec;
 use crate::flow::uniform::UniformSpec;
@@ -17,6 +18,8 @@ pub enum CurrentSpec {
     Layered(LayeredSpec),
     /// Slow wandering, the same at all depths.
     Meander(MeanderSpec),
+    /// A channel between side walls with its own bed and turbulence; at most one of these.
+    OpenChannel(OpenChannelSpec),
 }
 
 /// One row for each current.
@@ -35,5 +38,10 @@ pub const CATALOGUE: &[Entry] = &[
         name: "Meander",
         what: "Coloured noise at the area's corners carried inside, made divergence-free",
         source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
+    },
+    Entry {
+        name: "OpenChannel",
+        what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
+        source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
     },
 ];

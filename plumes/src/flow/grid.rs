@@ -45,6 +45,22 @@ impl Default for GridShape {
     }
 }
 
+impl GridShape {
+    /// The usual grid; in waters less than 100 m wide one in proportion: cells of a sixth of the width, a margin of an eighth.
+    #[must_use]
+    pub fn fitting(area: &Area) -> Self {
+        let usual = Self::default();
+        if area.width_m >= 2.0 * usual.margin_m {
+            return usual;
+        }
+        Self {
+            cell_m: area.width_m / 6.0,
+            margin_m: area.width_m / 8.0,
+            ..usual
+        }
+    }
+}
+
 /// Flow and diffusivities at the grid's nodes at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlowGrid {

@@ -2,7 +2,10 @@
 
 pub mod bed;
 pub mod catalogue;
+pub mod channel;
 pub mod coloured_noise;
+pub mod eddies;
+mod flume;
 pub mod grid;
 pub mod ground;
 pub mod layered;

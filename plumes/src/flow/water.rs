@@ -5,7 +5,8 @@
 //!
 //! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise).
 //!
-//! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law; the vertical one follows
+//! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law, plus an open channel's, which has its
+//! own (files `channel`, `eddies`); the vertical one follows
 //! the surfaces that lie linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each: water
 //! goes through neither bed, interface nor surface. Over a level bed meander and boundary layer are free of
 //! divergence. What is left (off Duck 1e-4 1/s rms, 1e-3 at worst): u·∇H/H over a sloping bed, a current
@@ -16,13 +17,16 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::area::Area;
-use world::fields::{Flow, Mixing, WaterSample};
+use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 use world::ranges::Positive;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
 use crate::flow::catalogue::CurrentSpec;
+use crate::flow::channel::Channel;
+use crate::flow::eddies::Eddies;
+use crate::flow::flume::Flume;
 use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn, Profile, Sheet};
 use crate::flow::meander::Meander;
@@ -63,6 +67,7 @@ pub struct Water {
     bed: Option<BoundaryLayer>,
     mixing: MixingSpec,
     density: f64,
+    flume: Option<Flume>,
 }
 
 /// The water over one place at one time; cheap to ask at many heights.
@@ -92,6 +97,7 @@ impl WaterSpec {
             bed,
             mixing: self.mixing.clone(),
             density: self.density_kg_m3.get(),
+            flume: None,
         };
         for (i, current) in self.currents.iter().enumerate() {
             let field = format!("water.currents[{i}]");
@@ -107,6 +113,10 @@ impl WaterSpec {
                     return Err(PlumeError::Invalid { field, problem });
                 }
                 CurrentSpec::Meander(_) => {}
+                CurrentSpec::OpenChannel(spec) => {
+                    let alone = water.flume.is_none() && water.bed.is_none();
+                    water.flume = Some(Flume::build(spec, &field, area, terrain, alone, seed)?);
+                }
             }
         }
         // Meanders last: they are carried by the mean of the others, wherever they stand in the list.
@@ -124,6 +134,23 @@ impl WaterSpec {
 }
 
 impl Water {
+    /// The channel, if the water is one.
+    #[must_use]
+    pub fn channel(&self) -> Option<&Channel> {
+        self.flume.as_ref().map(|f| &f.channel)
+    }
+
+    /// Its resolved eddies, if it has any.
+    #[must_use]
+    pub fn eddies(&self) -> Option<&Eddies> {
+        self.flume.as_ref().and_then(|f| f.eddies.as_ref())
+    }
+
+    fn eddying(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        self.eddies()
+            .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
+    }
+
     /// The water over (east, north) `p` at time `t_s`.
     #[must_use]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
@@ -142,7 +169,9 @@ impl Water {
         const N: usize = 50;
         let column = self.column(p, 0.0);
         let heights = (0..N).map(|k| column.floor.z * (k as f64 + 0.5) / N as f64);
-        heights.map(|z| column.free(z)).sum::<Vector2<f64>>() / N as f64
+        let mean = heights.map(|z| column.free(z)).sum::<Vector2<f64>>() / N as f64;
+        let channel = self.channel().map(|c| c.along * c.mean_m_s);
+        mean + channel.unwrap_or_default()
     }
 }
 
@@ -184,7 +213,10 @@ impl Column<'_> {
             .water
             .bed
             .map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z));
-        let u = (self.plane + profile.map_or(Vector2::zeros(), |p| p.u)) * factor;
+        let mut u = (self.plane + profile.map_or(Vector2::zeros(), |p| p.u)) * factor;
+        if let Some(flume) = &self.water.flume {
+            u += flume.channel.along * flume.channel.speed(z - self.floor.z);
+        }
         let (slope, rate) = match &self.layers {
             Some(layers) => {
                 let sheet = layers.sheet(z, &self.floor);
@@ -205,6 +237,9 @@ impl Column<'_> {
     /// Friction velocity at the bed, m/s; zero without bed friction.
     #[must_use]
     pub fn friction_velocity(&self) -> f64 {
+        if let Some(flume) = &self.water.flume {
+            return flume.channel.u_star_m_s;
+        }
         self.water.bed.map_or(0.0, |bed| {
             let depth = -self.floor.z;
             let speed = self.free(self.floor.z + bed.top(depth)).norm();
@@ -234,7 +269,11 @@ impl Column<'_> {
         let (height, depth) = (z - self.floor.z, -self.floor.z);
         let reach = self.layers.as_ref().and_then(LayeredColumn::lid);
         let reach = reach.map_or(depth, |lid| lid - self.floor.z);
-        let mut k_z = mixing::parabolic(u_star_m_s, height, reach);
+        let flume = self.water.flume.as_ref();
+        let mut k_z = flume.map_or_else(
+            || mixing::parabolic(u_star_m_s, height, reach),
+            |flume| flume.vertical(height),
+        );
         if k_z > 0.0
             && let Some(p) = profile
         {
@@ -244,7 +283,9 @@ impl Column<'_> {
         }
         let spec = &self.water.mixing;
         Mixing {
-            k_h_m2_s: spec.horizontal_m2_s.get() + spec.transverse.get() * u_star_m_s * depth,
+            k_h_m2_s: spec.horizontal_m2_s.get()
+                + spec.transverse.get() * u_star_m_s * depth
+                + flume.map_or(0.0, |flume| flume.k_h),
             k_z_m2_s: spec.background_vertical_m2_s.get() + k_z,
         }
     }
@@ -258,7 +299,17 @@ impl Flow for Water {
     }
 
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        self.column(p.xy(), t_s).velocity(p.z)
+        self.column(p.xy(), t_s).velocity(p.z) + self.eddying(p, t_s)
+    }
+
+    fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
+        if let Some(eddies) = self.eddies() {
+            eddies.carry(t_s, dt_s, places);
+        }
+    }
+
+    fn walls(&self) -> Option<SideWalls> {
+        self.flume.as_ref().map(|f| f.walls)
     }
 
     fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
@@ -296,7 +347,7 @@ impl Flow for Water {
         let twice = 1.0 / (2.0 * H);
         let across = |a: Column<'_>, b: Column<'_>| (a.velocity(p.z) - b.velocity(p.z)) * twice;
         let back = H.min(t_s);
-        WaterSample {
+        let mut sample = WaterSample {
             velocity: here.velocity(p.z),
             gradient: Matrix3::from_columns(&[
                 across(column(H, 0.0, 0.0), column(-H, 0.0, 0.0)),
@@ -306,6 +357,10 @@ impl Flow for Water {
             rate: (column(0.0, 0.0, H).velocity(p.z) - column(0.0, 0.0, -back).velocity(p.z))
                 / (H + back),
             density_kg_m3: here.density(p.z),
+        };
+        if let Some(eddies) = self.eddies() {
+            eddies.add_to(&mut sample, p, t_s);
         }
+        sample
     }
 }

@@ -3,5 +3,5 @@
 mod source;
 mod times;
 
-pub use source::{ReleaseSpec, Source, SourceSpec, clear, place};
+pub use source::{NozzleSpec, ReleaseSpec, Source, SourceSpec, clear, place};
 pub use times::ReleaseTimes;

@@ -4,11 +4,13 @@
 //!
 //! *Parameters*: `rate_g_s` mass given off (g/s); `release.rate_hz` filaments a second (1/s; 5 to 10);
 //! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001);
-//! `release.vertical_size_limit_m` greatest vertical size (m; none).
+//! `release.vertical_size_limit_m` greatest vertical size (m; none); `release.eddy_size_m` (m; none), see `filaments::size`;
+//! `release.nozzle` (none).
 //!
 //! *Deviations*: the paper counts molecules in arbitrary units, here it is mass. The vertical limit is not in the
 //! paper: in stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament
-//! cannot thicken further (Pearson, Puttock & Hunt 1983, J. Fluid Mech. 129, 219).
+//! cannot thicken further (Pearson, Puttock & Hunt 1983, J. Fluid Mech. 129, 219). A nozzle of diameter d releases, at its speed U, a
+//! thread of filaments of size d/4, which have the variance of a disc, U/(d/4) of them a second, so that each overlaps the next.
 
 use crate::error::PlumeError;
 use nalgebra::{Vector2, Vector3};
@@ -55,6 +57,47 @@ pub struct ReleaseSpec {
     pub vertical_size_limit_m: Option<Positive>,
     /// At random times (true) or at equal intervals (false).
     pub poisson: bool,
+    /// Size of the smallest eddies that are resolved, m: below it a filament grows by the eddies smaller than itself instead of
+    /// by `growth_m2_s`, and only the larger ones kick it.
+    pub eddy_size_m: Option<Positive>,
+    /// A nozzle that gives off a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
+    pub nozzle: Option<NozzleSpec>,
+}
+
+/// A round nozzle in the stream.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NozzleSpec {
+    /// Inner diameter, m.
+    pub diameter_m: Positive,
+    /// Speed of what leaves it, m/s; iso-kinetic: that of the water around.
+    pub speed_m_s: Positive,
+}
+
+impl NozzleSpec {
+    /// Volume given off, m³/s.
+    #[must_use]
+    pub fn volume_m3_s(&self) -> f64 {
+        let d = self.diameter_m.get();
+        std::f64::consts::FRAC_PI_4 * d * d * self.speed_m_s.get()
+    }
+}
+
+impl ReleaseSpec {
+    /// With what a nozzle sets put in: filaments with the variance of its disc, (d/4)², one standard deviation after the other.
+    #[must_use]
+    pub fn settled(&self) -> Self {
+        let Some(nozzle) = &self.nozzle else {
+            return self.clone();
+        };
+        let size = nozzle.diameter_m.get() / 4.0;
+        Self {
+            rate_hz: Positive::new(nozzle.speed_m_s.get() / size),
+            initial_size_m: Positive::new(size),
+            poisson: false,
+            ..self.clone()
+        }
+    }
 }
 
 impl Default for ReleaseSpec {
@@ -65,6 +108,8 @@ impl Default for ReleaseSpec {
             growth_m2_s: NonNegative::new(0.001),
             vertical_size_limit_m: None,
             poisson: true,
+            eddy_size_m: None,
+            nozzle: None,
         }
     }
 }
@@ -101,11 +146,12 @@ pub fn place(
                 format!("\"{}\" is already the name of sources[{twin}]", spec.id),
             ));
         }
+        let release = spec.release.settled();
         sources.push(Source {
             id: spec.id.clone(),
             p_W: position(n, spec, area, terrain)?,
-            filament_kg: 1e-3 * spec.rate_g_s.get() / spec.release.rate_hz.get(),
-            release: spec.release.clone(),
+            filament_kg: 1e-3 * spec.rate_g_s.get() / release.rate_hz.get(),
+            release,
         });
     }
     Ok(sources)

@@ -4,6 +4,7 @@ mod behaviour;
 mod command;
 mod decision;
 mod estimate;
+mod gantry;
 mod goal;
 mod lost_points;
 mod places;
@@ -13,6 +14,10 @@ pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
 pub use command::{ActuatorCommand, Command, Setpoint};
 pub use decision::{Behaviour, Decision, Declaration, Outcome};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};
+pub use gantry::{
+    GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings,
+    JointReadings, MAX_PROBES, ProbeMount, ProbeScan, TrackerState,
+};
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use lost_points::{LostPoint, LostPoints};
 pub use places::{edges, inside};

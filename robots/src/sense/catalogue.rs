@@ -39,4 +39,9 @@ pub const CATALOGUE: &[Entry] = &[
         what: "Position fixes from a long acoustic baseline: period, noise, drop-outs.",
         source: "Pang 2009, sections 4 and 5.6",
     },
+    Entry {
+        name: "probes",
+        what: "Conductivity probes of a gantry's head, scanned together: voltage with noise, quantisation, saturation.",
+        source: "Webster et al. 2012, section 3",
+    },
 ];

@@ -8,6 +8,7 @@ mod depth;
 mod dvl;
 mod fluorometer;
 mod lbl;
+mod probe;
 mod suite;
 #[cfg(test)]
 mod testing;
@@ -21,4 +22,5 @@ pub use depth::{Depth, DepthSpec};
 pub use dvl::{Dvl, DvlSpec};
 pub use fluorometer::{Fluorometer, FluorometerSpec};
 pub use lbl::{Lbl, LblSpec};
+pub use probe::{Probes, ProbesSpec};
 pub use suite::{SensorSuite, SensorsSpec};

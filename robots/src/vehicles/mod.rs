@@ -2,6 +2,7 @@
 
 mod actuators;
 mod coefficients;
+mod gantry;
 mod hydrodynamics;
 #[cfg(test)]
 mod hydrodynamics_tests;
@@ -10,11 +11,13 @@ mod motion;
 mod spec;
 mod surface;
 mod urdf;
+mod urdf_parts;
 #[cfg(test)]
 mod urdf_tests;
 mod vehicle;
 
 pub use coefficients::{Coefficients, Inflow, ParameterSet};
+pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
 pub use hydrodynamics::Actuators;
 pub use spec::{CATALOGUE, RemusSpec, VehicleSpec};
 pub use vehicle::Vehicle;

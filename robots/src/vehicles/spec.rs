@@ -29,8 +29,15 @@ pub struct RemusSpec {
 }
 
 /// Vehicles that a scenario can ask for.
-pub const CATALOGUE: &[Entry] = &[Entry {
-    name: "Remus100",
-    what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
-    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI 2001",
-}];
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "Remus100",
+        what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI 2001",
+    },
+    Entry {
+        name: "CrabGantry",
+        what: "Two-axis gantry over a flume with a head of three probes: servo drives, end stops, contacts.",
+        source: "Webster, Volyanskyy & Weissburg 2012, section 3.1 and Figs. 5, 6",
+    },
+];

@@ -8,12 +8,11 @@
 //! there, their forces are in the hydrodynamics. Cylinders and capsules lie along z.
 
 use super::coefficients::Coefficients;
-use super::mesh;
+use super::urdf_parts::{joined, parse, place, pose_of, root, shape};
 use crate::error::RobotError;
-use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 use std::path::Path;
-use urdf_rs::{Geometry, Link, Robot};
+use urdf_rs::Link;
 use world::frames::Pose;
 use world::physics::Shape;
 
@@ -38,8 +37,7 @@ pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, Ro
         path: path.display().to_string(),
         problem,
     };
-    let robot: Robot =
-        urdf_rs::read_from_string(text).map_err(|e| fail(format!("not a URDF file: {e}")))?;
+    let robot = parse(text).map_err(fail)?;
     let body = root(&robot).map_err(fail)?;
     let links = place(&robot, &body.name).map_err(fail)?;
     for needed in NEEDED {
@@ -70,38 +68,6 @@ pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, Ro
         ));
     }
     Ok(Hull { shapes, links })
-}
-
-fn root(robot: &Robot) -> Result<&Link, String> {
-    let is_child = |l: &Link| robot.joints.iter().any(|j| j.child.link == l.name);
-    robot
-        .links
-        .iter()
-        .find(|l| !is_child(l))
-        .ok_or_else(|| "every link is the child of a joint: there is no body".into())
-}
-
-/// Pose of every link that hangs on `body`, joints at zero.
-fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>, String> {
-    let mut links = BTreeMap::new();
-    links.insert(body.to_string(), pose_of(&urdf_rs::Pose::default()));
-    for joint in &robot.joints {
-        for end in [&joint.parent.link, &joint.child.link] {
-            if !robot.links.iter().any(|l| &l.name == end) {
-                return Err(format!("joint \"{}\": no link \"{end}\"", joint.name));
-            }
-        }
-    }
-    // Each round places at least one link more, or the rest does not hang on the body.
-    for _ in &robot.joints {
-        for joint in &robot.joints {
-            if let Some(parent) = links.get(&joint.parent.link).copied() {
-                let pose = joined(&parent, &pose_of(&joint.origin));
-                links.entry(joint.child.link.clone()).or_insert(pose);
-            }
-        }
-    }
-    Ok(links)
 }
 
 fn check_mass(body: &Link, c: &Coefficients) -> Result<(), String> {
@@ -141,64 +107,4 @@ fn check_mass(body: &Link, c: &Coefficients) -> Result<(), String> {
         ));
     }
     Ok(())
-}
-
-fn shape(geometry: &Geometry, beside: &Path) -> Result<Shape, String> {
-    let positive = |v: f64, what: &str| {
-        if v > 0.0 && v.is_finite() {
-            Ok(v)
-        } else {
-            Err(format!("{what} must be > 0, got {v}"))
-        }
-    };
-    Ok(match geometry {
-        Geometry::Box { size } => {
-            for v in size.iter() {
-                positive(*v, "box size")?;
-            }
-            Shape::Box {
-                size_m: Vector3::from(size.0),
-            }
-        }
-        Geometry::Cylinder { radius, length } => Shape::Cylinder {
-            radius_m: positive(*radius, "cylinder radius")?,
-            length_m: positive(*length, "cylinder length")?,
-        },
-        Geometry::Capsule { radius, length } => Shape::Capsule {
-            radius_m: positive(*radius, "capsule radius")?,
-            length_m: positive(*length, "capsule length")?,
-        },
-        Geometry::Sphere { radius } => Shape::Sphere {
-            radius_m: positive(*radius, "sphere radius")?,
-        },
-        Geometry::Mesh { filename, scale } => {
-            let file = filename.strip_prefix("file://").unwrap_or(filename);
-            let points = mesh::points(&beside.join(file))
-                .map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
-            let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));
-            let hull = Shape::Hull {
-                points_m: points.iter().map(|p| p.component_mul(&scale)).collect(),
-            };
-            if !hull.is_solid() {
-                return Err(format!("mesh \"{filename}\": its corners span no volume"));
-            }
-            hull
-        }
-    })
-}
-
-fn pose_of(p: &urdf_rs::Pose) -> Pose {
-    let [roll, pitch, yaw] = p.rpy.0;
-    Pose {
-        p_WB: Vector3::from(p.xyz.0),
-        R_WB: UnitQuaternion::from_euler_angles(roll, pitch, yaw),
-    }
-}
-
-/// `inner`, given in the axes of `outer`, in those in which `outer` is given.
-fn joined(outer: &Pose, inner: &Pose) -> Pose {
-    Pose {
-        p_WB: outer.point(inner.p_WB),
-        R_WB: outer.R_WB * inner.R_WB,
-    }
 }

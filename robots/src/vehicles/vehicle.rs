@@ -4,11 +4,12 @@ use super::coefficients::Coefficients;
 use super::hydrodynamics::{Actuators, Hydrodynamics};
 use super::spec::VehicleSpec;
 use super::urdf::{self, Hull};
+use super::urdf_parts;
 use crate::error::RobotError;
 use crate::handoff::ActuatorCommand;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Matrix3, Vector3};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
@@ -29,21 +30,9 @@ impl Vehicle {
     pub fn load(spec: &VehicleSpec, base_dir: &Path) -> Result<Self, RobotError> {
         let VehicleSpec::Remus100(remus) = spec;
         let coefficients = Coefficients::of(remus.parameters);
-        let hull = match &remus.urdf {
-            None => urdf::read(
-                REMUS100,
-                &PathBuf::from("built-in remus100.urdf"),
-                &coefficients,
-            )?,
-            Some(name) => {
-                let path = base_dir.join(name);
-                let text = std::fs::read_to_string(&path).map_err(|e| RobotError::File {
-                    path: path.display().to_string(),
-                    problem: e.to_string(),
-                })?;
-                urdf::read(&text, &path, &coefficients)?
-            }
-        };
+        let built_in = ("remus100.urdf", REMUS100);
+        let (text, path) = urdf_parts::open(remus.urdf.as_deref(), base_dir, built_in)?;
+        let hull = urdf::read(&text, &path, &coefficients)?;
         Ok(Self {
             hull,
             dynamics: Hydrodynamics::new(coefficients),

@@ -6,6 +6,7 @@
 
 use super::row::RunRow;
 use crate::frame::Frame;
+use crate::gantry::GantrySummary;
 use crate::report::{
     RunEnd, RunInfo, RunOutcome, RunSummary, SourceTruth, Summary, SummaryBuilder, Totals,
 };
@@ -155,12 +156,21 @@ fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
 }
 
 fn row(name: &RunName, summary: &Summary) -> RunRow {
-    let first = (summary
-        .robots
-        .iter()
-        .filter_map(|r| r.declaration.as_ref().map(|d| (r, d))))
-    .min_by(|a, b| a.1.t_s.total_cmp(&b.1.t_s));
-    let declared = first.map(|(_, d)| d);
+    let by_robots =
+        (summary.robots.iter()).filter_map(|r| r.declaration.as_ref().map(|d| (d, r.traced_m)));
+    let by_gantries =
+        (summary.gantries.iter()).filter_map(|g| Some((g.declaration.as_ref()?, None)));
+    let first = by_robots
+        .chain(by_gantries)
+        .min_by(|a, b| a.0.t_s.total_cmp(&b.0.t_s));
+    let declared = first.map(|(d, _)| d);
+    // Several gantries share a row only where nobody asks for the path of one.
+    let gantry = summary.gantries.first();
+    let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
+    let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) = (
+        paired(|g| g.speed_far_near_m_s),
+        paired(|g| g.offset_far_near_m),
+    );
     let error = declared.and_then(|d| d.error.as_ref());
     let RunSummary { totals, .. } = summary.run;
     RunRow {
@@ -169,6 +179,7 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
         digest: summary.digest.clone(),
         mission_s: totals.mission_s,
         first_detection_s: (summary.robots.iter().filter_map(|r| r.first_detection_s))
+            .chain(summary.gantries.iter().filter_map(|g| g.first_spike_s))
             .min_by(f64::total_cmp),
         declared_s: declared.map(|d| d.t_s),
         declared_east_m: declared.map(|d| d.position.east_m),
@@ -176,9 +187,18 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
         error_m: error.map(|e| e.total_m),
         error_along_m: error.and_then(|e| e.along_flow_m),
         error_across_m: error.and_then(|e| e.across_flow_m),
-        traced_m: first.and_then(|(r, _)| r.traced_m),
-        travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum(),
-        detections: summary.robots.iter().map(|r| r.detections).sum(),
+        traced_m: first.and_then(|(_, traced_m)| traced_m),
+        travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum::<f64>()
+            + summary.gantries.iter().map(|g| g.travelled_m).sum::<f64>(),
+        detections: summary.robots.iter().map(|r| r.detections).sum::<u64>()
+            + summary.gantries.iter().map(|g| g.spikes).sum::<u64>(),
+        sweep_s: gantry.and_then(|g| g.sweep_s),
+        speed_m_s: gantry.and_then(|g| g.speed_m_s),
+        ngdr: gantry.and_then(|g| g.ngdr),
+        far_speed_m_s,
+        near_speed_m_s,
+        far_offset_m,
+        near_offset_m,
         spin_up_wall_s: totals.spin_up_wall_s,
         mission_wall_s: totals.mission_wall_s,
         error: None,

@@ -61,14 +61,16 @@ pub enum Command {
     Campaign(CampaignArgs),
     /// Run the papers' experiments over many seeds and show our figures beside theirs.
     Reproduce(ReproduceArgs),
+    /// Watch a scenario's water and plume and show their statistics beside published ones.
+    Statistics(StatisticsArgs),
 }
 
 /// Arguments of `run`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
     long_about = "Runs scenarios, one after the other: spin-up of the plume, then the mission. Each \
-        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, run.mcap, \
-        figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
+        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, \
+        probes-<gantry>.csv, run.mcap, figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
         however fast it goes and whoever listens.",
     after_help = RUN_AFTER
 )]
@@ -193,6 +195,41 @@ pub enum ListKind {
     Sensors,
     /// Bodies.
     Vehicles,
+}
+
+/// Arguments of `statistics`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(
+    long_about = "Lets a scenario's plume develop, without its robots, then watches it with probes that disturb nothing: \
+        widths, mean and intermittent concentration, gaps, the gamma law, integral times; in an open channel also the \
+        profile and the intensities of the water. One table, our figure beside the published one; what is outside a \
+        factor of 0.5 to 2 is marked. Leaves statistics.csv.",
+    after_help = "Examples:\n  rheotaxis statistics flume_crab\n  rheotaxis statistics duck_st --seed 3 --seconds 600\n\n\
+        Exit codes: 0 done, whatever the figures say; 1 error; 2 usage."
+)]
+pub struct StatisticsArgs {
+    /// Scenario file, or the name of a scenario that comes with the program.
+    #[arg(value_name = "FILE")]
+    pub file: PathBuf,
+    /// Seed of all random numbers.
+    #[arg(long, default_value_t = 1)]
+    pub seed: u64,
+    /// How long to watch; without it 1200 s in an open channel, elsewhere the scenario's `time.limit_s`.
+    #[arg(long, value_name = "SECONDS", value_parser = seconds)]
+    pub seconds: Option<f64>,
+    /// Folder for statistics.csv; without it runs/<scenario>-<seed>-statistics.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Show no progress.
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+fn seconds(s: &str) -> Result<f64, String> {
+    match s.parse::<f64>() {
+        Ok(v) if v > 0.0 && v.is_finite() => Ok(v),
+        _ => Err("must be a number > 0".to_string()),
+    }
 }
 
 /// Arguments of `topics`.

@@ -40,9 +40,23 @@ const SECTIONS: &[Section] = &[
         "Autopilots",
         robots::actuate::CATALOGUE,
     ),
+    section(
+        ListKind::Algorithms,
+        "Searchers of a gantry (gantries: tracker)",
+        robots::track::STRATEGIES,
+    ),
+    section(
+        ListKind::Algorithms,
+        "Units of the Crab tracker, by their fields",
+        robots::track::UNITS,
+    ),
     section(ListKind::Flows, "Flows", plumes::flow::CATALOGUE),
     section(ListKind::Sensors, "Sensors", robots::sense::CATALOGUE),
-    section(ListKind::Vehicles, "Vehicles", robots::vehicles::CATALOGUE),
+    section(
+        ListKind::Vehicles,
+        "Vehicles and gantries",
+        robots::vehicles::CATALOGUE,
+    ),
 ];
 
 const fn section(kind: ListKind, heading: &'static str, entries: &'static [Entry]) -> Section {

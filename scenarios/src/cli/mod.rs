@@ -19,10 +19,12 @@ mod progress;
 mod reproduce;
 mod run;
 mod say;
+mod statistics;
 mod topics;
 
 pub use args::{
-    Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, TopicsArgs,
+    Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
+    TopicsArgs,
 };
 pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
@@ -47,6 +49,7 @@ pub fn main() -> ExitCode {
         Command::Topics(args) => topics::topics(&args),
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Statistics(args) => statistics::statistics(&args),
     };
     exit.into()
 }

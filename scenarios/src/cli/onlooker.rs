@@ -6,20 +6,25 @@
 
 use super::args::{RunArgs, Speed};
 use super::progress::Progress;
+use crate::assemble::AssembleError;
 use crate::frame::{Frame, PlumeFrame};
+use crate::gantry::GantryBlock;
 use crate::live::{Live, LiveMeta, LiveOptions, run_id};
 use crate::report::{
-    MassBalance, ObstacleOutline, Recorder, ReportError, RobotInfo, RunEnd, RunInfo, RunOutcome,
-    RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable, write_all,
+    GantryInfo, MassBalance, ObstacleOutline, ProbeTables, Recorder, ReportError, RobotInfo,
+    RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
+    write_all,
 };
 use crate::scenario::Loaded;
 use crate::system::Dye;
 use crate::trial::{Ended, Trial, Watch};
+use robots::vehicles::Gantry;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use world::area::Area;
 use world::obstacles::Obstacles;
+use world::ranges::Finite;
 use world::terrain::Terrain;
 
 use super::run::RunError;
@@ -30,6 +35,7 @@ pub(super) struct Onlooker<'a> {
     text: String,
     builder: SummaryBuilder,
     track: TrackTable,
+    probes: ProbeTables,
     recorder: Option<Recorder>,
     live: Option<Live>,
     progress: Progress,
@@ -71,6 +77,7 @@ impl<'a> Onlooker<'a> {
             }
         });
         let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;
+        let probes = ProbeTables::create(out, gantries(loaded)?)?;
         let recorder = (!args.no_record)
             .then(|| Recorder::create(&out.join("run.mcap"), &run))
             .transpose()?;
@@ -104,6 +111,7 @@ impl<'a> Onlooker<'a> {
             text: loaded.text.clone(),
             builder: SummaryBuilder::new(&run),
             track,
+            probes,
             recorder,
             live,
             progress,
@@ -182,6 +190,7 @@ impl<'a> Onlooker<'a> {
             &sources,
         );
         let track = self.track.finish();
+        let gantries = self.probes.finish();
         let obstacles: Vec<ObstacleOutline> = (world.resource::<Obstacles>().0.iter())
             .map(|o| ObstacleOutline {
                 id: o.id.clone(),
@@ -193,7 +202,9 @@ impl<'a> Onlooker<'a> {
             &RunReport {
                 summary: &summary,
                 track: &track,
+                gantries: &gantries,
                 plume: self.last_plume.as_ref(),
+                dye: (!sources.is_empty()).then_some(plume),
                 area: world.resource::<Area>(),
                 terrain: world.resource::<Terrain>(),
                 sources: &sources,
@@ -213,6 +224,34 @@ impl<'a> Onlooker<'a> {
     }
 }
 
+/// What tables and figures must know of the scenario's gantries.
+fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
+    let scenario = &loaded.scenario;
+    // The strongest, if there are several.
+    let effluent = (scenario.sources.iter())
+        .filter_map(|s| Some(1e-3 * s.rate_g_s.get() / s.release.nozzle.as_ref()?.volume_m3_s()))
+        .max_by(f64::total_cmp);
+    let info = |block: &GantryBlock| {
+        let id = block.id.as_str().to_string();
+        let gantry = Gantry::load(&block.gantry, &loaded.base_dir).map_err(|source| {
+            AssembleError::Robot {
+                id: id.clone(),
+                source,
+            }
+        })?;
+        let range_v = block.probes.range_v.map(Finite::get);
+        let layout = gantry.layout(block.probes.rate_hz.get(), range_v);
+        Ok(GantryInfo {
+            id,
+            probes: layout.probes.into_iter().map(|p| p.name).collect(),
+            range_v,
+            full_scale_kg_m3: block.probes.full_scale_kg_m3.get(),
+            effluent_kg_m3: effluent,
+        })
+    };
+    scenario.gantries.iter().map(info).collect()
+}
+
 impl Watch for Onlooker<'_> {
     fn spun_up(&mut self, share: f64) -> bool {
         self.progress.spun_up(share);
@@ -224,6 +263,8 @@ impl Watch for Onlooker<'_> {
         self.builder.observe(frame);
         let rows = self.track.push(frame);
         self.note(rows);
+        let scans = self.probes.push(frame);
+        self.note(scans);
         if let Some(recorder) = &mut self.recorder {
             let recorded = recorder.frame(frame);
             self.note(recorded);

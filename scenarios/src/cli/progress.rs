@@ -2,9 +2,11 @@
 
 use super::args::RunArgs;
 use crate::frame::Frame;
+use crate::gantry::{GantryFrame, GantrySummary};
 use crate::report::Summary;
 use crate::scenario::Loaded;
 use indicatif::{ProgressBar, ProgressStyle};
+use nalgebra::Vector2;
 use std::path::Path;
 
 /// Resolution of the spin-up's share.
@@ -18,6 +20,8 @@ pub(super) struct Progress {
     limit_s: f64,
     flying: bool,
     detections: u64,
+    /// Where the sources truly are (east, north), m: the onlooker may know.
+    sources: Vec<Vector2<f64>>,
 }
 
 impl Progress {
@@ -38,6 +42,9 @@ impl Progress {
             limit_s: scenario.time.limit_s.get(),
             flying: false,
             detections: 0,
+            sources: (scenario.sources.iter())
+                .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
+                .collect(),
         };
         progress.bar.set_prefix(progress.name.clone());
         progress.say(&format!(
@@ -69,14 +76,29 @@ impl Progress {
         }
         self.detections += frame.robots.iter().filter(|r| r.detected).count() as u64;
         self.bar.set_position(frame.t_s as u64);
-        if frame.step.is_multiple_of(50) || frame.robots.iter().any(|r| r.declaration.is_some()) {
-            let doing: Vec<&str> = frame.robots.iter().map(|r| r.behaviour.name()).collect();
-            self.bar.set_message(format!(
-                "| {} | detections {}",
-                doing.join(", "),
-                self.detections
-            ));
+        let declared = frame.robots.iter().any(|r| r.declaration.is_some());
+        let stopped = frame.gantries.iter().any(|g| g.decision.stopped.is_some());
+        if frame.step.is_multiple_of(50) || declared || stopped {
+            let mut doing: Vec<String> = (frame.robots.iter())
+                .map(|r| r.behaviour.name().to_string())
+                .collect();
+            if !frame.robots.is_empty() {
+                doing.push(format!("detections {}", self.detections));
+            }
+            doing.extend(frame.gantries.iter().map(|g| self.gantry(g)));
+            self.bar.set_message(format!("| {}", doing.join(", ")));
         }
+    }
+
+    fn gantry(&self, g: &GantryFrame) -> String {
+        let d = &g.decision;
+        let away = (self.sources.iter().map(|s| (s - g.head_W.xy()).norm())).min_by(f64::total_cmp);
+        let away = away.map_or_else(String::new, |m| format!(", {:.0} cm away", 100.0 * m));
+        format!(
+            "{}{away}, {:.1} spikes/s",
+            d.behaviour.name(),
+            d.working.spike_hz
+        )
     }
 
     /// Takes the bar away and says how it ended and where the results lie.
@@ -135,9 +157,54 @@ impl Progress {
                 println!();
             }
         }
+        for g in &summary.gantries {
+            for line in gantry_lines(g) {
+                println!("  {}: {line}", g.id);
+            }
+        }
         println!("  digest {}", summary.digest);
         println!("  results in {}: open report.html", out.display());
     }
+}
+
+/// What a gantry came to, for people.
+fn gantry_lines(g: &GantrySummary) -> Vec<String> {
+    let [steps, casts, sweeps] = g.moves;
+    let mut lines = vec![format!(
+        "travelled {:.2} m in {steps} steps, {casts} casts and {sweeps} sweeps; {} scans with a spike{}",
+        g.travelled_m,
+        g.spikes,
+        match g.first_spike_s {
+            Some(t) => format!(", the first after {t:.1} s"),
+            None => String::new(),
+        }
+    )];
+    if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
+        lines.push(format!(
+            "from the first step up-stream: {:.1} cm/s, straight way over path (NGDR) {ngdr:.2}",
+            100.0 * v
+        ));
+    }
+    match (&g.declaration, g.stopped) {
+        (Some(d), _) => {
+            let error = d.error.as_ref();
+            let off = error.map_or_else(String::new, |e| {
+                format!(", {:.1} cm from {}", 100.0 * e.total_m, e.source)
+            });
+            let parts = error.and_then(|e| Some((e.along_flow_m?, e.across_flow_m?)));
+            let parts = parts.map_or_else(String::new, |(along, across)| {
+                let (along, across) = (100.0 * along, 100.0 * across);
+                format!(" ({along:+.1} cm along the flow, {across:+.1} cm across)")
+            });
+            lines.push(format!("stopped after {:.1} s{off}{parts}", d.t_s));
+        }
+        (None, Some(_)) => lines.push("gave up".to_string()),
+        (None, None) => lines.push("did not stop".to_string()),
+    }
+    if g.blocked {
+        lines.push("a drive gave up against something in the way".to_string());
+    }
+    lines
 }
 
 fn style(template: &str) -> ProgressStyle {

@@ -65,9 +65,15 @@ impl Mailbox {
         let mut slots = self.slots();
         slots.counts.offered += 1;
         if let Some(old) = &slots.frame {
-            // A detection is an event: it must outlive the state that carried it.
+            // Detections and spikes are events: they must outlive the state that carried it.
             for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
                 robot.detected |= before.detected;
+            }
+            for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
+                let spikes = &mut gantry.decision.working.spike;
+                for (spike, earlier) in spikes.iter_mut().zip(before.decision.working.spike) {
+                    *spike |= earlier;
+                }
             }
             slots.counts.superseded += 1;
         }
@@ -194,12 +200,14 @@ mod tests {
         let mailbox = hour_between_states();
         let mut detected = frame(0);
         detected.robots[0].detected = true;
+        detected.gantries[0].decision.working.spike[0] = true;
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else {
             panic!("a state was handed over")
         };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
+        assert!(sent.gantries[0].decision.working.spike[0]);
     }
 
     #[test]

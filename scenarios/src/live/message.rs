@@ -1,5 +1,6 @@
 //! The words on the wire: a state as JSON messages, a plume as packed numbers.
 
+use super::message_gantry::gantry;
 use super::options::chunk;
 use super::{LiveCounts, Topic, topics};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
@@ -16,7 +17,7 @@ pub(super) struct Message {
 }
 
 impl Message {
-    fn json(key: impl Into<String>, value: &Value) -> Self {
+    pub(super) fn json(key: impl Into<String>, value: &Value) -> Self {
         Self {
             key: key.into(),
             payload: value.to_string().into_bytes(),
@@ -40,11 +41,9 @@ pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Mes
 
 /// All messages of a state but the clock.
 pub(super) fn state(frame: &Frame) -> Vec<Message> {
-    frame
-        .robots
-        .iter()
-        .flat_map(|r| robot(frame.t_s, r))
-        .collect()
+    let robots = frame.robots.iter().flat_map(|r| robot(frame.t_s, r));
+    let gantries = frame.gantries.iter().flat_map(|g| gantry(frame.t_s, g));
+    robots.chain(gantries).collect()
 }
 
 fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
@@ -223,7 +222,7 @@ fn merged(a: Value, b: Value) -> Value {
     fields(a).into_iter().chain(fields(b)).collect()
 }
 
-fn with(object: Value, name: &str, number: Option<f64>) -> Value {
+pub(super) fn with(object: Value, name: &str, number: Option<f64>) -> Value {
     match number {
         Some(number) => merged(object, json!({ name: number })),
         None => object,
@@ -233,8 +232,9 @@ fn with(object: Value, name: &str, number: Option<f64>) -> Value {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::gantry::sample;
     use nalgebra::{Vector2, Vector3};
-    use robots::handoff::{ActuatorCommand, Attitude, Behaviour, Estimate};
+    use robots::handoff::{ActuatorCommand, Attitude, Behaviour, Estimate, GantryBehaviour};
     use world::frames::{Pose, Truth};
     use world::units::Heading;
 
@@ -277,6 +277,7 @@ pub(super) mod tests {
             t_s: 0.1,
             step,
             robots: vec![robot],
+            gantries: vec![sample::gantry(1.0, 0.0, GantryBehaviour::StepUp)],
         }
     }
 

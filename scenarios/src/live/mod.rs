@@ -15,6 +15,8 @@ mod mailbox;
 #[cfg(feature = "live")]
 mod message;
 #[cfg(feature = "live")]
+mod message_gantry;
+#[cfg(feature = "live")]
 mod session;
 #[cfg(feature = "live")]
 mod tree;

@@ -3,7 +3,7 @@
 //! `rheotaxis topics` prints it and a run publishes each schema under `meta/schema/<name>`.
 
 use super::table::TOPICS;
-use robots::handoff::Behaviour;
+use robots::handoff::{Behaviour, GantryBehaviour};
 use serde_json::{Map, Value, json};
 
 /// Type of a field.
@@ -19,12 +19,20 @@ pub enum Kind {
     Text,
     /// A behaviour's name.
     Behaviour,
+    /// A gantry's behaviour.
+    GantryBehaviour,
     /// One of these words.
     Word(&'static [&'static str]),
     /// So many numbers.
     Vector(usize),
     /// Any number of (east, north).
     Points,
+    /// Any number of (east, north, up).
+    Places,
+    /// Any number of numbers.
+    Numbers,
+    /// Any number of truth values.
+    Flags,
     /// Any number of words.
     Words,
 }
@@ -40,9 +48,15 @@ impl Kind {
             Kind::Behaviour => {
                 json!({"type": "string", "enum": Behaviour::ALL.map(Behaviour::name)})
             }
+            Kind::GantryBehaviour => {
+                json!({"type": "string", "enum": GantryBehaviour::ALL.map(GantryBehaviour::name)})
+            }
             Kind::Word(words) => json!({"type": "string", "enum": words}),
             Kind::Vector(n) => vector(n),
             Kind::Points => json!({"type": "array", "items": vector(2)}),
+            Kind::Places => json!({"type": "array", "items": vector(3)}),
+            Kind::Numbers => json!({"type": "array", "items": {"type": "number"}}),
+            Kind::Flags => json!({"type": "array", "items": {"type": "boolean"}}),
             Kind::Words => json!({"type": "array", "items": {"type": "string"}}),
         };
         match schema {

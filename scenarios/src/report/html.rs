@@ -2,6 +2,7 @@
 
 use super::figures::escaped;
 use super::summary::Summary;
+use crate::gantry::GantrySummary;
 use std::fmt::Write as _;
 
 /// Look of all pages.
@@ -30,6 +31,9 @@ pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_tex
     }
     for r in &summary.robots {
         table(&mut out, &format!("Robot {}", r.id), &robot_rows(r));
+    }
+    for g in &summary.gantries {
+        table(&mut out, &format!("Gantry {}", g.id), &gantry_rows(g));
     }
     table(&mut out, "Run", &run_rows(summary));
     for (title, svg) in figures {
@@ -97,6 +101,69 @@ fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
         .map(|(b, s)| format!("{b} {s:.0} s"))
         .collect();
     rows.push(("Time in behaviours", times.join(", ")));
+    rows
+}
+
+fn gantry_rows(g: &GantrySummary) -> Vec<(&'static str, String)> {
+    let stopped = match g.stopped {
+        Some(true) => "declared a source",
+        Some(false) => "gave up",
+        None => "did not stop",
+    };
+    let mut rows = vec![("Stopped", stopped.to_owned())];
+    if let Some(d) = &g.declaration {
+        let mut what = format!("at {:.1} s", d.t_s);
+        if let Some(e) = &d.error {
+            write!(what, ", {:.1} cm from {}", 100.0 * e.total_m, e.source).expect(TEXT);
+            if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
+                write!(
+                    what,
+                    ": {:+.1} cm along the flow (down-flow positive), {:+.1} cm across",
+                    100.0 * a,
+                    100.0 * b
+                )
+                .expect(TEXT);
+            }
+        }
+        rows.push(("Declared", what));
+    }
+    let seconds = |t: Option<f64>| t.map_or_else(|| "never".to_owned(), |t| format!("{t:.1} s"));
+    rows.push(("First sweep over", seconds(g.sweep_s)));
+    let spikes = format!(
+        "{} scans, the first at {}",
+        g.spikes,
+        seconds(g.first_spike_s)
+    );
+    rows.push(("Scans with a spike", spikes));
+    let [steps, casts, sweeps] = g.moves;
+    let moves = format!("{steps} steps up-stream, {casts} casts, {sweeps} full sweeps");
+    rows.push(("Motions", moves));
+    let tracked = g
+        .tracked_m
+        .map(|m| format!("; {m:.2} m from the first step up-stream"));
+    let way = format!("{:.2} m{}", g.travelled_m, tracked.unwrap_or_default());
+    rows.push(("Path", way));
+    if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
+        let what = format!(
+            "{:.1} cm/s; straight way over path (NGDR) {ngdr:.2}",
+            100.0 * v
+        );
+        rows.push(("From the first step up-stream", what));
+    }
+    let pair = |p: [Option<f64>; 2], unit: &str| {
+        let one = |v: Option<f64>| {
+            v.map_or_else(|| "–".to_owned(), |v| format!("{:.1} {unit}", 100.0 * v))
+        };
+        format!("{} at 100–50 cm, {} at 50–0 cm", one(p[0]), one(p[1]))
+    };
+    rows.push(("Speed", pair(g.speed_far_near_m_s, "cm/s")));
+    rows.push(("From the centreline", pair(g.offset_far_near_m, "cm")));
+    if g.blocked {
+        rows.push((
+            "Blocked",
+            "a drive gave up against something in the way".to_owned(),
+        ));
+    }
     rows
 }
 

@@ -3,7 +3,9 @@
 pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
+mod probes;
 mod recorder;
+mod recorder_gantry;
 mod summary;
 mod summary_builder;
 mod track;
@@ -11,6 +13,7 @@ mod write;
 
 pub use files::ReportError;
 pub(crate) use files::{make_folder, write_whole};
+pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{
     DeclarationSummary, MassBalance, Position, RobotSummary, RunOutcome, RunSummary, SourceError,
@@ -24,3 +27,5 @@ pub use write::{ObstacleOutline, RunReport, write_all};
 mod sample;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_gantry;

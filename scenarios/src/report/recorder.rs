@@ -1,6 +1,7 @@
 //! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
 
 use super::ReportError;
+use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::{Command, Estimate, Vertical};
@@ -25,7 +26,7 @@ pub struct RunInfo {
 }
 
 /// Frame of all poses.
-const WORLD: &str = "world";
+pub(super) const WORLD: &str = "world";
 
 /// The recording of one run. Dropped without [`Recorder::finish`] it stays under its temporary
 /// name, readable.
@@ -33,6 +34,7 @@ pub struct Recorder {
     file: McapFile,
     behaviours: Vec<&'static str>,
     declared: Vec<bool>,
+    gantries: Vec<GantryRecorder>,
 }
 
 impl Recorder {
@@ -56,6 +58,7 @@ impl Recorder {
             file,
             behaviours: Vec::new(),
             declared: Vec::new(),
+            gantries: Vec::new(),
         })
     }
 
@@ -71,19 +74,22 @@ impl Recorder {
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
         }
+        self.gantries
+            .resize_with(frame.gantries.len(), GantryRecorder::default);
+        for (known, gantry) in self.gantries.iter_mut().zip(&frame.gantries) {
+            known.record(&mut self.file, t, gantry)?;
+        }
         let believed: Vec<String> = frame.robots.iter().map(|r| believed_frame(&r.id)).collect();
-        let children: Vec<_> = frame
-            .robots
-            .iter()
-            .zip(&believed)
-            .flat_map(|(r, b)| {
-                let e = &r.estimate;
-                [
-                    (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
-                    (b.as_str(), believed_position(e), believed_attitude(e)),
-                ]
-            })
-            .collect();
+        let heads: Vec<_> = frame.gantries.iter().flat_map(frames_of).collect();
+        let of_robots = frame.robots.iter().zip(&believed).flat_map(|(r, b)| {
+            let e = &r.estimate;
+            [
+                (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
+                (b.as_str(), believed_position(e), believed_attitude(e)),
+            ]
+        });
+        let of_gantries = heads.iter().map(|(name, p, q)| (name.as_str(), *p, *q));
+        let children: Vec<_> = of_robots.chain(of_gantries).collect();
         let tf = transforms(t, WORLD, &children);
         self.file.write("/tf", Kind::TfMessage, t, &tf)?;
         Ok(())
@@ -199,7 +205,7 @@ fn believed_frame(id: &str) -> String {
     format!("{id}/estimate")
 }
 
-fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {
+pub(super) fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {
     Vector3::new(p.x, p.y, z)
 }
 

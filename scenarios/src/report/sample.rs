@@ -142,6 +142,7 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 t_s,
                 step: 5 * k as u64,
                 robots: vec![robot],
+                gantries: Vec::new(),
             }
         })
         .collect()

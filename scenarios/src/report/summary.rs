@@ -1,6 +1,7 @@
 //! What `summary.json` says about a run.
 
 use super::files::{ReportError, write_whole};
+use crate::gantry::GantrySummary;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -197,6 +198,8 @@ pub struct Summary {
     pub sources: Vec<SourceSummary>,
     /// Each robot.
     pub robots: Vec<RobotSummary>,
+    /// Each gantry.
+    pub gantries: Vec<GantrySummary>,
     /// The run itself.
     pub run: RunSummary,
 }

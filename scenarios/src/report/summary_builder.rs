@@ -6,6 +6,7 @@ use super::summary::{
     Summary, Totals,
 };
 use crate::frame::{Frame, RobotFrame};
+use crate::gantry::GantryPath;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Behaviour, Declaration};
 use world::units::Heading;
@@ -41,6 +42,22 @@ impl SourceTruth {
             across_flow_m: u.map(|u| d.dot(&Vector2::new(u.y, -u.x))),
             east_m: d.x,
             north_m: d.y,
+        }
+    }
+}
+
+impl DeclarationSummary {
+    /// A declaration against the true sources.
+    #[must_use]
+    pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
+        Self {
+            t_s: d.t_s,
+            rule: d.rule.to_owned(),
+            position: d.position.into(),
+            error: sources
+                .iter()
+                .map(|s| s.error_of(d.position))
+                .min_by(|a, b| a.total_m.total_cmp(&b.total_m)),
         }
     }
 }
@@ -124,15 +141,7 @@ impl Robot {
     }
 
     fn summary(&self, sources: &[SourceTruth]) -> RobotSummary {
-        let declaration = self.declaration.map(|d| DeclarationSummary {
-            t_s: d.t_s,
-            rule: d.rule.to_owned(),
-            position: d.position.into(),
-            error: sources
-                .iter()
-                .map(|s| s.error_of(d.position))
-                .min_by(|a, b| a.total_m.total_cmp(&b.total_m)),
-        });
+        let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));
         let traced_m = self
             .first_detection
             .zip(self.declaration)
@@ -165,6 +174,7 @@ pub struct SummaryBuilder {
     seed: u64,
     version: String,
     robots: Vec<Robot>,
+    gantries: Vec<GantryPath>,
 }
 
 impl SummaryBuilder {
@@ -176,6 +186,7 @@ impl SummaryBuilder {
             seed: run.seed,
             version: run.version.clone(),
             robots: Vec::new(),
+            gantries: Vec::new(),
         }
     }
 
@@ -188,6 +199,12 @@ impl SummaryBuilder {
         for (known, r) in self.robots.iter_mut().zip(&frame.robots) {
             debug_assert_eq!(known.id, r.id, "frames list the robots in one order");
             known.observe(frame.t_s, r);
+        }
+        if self.gantries.is_empty() {
+            self.gantries = frame.gantries.iter().map(GantryPath::new).collect();
+        }
+        for (known, g) in self.gantries.iter_mut().zip(&frame.gantries) {
+            known.observe(frame.t_s, g);
         }
     }
 
@@ -213,6 +230,7 @@ impl SummaryBuilder {
                 })
                 .collect(),
             robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
+            gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
             run: RunSummary {
                 totals: t,
                 real_time_factor: ratio(t.mission_wall_s),

@@ -140,7 +140,9 @@ fn report_of(
     let run = RunReport {
         summary,
         track,
+        gantries: &[],
         plume,
+        dye: None,
         area,
         terrain,
         sources: if plume.is_some() { &sources } else { &[] },

@@ -1,11 +1,13 @@
 //! Everything a run leaves behind, written into one folder.
 
 use super::files::{ReportError, make_folder, write_whole};
-use super::{SourceTruth, Summary, Track, figures, html};
+use super::probes::file_name;
+use super::{GantryTrack, SourceTruth, Summary, Track, figures, html};
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use world::area::Area;
+use world::fields::Concentration;
 use world::terrain::Terrain;
 
 /// Outline of something solid, as the map shows it.
@@ -18,14 +20,18 @@ pub struct ObstacleOutline {
 }
 
 /// What [`write_all`] makes files of.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct RunReport<'a> {
     /// What the run came to.
     pub summary: &'a Summary,
     /// Where the robots went.
     pub track: &'a Track,
-    /// The plume at the end; none in a run without one.
+    /// What the gantries did.
+    pub gantries: &'a [GantryTrack],
+    /// Some of the plume's filaments at the end; none in a run without one.
     pub plume: Option<&'a PlumeFrame>,
+    /// What is dissolved in the water at the end, for sections through it.
+    pub dye: Option<&'a dyn Concentration>,
     /// The operating area.
     pub area: &'a Area,
     /// The bed.
@@ -38,8 +44,9 @@ pub struct RunReport<'a> {
     pub scenario_text: &'a str,
 }
 
-/// Writes `summary.json`, `map.{svg,png}`, `series-<robot>.{svg,png}`, `plume.csv` and
-/// `report.html` into a folder, making it if need be; the paths of what was written.
+/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder, making it if need be; the paths of what
+/// was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
+/// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
 ///
 /// # Errors
 /// If the folder or a file cannot be written.
@@ -48,25 +55,10 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
     let mut written = vec![run.summary.write_json(&out_dir.join("summary.json"))?];
     if let Some(plume) = run.plume {
         let path = out_dir.join("plume.csv");
-        written.push(write_whole(&path, plume_csv(plume).as_bytes())?);
-    }
-    let mut figures = vec![("map".to_owned(), "Map".to_owned(), figures::map(run))];
-    for robot in &run.track.robots {
-        let id = &robot.info.id;
-        // An id may hold what a file's name may not.
-        let safe: String = id
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
-        let svg = figures::series(run, robot);
-        figures.push((
-            format!("series-{safe}"),
-            format!("Time series of {id}"),
-            svg,
-        ));
+        written.push(write_whole(&path, plume_csv(plume, run.area).as_bytes())?);
     }
     let mut shown = Vec::new();
-    for (name, title, svg) in figures {
+    for (name, title, svg) in figures_of(run) {
         written.push(write_whole(
             &out_dir.join(format!("{name}.svg")),
             svg.as_bytes(),
@@ -84,13 +76,58 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
     Ok(written)
 }
 
-/// The filaments that the map shows.
-fn plume_csv(plume: &PlumeFrame) -> String {
+/// Name, title and SVG of each.
+fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
+    let mut figures = Vec::new();
+    // A gantry's own figures show all there is to see of a flume.
+    if run.gantries.is_empty() || !run.track.robots.is_empty() {
+        figures.push(("map".to_owned(), "Map".to_owned(), figures::map(run)));
+    }
+    for robot in &run.track.robots {
+        let id = &robot.info.id;
+        figures.push((
+            format!("series-{}", file_name(id)),
+            format!("Time series of {id}"),
+            figures::series(run, robot),
+        ));
+    }
+    for t in run.gantries {
+        let id = &t.info.id;
+        let kinds = [
+            ("flume", "Track over the plume", figures::flume(run, t)),
+            (
+                "probes",
+                "Probes, thresholds and spikes",
+                figures::probe_records(run, t),
+            ),
+            (
+                "approach",
+                "Speed and distance from the centreline",
+                figures::approach(run, t),
+            ),
+        ];
+        for (name, title, svg) in kinds {
+            figures.extend(svg.map(|svg| {
+                let name = format!("{name}-{}", file_name(id));
+                (name, format!("{title}: {id}"), svg)
+            }));
+        }
+    }
+    figures
+}
+
+/// The filaments that the map shows, to the hundredth of a metre, or in a flume of a millimetre.
+fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
+    let (d, d_z, s) = if area.width_m < 10.0 {
+        (5, 5, 6)
+    } else {
+        (2, 3, 4)
+    };
     let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg\n");
     for [x, y, z, size, mass] in &plume.points {
         writeln!(
             text,
-            "{:.1},{x:.2},{y:.2},{z:.3},{size:.4},{mass:.6e}",
+            "{:.1},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e}",
             plume.t_s
         )
         .expect("writing to a String succeeds");

@@ -50,12 +50,13 @@ pub struct Compared {
 /// All figures of a row, from our runs of all its arms.
 #[must_use]
 pub fn compare(row: &Row, runs: &[RunRow]) -> Vec<Compared> {
-    let ours = |f: &Figure| match &f.arm {
-        None => f.quantity.of(runs),
-        Some(arm) => {
-            let of: Vec<RunRow> = runs.iter().filter(|r| r.arm == *arm).cloned().collect();
-            f.quantity.of(&of)
-        }
+    let ours = |f: &Figure| {
+        let asked = |r: &&RunRow| {
+            f.arm.as_ref().is_none_or(|arm| r.arm == *arm)
+                && f.among.is_none_or(|event| event.of(r) == Some(true))
+        };
+        let of: Vec<RunRow> = runs.iter().filter(asked).cloned().collect();
+        f.quantity.of(&of)
     };
     row.figures.iter().map(|f| one(f, ours(f))).collect()
 }
@@ -101,6 +102,7 @@ mod tests {
         let figure = Figure {
             name: "f".into(),
             arm: None,
+            among: None,
             quantity: Quantity::Median(Measure::ErrorM),
             paper,
             note: String::new(),

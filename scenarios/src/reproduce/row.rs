@@ -1,5 +1,6 @@
 //! What a paper reports and with which scenario we ask for it: one row file each.
 
+use super::measure::Event;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, put};
 use crate::report::ReportError;
@@ -37,6 +38,9 @@ pub struct Figure {
     /// Of which arm; needed where there are any.
     #[serde(default)]
     pub arm: Option<String>,
+    /// Of those runs only in which this happened.
+    #[serde(default)]
+    pub among: Option<Event>,
     /// What is computed from our runs.
     pub quantity: Quantity,
     /// What the paper has; absent where it has nothing to compare.
@@ -130,10 +134,20 @@ pub struct Reference {
 }
 
 /// Row files that come with the program.
-const ROWS: &[(&str, &str)] = &[(
-    "duck_st",
-    include_str!("../../../tests/reference/rows/duck_st.ron"),
-)];
+const ROWS: &[(&str, &str)] = &[
+    (
+        "crab",
+        include_str!("../../../tests/reference/rows/crab.ron"),
+    ),
+    (
+        "crab_arms",
+        include_str!("../../../tests/reference/rows/crab_arms.ron"),
+    ),
+    (
+        "duck_st",
+        include_str!("../../../tests/reference/rows/duck_st.ron"),
+    ),
+];
 
 /// All rows that come with the program.
 ///

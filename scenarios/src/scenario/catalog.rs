@@ -18,6 +18,7 @@ macro_rules! catalog {
 /// All of them, in the order of lists.
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
+    "flume_crab",
     "uniform_channel",
     "remus_turning_circle",
     "remus_zigzag",

@@ -2,6 +2,7 @@
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, SuccessSpec, TerrainSpec};
+use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
@@ -38,6 +39,19 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
         parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+    }
+    let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
+    twins("gantries", &gantry_ids, &mut found);
+    for (i, gantry) in scenario.gantries.iter().enumerate() {
+        let step_s = scenario.time.step_s.get();
+        gantry::check::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
+        if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
+            let problem = format!(
+                "\"{}\" is already the name of robots[{robot}]",
+                gantry.id.as_str()
+            );
+            found.push(Found::error(format!("gantries[{i}].id"), problem));
+        }
     }
     times(scenario, &mut found);
     purpose(scenario, &mut found);
@@ -277,7 +291,7 @@ fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
             ));
         }
     }
-    if declares && !scenario.robots.iter().any(seeks) {
+    if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
         found.push(Found::warning(
             "success",
             "a declaration is asked for, but no robot searches",
@@ -306,7 +320,7 @@ fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
 }
 
 /// A part's field as a path from the scenario's root, however much of it the part knew.
-fn within(whole: &str, part: &str, field: &str) -> String {
+pub(crate) fn within(whole: &str, part: &str, field: &str) -> String {
     // Variants (`strategy.OpenLoop.table`) are values, not fields.
     let fields = field
         .split('.')

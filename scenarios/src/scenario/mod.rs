@@ -10,6 +10,7 @@ mod schema;
 
 pub use catalog::{CATALOG, Template, template};
 pub use check::check;
+pub(crate) use check::within;
 pub(crate) use explain::explain;
 pub use fault::{Fault, Found, ScenarioError};
 pub use load::{Loaded, load, parse};

@@ -1,5 +1,6 @@
 //! What a scenario file says: the whole schema, each block owned by the part it configures.
 
+use crate::gantry::GantryBlock;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
@@ -43,6 +44,9 @@ pub struct Scenario {
     /// Who searches; any number.
     #[serde(default)]
     pub robots: Vec<RobotSpec>,
+    /// Searchers on two-axis gantries; any number.
+    #[serde(default)]
+    pub gantries: Vec<GantryBlock>,
     /// Steps, spin-up and the longest mission.
     pub time: TimeSpec,
     /// When the mission counts as a success.

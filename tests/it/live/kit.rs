@@ -2,15 +2,18 @@
 
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use rheotaxis::gantry::GantryFrame;
 use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
-    FlowEstimate, Goal, Manoeuvre, Setpoint, Vertical,
+    FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, MAX_PROBES, Manoeuvre,
+    ProbeScan, Setpoint, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::time::Duration;
 use world::frames::{Pose, Truth};
+use world::physics::JointState;
 use world::units::Heading;
 use zenoh::handlers::FifoChannelHandler;
 use zenoh::pubsub::Subscriber;
@@ -105,6 +108,45 @@ pub(super) fn frame(step: u64) -> Frame {
         t_s: step as f64 / 10.0,
         step,
         robots: vec![robot],
+        gantries: vec![gantry()],
+    }
+}
+
+/// A gantry that has stopped, leaning on something.
+fn gantry() -> GantryFrame {
+    let head_W = Vector3::new(0.2, 0.01, -0.125);
+    let mut volts = [0.0; MAX_PROBES];
+    volts[0] = -4.2;
+    GantryFrame {
+        id: "crab0".to_owned(),
+        joint_names: ["along".to_owned(), "across".to_owned()],
+        joints: [JointState::default(); 2],
+        readings: JointReadings::default(),
+        forward: Vector2::new(-1.0, 0.0),
+        head_W,
+        tips_W: vec![head_W],
+        scan: Some(ProbeScan {
+            t_s: 0.35,
+            volts,
+            count: 1,
+        }),
+        decision: GantryDecision {
+            behaviour: GantryBehaviour::Done,
+            id: 12,
+            target_m: Vector2::zeros(),
+            speed_m_s: Vector2::zeros(),
+            working: TrackerState {
+                predicted_v: Some(0.4),
+                ..TrackerState::default()
+            },
+            stopped: Some(true),
+        },
+        touching: Some("block".to_owned()),
+        declaration: Some(Declaration {
+            t_s: 0.3,
+            position: head_W.xy(),
+            rule: "stop",
+        }),
     }
 }
 

@@ -6,7 +6,7 @@ use crate::area::Area;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
 use nalgebra::{UnitQuaternion, Vector3};
-use rapier3d::geometry::{Aabb, Ball, Ray, SharedShape};
+use rapier3d::geometry::{Aabb, Ball, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
 use rapier3d::parry::{bounding_volume::BoundingVolume, query, utils::Array2};
 
@@ -20,6 +20,10 @@ pub(super) struct Fixed {
     pub(super) pose: r::Pose,
     pub(super) shape: SharedShape,
     bounds: Aabb,
+    /// For messages.
+    pub(super) name: String,
+    /// rapier's handle, invalid until it is handed over.
+    pub(super) collider: ColliderHandle,
 }
 
 impl Fixed {
@@ -29,6 +33,8 @@ impl Fixed {
             pose: pose_W,
             shape,
             bounds,
+            name: String::new(),
+            collider: ColliderHandle::invalid(),
         }
     }
 

@@ -1,11 +1,17 @@
 //! Rigid bodies and contacts, the only place that touches rapier3d.
 
 mod convert;
+mod gantry;
+mod gantry_report;
+#[cfg(test)]
+mod gantry_tests;
 mod ground;
 mod shape;
 mod solid;
 #[cfg(test)]
 mod solid_tests;
 
+pub use gantry::{AxisDrive, AxisSpec, GantryBodySpec, GantryId, JointState};
+pub use gantry_report::{GantryContact, Solid};
 pub use shape::Shape;
 pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};

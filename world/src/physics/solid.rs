@@ -10,10 +10,11 @@
 //!
 //! *Deviations:* rapier integrates positions in four sub-steps of first order (6 mm in 230 s of
 //! turning at 0.02 s). A body on which no contact impulse acted is therefore put where its own
-//! equation takes it, and rapier is not asked at all while no body has anything in reach: the
-//! result is the same to the last bit, two and a half times as fast.
+//! equation takes it, and rapier is not asked at all while no body has anything in reach (and there is no
+//! gantry): the result is the same to the last bit, two and a half times as fast.
 
 use super::convert::{from_pose, from_vector, matrix, pose, vector};
+use super::gantry::Gantry;
 use super::ground::Fixed;
 use super::shape::Shape;
 use crate::area::Area;
@@ -60,7 +61,7 @@ pub struct BodySpec {
 
 /// Names a body of one [`Physics`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct BodyId(usize);
+pub struct BodyId(pub(super) usize);
 
 /// What a body touched in the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -121,9 +122,10 @@ impl Body {
 pub struct Physics {
     dt_s: f64,
     solver: Solver,
-    world: r::PhysicsWorld,
+    pub(super) world: r::PhysicsWorld,
     bodies: Vec<Body>,
-    fixed: Vec<Fixed>,
+    pub(super) gantries: Vec<Gantry>,
+    pub(super) fixed: Vec<Fixed>,
 }
 
 impl Physics {
@@ -139,6 +141,7 @@ impl Physics {
             solver: Solver::default(),
             world,
             bodies: Vec::new(),
+            gantries: Vec::new(),
             fixed: Vec::new(),
         }
     }
@@ -158,24 +161,26 @@ impl Physics {
 
     /// Makes the bed solid over the area and 60 m round it.
     pub fn add_terrain(&mut self, terrain: &Terrain, area: &Area) {
-        self.add_solid(Fixed::bed(terrain, area));
+        self.add_solid("bed", Fixed::bed(terrain, area));
     }
 
     /// Makes a fixed shape solid.
     pub fn add_fixed(&mut self, at: &Pose, shape: r::SharedShape) {
-        self.add_solid(Fixed::new(pose(at), shape));
+        self.add_solid("a fixed shape", Fixed::new(pose(at), shape));
     }
 
     /// Makes an obstacle solid.
     pub fn add_obstacle(&mut self, obstacle: &Obstacle) {
-        self.add_fixed(&obstacle.pose, obstacle.shape.clone());
+        let fixed = Fixed::new(pose(&obstacle.pose), obstacle.shape.clone());
+        self.add_solid(&obstacle.id, fixed);
     }
 
-    fn add_solid(&mut self, fixed: Fixed) {
+    fn add_solid(&mut self, name: &str, mut fixed: Fixed) {
         let collider = r::ColliderBuilder::new(fixed.shape.clone())
             .position(fixed.pose)
             .friction(FRICTION);
-        self.world.insert_collider(collider, None);
+        fixed.name = name.to_string();
+        fixed.collider = self.world.insert_collider(collider, None);
         self.fixed.push(fixed);
     }
 
@@ -278,7 +283,9 @@ impl Physics {
                 body.truth
             );
         }
-        if self.solver != Solver::WhenInReach || self.anything_in_reach() {
+        // The joints of a gantry are rapier's: it is asked in every step.
+        let always = self.solver != Solver::WhenInReach || !self.gantries.is_empty();
+        if always || self.anything_in_reach() {
             self.solve();
         }
         for body in &mut self.bodies {
@@ -321,6 +328,7 @@ impl Physics {
             rb.add_torque(vector(&torque), false);
         }
         self.world.step();
+        self.read_gantries();
         for i in 0..self.bodies.len() {
             let contact = self.touched(self.bodies[i].handle);
             let body = &mut self.bodies[i];
@@ -346,7 +354,16 @@ impl Physics {
         }
     }
 
-    fn touched(&self, handle: r::RigidBodyHandle) -> ContactReport {
+    pub(super) fn body_name(&self, id: BodyId) -> &str {
+        &self.bodies[id.0].id
+    }
+
+    pub(super) fn body_of(&self, handle: r::RigidBodyHandle) -> Option<BodyId> {
+        let i = self.bodies.iter().position(|b| b.handle == handle)?;
+        Some(BodyId(i))
+    }
+
+    pub(super) fn touched(&self, handle: r::RigidBodyHandle) -> ContactReport {
         let mut report = ContactReport::default();
         for &collider in self.world.bodies[handle].colliders() {
             for pair in self.world.contact_pairs_with(collider) {

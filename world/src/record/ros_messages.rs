@@ -26,11 +26,13 @@ pub enum Kind {
     Clock,
     /// `sensor_msgs/msg/PointCloud2`.
     PointCloud2,
+    /// `sensor_msgs/msg/JointState`.
+    JointState,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 8] = [
+    pub const ALL: [Kind; 9] = [
         Kind::Odometry,
         Kind::Float64,
         Kind::Text,
@@ -39,6 +41,7 @@ impl Kind {
         Kind::TfMessage,
         Kind::Clock,
         Kind::PointCloud2,
+        Kind::JointState,
     ];
 }
 
@@ -145,6 +148,37 @@ pub fn clock(t_ns: u64) -> Vec<u8> {
     c.finish()
 }
 
+/// A joint at an instant, for a `JointState`.
+#[derive(Clone, Copy, Debug)]
+pub struct Joint<'a> {
+    /// Its name in the URDF.
+    pub name: &'a str,
+    /// Position, m or rad.
+    pub position: f64,
+    /// Speed, m/s or rad/s.
+    pub velocity: f64,
+    /// Force or torque of its drive, N or N m.
+    pub effort: f64,
+}
+
+/// A `JointState`.
+#[must_use]
+pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.header(t_ns, frame).len(joints.len());
+    for joint in joints {
+        c.text(joint.name);
+    }
+    let columns: [fn(&Joint) -> f64; 3] = [|j| j.position, |j| j.velocity, |j| j.effort];
+    for of in columns {
+        c.len(joints.len());
+        for joint in joints {
+            c.f64(of(joint));
+        }
+    }
+    c.finish()
+}
+
 /// A `PointCloud2` with the named 32-bit fields; `rows` holds one value a field for each point.
 #[must_use]
 pub fn point_cloud<const N: usize>(
@@ -213,6 +247,30 @@ mod tests {
         ]
         .concat();
         assert_eq!(msg[4..], body);
+    }
+
+    #[test]
+    fn state_of_one_joint_by_hand() {
+        let joint = Joint {
+            name: "j",
+            position: 1.0,
+            velocity: 2.0,
+            effort: -1.0,
+        };
+        let body: Vec<u8> = [
+            &[0u8; 8][..],                      // time
+            &[2, 0, 0, 0, b'w', 0, 0, 0],       // frame, padded to 16
+            &[1, 0, 0, 0, 2, 0, 0, 0, b'j', 0], // names
+            &[0, 0],                            // padded to 28
+            &[1, 0, 0, 0],                      // positions
+            &[0, 0, 0, 0, 0, 0, 0xf0, 0x3f],    // 1 at 32
+            &[1, 0, 0, 0, 0, 0, 0, 0],          // velocities, padded to 48
+            &[0, 0, 0, 0, 0, 0, 0, 0x40],       // 2
+            &[1, 0, 0, 0, 0, 0, 0, 0],          // efforts, padded to 64
+            &[0, 0, 0, 0, 0, 0, 0xf0, 0xbf],    // -1
+        ]
+        .concat();
+        assert_eq!(joint_state(0, "w", &[joint])[4..], body);
     }
 
     #[test]

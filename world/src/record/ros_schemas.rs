@@ -57,6 +57,7 @@ impl Kind {
             Kind::TfMessage => "tf2_msgs/msg/TFMessage",
             Kind::Clock => "rosgraph_msgs/msg/Clock",
             Kind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
+            Kind::JointState => "sensor_msgs/msg/JointState",
         }
     }
 
@@ -97,6 +98,11 @@ impl Kind {
                 "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\n\
                  bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
                 &[HEADER, TIME, POINT_FIELD],
+            ),
+            Kind::JointState => (
+                "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
+                 float64[] effort\n",
+                &[HEADER, TIME],
             ),
         };
         let mut text = own.to_owned();

@@ -42,7 +42,7 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
     c.upright([22.0, panel.top + panel.height / 2.0], 12.0, "North (m)");
     let title = format!("{} · seed {}", run.summary.scenario, run.summary.seed);
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
-    layers::scale_bar(&mut c, &panel);
+    layers::scale_bar(&mut c, &panel, "m");
     layers::north(&mut c, &panel);
     let left = panel.right() + 22.0;
     let mut below = legend(&mut c, run, [left, panel.top], &bed, plume.as_ref());
@@ -55,7 +55,7 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
             Anchor::Start,
             "Near the source (box on the map)",
         );
-        layers::scale_bar(&mut c, &inset);
+        layers::scale_bar(&mut c, &inset, "m");
         let (a, b) = (
             panel.at([inset.x[0], inset.y[1]]),
             panel.at([inset.x[1], inset.y[0]]),

@@ -83,7 +83,7 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) 
 }
 
 /// Points at least [`APART_PX`] apart, with the last.
-fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     let mut left_out = None;
     for p in points {
@@ -181,7 +181,7 @@ pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
 }
 
 /// A bar of round length, bottom left.
-pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel) {
+pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
     let wanted = (panel.x[1] - panel.x[0]) / 4.0;
     let base = power_of_ten(decade(wanted));
     let length = [5.0, 2.0, 1.0]
@@ -198,7 +198,7 @@ pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel) {
     c.rect(x - 7.0, y - 19.0, px + 14.0, 26.0, &back);
     let ends = vec![[x, y - 4.0], [x, y], [x + px, y], [x + px, y - 4.0]];
     c.polyline(ends, &Style::line(INK, 1.5));
-    let text = format!("{} m", number(length, nice_step(length, 1.0)));
+    let text = format!("{} {unit}", number(length, nice_step(length, 1.0)));
     c.text([x + px / 2.0, y - 6.0], 10.0, Anchor::Middle, &text);
 }
 

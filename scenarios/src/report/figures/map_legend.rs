@@ -11,8 +11,8 @@ use robots::handoff::Behaviour;
 use world::units::Heading;
 
 /// Height of a line of keys, px.
-const LINE: f64 = 18.0;
-const SIZE: f64 = 10.5;
+pub(super) const LINE: f64 = 18.0;
+pub(super) const SIZE: f64 = 10.5;
 
 /// Draws the column from `at` down; where it ends.
 pub(super) fn legend(
@@ -98,12 +98,12 @@ pub(super) fn legend(
     y
 }
 
-fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+pub(super) fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
     c.bold([x, *y + 4.0], SIZE, Anchor::Start, words);
     *y += LINE + 2.0;
 }
 
-fn entry(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+pub(super) fn entry(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
     c.text([x + 34.0, *y + 4.0], SIZE, Anchor::Start, words);
     *y += LINE;
 }
@@ -137,7 +137,7 @@ fn flow(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
     }
 }
 
-const BAR: f64 = 200.0;
+pub(super) const BAR: f64 = 200.0;
 
 fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
     if bed.levels.is_empty() {
@@ -189,7 +189,7 @@ fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
 }
 
 /// A level of the plume: plain where it is short, else with its power of ten.
-fn short(v: f64) -> String {
+pub(super) fn short(v: f64) -> String {
     let n = decade(v);
     if (-2..=3).contains(&n) {
         return number(v, v);

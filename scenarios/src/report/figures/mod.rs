@@ -1,19 +1,26 @@
 //! Figures of a run: each drawn once as SVG with helpers of our own, and the PNG is that SVG
 //! rasterised with a font the program carries, so both show the same on a machine without fonts.
 
+mod approach;
 pub(crate) mod canvas;
 mod contours;
+mod flume;
 mod map;
 mod map_layers;
 mod map_legend;
 pub(crate) mod palette;
 pub(crate) mod panel;
 mod plume_load;
+mod probe_records;
 mod raster;
+mod section;
 mod series;
 mod series_panels;
 
+pub(super) use approach::approach;
 pub(crate) use canvas::escaped;
+pub(super) use flume::flume;
 pub(super) use map::map;
+pub(super) use probe_records::probe_records;
 pub(crate) use raster::png;
 pub(super) use series::series;

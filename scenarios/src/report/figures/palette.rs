@@ -1,6 +1,6 @@
 //! Colours that the colour-blind can tell apart (Okabe & Ito 2008), and ramps that also differ in lightness.
 
-use robots::handoff::Behaviour;
+use robots::handoff::{Behaviour, GantryBehaviour};
 
 /// Ink of axes and frames.
 pub(crate) const INK: &str = "#222222";
@@ -46,6 +46,30 @@ pub(super) fn words(b: Behaviour) -> &'static str {
         Behaviour::Reacquire => "Reacquire",
         Behaviour::GoHome => "Go-Home",
         Behaviour::Done => "Done",
+    }
+}
+
+/// Colour of a gantry's behaviour.
+pub(super) fn gantry_behaviour(b: GantryBehaviour) -> &'static str {
+    match b {
+        GantryBehaviour::Idle => "#bbbbbb",
+        GantryBehaviour::Sweep => "#0072b2",
+        GantryBehaviour::ToBest => "#56b4e9",
+        GantryBehaviour::StepUp => "#d55e00",
+        GantryBehaviour::Cast => "#cc79a7",
+        GantryBehaviour::Done => "#888888",
+    }
+}
+
+/// Name of a gantry's behaviour for people.
+pub(super) fn gantry_words(b: GantryBehaviour) -> &'static str {
+    match b {
+        GantryBehaviour::Idle => "Idle",
+        GantryBehaviour::Sweep => "Full sweep",
+        GantryBehaviour::ToBest => "To best place",
+        GantryBehaviour::StepUp => "Step up-stream",
+        GantryBehaviour::Cast => "Cast",
+        GantryBehaviour::Done => "Stopped",
     }
 }
 

@@ -9,11 +9,11 @@ use robots::handoff::Behaviour;
 /// Draws one panel; the panel's `y` is its own to choose.
 pub(super) type Draw = fn(&mut Canvas, Panel, &RobotTrack);
 
-const BLUE: &str = "#0072b2";
-const ORANGE: &str = "#e69f00";
+pub(super) const BLUE: &str = "#0072b2";
+pub(super) const ORANGE: &str = "#e69f00";
 const BED: &str = "#b9a48b";
 
-fn axes(c: &mut Canvas, panel: &Panel, label: &str) {
+pub(super) fn axes(c: &mut Canvas, panel: &Panel, label: &str) {
     panel.grid(c, 32.0);
     panel.y_ticks(c, 32.0, 10.0);
     c.upright([24.0, panel.top + panel.height / 2.0], 11.0, label);
@@ -41,11 +41,18 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
     }
 }
 
-/// Points of a curve, per pixel column its least and greatest: nothing that stands out is lost.
 fn curve(
     panel: &Panel,
     rows: &[TrackRow],
     of: impl Fn(&TrackRow) -> Option<f64>,
+) -> Vec<Vec<[f64; 2]>> {
+    curve_of(panel, rows.iter().map(|r| (r.t_s, of(r))))
+}
+
+/// Points of a curve through (x, y), per pixel column its least and greatest: nothing that stands out is lost.
+pub(super) fn curve_of(
+    panel: &Panel,
+    values: impl Iterator<Item = (f64, Option<f64>)>,
 ) -> Vec<Vec<[f64; 2]>> {
     let mut lines: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     let mut column: Option<(i64, [f64; 2], [f64; 2])> = None;
@@ -58,16 +65,16 @@ fn curve(
             line.extend([hi, lo]);
         }
     };
-    for r in rows {
+    for (x, y) in values {
         let line = lines.last_mut().expect("there is always a line");
-        let Some(v) = of(r).filter(|v| v.is_finite()) else {
+        let Some(v) = y.filter(|v| v.is_finite()) else {
             if let Some((_, lo, hi)) = column.take() {
                 close(line, lo, hi);
                 lines.push(Vec::new());
             }
             continue;
         };
-        let p = panel.at([r.t_s, v]);
+        let p = panel.at([x, v]);
         let key = p[0].floor() as i64;
         column = Some(match column {
             Some((k, lo, hi)) if k == key => (
@@ -88,7 +95,12 @@ fn curve(
     lines
 }
 
-fn draw_curve(c: &mut Canvas, panel: &Panel, lines: &[Vec<[f64; 2]>], style: &Style<'_>) {
+pub(super) fn draw_curve(
+    c: &mut Canvas,
+    panel: &Panel,
+    lines: &[Vec<[f64; 2]>],
+    style: &Style<'_>,
+) {
     panel.clip(c);
     c.lines(lines, false, style);
     c.unclip();
@@ -96,7 +108,7 @@ fn draw_curve(c: &mut Canvas, panel: &Panel, lines: &[Vec<[f64; 2]>], style: &St
 
 impl Panel {
     /// Names of the curves, along the upper edge from the right.
-    fn key(&self, c: &mut Canvas, entries: &[(&str, &str)]) {
+    pub(super) fn key(&self, c: &mut Canvas, entries: &[(&str, &str)]) {
         let mut x = self.right() - 10.0;
         for (words, colour) in entries.iter().rev() {
             let width = 6.7 * words.chars().count() as f64;
@@ -198,8 +210,23 @@ pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
         .into_iter()
         .filter(|b| t.rows.iter().any(|r| r.behaviour == *b))
         .collect();
-    let row = panel.height / seen.len().max(1) as f64;
-    for (k, b) in seen.iter().enumerate() {
+    let kinds: Vec<Band> = (seen.iter())
+        .map(|b| (palette::words(*b), palette::behaviour(*b)))
+        .collect();
+    let rows = t.rows.iter().map(|r| {
+        let band = seen.iter().position(|s| *s == r.behaviour);
+        (r.t_s, band.unwrap_or(0))
+    });
+    bands(c, &panel, &kinds, &rows.collect::<Vec<_>>());
+}
+
+/// Words and colour of a band.
+pub(super) type Band<'a> = (&'a str, &'a str);
+
+/// A band for each kind, filled while it holds; `rows` are times, each with the kind that holds from then on.
+pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64, usize)]) {
+    let row = panel.height / kinds.len().max(1) as f64;
+    for (k, (words, _)) in kinds.iter().enumerate() {
         let y = panel.top + k as f64 * row;
         if k > 0 {
             c.line(
@@ -209,22 +236,20 @@ pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
             );
         }
         let at = [panel.left - 7.0, y + row / 2.0 + 3.5];
-        c.text(at, 9.5, Anchor::End, palette::words(*b));
+        c.text(at, 9.5, Anchor::End, words);
     }
     let mut k = 0;
-    while k < t.rows.len() {
-        let b = t.rows[k].behaviour;
-        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
-        let end = t.rows.get(k + run).or(t.rows.last()).map_or(0.0, |r| r.t_s);
-        let line = seen.iter().position(|s| *s == b).unwrap_or(0) as f64;
-        let (x0, x1) = (panel.px(t.rows[k].t_s), panel.px(end));
-        let style = Style::fill(palette::behaviour(b));
+    while k < rows.len() {
+        let (begin, kind) = rows[k];
+        let run = rows[k..].iter().take_while(|r| r.1 == kind).count();
+        let end = rows.get(k + run).or(rows.last()).map_or(0.0, |r| r.0);
+        let (x0, x1) = (panel.px(begin), panel.px(end));
         c.rect(
             x0,
-            panel.top + (line + 0.14) * row,
+            panel.top + (kind as f64 + 0.14) * row,
             (x1 - x0).max(0.6),
             0.72 * row,
-            &style,
+            &Style::fill(kinds[kind].1),
         );
         k += run;
     }

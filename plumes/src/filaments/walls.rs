@@ -1,0 +1,50 @@
+//! Filaments between side walls: carried by the eddies there, and turned back at walls, bed and surface.
+//!
+//! *Source*: reflection at a solid wall (Thomson 1987, J. Fluid Mech. 180, 529, section 4).
+//!
+//! *Parameters*: [`CARRY_S`], the step of the eddies.
+//!
+//! *Deviations*: the eddies act after the mean and the kicks (splitting, Strang 1968, SIAM J. Numer. Anal. 5, 506; first order in
+//! the step), and in longer steps: in the frame that moves with the stream, where they are asked, they change over seconds. The kernel
+//! of a filament is mirrored at bed and surface, not at the side walls: within two sizes of a wall the concentration is up to half too low.
+
+use super::kernel::folded;
+use super::store::Store;
+use world::fields::{Flow, SideWalls};
+
+/// Step of the eddies, s, or that of the drift if it is longer: at a few mm/s a filament moves a millimetre in it.
+pub(super) const CARRY_S: f64 = 0.2;
+
+/// Carries the filaments with the eddies from `since_s`, or their release, to `now_s`.
+pub(super) fn carry(flow: &dyn Flow, store: &mut Store, since_s: f64, now_s: f64) {
+    let whole = (now_s - since_s) as f32;
+    let mut dt = vec![whole; store.len()];
+    // The newest come last.
+    for (dt, born) in dt.iter_mut().zip(&store.born_s).rev() {
+        if *born <= since_s {
+            break;
+        }
+        *dt = (now_s - born) as f32;
+    }
+    flow.carry(now_s, &dt, [&mut store.x, &mut store.y, &mut store.z]);
+    for (z, bed) in store.z.iter_mut().zip(&store.bed) {
+        *z = folded(*z, *bed, -1.0 / bed);
+    }
+}
+
+/// Mirrors into the water whoever went through a wall.
+pub(super) fn keep_between(walls: &SideWalls, store: &mut Store) {
+    let (ax, ay) = (walls.across.x as f32, walls.across.y as f32);
+    let (cx, cy) = (walls.centre.x as f32, walls.centre.y as f32);
+    let half = walls.half_width_m as f32;
+    for (x, y) in store.x.iter_mut().zip(&mut store.y) {
+        let side = (*x - cx) * ax + (*y - cy) * ay;
+        if side.abs() > half {
+            // Further than from wall to wall nobody is kicked in a step; the clamp keeps even that inside.
+            let back = (2.0 * half).copysign(side) - side;
+            let turn = back.clamp(-half, half) - side;
+            *x += turn * ax;
+            *y += turn * ay;
+        }
+    }
+}

@@ -1,0 +1,299 @@
+//! Eddies that pass with the stream, live for their turn-over time, and carry what drifts.
+//!
+//! *Source*: kinematic simulation (file `stretch`) in a frame that moves with the mean of the stream (Taylor 1938, Proc. R. Soc. A 164, 476:
+//! frozen turbulence passes with the mean); turn-over time k/ε (Pope 2000, Turbulent Flows, section 6.1) from Nezu & Nakagawa's
+//! depth means.
+//!
+//! *Parameters*: `cells_a_depth` nodes of the eddies' grid from bed to surface; the shortest wave is four of its cells: 16 gives H/4, 5 cm in
+//! 20 cm of water. All else follows from the channel.
+//!
+//! *Deviations*: two patches of the same long stretch, taken at random places and mirrored at random, overlap with the weights sin and
+//! cos: each lives for two periods T and its sum of squares is always 1. The correlation in the moving frame then has the integral time
+//! 8T/π² = k/ε; it is the same for eddies of all sizes, though small ones live shorter in truth: what decorrelates them for a filament is that
+//! large ones sweep it through them, and shear. All seeds draw their patches from one stretch of 32 depths a channel, drawn once a
+//! process: the water of a run follows from its seed alone. The patches pass with the depth mean at all heights.
+
+use super::spectrum::Spectrum;
+use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
+use crate::error::PlumeError;
+use crate::filaments::quad::Quad;
+use crate::flow::channel::Channel;
+use nalgebra::{Vector2, Vector3};
+use serde::{Deserialize, Serialize};
+use std::sync::{Arc, Mutex};
+use world::area::Area;
+use world::fields::WaterSample;
+use world::math;
+use world::seeds::Stream;
+
+/// How finely turbulence is resolved.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EddiesSpec {
+    /// Cells of the eddies' grid from bed to surface, from 8 to 32.
+    pub cells_a_depth: u32,
+}
+
+impl Default for EddiesSpec {
+    fn default() -> Self {
+        Self { cells_a_depth: 16 }
+    }
+}
+
+/// The eddies of a channel.
+#[derive(Clone, Debug)]
+pub struct Eddies {
+    centre: Vector2<f64>,
+    along: Vector2<f64>,
+    left: Vector2<f64>,
+    half_width_m: f64,
+    mean_m_s: f64,
+    u_star_m_s: f64,
+    /// T, s.
+    period_s: f64,
+    seed: u64,
+    shape: Shape,
+    stretch: Arc<Stretch>,
+}
+
+/// Stretches drawn by this process, by what they were made from.
+static DRAWN: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
+/// More than this many different channels at once are drawn anew.
+const KEPT: usize = 8;
+
+impl EddiesSpec {
+    /// The eddies of a channel in an area, checked.
+    ///
+    /// # Errors
+    /// If the grid is too coarse or too fine, the stream not along the area's axis, or the channel narrower than deep.
+    pub fn build(
+        &self,
+        field: &str,
+        area: &Area,
+        channel: &Channel,
+        seed: u64,
+    ) -> Result<Eddies, PlumeError> {
+        let bad = |sub: &str, problem: String| PlumeError::Invalid {
+            field: format!("{field}.{sub}"),
+            problem,
+        };
+        if !(8..=32).contains(&self.cells_a_depth) {
+            let problem = format!("must be from 8 to 32, got {}", self.cells_a_depth);
+            return Err(bad("eddies.cells_a_depth", problem));
+        }
+        let ratio = area.width_m / channel.depth_m;
+        if !(2.0..=20.0).contains(&ratio) {
+            let problem = format!(
+                "resolved eddies need a channel from 2 to 20 times as wide as deep; the area is {} m wide, the water {} m deep",
+                area.width_m, channel.depth_m
+            );
+            return Err(bad("eddies", problem));
+        }
+        let cell = channel.depth_m / f64::from(self.cells_a_depth);
+        let shape = Shape {
+            width_m: area.width_m,
+            depth_m: channel.depth_m,
+            spectrum: Spectrum::new(channel, CELLS_A_WAVE * cell),
+            up: self.cells_a_depth as usize,
+            across: (area.width_m / cell).round() as usize,
+        };
+        let energy = channel.mean_of(|z| channel.energy(z));
+        let dissipation = channel.mean_of(|z| channel.dissipation(z));
+        let pi = std::f64::consts::PI;
+        Ok(Eddies {
+            centre: area.centre,
+            along: channel.along,
+            left: Vector2::new(-channel.along.y, channel.along.x),
+            half_width_m: area.width_m / 2.0,
+            mean_m_s: channel.mean_m_s,
+            u_star_m_s: channel.u_star_m_s,
+            period_s: pi * pi / 8.0 * energy / dissipation,
+            seed,
+            stretch: drawn(&shape),
+            shape,
+        })
+    }
+}
+
+fn drawn(shape: &Shape) -> Arc<Stretch> {
+    let mut drawn = DRAWN.lock().expect("nobody panics while drawing");
+    if let Some((_, stretch)) = drawn.iter().find(|(s, _)| s == shape) {
+        return stretch.clone();
+    }
+    let stretch = Arc::new(Stretch::new(shape, 0));
+    if drawn.len() == KEPT {
+        drawn.remove(0);
+    }
+    drawn.push((*shape, stretch.clone()));
+    stretch
+}
+
+impl Eddies {
+    /// The spectrum they follow.
+    #[must_use]
+    pub fn spectrum(&self) -> &Spectrum {
+        &self.shape.spectrum
+    }
+
+    /// Expected intensities (along, across, up) at a height above the bed, m/s, averaged over the width.
+    #[must_use]
+    pub fn intensities(&self, height_m: f64) -> [f64; 3] {
+        self.shape.expected(height_m).map(|v| v * self.u_star_m_s)
+    }
+
+    /// Integral time in the frame that moves with the stream, s.
+    #[must_use]
+    pub fn turn_over_s(&self) -> f64 {
+        self.period_s * 8.0 / (std::f64::consts::PI * std::f64::consts::PI)
+    }
+
+    /// Velocity at a place (ENU, m), m/s; beyond the walls, the bed and the surface that at them.
+    #[must_use]
+    pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        let d = p.xy() - self.centre;
+        let now = self.now(t_s);
+        let v = now.velocity([d.dot(&self.along), d.dot(&self.left), p.z].map(|v| v as f32));
+        let [u, v, w] = v.map(f64::from);
+        let plane = self.along * u + self.left * v;
+        Vector3::new(plane.x, plane.y, w)
+    }
+
+    /// Adds velocity, gradient and rate of change at a place to those of the rest of the water.
+    pub(crate) fn add_to(&self, sample: &mut WaterSample, p: &Vector3<f64>, t_s: f64) {
+        // Wide against rounding in f32, narrow against the cells in which the eddies are linear.
+        const WIDE: f64 = 2e-3;
+        let at = |q: Vector3<f64>, dt: f64| self.velocity(&(p + q), t_s + dt);
+        sample.velocity += at(Vector3::zeros(), 0.0);
+        for d in 0..3 {
+            let mut e = Vector3::zeros();
+            e[d] = WIDE;
+            let slope = (at(e, 0.0) - at(-e, 0.0)) / (2.0 * WIDE);
+            sample
+                .gradient
+                .set_column(d, &(sample.gradient.column(d) + slope));
+        }
+        // They pass with the stream: a tenth of a second is some millimetres.
+        const WHILE: f64 = 0.1;
+        sample.rate += (at(Vector3::zeros(), WHILE) - at(Vector3::zeros(), 0.0)) / WHILE;
+    }
+
+    /// Carries places (ENU, m) from `t_s - dt_s` to `t_s`, the n-th for `dt_s[n]`.
+    pub fn carry(&self, t_s: f64, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
+        let now = self.now(t_s);
+        let centre = self.centre.map(|v| v as f32);
+        let (a, l) = (self.along.map(|v| v as f32), self.left.map(|v| v as f32));
+        for (n, dt) in dt_s.iter().enumerate() {
+            let (dx, dy) = (x[n] - centre.x, y[n] - centre.y);
+            let q = [dx * a.x + dy * a.y, dx * l.x + dy * l.y, z[n]];
+            // Half the step ahead first, so that a cloud that is even stays so to second order.
+            let v = now.velocity(q);
+            let half = 0.5 * dt;
+            let v = now.velocity([q[0] + half * v[0], q[1] + half * v[1], q[2] + half * v[2]]);
+            x[n] += dt * (v[0] * a.x + v[1] * l.x);
+            y[n] += dt * (v[0] * a.y + v[1] * l.y);
+            z[n] += dt * v[2];
+        }
+    }
+
+    #[cfg(test)]
+    pub(super) fn with_seed(&self, seed: u64) -> Self {
+        Self {
+            seed,
+            ..self.clone()
+        }
+    }
+
+    #[cfg(test)]
+    pub(super) fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    fn now(&self, t_s: f64) -> Now<'_> {
+        let h = self.shape.spacing();
+        let age = t_s / self.period_s;
+        let life = age.floor();
+        let part = age - life;
+        let (s, c) = math::sin_cos(0.5 * std::f64::consts::PI * part);
+        // A patch lives from its number to two periods later: the older one falls, the younger rises.
+        let of = |life: f64, weight: f64| {
+            let mut rng = Stream::new(self.seed, "eddies", &format!("patch {life}"));
+            let begin = rng.uniform() * LENGTH as f64 + self.mean_m_s * t_s / h[0];
+            Patch {
+                begin: begin.rem_euclid(LENGTH as f64) as f32,
+                mirrored: rng.uniform() < 0.5,
+                weight: (weight * self.u_star_m_s) as f32,
+            }
+        };
+        Now {
+            nodes: &self.stretch.nodes,
+            across: self.shape.across,
+            up: self.shape.up,
+            per_m: h.map(|h| (1.0 / h) as f32),
+            half_width: self.half_width_m as f32,
+            depth: self.shape.depth_m as f32,
+            patches: [of(life - 1.0, c), of(life, s)],
+        }
+    }
+}
+
+/// A patch of the stretch at one time: where its beginning lies (cells), and how strongly it is felt.
+#[derive(Clone, Copy)]
+struct Patch {
+    begin: f32,
+    mirrored: bool,
+    weight: f32,
+}
+
+/// The eddies at one time.
+struct Now<'a> {
+    nodes: &'a [[f32; 4]],
+    across: usize,
+    up: usize,
+    per_m: [f32; 3],
+    half_width: f32,
+    depth: f32,
+    patches: [Patch; 2],
+}
+
+impl Now<'_> {
+    /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
+    #[inline]
+    fn velocity(&self, q: [f32; 3]) -> [f32; 3] {
+        let (k, h) = cell((q[2] + self.depth) * self.per_m[2], self.up);
+        let mut sum = [0.0_f32; 3];
+        for patch in &self.patches {
+            let side = if patch.mirrored { -1.0 } else { 1.0 };
+            let (j, g) = cell((side * q[1] + self.half_width) * self.per_m[1], self.across);
+            let at = q[0] * self.per_m[0] - patch.begin;
+            let floor = at.floor();
+            let f = at - floor;
+            let i = floor as i32 as usize & (LENGTH - 1);
+            let (row, column) = (self.up + 1, (self.up + 1) * (self.across + 1));
+            let near = i * column + j * row + k;
+            let far = ((i + 1) & (LENGTH - 1)) * column + j * row + k;
+            let node = |n: usize| Quad::new(&self.nodes[n]);
+            let line = |at: usize| {
+                let low = node(at);
+                low.add(node(at + 1).sub(low).times(h))
+            };
+            let face = |at: usize| {
+                let right = line(at);
+                right.add(line(at + row).sub(right).times(g))
+            };
+            let behind = face(near);
+            let v = behind.add(face(far).sub(behind).times(f)).array();
+            sum[0] += patch.weight * v[0];
+            sum[1] += patch.weight * side * v[1];
+            sum[2] += patch.weight * v[2];
+        }
+        sum
+    }
+}
+
+/// Cell and the part of it passed.
+#[inline]
+fn cell(c: f32, cells: usize) -> (usize, f32) {
+    let c = c.clamp(0.0, cells as f32);
+    let i = (c as i32 as usize).min(cells - 1);
+    (i, c - i as f32)
+}

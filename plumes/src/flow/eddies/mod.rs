@@ -1,0 +1,11 @@
+//! Resolved turbulence of a channel: spectrum, one long stretch of it, and how it passes and dies.
+
+mod field;
+mod fourier;
+mod spectrum;
+mod stretch;
+#[cfg(test)]
+pub(crate) mod tests_eddies;
+
+pub use field::{Eddies, EddiesSpec};
+pub use spectrum::Spectrum;

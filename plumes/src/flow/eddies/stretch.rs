@@ -1,0 +1,228 @@
+//! One long periodic stretch of turbulence between bed, surface and side walls, on a grid, in units of u_*.
+//!
+//! *Source*: kinematic simulation, a sum of random Fourier modes with a given spectrum: Kraichnan 1970, Phys. Fluids 13, 22; Fung,
+//! Hunt, Malik & Perkins 1992, J. Fluid Mech. 236, 281. Walls by sines and cosines, as image eddies would make them.
+//!
+//! *Parameters*: [`Shape`]: width, depth, the spectrum, spacing of the nodes (an even part of the depth), [`LENGTH`] nodes along.
+//!
+//! *Deviations*: the field is the curl of a vector potential whose tangential parts vanish at bed, surface and walls, so that it is
+//! free of divergence and crosses none of them; along a wall it slips. Every potential is multiplied by e^(−z/H) before the curl, so
+//! that intensities fall as Nezu & Nakagawa's do; three constants, one a potential, are solved so that the expected mean squares of
+//! the three components between 0.2 H and 0.8 H are theirs times the resolved part. Near bed and surface the vertical one falls to
+//! zero within about 0.2 H. Between nodes trilinear: waves of four cells are smoothed, and a divergence of a few per cent of
+//! the gradients is left.
+
+use super::fourier::Fourier;
+use super::spectrum::{ELONGATION, Spectrum};
+use crate::flow::channel::INTENSITIES;
+use std::f64::consts::{PI, TAU};
+use world::math;
+use world::seeds::Stream;
+
+/// Nodes along the stream; a power of two.
+pub(super) const LENGTH: usize = 512;
+/// Cells of the shortest wave.
+pub(super) const CELLS_A_WAVE: f64 = 4.0;
+
+/// What a stretch is made from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Shape {
+    pub(super) width_m: f64,
+    pub(super) depth_m: f64,
+    pub(super) spectrum: Spectrum,
+    /// Cells from bed to surface, and from wall to wall.
+    pub(super) up: usize,
+    pub(super) across: usize,
+}
+
+/// The velocities at the nodes.
+#[derive(Debug)]
+pub(super) struct Stretch {
+    /// `[along, across to the left, up, 0]` over u_* at (i·(across + 1) + j)·(up + 1) + k.
+    pub(super) nodes: Vec<[f32; 4]>,
+}
+
+/// A wave: numbers along, across, up, and the standard deviation of each potential's coefficient (of real and imaginary part).
+struct Wave {
+    k: [f64; 3],
+    /// Indices across and up.
+    n: usize,
+    m: usize,
+    std: f64,
+}
+
+impl Shape {
+    pub(super) fn spacing(&self) -> [f64; 3] {
+        let along = self.depth_m / self.up as f64;
+        [along, self.width_m / self.across as f64, along]
+    }
+
+    /// All waves of the j-th number along the stream.
+    fn waves(&self, j: usize) -> Vec<Wave> {
+        let k_c = self.spectrum.k_c;
+        let kx = TAU * j as f64 / (LENGTH as f64 * self.spacing()[0]);
+        let mut waves = Vec::new();
+        let most = |extent: f64| (k_c * extent / PI) as usize;
+        for n in 0..=most(self.width_m) {
+            let ky = n as f64 * PI / self.width_m;
+            for m in 0..=most(self.depth_m) {
+                let kz = m as f64 * PI / self.depth_m;
+                if kx * kx + ky * ky + kz * kz > k_c * k_c {
+                    break;
+                }
+                let round = (ELONGATION * ELONGATION * kx * kx + ky * ky + kz * kz).sqrt();
+                let density = self.spectrum.energy(round) / (round * round * round * round);
+                // A wave number of zero stands for half a cell.
+                let part = |number: usize| if number == 0 { 0.5 } else { 1.0 };
+                let cells: f64 = part(n) * part(m);
+                waves.push(Wave {
+                    k: [kx, ky, kz],
+                    n,
+                    m,
+                    std: (density * cells).sqrt(),
+                });
+            }
+        }
+        waves
+    }
+
+    fn along(&self) -> std::ops::RangeInclusive<usize> {
+        let reach = self.spectrum.k_c * LENGTH as f64 * self.spacing()[0] / TAU;
+        1..=((reach + 1e-9) as usize).min(LENGTH / 2 - 1)
+    }
+
+    /// f and f′ at a level: the fall of the intensities.
+    fn fall(&self, height_m: f64) -> (f64, f64) {
+        let f = math::exp(-height_m / self.depth_m);
+        (f, -f / self.depth_m)
+    }
+
+    /// Expected mean squares at a height for each potential of unit strength: [component][potential], averaged over the width.
+    fn shares(&self, height_m: f64) -> [[f64; 3]; 3] {
+        let (f, df) = self.fall(height_m);
+        let mut v = [[0.0; 3]; 3];
+        for j in self.along() {
+            for w in self.waves(j) {
+                let (s, c) = math::sin_cos(w.k[2] * height_m);
+                let bent = df * s + f * w.k[2] * c;
+                // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a half, or one.
+                let even = w.std * w.std * if w.n == 0 { 1.0 } else { 0.5 };
+                let odd = w.std * w.std * if w.n == 0 { 0.0 } else { 0.5 };
+                v[0][2] += even * sq(f * w.k[1] * c);
+                v[0][1] += even * sq(bent);
+                v[1][0] += odd * sq(bent);
+                v[1][2] += odd * sq(f * w.k[0] * c);
+                v[2][1] += even * sq(f * w.k[0] * s);
+                v[2][0] += even * sq(f * w.k[1] * s);
+            }
+        }
+        v
+    }
+
+    /// Strengths of the three potentials.
+    fn strengths(&self, resolved: f64) -> [f64; 3] {
+        const N: usize = 13;
+        let (mut v, mut want) = ([[0.0; 3]; 3], [0.0; 3]);
+        for n in 0..N {
+            let height = self.depth_m * (0.2 + 0.6 * n as f64 / (N - 1) as f64);
+            let f2 = sq(self.fall(height).0);
+            let here = self.shares(height);
+            for c in 0..3 {
+                want[c] += resolved * sq(INTENSITIES[c]) * f2;
+                for p in 0..3 {
+                    v[c][p] += here[c][p];
+                }
+            }
+        }
+        let m = nalgebra::Matrix3::from_fn(|c, p| v[c][p]);
+        let solved = m
+            .lu()
+            .solve(&nalgebra::Vector3::from(want))
+            .unwrap_or_else(nalgebra::Vector3::zeros);
+        [0, 1, 2].map(|p: usize| solved[p].max(0.0).sqrt())
+    }
+
+    /// Expected intensities at a height in units of u_*.
+    pub(super) fn expected(&self, height_m: f64) -> [f64; 3] {
+        let a = self.strengths(self.spectrum.resolved());
+        let v = self.shares(height_m);
+        [0, 1, 2].map(|c: usize| (0..3).map(|p| a[p] * a[p] * v[c][p]).sum::<f64>().sqrt())
+    }
+}
+
+fn sq(x: f64) -> f64 {
+    x * x
+}
+
+impl Stretch {
+    /// Draws one; `seed` names it.
+    pub(super) fn new(shape: &Shape, seed: u64) -> Self {
+        let strength = shape.strengths(shape.spectrum.resolved());
+        let (ny, nz) = (shape.across + 1, shape.up + 1);
+        let lines = ny * nz;
+        let h = shape.spacing();
+        let mut rng = Stream::new(seed, "eddies", "waves");
+        // Coefficients along the stream: component, line, number.
+        let count = shape.along().count() + 1;
+        let mut lines_of = vec![[[0.0_f64; 2]; 3]; lines * count];
+        let most = (shape.spectrum.k_c * shape.width_m / PI) as usize + 1;
+        let turn = |n: usize, cells: usize, at: usize| {
+            math::sin_cos(PI * ((n * at) % (2 * cells)) as f64 / cells as f64)
+        };
+        let across: Vec<Vec<(f64, f64)>> = (0..most)
+            .map(|n| (0..ny).map(|y| turn(n, shape.across, y)).collect())
+            .collect();
+        let mut sums = vec![[[0.0_f64; 2]; 3]; most * nz];
+        for j in shape.along() {
+            sums.fill([[0.0; 2]; 3]);
+            for w in shape.waves(j) {
+                let mut draw = || [w.std * rng.normal(), w.std * rng.normal()];
+                let a = [draw(), draw(), draw()];
+                let [kx, ky, kz] = w.k;
+                for z in 0..nz {
+                    let (f, df) = shape.fall(z as f64 * h[2]);
+                    let (s, c) = turn(w.m, shape.up, z);
+                    let bent = df * s + f * kz * c;
+                    let to = &mut sums[w.n * nz + z];
+                    let [ax, ay, az] = strength;
+                    // i·kx of a coefficient (r, i) is (−kx·i, kx·r).
+                    for (part, other, sign) in [(0, 1, -1.0), (1, 0, 1.0)] {
+                        let along = |p: usize| sign * kx * a[p][other];
+                        to[0][part] += az * f * ky * c * a[2][part] - ay * bent * a[1][part];
+                        to[1][part] += ax * bent * a[0][part] - az * f * c * along(2);
+                        to[2][part] += ay * f * s * along(1) - ax * f * s * ky * a[0][part];
+                    }
+                }
+            }
+            for (n, turns) in across.iter().enumerate() {
+                for (y, (s, c)) in turns.iter().enumerate() {
+                    for z in 0..nz {
+                        let from = &sums[n * nz + z];
+                        let to = &mut lines_of[(y * nz + z) * count + j];
+                        for part in 0..2 {
+                            to[0][part] += c * from[0][part];
+                            to[1][part] += s * from[1][part];
+                            to[2][part] += c * from[2][part];
+                        }
+                    }
+                }
+            }
+        }
+        let fourier = Fourier::new(LENGTH);
+        let mut nodes = vec![[0.0_f32; 4]; LENGTH * lines];
+        let mut sum = vec![[0.0_f64; 2]; LENGTH];
+        for line in 0..lines {
+            for component in 0..3 {
+                sum.fill([0.0; 2]);
+                for j in shape.along() {
+                    sum[j] = lines_of[line * count + j][component];
+                }
+                fourier.sum(&mut sum);
+                for (i, value) in sum.iter().enumerate() {
+                    nodes[i * lines + line][component] = value[0] as f32;
+                }
+            }
+        }
+        Self { nodes }
+    }
+}

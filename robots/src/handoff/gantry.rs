@@ -1,0 +1,155 @@
+//! What passes between the parts of a gantry: probe samples, joint readings, and where the head is to go.
+//!
+//! All positions are in the gantry's own frame: forward along x of its URDF's base (up-stream, as it is set up in a
+//! flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame:
+//! it knows neither the flume's coordinates nor the flow.
+
+use bevy_ecs::prelude::Component;
+use nalgebra::{Vector2, Vector3};
+
+/// Most probes a head can carry.
+pub const MAX_PROBES: usize = 8;
+
+/// One scan of all probes, in the order of [`GantryLayout::probes`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ProbeScan {
+    /// When it was taken, s.
+    pub t_s: f64,
+    /// Output of each probe, V; entries beyond `count` are meaningless.
+    pub volts: [f64; MAX_PROBES],
+    /// How many probes there are.
+    pub count: usize,
+}
+
+/// What the encoders and drives report.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointReadings {
+    /// Encoder positions (forward, left), m.
+    pub position_m: Vector2<f64>,
+    /// Speeds (forward, left), m/s.
+    pub speed_m_s: Vector2<f64>,
+    /// The commanded target is reached on both axes.
+    pub arrived: bool,
+    /// A drive gave up against something in the way.
+    pub blocked: bool,
+}
+
+/// Readings of a gantry in one tick.
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct GantryReadings {
+    /// A scan, in ticks when one was taken.
+    pub scan: Option<ProbeScan>,
+    /// Joints.
+    pub joints: JointReadings,
+}
+
+/// A probe's place on the head.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProbeMount {
+    /// Name of its link in the URDF.
+    pub name: String,
+    /// Tip, relative to the head's reference point (forward, left, up), m.
+    pub offset_m: Vector3<f64>,
+}
+
+/// What a searcher may know of the machine it lives in.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GantryLayout {
+    /// Travel of each axis (forward, left): least and greatest position, m.
+    pub travel_m: [[f64; 2]; 2],
+    /// Greatest speed of each axis, m/s.
+    pub max_speed_m_s: [f64; 2],
+    /// Probes, in the order of a scan.
+    pub probes: Vec<ProbeMount>,
+    /// Output range of the probes, V.
+    pub range_v: [f64; 2],
+    /// Scans a second, Hz.
+    pub scan_hz: f64,
+}
+
+/// What a gantry's searcher sees in one tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GantryObservation {
+    /// Time, s.
+    pub t_s: f64,
+    /// Readings.
+    pub readings: GantryReadings,
+}
+
+/// What a gantry's searcher is doing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[repr(u8)]
+pub enum GantryBehaviour {
+    /// Waiting.
+    #[default]
+    Idle,
+    /// Full sweep across the stream.
+    Sweep,
+    /// To the best place of a sweep.
+    ToBest,
+    /// A step up-stream.
+    StepUp,
+    /// Cast to a neighbouring place across the stream.
+    Cast,
+    /// At the end.
+    Done,
+}
+
+impl GantryBehaviour {
+    /// All of them.
+    pub const ALL: [GantryBehaviour; 6] = [
+        GantryBehaviour::Idle,
+        GantryBehaviour::Sweep,
+        GantryBehaviour::ToBest,
+        GantryBehaviour::StepUp,
+        GantryBehaviour::Cast,
+        GantryBehaviour::Done,
+    ];
+
+    /// Its name in records and on the wire.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            GantryBehaviour::Idle => "idle",
+            GantryBehaviour::Sweep => "sweep",
+            GantryBehaviour::ToBest => "to_best",
+            GantryBehaviour::StepUp => "step_up",
+            GantryBehaviour::Cast => "cast",
+            GantryBehaviour::Done => "done",
+        }
+    }
+}
+
+/// What a gantry's searcher asks for.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct GantryDecision {
+    /// What it is doing.
+    pub behaviour: GantryBehaviour,
+    /// Counts the motion commands: a new number is a new command; 0 is none yet.
+    pub id: u32,
+    /// Where the head's reference point is to go (forward, left), m.
+    pub target_m: Vector2<f64>,
+    /// With what speed of each axis (forward, left), m/s.
+    pub speed_m_s: Vector2<f64>,
+    /// What it works with, for records and figures.
+    pub working: TrackerState,
+    /// Set when the searcher stopped: true when it declared the source found, false when it gave up.
+    pub stopped: Option<bool>,
+}
+
+/// What the tracker's units hold now, for records and figures; a searcher that lacks a part leaves its default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TrackerState {
+    /// Dynamic threshold of each probe, V.
+    pub threshold_v: [f64; MAX_PROBES],
+    /// A spike was found on the probe in this scan.
+    pub spike: [bool; MAX_PROBES],
+    /// Spikes a second lately, Hz.
+    pub spike_hz: f64,
+    /// Mean spike magnitude since the latest step, V above the bottom of the range.
+    pub magnitude_v: f64,
+    /// Predicted magnitude of the present step, V above the bottom of the range.
+    pub predicted_v: Option<f64>,
+    /// Bilateral contrast, left positive, -1 to 1.
+    pub contrast: f64,
+}

@@ -1,0 +1,313 @@
+//! Conductivity probes: salt concentration at each tip as a voltage, with noise, quantisation and saturation.
+//!
+//! *Source*: Webster, Volyanskyy & Weissburg 2012 (Bioinspir. Biomim. 7:036023), section 3: fast conductivity
+//! sensors (Precision Measurement Engineering) read at 20 Hz by a converter of -5 to 5 V.
+//!
+//! *Parameters*: rate `rate_hz` 20 Hz; output range `range_v` -5 to 5 V; concentration at its top
+//! `full_scale_kg_m3` (not published), 4.7 kg/m³, a tenth of the 47 g/L released: the paper's floor of -4.98 V is
+//! then 2e-4 of the source, a fifth of the mean on the centreline 1 m away, so that spikes can be told at the
+//! 1.14 m where its trials began, and only undiluted effluent at the nozzle saturates; converter `adc_bits` 12 (not
+//! published), a step of 2.4 mV; white noise `noise_v` (not published), 4 mV, so that the floor, which is there to
+//! exclude noise, lies five deviations above clean water; time constant `response_s` 0, for 800 Hz of
+//! bandwidth (0.2 ms) is far below the 50 ms between scans.
+//!
+//! *Deviations*: the 0.5 mm of spatial resolution is taken as a point: it is less than the smallest eddies
+//! (0.83 mm) and far less than the smallest scale of a simulated plume, so averaging over it changes nothing.
+
+use crate::error::RobotError;
+use crate::handoff::{MAX_PROBES, ProbeScan};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::fields::Concentration;
+use world::math;
+use world::ranges::{Finite, NonNegative, Positive};
+use world::seeds::Stream;
+
+/// What a scenario may say of the probes.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct ProbesSpec {
+    /// Scans a second, Hz.
+    pub rate_hz: Positive,
+    /// Output in clean water and at full scale, V.
+    pub range_v: [Finite; 2],
+    /// Concentration at the top of the range, kg/m³.
+    pub full_scale_kg_m3: Positive,
+    /// Standard deviation of the output noise, V.
+    pub noise_v: NonNegative,
+    /// Bits of the converter over the range.
+    pub adc_bits: u8,
+    /// Time constant of the first-order response, s.
+    pub response_s: NonNegative,
+}
+
+impl Default for ProbesSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(20.0),
+            range_v: [Finite::new(-5.0), Finite::new(5.0)],
+            full_scale_kg_m3: Positive::new(4.7),
+            noise_v: NonNegative::new(0.004),
+            adc_bits: 12,
+            response_s: NonNegative::new(0.0),
+        }
+    }
+}
+
+/// The probes of a head, scanned together.
+#[derive(Clone, Debug)]
+pub struct Probes {
+    every: Every,
+    bottom_v: f64,
+    span_v: f64,
+    full_scale_kg_m3: f64,
+    noise_v: f64,
+    levels: f64,
+    /// Share of the way to a new input that is left after a scan's period, and the time constant over it.
+    decay: f64,
+    tau_periods: f64,
+    channels: Vec<Channel>,
+}
+
+/// One probe: its own noise, and input and output at the latest scan (shares of full scale).
+#[derive(Clone, Debug)]
+struct Channel {
+    rng: Stream,
+    latest: Option<(f64, f64)>,
+}
+
+impl Probes {
+    /// Probes of these names on the robot `robot_id`, each with a random stream of its own.
+    ///
+    /// # Errors
+    /// When there are none or too many, the rate does not fit the step, the range is empty or the converter
+    /// has no or too many bits.
+    pub fn new(
+        spec: &ProbesSpec,
+        names: &[String],
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let invalid = |field: &str, problem: String| RobotError::Invalid {
+            field: format!("probes{field}"),
+            problem,
+        };
+        if names.is_empty() || names.len() > MAX_PROBES {
+            let n = names.len();
+            return Err(invalid(
+                "",
+                format!("a head carries 1 to {MAX_PROBES} probes, got {n}"),
+            ));
+        }
+        if !(1..=24).contains(&spec.adc_bits) {
+            let problem = format!("must be from 1 to 24, got {}", spec.adc_bits);
+            return Err(invalid(".adc_bits", problem));
+        }
+        let [bottom_v, top_v] = spec.range_v.map(Finite::get);
+        if top_v <= bottom_v {
+            let problem =
+                format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
+            return Err(invalid(".range_v", problem));
+        }
+        let every = super::tools::every("probes.rate_hz", spec.rate_hz.get(), dt_s)?;
+        let tau_periods = spec.response_s.get() / every.period_s(dt_s);
+        let channel = |name: &String| Channel {
+            rng: Stream::new(seed, robot_id, &format!("probe {name}")),
+            latest: None,
+        };
+        Ok(Self {
+            every,
+            bottom_v,
+            span_v: top_v - bottom_v,
+            full_scale_kg_m3: spec.full_scale_kg_m3.get(),
+            noise_v: spec.noise_v.get(),
+            levels: f64::from((1_u32 << spec.adc_bits) - 1),
+            decay: if tau_periods > 0.0 {
+                math::exp(-1.0 / tau_periods)
+            } else {
+                0.0
+            },
+            tau_periods,
+            channels: names.iter().map(channel).collect(),
+        })
+    }
+
+    /// The scan of this step, if one is due; `tips` are the probes' places in the world (m), in the order of their names.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        tips: &[Vector3<f64>],
+        dye: &dyn Concentration,
+    ) -> Option<ProbeScan> {
+        assert!(
+            tips.len() == self.channels.len(),
+            "{} tips for {} probes: the head and its probes were assembled from different descriptions",
+            tips.len(),
+            self.channels.len()
+        );
+        if !self.every.due(clock) {
+            return None;
+        }
+        let mut scan = ProbeScan {
+            t_s: clock.t_s(),
+            volts: [self.bottom_v; MAX_PROBES],
+            count: tips.len(),
+        };
+        for ((channel, p), volts) in self.channels.iter_mut().zip(tips).zip(&mut scan.volts) {
+            let c = dye.at(p);
+            assert!(
+                c.is_finite(),
+                "the concentration at {p:?} is not a finite number: the plume model or the head's position broke before the probes"
+            );
+            let input = c / self.full_scale_kg_m3;
+            // First order with the input running straight between two scans, exact.
+            let output = channel.latest.map_or(input, |(before, y)| {
+                let lag = (input - before) * self.tau_periods;
+                input - lag + (y - before + lag) * self.decay
+            });
+            channel.latest = Some((input, output));
+            let noisy = output + self.noise_v * channel.rng.normal() / self.span_v;
+            let share = (noisy.clamp(0.0, 1.0) * self.levels).round() / self.levels;
+            *volts = self.bottom_v + share * self.span_v;
+        }
+        Some(scan)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{assert_normal, run};
+    use super::*;
+
+    /// Concentration growing to the left, kg/m³ for a metre, from nothing at y = 0.
+    struct Slope(f64);
+    impl Concentration for Slope {
+        fn at(&self, p: &Vector3<f64>) -> f64 {
+            (self.0 * p.y).max(0.0)
+        }
+    }
+
+    fn names(n: usize) -> Vec<String> {
+        (0..n).map(|i| format!("p{i}")).collect()
+    }
+
+    fn probes(spec: &ProbesSpec, n: usize) -> Probes {
+        Probes::new(spec, &names(n), "gantry0", 1, 0.01).expect("legal")
+    }
+
+    fn tips(ys: &[f64]) -> Vec<Vector3<f64>> {
+        ys.iter().map(|y| Vector3::new(0.0, *y, 0.0)).collect()
+    }
+
+    fn quiet() -> ProbesSpec {
+        ProbesSpec {
+            noise_v: NonNegative::new(0.0),
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn clean_water_is_minus_five_and_full_scale_five_in_steps_of_the_converter() {
+        let mut p = probes(&quiet(), 4);
+        let scan = run(1, 0.01, |c| {
+            p.read(c, &tips(&[-1.0, 0.5, 1.0, 7.0]), &Slope(4.7))
+        })[0];
+        assert_eq!(scan.count, 4);
+        assert_eq!(
+            (scan.volts[0], scan.volts[2], scan.volts[3]),
+            (-5.0, 5.0, 5.0)
+        );
+        let step = 10.0 / 4095.0;
+        assert!(scan.volts[1].abs() <= step / 2.0 + 1e-12);
+        let n = (scan.volts[1] + 5.0) / step;
+        assert!((n - n.round()).abs() < 1e-9, "not a level: {n}");
+    }
+
+    #[test]
+    fn twenty_scans_a_second_each_probe_with_noise_of_its_own() {
+        let spec = ProbesSpec {
+            noise_v: NonNegative::new(0.1),
+            ..Default::default()
+        };
+        let mut p = probes(&spec, 2);
+        let scans = run(100_000, 0.01, |c| {
+            p.read(c, &tips(&[0.5, 0.5]), &Slope(4.7))
+        });
+        assert_eq!(scans.len(), 20_000);
+        assert!((scans[1].t_s - scans[0].t_s - 0.05).abs() < 1e-12);
+        for i in 0..2 {
+            let v: Vec<f64> = scans.iter().map(|s| s.volts[i]).collect();
+            // Rounding to 2.4 mV adds 0.7 mV of deviation: 2.5e-5 of the noise's square.
+            assert_normal(&v, 0.0, 0.1);
+        }
+        // Correlation of two independent records: standard error 1/sqrt(n).
+        let r = scans.iter().map(|s| s.volts[0] * s.volts[1]).sum::<f64>() / 20_000.0 / 0.01;
+        assert!(r.abs() < 5.0 / 20_000f64.sqrt(), "correlated: {r}");
+        // Another probe beside it shifts nobody's numbers.
+        let mut alone = probes(&spec, 1);
+        let first = run(100, 0.01, |c| alone.read(c, &tips(&[0.5]), &Slope(4.7)));
+        assert!(
+            first
+                .iter()
+                .zip(&scans)
+                .all(|(a, b)| a.volts[0] == b.volts[0])
+        );
+    }
+
+    #[test]
+    fn a_slow_probe_follows_its_time_constant() {
+        let spec = ProbesSpec {
+            response_s: NonNegative::new(0.1),
+            ..quiet()
+        };
+        let mut p = probes(&spec, 1);
+        let v = run(60, 0.01, |c| {
+            let y = if c.step < 5 { 0.0 } else { 1.0 };
+            p.read(c, &tips(&[y]), &Slope(4.7))
+        });
+        // A ramp of T = 0.05 s to 1, then held: 1 - tau/T (1 - e^(-T/tau)) e^(-(t - T)/tau) from its end on.
+        for (k, scan) in v.iter().enumerate().skip(1) {
+            let after = (k as f64 - 1.0) * 0.05;
+            let rest = 0.1 / 0.05 * (math::exp(0.5) - 1.0) * math::exp(-0.5 - after / 0.1);
+            let want = -5.0 + 10.0 * (1.0 - rest);
+            assert!(
+                (scan.volts[0] - want).abs() < 5.0 / 4095.0 + 1e-9,
+                "scan {k}"
+            );
+        }
+    }
+
+    #[test]
+    fn impossible_probes_are_refused() {
+        let new = |spec: &ProbesSpec, n| {
+            let e = Probes::new(spec, &names(n), "g", 1, 0.01).expect_err("impossible");
+            e.to_string()
+        };
+        let ok = ProbesSpec::default();
+        assert_eq!(new(&ok, 0), "probes: a head carries 1 to 8 probes, got 0");
+        assert_eq!(new(&ok, 9), "probes: a head carries 1 to 8 probes, got 9");
+        let bits = ProbesSpec {
+            adc_bits: 30,
+            ..ok.clone()
+        };
+        assert_eq!(
+            new(&bits, 3),
+            "probes.adc_bits: must be from 1 to 24, got 30"
+        );
+        let range = ProbesSpec {
+            range_v: [Finite::new(5.0), Finite::new(5.0)],
+            ..ok.clone()
+        };
+        assert_eq!(
+            new(&range, 3),
+            "probes.range_v: must rise from clean water to full scale, got 5 to 5 V"
+        );
+        let fast = ProbesSpec {
+            rate_hz: Positive::new(800.0),
+            ..ok
+        };
+        assert!(new(&fast, 3).starts_with("probes.rate_hz: 800 Hz is more than one reading"));
+    }
+}

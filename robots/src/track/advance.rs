@@ -1,0 +1,143 @@
+//! Decision unit, up-stream motion: whether the present step's spikes allow another step up-stream.
+//!
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`StepRule`); Page et al. 2011a (J. Exp. Biol.
+//! 214:1498) as summed up there in section 2.2: a spike above the threshold at the antennules moves the animal up-stream,
+//! in a binary fashion (`Gated`).
+//!
+//! *Parameters*: `StepRule`: present magnitude over the previous one `ratio`, 1 (0.9 and 1.1 were tried in the
+//! paper); prediction error `prediction_error`, a share of the prediction, 0.02; whether that error has a sign,
+//! `signed`, true: the paper defines it as "predicted value minus the average spike magnitude" and means a perceived loss
+//! by a large one, so that more than predicted is no error. `Gated`: least number of spikes in the step, `spikes`, 1.
+//!
+//! *Deviations*: "exceeds" is taken strictly, so that no signal never beats no signal; the first step after a
+//! sweep, which has nothing before it, goes on if it has any spike. `Gated` is not in the paper's tracker.
+
+use super::data::StepRecord;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::{NonNegative, Positive};
+
+/// The rules a tracker can have.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum AdvanceSpec {
+    /// More than before, or as predicted.
+    StepRule(StepRule),
+    /// Any spikes at all: odour-gated rheotaxis.
+    Gated(Gated),
+}
+
+impl Default for AdvanceSpec {
+    fn default() -> Self {
+        Self::StepRule(StepRule::default())
+    }
+}
+
+/// Parameters of the step rule.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct StepRule {
+    /// The present magnitude must exceed this share of the previous one.
+    pub ratio: Positive,
+    /// Else the prediction error must be below this share of the prediction.
+    pub prediction_error: NonNegative,
+    /// More than predicted counts as no error.
+    pub signed: bool,
+}
+
+impl Default for StepRule {
+    fn default() -> Self {
+        Self {
+            ratio: Positive::new(1.0),
+            prediction_error: NonNegative::new(0.02),
+            signed: true,
+        }
+    }
+}
+
+/// Parameters of the gate.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Gated {
+    /// Least number of spikes in the step.
+    pub spikes: NonZeroUsize,
+}
+
+impl Default for Gated {
+    fn default() -> Self {
+        Self {
+            spikes: NonZeroUsize::MIN,
+        }
+    }
+}
+
+impl AdvanceSpec {
+    /// Whether the step allows to go on up-stream.
+    #[must_use]
+    pub fn allows(&self, step: &StepRecord) -> bool {
+        match self {
+            Self::Gated(p) => step.spikes >= p.spikes.get(),
+            Self::StepRule(_) if step.spikes == 0 => false,
+            Self::StepRule(p) => {
+                let more = step
+                    .previous_v
+                    .is_none_or(|before| step.mean_v > p.ratio.get() * before);
+                more || step.predicted_v.is_some_and(|predicted| {
+                    let error = predicted - step.mean_v;
+                    let error = if p.signed { error } else { error.abs() };
+                    error < p.prediction_error.get() * predicted
+                })
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn step(spikes: usize, mean_v: f64, previous_v: f64, predicted_v: f64) -> StepRecord {
+        StepRecord {
+            spikes,
+            mean_v,
+            previous_v: Some(previous_v),
+            predicted_v: Some(predicted_v),
+            ..Default::default()
+        }
+    }
+
+    #[test]
+    fn more_than_before_or_within_two_per_cent_of_the_prediction() {
+        let rule = AdvanceSpec::default();
+        assert!(rule.allows(&step(3, 1.01, 1.0, 9.0)), "more than before");
+        assert!(
+            !rule.allows(&step(3, 1.0, 1.0, 1.03)),
+            "as before is not more"
+        );
+        assert!(
+            rule.allows(&step(3, 0.99, 1.0, 1.0)),
+            "1 % below the prediction"
+        );
+        assert!(!rule.allows(&step(3, 0.97, 1.0, 1.0)), "3 % below it");
+        assert!(rule.allows(&step(3, 0.97, 1.0, 0.5)), "above it is no loss");
+        assert!(!rule.allows(&step(0, 0.0, 0.0, 0.0)), "nothing");
+        let first = StepRecord {
+            spikes: 1,
+            mean_v: 0.1,
+            ..Default::default()
+        };
+        assert!(rule.allows(&first));
+        let both = AdvanceSpec::StepRule(StepRule {
+            signed: false,
+            ..Default::default()
+        });
+        assert!(!both.allows(&step(3, 0.97, 1.0, 0.5)));
+    }
+
+    #[test]
+    fn the_gate_asks_for_spikes_only() {
+        let gate = AdvanceSpec::Gated(Gated::default());
+        assert!(gate.allows(&step(1, 0.1, 1.0, 1.0)));
+        assert!(!gate.allows(&step(0, 0.0, 1.0, 1.0)));
+    }
+}

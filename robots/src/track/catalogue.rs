@@ -1,0 +1,61 @@
+//! The searchers of a gantry and the units of the tracker by name.
+
+use world::catalogue::Entry;
+
+/// Searchers.
+pub const STRATEGIES: &[Entry] = &[
+    Entry {
+        name: "Crab",
+        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike frequency",
+        source: "Webster et al. 2012, section 4, Fig. 7",
+    },
+    Entry {
+        name: "Chemotaxis",
+        what: "baseline: climbs the gradient of averaged concentration, along and across the stream",
+        source: "Webster et al. 2012, sections 2.1 and 6.2; Russell et al. 2003",
+    },
+];
+
+/// Units of the tracker that can be chosen, named as in RON; those without a choice follow from them.
+pub const UNITS: &[Entry] = &[
+    Entry {
+        name: "sweep",
+        what: "relative position/data builder: where a full sweep smelled most, Peak or Centroid",
+        source: "Webster et al. 2012, sections 4 and 5",
+    },
+    Entry {
+        name: "threshold",
+        what: "threshold analyser: HalfMean (half the running average of spikes, not below a floor) or Level",
+        source: "Webster et al. 2012, section 4; Page et al. 2011a",
+    },
+    Entry {
+        name: "predictor",
+        what: "spike characteristics predictor from 2-10 s of memory: Mean or Trend",
+        source: "Webster et al. 2012, section 4",
+    },
+    Entry {
+        name: "history",
+        what: "short-term input-output history analyser: weighted mean of the spikes since the previous step",
+        source: "Webster et al. 2012, section 4",
+    },
+    Entry {
+        name: "advance",
+        what: "decision unit, up-stream motion: StepRule (more than before, or as predicted) or Gated (any spike)",
+        source: "Webster et al. 2012, section 4; Page et al. 2011a",
+    },
+    Entry {
+        name: "contrast",
+        what: "decision unit, steering: Fixed (30 % between the sides) or Adaptive (beyond its own uncertainty)",
+        source: "Webster et al. 2012, sections 4 and 7",
+    },
+    Entry {
+        name: "speed",
+        what: "decision unit, pace: Fixed (6.1 and 3 cm/s, rest after each step) or Adaptive (faster with more spikes)",
+        source: "Webster et al. 2012, sections 3 and 7",
+    },
+    Entry {
+        name: "stop",
+        what: "decision unit, stopping: SpikeRate (2 Hz) or Experience (relative to the first steps; end of the trail)",
+        source: "Webster et al. 2012, sections 4 and 7",
+    },
+];

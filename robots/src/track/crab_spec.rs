@@ -1,0 +1,220 @@
+//! What a scenario may say of the blue-crab tracker: its units, each replaceable, and what a machine must be able to do.
+
+use super::advance::{self, AdvanceSpec};
+use super::builder::{KEPT, SweepSpec};
+use super::decide::Rules;
+use super::history::HistorySpec;
+use super::pace::{self, PaceSpec};
+use super::predictor::PredictorSpec;
+use super::steer::{self, ContrastSpec};
+use super::stop::{self, StopSpec};
+use super::threshold::ThresholdSpec;
+use crate::error::RobotError;
+use crate::handoff::GantryLayout;
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::Positive;
+
+/// The tracker's units.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrabSpec {
+    /// Step (along the stream, across it), m.
+    pub step_m: [Positive; 2],
+    /// The full sweep.
+    pub sweep: SweepSpec,
+    /// Threshold analyser.
+    pub threshold: ThresholdSpec,
+    /// Spike characteristics predictor.
+    pub predictor: PredictorSpec,
+    /// Short-term history analyser.
+    pub history: HistorySpec,
+    /// Decision unit, up-stream motion.
+    pub advance: AdvanceSpec,
+    /// Decision unit, steering.
+    pub contrast: ContrastSpec,
+    /// Decision unit, pace.
+    pub speed: PaceSpec,
+    /// Decision unit, stopping.
+    pub stop: StopSpec,
+    /// Blocked motions in a row before it gives up.
+    pub blocked_limit: NonZeroUsize,
+}
+
+impl Default for CrabSpec {
+    fn default() -> Self {
+        Self {
+            step_m: [Positive::new(0.1), Positive::new(0.05)],
+            sweep: SweepSpec::default(),
+            threshold: ThresholdSpec::default(),
+            predictor: PredictorSpec::default(),
+            history: HistorySpec::default(),
+            advance: AdvanceSpec::default(),
+            contrast: ContrastSpec::default(),
+            speed: PaceSpec::default(),
+            stop: StopSpec::default(),
+            blocked_limit: NonZeroUsize::new(6).expect("6 is not zero"),
+        }
+    }
+}
+
+impl CrabSpec {
+    /// The tracker with the paper's future work, adaptive speed, contrast threshold and stopping frequency, and moved
+    /// up-stream by any spike, as continuous motion leaves no step long enough to compare averages.
+    #[must_use]
+    pub fn adaptive() -> Self {
+        Self {
+            advance: AdvanceSpec::Gated(advance::Gated::default()),
+            contrast: ContrastSpec::Adaptive(steer::Adaptive::default()),
+            speed: PaceSpec::Adaptive(pace::Adaptive::default()),
+            stop: StopSpec::Experience(stop::Experience::default()),
+            ..Self::default()
+        }
+    }
+
+    /// What the decision unit works with on a machine.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when steps, sweep or speeds are more than the machine has.
+    pub(super) fn rules(&self, layout: &GantryLayout) -> Result<Rules, RobotError> {
+        let most = |field: &str, value: f64, most: f64, what: &str| {
+            if value <= most {
+                return Ok(());
+            }
+            Err(RobotError::Invalid {
+                field: format!("tracker.Crab.{field}"),
+                problem: format!("must be at most {most}, the gantry's {what}, got {value}"),
+            })
+        };
+        let [along, across] = layout.travel_m;
+        let [step_f, step_l] = self.step_m.map(Positive::get);
+        let width = across[1] - across[0];
+        most(
+            "step_m.0",
+            step_f,
+            along[1] - along[0],
+            "travel along the stream in m",
+        )?;
+        most("step_m.1", step_l, width, "travel across the stream in m")?;
+        let span = self.sweep.span_m.get();
+        most("sweep.span_m", span, width, "travel across the stream in m")?;
+        let [max_f, max_l] = layout.max_speed_m_s;
+        let (speeds_f, speeds_l) = match &self.speed {
+            PaceSpec::Fixed(p) => (
+                vec![("forward_m_s", p.forward_m_s)],
+                vec![("left_m_s", p.left_m_s)],
+            ),
+            PaceSpec::Adaptive(p) => {
+                if p.least_m_s > p.most_m_s {
+                    return Err(RobotError::Invalid {
+                        field: "tracker.Crab.speed.least_m_s".into(),
+                        problem: format!("must not exceed most_m_s, {}", p.most_m_s.get()),
+                    });
+                }
+                let across = vec![
+                    ("left_m_s", p.left_m_s),
+                    ("sweep_m_s", p.sweep_m_s),
+                    ("reacquire_m_s", p.reacquire_m_s),
+                ];
+                (vec![("most_m_s", p.most_m_s)], across)
+            }
+        };
+        for (name, v) in speeds_f {
+            most(
+                &format!("speed.{name}"),
+                v.get(),
+                max_f,
+                "speed along the stream in m/s",
+            )?;
+        }
+        for (name, v) in speeds_l {
+            most(
+                &format!("speed.{name}"),
+                v.get(),
+                max_l,
+                "speed across the stream in m/s",
+            )?;
+        }
+        if let StopSpec::Experience(p) = &self.stop {
+            let n = p.points.get();
+            if n > KEPT {
+                return Err(RobotError::Invalid {
+                    field: "tracker.Crab.stop.points".into(),
+                    problem: format!("must be from 1 to {KEPT}, got {n}"),
+                });
+            }
+            if p.least_hz > p.most_hz {
+                return Err(RobotError::Invalid {
+                    field: "tracker.Crab.stop.least_hz".into(),
+                    problem: format!("must not exceed most_hz, {}", p.most_hz.get()),
+                });
+            }
+        }
+        let middle = (across[0] + across[1]) / 2.0;
+        Ok(Rules {
+            step_m: Vector2::new(step_f, step_l),
+            sweep_left_m: [middle + span / 2.0, middle - span / 2.0],
+            empty_sweeps: self.sweep.empty_sweeps.get(),
+            blocked_limit: self.blocked_limit.get(),
+            end_m: along[1],
+            across_m: across,
+            pace: self.speed.clone(),
+            advance: self.advance.clone(),
+            contrast: self.contrast.clone(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::layout;
+    use super::*;
+    use crate::track::GantryStrategySpec;
+
+    fn refused(change: impl FnOnce(&mut CrabSpec)) -> String {
+        let mut spec = CrabSpec::adaptive();
+        change(&mut spec);
+        let e = GantryStrategySpec::Crab(spec).build(&layout());
+        e.expect_err("impossible").to_string()
+    }
+
+    #[test]
+    fn both_defaults_fit_the_machine() {
+        for spec in [CrabSpec::default(), CrabSpec::adaptive()] {
+            let r = spec.rules(&layout()).expect("legal");
+            assert!(
+                (r.sweep_left_m[0] - 0.3).abs() < 1e-12 && (r.sweep_left_m[1] + 0.3).abs() < 1e-12
+            );
+        }
+    }
+
+    #[test]
+    fn more_than_the_machine_has_is_refused() {
+        assert_eq!(
+            refused(|s| s.sweep.span_m = Positive::new(1.2)),
+            "tracker.Crab.sweep.span_m: must be at most 1, the gantry's travel across the stream in m, got 1.2"
+        );
+        assert!(
+            refused(|s| s.step_m[0] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.0: ")
+        );
+        assert!(
+            refused(|s| s.step_m[1] = Positive::new(3.0)).starts_with("tracker.Crab.step_m.1: ")
+        );
+        let fast = pace::Adaptive {
+            most_m_s: Positive::new(0.2),
+            ..Default::default()
+        };
+        assert_eq!(
+            refused(|s| s.speed = PaceSpec::Adaptive(fast)),
+            "tracker.Crab.speed.most_m_s: must be at most 0.15, the gantry's speed along the stream in m/s, got 0.2"
+        );
+        let turned = stop::Experience {
+            least_hz: Positive::new(9.0),
+            ..Default::default()
+        };
+        assert!(
+            refused(|s| s.stop = StopSpec::Experience(turned)).contains("must not exceed most_hz")
+        );
+    }
+}

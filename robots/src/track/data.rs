@@ -1,0 +1,95 @@
+//! What the tracker's units pass to each other.
+
+use crate::handoff::MAX_PROBES;
+use nalgebra::Vector2;
+
+/// One scan, ready for analysis.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// When, s.
+    pub t_s: f64,
+    /// Where the head's reference point was (forward, left), m.
+    pub head_m: Vector2<f64>,
+    /// How fast it moved (forward, left), m/s.
+    pub speed_m_s: Vector2<f64>,
+    /// Signal of each probe above the bottom of its range, V.
+    pub above_v: [f64; MAX_PROBES],
+    /// How many probes there are.
+    pub count: usize,
+}
+
+/// A spike: a sample larger than both its neighbours and above the threshold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Spike {
+    /// When, s.
+    pub t_s: f64,
+    /// Which probe.
+    pub probe: usize,
+    /// Its height above the bottom of the range, V.
+    pub magnitude_v: f64,
+    /// Where the probe's tip was (forward, left), m.
+    pub place_m: Vector2<f64>,
+}
+
+/// Spikes of one probe since the previous decision.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tally {
+    /// How many.
+    pub count: usize,
+    /// Sum of their magnitudes, V.
+    pub sum_v: f64,
+    /// Sum of their squares, V².
+    pub squares_v2: f64,
+    /// The greatest, V.
+    pub greatest_v: f64,
+}
+
+impl Tally {
+    /// One more.
+    pub fn add(&mut self, magnitude_v: f64) {
+        self.count += 1;
+        self.sum_v += magnitude_v;
+        self.squares_v2 += magnitude_v * magnitude_v;
+        self.greatest_v = self.greatest_v.max(magnitude_v);
+    }
+
+    /// This and another one together.
+    #[must_use]
+    pub fn with(&self, other: &Self) -> Self {
+        Self {
+            count: self.count + other.count,
+            sum_v: self.sum_v + other.sum_v,
+            squares_v2: self.squares_v2 + other.squares_v2,
+            greatest_v: self.greatest_v.max(other.greatest_v),
+        }
+    }
+
+    /// Mean magnitude, V; zero without spikes.
+    #[must_use]
+    pub fn mean_v(&self) -> f64 {
+        if self.count == 0 {
+            0.0
+        } else {
+            self.sum_v / self.count as f64
+        }
+    }
+}
+
+/// What the short-term history says of the period since the previous decision.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct StepRecord {
+    /// Its length, s.
+    pub period_s: f64,
+    /// Spikes on all probes.
+    pub spikes: usize,
+    /// Weighted mean magnitude of the spikes, V; zero without spikes.
+    pub mean_v: f64,
+    /// The same in the period before; `None` in the first.
+    pub previous_v: Option<f64>,
+    /// What the predictor expected of this period, V.
+    pub predicted_v: Option<f64>,
+    /// The leftmost probe's spikes.
+    pub left: Tally,
+    /// The rightmost probe's spikes.
+    pub right: Tally,
+}

@@ -1,0 +1,177 @@
+//! Short-term input-output history analyser: what the spikes since the previous decision say, beside the period before.
+//!
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Fig. 7: average spike magnitude over "the
+//! period since the previous step", with "greater weighting" of the centre probe.
+//!
+//! *Parameters*: weight of a centre probe's spike beside one of a steering probe `centre_weight` (not published), 2:
+//! the least whole number that is "greater", with which the one centre probe counts as much as the two sides together;
+//! where the average begins, `since`, `Decision`: the paper's words, so that spikes met on the way count; `Arrival`
+//! takes only those at rest.
+//!
+//! *Deviations*: the average runs over spikes, not over seconds: a period with few but strong spikes must
+//! compare by magnitude, which the decision rule is about; how often they come is the stop rule's.
+
+use super::data::{Spike, StepRecord, Tally};
+use crate::handoff::MAX_PROBES;
+use serde::{Deserialize, Serialize};
+use world::ranges::Positive;
+
+/// Where a step's average begins.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Since {
+    /// With the decision that began the step.
+    Decision,
+    /// When the head came to rest.
+    Arrival,
+}
+
+/// Parameters of the unit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct HistorySpec {
+    /// Weight of a centre probe's spike; a steering probe's is 1.
+    pub centre_weight: Positive,
+    /// Where a step's average begins.
+    pub since: Since,
+}
+
+impl Default for HistorySpec {
+    fn default() -> Self {
+        Self {
+            centre_weight: Positive::new(2.0),
+            since: Since::Decision,
+        }
+    }
+}
+
+/// The unit.
+#[derive(Clone, Debug)]
+pub struct History {
+    since: Since,
+    centre_weight: f64,
+    left: usize,
+    right: usize,
+    began_s: f64,
+    arrived: bool,
+    tallies: [Tally; MAX_PROBES],
+    previous_v: Option<f64>,
+    predicted_v: Option<f64>,
+}
+
+impl History {
+    /// The unit, for steering probes of these numbers.
+    #[must_use]
+    pub fn new(spec: &HistorySpec, left: usize, right: usize) -> Self {
+        Self {
+            since: spec.since,
+            centre_weight: spec.centre_weight.get(),
+            left,
+            right,
+            began_s: 0.0,
+            arrived: false,
+            tallies: Default::default(),
+            previous_v: None,
+            predicted_v: None,
+        }
+    }
+
+    /// Weight of a probe's spikes.
+    #[must_use]
+    pub fn weight(&self, probe: usize) -> f64 {
+        if probe == self.left || probe == self.right {
+            1.0
+        } else {
+            self.centre_weight
+        }
+    }
+
+    /// Takes a spike.
+    pub fn add(&mut self, spike: &Spike) {
+        self.tallies[spike.probe].add(spike.magnitude_v);
+    }
+
+    /// The head has come to rest.
+    pub fn arrive(&mut self) {
+        if !self.arrived && self.since == Since::Arrival {
+            self.tallies = Default::default();
+        }
+        self.arrived = true;
+    }
+
+    /// The period up to `t_s`.
+    #[must_use]
+    pub fn record(&self, t_s: f64) -> StepRecord {
+        let (mut w, mut wm, mut spikes) = (0.0, 0.0, 0);
+        for (i, t) in self.tallies.iter().enumerate() {
+            spikes += t.count;
+            w += self.weight(i) * t.count as f64;
+            wm += self.weight(i) * t.sum_v;
+        }
+        StepRecord {
+            period_s: t_s - self.began_s,
+            spikes,
+            mean_v: if spikes > 0 { wm / w } else { 0.0 },
+            previous_v: self.previous_v,
+            predicted_v: self.predicted_v,
+            left: self.tallies[self.left],
+            right: self.tallies[self.right],
+        }
+    }
+
+    /// Begins a new step, of which the predictor expects `predicted_v`.
+    pub fn next(&mut self, t_s: f64, predicted_v: Option<f64>) {
+        self.previous_v = Some(self.record(t_s).mean_v);
+        self.begin(t_s, predicted_v);
+    }
+
+    /// Begins anew, with nothing to compare with (after a sweep).
+    pub fn forget(&mut self, t_s: f64, predicted_v: Option<f64>) {
+        self.previous_v = None;
+        self.begin(t_s, predicted_v);
+    }
+
+    fn begin(&mut self, t_s: f64, predicted_v: Option<f64>) {
+        self.began_s = t_s;
+        self.arrived = false;
+        self.tallies = Default::default();
+        self.predicted_v = predicted_v;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::spike;
+    use super::*;
+
+    #[test]
+    fn the_centre_probe_weighs_more() {
+        let mut h = History::new(&HistorySpec::default(), 0, 1);
+        h.forget(1.0, Some(2.0));
+        h.add(&spike(2.0, 0, 1.0));
+        h.add(&spike(2.0, 2, 4.0));
+        let r = h.record(4.5);
+        assert_eq!((r.spikes, r.mean_v, r.period_s), (2, 9.0 / 3.0, 3.5));
+        assert_eq!((r.previous_v, r.predicted_v), (None, Some(2.0)));
+        assert_eq!((r.left.count, r.right.count), (1, 0));
+        h.next(4.5, None);
+        let r = h.record(5.0);
+        assert_eq!((r.spikes, r.mean_v, r.previous_v), (0, 0.0, Some(3.0)));
+    }
+
+    #[test]
+    fn the_average_may_begin_at_rest() {
+        for (since, mean) in [(Since::Decision, 2.0), (Since::Arrival, 3.0)] {
+            let spec = HistorySpec {
+                since,
+                ..Default::default()
+            };
+            let mut h = History::new(&spec, 0, 1);
+            h.forget(0.0, None);
+            h.add(&spike(0.5, 0, 1.0));
+            h.arrive();
+            h.add(&spike(2.0, 0, 3.0));
+            h.arrive();
+            assert_eq!(h.record(3.0).mean_v, mean, "{since:?}");
+        }
+    }
+}

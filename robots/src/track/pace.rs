@@ -1,0 +1,158 @@
+//! Decision unit, pace: how fast the head moves and when a step is over.
+//!
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 3 (6.1 cm/s along, 3 cm/s across), Fig. 9 (a step
+//! takes 3.5 s, the sweep 20 s); section 7 (situation-dependent speed is its future work); section 6.1: animals keep
+//! 10 cm/s or more, "speed is regulated by odorant pulse arrival rate".
+//!
+//! *Parameters*: `Fixed`: speeds `forward_m_s` 0.061, `left_m_s` 0.03; time at rest before a decision `dwell_s`, 1.86 s:
+//! what the 1.64 s of a 10 cm step leave of 3.5 s. `Adaptive`: least and greatest forward speed `least_m_s` 0.061 (the
+//! fixed one), `most_m_s` 0.15 (the gantry's own limit), across `left_m_s` 0.15; sweep `sweep_m_s` 0.03, as Fixed, since
+//! where to begin is worth the time, and `reacquire_m_s` 0.1 later, the animals' speed; spikes that suffice for a decision `enough`, 2: one says that the
+//! head is in the plume, two can agree on a side; longest time at rest `dwell_s`, 1.86; how
+//! long before the end of a motion the next is decided, `lead_s`, 0.1 s (two scans), so that the head does not stop.
+//!
+//! *Deviations*: in `Adaptive` the speed grows straight with the spikes of the last step up to `enough`; with
+//! enough of them the next step follows without rest, with fewer the head waits for them, at most `dwell_s`.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::{NonNegative, Positive};
+
+/// The paces a tracker can have.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum PaceSpec {
+    /// The same speeds and rest for every step.
+    Fixed(Fixed),
+    /// Faster with more spikes, no rest when they suffice.
+    Adaptive(Adaptive),
+}
+
+impl Default for PaceSpec {
+    fn default() -> Self {
+        Self::Fixed(Fixed::default())
+    }
+}
+
+/// Parameters of the fixed pace.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Fixed {
+    /// Speed along the stream, m/s.
+    pub forward_m_s: Positive,
+    /// Speed across it, m/s.
+    pub left_m_s: Positive,
+    /// Time at rest before a decision, s.
+    pub dwell_s: NonNegative,
+}
+
+impl Default for Fixed {
+    fn default() -> Self {
+        Self {
+            forward_m_s: Positive::new(0.061),
+            left_m_s: Positive::new(0.03),
+            dwell_s: NonNegative::new(1.86),
+        }
+    }
+}
+
+/// Parameters of the adaptive pace.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Adaptive {
+    /// Forward speed without spikes, m/s.
+    pub least_m_s: Positive,
+    /// Forward speed with enough of them, m/s.
+    pub most_m_s: Positive,
+    /// Speed across the stream, m/s.
+    pub left_m_s: Positive,
+    /// Speed of the first sweep, m/s.
+    pub sweep_m_s: Positive,
+    /// Speed of later sweeps, m/s.
+    pub reacquire_m_s: Positive,
+    /// Spikes in a step that suffice for a decision.
+    pub enough: NonZeroUsize,
+    /// Longest time at rest, s.
+    pub dwell_s: NonNegative,
+    /// How long before the end of a motion the next is decided, s.
+    pub lead_s: NonNegative,
+}
+
+impl Default for Adaptive {
+    fn default() -> Self {
+        Self {
+            least_m_s: Positive::new(0.061),
+            most_m_s: Positive::new(0.15),
+            left_m_s: Positive::new(0.15),
+            sweep_m_s: Positive::new(0.03),
+            reacquire_m_s: Positive::new(0.1),
+            enough: NonZeroUsize::new(2).expect("2 is not zero"),
+            dwell_s: NonNegative::new(1.86),
+            lead_s: NonNegative::new(0.1),
+        }
+    }
+}
+
+impl PaceSpec {
+    /// Speeds (forward, left) of the step that follows one with so many spikes, m/s.
+    #[must_use]
+    pub fn speed_m_s(&self, spikes: usize) -> Vector2<f64> {
+        match self {
+            Self::Fixed(p) => Vector2::new(p.forward_m_s.get(), p.left_m_s.get()),
+            Self::Adaptive(p) => {
+                let (least, most) = (p.least_m_s.get(), p.most_m_s.get());
+                let share = (spikes as f64 / p.enough.get() as f64).min(1.0);
+                Vector2::new(least + (most - least) * share, p.left_m_s.get())
+            }
+        }
+    }
+
+    /// Speeds of the first sweep, or of a later one, m/s.
+    #[must_use]
+    pub fn sweep_m_s(&self, later: bool) -> Vector2<f64> {
+        match self {
+            Self::Fixed(p) => Vector2::new(p.forward_m_s.get(), p.left_m_s.get()),
+            Self::Adaptive(p) => {
+                let left = if later { p.reacquire_m_s } else { p.sweep_m_s };
+                Vector2::new(p.least_m_s.get(), left.get())
+            }
+        }
+    }
+
+    /// Whether a step is over: `rest_s` since the head came to rest, if it did; `to_go_s` of motion left; its `spikes`.
+    #[must_use]
+    pub fn over(&self, rest_s: Option<f64>, to_go_s: f64, spikes: usize) -> bool {
+        match self {
+            Self::Fixed(p) => rest_s.is_some_and(|r| r >= p.dwell_s.get()),
+            Self::Adaptive(p) if spikes >= p.enough.get() => {
+                rest_s.is_some() || to_go_s <= p.lead_s.get()
+            }
+            Self::Adaptive(p) => rest_s.is_some_and(|r| r >= p.dwell_s.get()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fixed_pace_rests_whatever_it_smells() {
+        let p = PaceSpec::default();
+        assert_eq!(p.speed_m_s(0), p.speed_m_s(99));
+        assert!(!p.over(None, 0.0, 99));
+        assert!(!p.over(Some(1.8), 0.0, 99));
+        assert!(p.over(Some(1.86), 0.0, 0));
+    }
+
+    #[test]
+    fn the_adaptive_pace_grows_with_spikes_and_does_not_stop_when_they_suffice() {
+        let p = PaceSpec::Adaptive(Adaptive::default());
+        let v: Vec<f64> = (0..6).map(|n| p.speed_m_s(n).x).collect();
+        assert!(v.windows(2).all(|w| w[1] >= w[0]));
+        assert!((v[0] - 0.061).abs() < 1e-12 && (v[2] - 0.15).abs() < 1e-12 && v[5] == v[2]);
+        assert!(p.over(None, 0.1, 2) && !p.over(None, 0.2, 2));
+        assert!(!p.over(None, 0.0, 1) && !p.over(Some(1.0), 0.0, 1) && p.over(Some(1.9), 0.0, 0));
+    }
+}

@@ -1,0 +1,297 @@
+//! Decision unit, stopping: when the frequency of spikes says that the source is near.
+//!
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`SpikeRate`: 2 Hz, from trials with animals) and
+//! section 7 (adaptive specification of the threshold frequency is its future work); sampling of a plume by a moving
+//! head: its section 2.2.
+//!
+//! *Parameters*: `SpikeRate`: `hz` 2; window `window_s` (not published), 3.5 s, a step, as all characteristics are
+//! formed over a step; whose spikes `count` (not published), `Greatest`: the rule was read from the record of
+//! single sensors, and the one nearest to the plume's core tells most. `Experience`: the threshold is `factor` times the
+//! frequency of the first `reference_steps` steps after the sweep, 2.5 times and 3: with widths that grow as the
+//! square root of distance, filaments pass 2.5 times as often at a sixth of the distance; kept between `least_hz` 1 (one
+//! spike a second is no plume's core) and `most_hz` 4, well below the 6.7 Hz at which white noise has tops in a record
+//! of 20 Hz; `drift_m_s`, 0.05, the water's speed assumed when spikes met in motion are counted as at rest; window and
+//! count as above; `trail_end`, true: an empty sweep after the plume was followed means that the source is near:
+//! dye is met only down-stream of it, and passes below the probes just before it; the head goes across to the middle of the
+//! `points` most up-stream spikes (3, so that no single top of noise decides) and stops, without going back, for the
+//! source is not down-stream of spikes. The sweep is spared when the silence alone is proof: at the frequency met on
+//! the way `silence` spikes should have come and none did, 7: exp(-7), one in a thousand, were they independent.
+//!
+//! *Deviations*: `Experience` is ours throughout. The end of the trail rests on what the flow makes certain: dye is never
+//! up-stream of its source.
+
+use super::data::{Sample, Spike};
+use super::rate::{Count, RateWindow};
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::Positive;
+
+/// The stop rules a tracker can have.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum StopSpec {
+    /// A fixed frequency of spikes.
+    SpikeRate(SpikeRate),
+    /// A frequency relative to what the tracker met first, and the end of the trail.
+    Experience(Experience),
+}
+
+impl Default for StopSpec {
+    fn default() -> Self {
+        Self::SpikeRate(SpikeRate::default())
+    }
+}
+
+/// Parameters of the fixed frequency.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpikeRate {
+    /// Threshold frequency, Hz.
+    pub hz: Positive,
+    /// Over this time, s.
+    pub window_s: Positive,
+    /// Whose spikes.
+    pub count: Count,
+}
+
+impl Default for SpikeRate {
+    fn default() -> Self {
+        Self {
+            hz: Positive::new(2.0),
+            window_s: Positive::new(3.5),
+            count: Count::Greatest,
+        }
+    }
+}
+
+/// Parameters of the frequency relative to experience.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Experience {
+    /// Threshold over the frequency met first.
+    pub factor: Positive,
+    /// Steps over which that frequency is averaged.
+    pub reference_steps: NonZeroUsize,
+    /// Least threshold, Hz.
+    pub least_hz: Positive,
+    /// Greatest threshold, Hz.
+    pub most_hz: Positive,
+    /// Speed of the water assumed when spikes met in motion are counted as at rest, m/s.
+    pub drift_m_s: Positive,
+    /// Over this time, s.
+    pub window_s: Positive,
+    /// Whose spikes.
+    pub count: Count,
+    /// An empty sweep after a followed plume ends the search.
+    pub trail_end: bool,
+    /// Spikes expected in a silence that proves the end of the trail.
+    pub silence: Positive,
+    /// How many of the most up-stream spikes mark the end of the trail.
+    pub points: NonZeroUsize,
+}
+
+impl Default for Experience {
+    fn default() -> Self {
+        let three = NonZeroUsize::new(3).expect("3 is not zero");
+        Self {
+            factor: Positive::new(2.5),
+            reference_steps: three,
+            least_hz: Positive::new(1.0),
+            most_hz: Positive::new(4.0),
+            drift_m_s: Positive::new(0.05),
+            window_s: Positive::new(3.5),
+            count: Count::Greatest,
+            trail_end: true,
+            silence: Positive::new(7.0),
+            points: three,
+        }
+    }
+}
+
+/// The unit.
+#[derive(Clone, Debug)]
+pub struct StopRule {
+    spec: StopSpec,
+    window: RateWindow,
+    /// Steps judged and the sum of their frequencies, Hz, up to the number of reference.
+    reference: (usize, f64),
+    /// Spikes of all probes and seconds of the steps judged, up to the latest spike.
+    met: (usize, f64),
+    /// Seconds at the latest scan: all since the first judgement, and those since the latest spike.
+    latest_s: Option<f64>,
+    silent_s: f64,
+}
+
+impl StopRule {
+    /// The unit with nothing met yet.
+    #[must_use]
+    pub fn new(spec: &StopSpec) -> Self {
+        let window = match spec {
+            StopSpec::SpikeRate(p) => RateWindow::new(p.window_s.get(), p.count, None),
+            StopSpec::Experience(p) => {
+                RateWindow::new(p.window_s.get(), p.count, Some(p.drift_m_s.get()))
+            }
+        };
+        Self {
+            spec: spec.clone(),
+            window,
+            reference: (0, 0.0),
+            met: (0, 0.0),
+            latest_s: None,
+            silent_s: 0.0,
+        }
+    }
+
+    /// Takes a scan.
+    pub fn scan(&mut self, sample: &Sample) {
+        self.window.scan(sample);
+        if let Some(before) = self.latest_s {
+            self.silent_s += sample.t_s - before;
+        }
+        self.latest_s = Some(sample.t_s);
+    }
+
+    /// Takes a spike.
+    pub fn spike(&mut self, spike: &Spike) {
+        self.window.spike(spike);
+        self.met.0 += 1;
+        self.met.1 += std::mem::take(&mut self.silent_s);
+    }
+
+    /// The present frequency, Hz.
+    #[must_use]
+    pub fn hz(&self) -> f64 {
+        self.window.hz()
+    }
+
+    /// Whether the source is near; asked once at the end of each step.
+    pub fn near(&mut self) -> bool {
+        let hz = self.window.hz();
+        match &self.spec {
+            StopSpec::SpikeRate(p) => hz >= p.hz.get(),
+            StopSpec::Experience(p) => {
+                let wanted = p.reference_steps.get();
+                if self.reference.0 < wanted {
+                    self.reference.0 += 1;
+                    self.reference.1 += hz;
+                    return hz >= p.most_hz.get();
+                }
+                let first = self.reference.1 / wanted as f64;
+                let (least, most) = (p.least_hz.get(), p.most_hz.get());
+                hz >= (p.factor.get() * first).min(most).max(least)
+            }
+        }
+    }
+
+    /// A sweep has ended: what was met on the way across it is no measure of the plume's core.
+    pub fn swept(&mut self) {
+        (self.met, self.silent_s) = ((0, 0.0), 0.0);
+    }
+
+    /// The same as [`Self::trail_end`] when the silence since the latest spike is proof enough without a sweep.
+    #[must_use]
+    pub fn silent(&self) -> Option<usize> {
+        let StopSpec::Experience(p) = &self.spec else {
+            return None;
+        };
+        let (spikes, seconds) = self.met;
+        let expected = self.silent_s * spikes as f64;
+        let proof = spikes >= p.points.get() && expected >= p.silence.get() * seconds;
+        proof.then(|| self.trail_end()).flatten()
+    }
+
+    /// How many of the most up-stream spikes mark the source once a sweep in a followed plume was empty; `None`: none do.
+    #[must_use]
+    pub fn trail_end(&self) -> Option<usize> {
+        match &self.spec {
+            StopSpec::SpikeRate(_) => None,
+            StopSpec::Experience(p) => p.trail_end.then_some(p.points.get()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::{sample, spike};
+    use super::*;
+
+    /// Whether the rule stops after each of several steps of 3.5 s with so many spikes a second on probe 0.
+    fn stops(spec: &StopSpec, hz: &[f64]) -> Vec<bool> {
+        let mut rule = StopRule::new(spec);
+        let mut t = 0.0;
+        let mut judged = Vec::new();
+        for hz in hz {
+            let mut due: f64 = 0.0;
+            for _ in 0..70 {
+                t += 0.05;
+                rule.scan(&sample(t, [0.0; 3]));
+                due += hz * 0.05;
+                if due >= 1.0 {
+                    due -= 1.0;
+                    rule.spike(&spike(t, 0, 1.0));
+                }
+            }
+            judged.push(rule.near());
+        }
+        judged
+    }
+
+    #[test]
+    fn two_spikes_a_second() {
+        let spec = StopSpec::default();
+        assert_eq!(
+            stops(&spec, &[0.5, 1.6, 2.4, 0.2]),
+            [false, false, true, false]
+        );
+        assert_eq!(StopRule::new(&spec).trail_end(), None);
+    }
+
+    #[test]
+    fn the_threshold_follows_what_was_met_first() {
+        let spec = StopSpec::Experience(Experience::default());
+        // 2.5 times 1 Hz; in a richer plume 2.5 times 1.4 Hz; in a poor one the least; never beyond the most.
+        assert_eq!(
+            stops(&spec, &[1.0, 1.0, 1.0, 2.0, 3.0]),
+            [false, false, false, false, true]
+        );
+        assert_eq!(
+            stops(&spec, &[1.4, 1.4, 1.4, 3.0, 3.9]),
+            [false, false, false, false, true]
+        );
+        assert_eq!(
+            stops(&spec, &[0.1, 0.1, 0.1, 0.7, 1.4]),
+            [false, false, false, false, true]
+        );
+        assert_eq!(
+            stops(&spec, &[3.0, 3.0, 3.0, 3.5, 4.6]),
+            [false, false, false, false, true]
+        );
+        assert_eq!(StopRule::new(&spec).trail_end(), Some(3));
+    }
+
+    #[test]
+    fn a_silence_is_proof_by_the_frequency_met_before() {
+        // Twenty spikes in twenty seconds: seven seconds of silence; forty: three and a half.
+        for (every_scans, proof_s) in [(20, 7.0), (10, 3.5)] {
+            let mut rule = StopRule::new(&StopSpec::Experience(Experience::default()));
+            let mut proven = None;
+            for k in 1..=700 {
+                let t = f64::from(k) * 0.05;
+                rule.scan(&sample(t, [0.0; 3]));
+                if k <= 400 && k % every_scans == 0 {
+                    rule.spike(&spike(t, k as usize % 3, 1.0));
+                }
+                assert!(k > 400 || rule.silent().is_none());
+                if proven.is_none() && rule.silent().is_some() {
+                    proven = Some(t - 20.0);
+                }
+            }
+            let s = proven.expect("silent for 15 s");
+            // The first second counts from the first scan: one scan in four hundred.
+            assert!((s - proof_s).abs() < 0.11, "{s} s");
+        }
+        let mut fixed = StopRule::new(&StopSpec::default());
+        fixed.scan(&sample(0.0, [0.0; 3]));
+        assert_eq!(fixed.silent(), None);
+    }
+}

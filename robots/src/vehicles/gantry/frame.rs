@@ -1,0 +1,283 @@
+//! Reads a gantry's URDF: two slides found by their structure, masses, collision shapes, probes.
+//!
+//! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint` (`limit`: lower, upper, velocity, effort).
+//!
+//! *Parameters:* none.
+//!
+//! *Deviations:* exactly two joints move, both prismatic, one carried by the other, each along x or y of the
+//! base: x is forward (up-stream), y to the left. Links are base, first slide, and second slide with the
+//! head, each with whatever is fixed to it; the child link of the second slide's joint is the head and its
+//! origin the point that is steered. A probe is any link fixed to the head whose name begins with `probe_`;
+//! its origin is the tip. Only the slides' own links need mass. `visual`, `dynamics` and `mimic` are not read.
+
+use super::super::urdf_parts::{joined, parse, place, pose_of, root, shape};
+use super::drive::AxisLimits;
+use crate::error::RobotError;
+use crate::handoff::{MAX_PROBES, ProbeMount};
+use nalgebra::Vector3;
+use std::path::Path;
+use urdf_rs::{Joint, JointLimit, JointType, Robot};
+use world::frames::Pose;
+use world::physics::Shape;
+
+/// Names of links that are probes begin so.
+const PROBE: &str = "probe_";
+/// How far an axis may point off x or y of the base: rounding of angles written in a file.
+const SKEW: f64 = 1e-4;
+
+/// A slide: its joint and what it carries, but for the next slide.
+#[derive(Clone, Debug)]
+pub(super) struct Slide {
+    pub(super) joint: String,
+    /// 0: along x of the base, 1: along y.
+    pub(super) axis: usize,
+    /// 1, or -1 when the joint counts the other way.
+    pub(super) sign: f64,
+    pub(super) limits: AxisLimits,
+    pub(super) mass_kg: f64,
+    pub(super) shapes: Vec<(Pose, Shape)>,
+}
+
+/// What a URDF says of a gantry. Places are in base axes with both joints at zero.
+#[derive(Clone, Debug)]
+pub(super) struct Frame {
+    pub(super) base_shapes: Vec<(Pose, Shape)>,
+    pub(super) slides: [Slide; 2],
+    pub(super) head_B: Vector3<f64>,
+    pub(super) probes: Vec<ProbeMount>,
+}
+
+/// Reads URDF text; `path` is for messages and for mesh files beside it.
+pub(super) fn read(text: &str, path: &Path) -> Result<Frame, RobotError> {
+    frame(text, path).map_err(|problem| RobotError::File {
+        path: path.display().to_string(),
+        problem,
+    })
+}
+
+fn frame(text: &str, path: &Path) -> Result<Frame, String> {
+    let robot = parse(text)?;
+    check_tree(&robot)?;
+    let base = root(&robot)?.name.as_str();
+    let moving = chain(&robot)?;
+    let links = place(&robot, base)?;
+    let part = |link: &str| part_of(&robot, &moving, link);
+    if part(&moving[1].parent.link) != 1 {
+        return Err(format!(
+            "joint \"{}\" is not carried by joint \"{}\": the base carries a slide, that one the other",
+            moving[1].name, moving[0].name
+        ));
+    }
+    let slide = |k: usize| -> Result<Slide, String> {
+        let joint = moving[k];
+        let (axis, sign) = along(joint, &links[&joint.child.link])?;
+        Ok(Slide {
+            joint: joint.name.clone(),
+            axis,
+            sign,
+            limits: limits(joint)?,
+            mass_kg: 0.0,
+            shapes: Vec::new(),
+        })
+    };
+    let mut slides = [slide(0)?, slide(1)?];
+    if slides[0].axis == slides[1].axis {
+        return Err(format!(
+            "joints \"{}\" and \"{}\" are parallel: one has to lie along x of \"{base}\", the other along y",
+            moving[0].name, moving[1].name
+        ));
+    }
+    let head = &moving[1].child.link;
+    let head_B = links[head].p_WB;
+    let mut base_shapes = Vec::new();
+    let mut probes = Vec::new();
+    for link in &robot.links {
+        let (name, on, at) = (&link.name, part(&link.name), &links[&link.name]);
+        let mass = link.inertial.mass.value;
+        let own = on > 0 && moving[on - 1].child.link == *name;
+        if !(mass.is_finite() && (mass > 0.0 || (mass == 0.0 && !own))) {
+            let least = if own { "> 0" } else { ">= 0" };
+            return Err(format!(
+                "link \"{name}\": <mass> must be {least} kg, got {mass}"
+            ));
+        }
+        if on > 0 {
+            slides[on - 1].mass_kg += mass;
+        }
+        for (i, collision) in link.collision.iter().enumerate() {
+            let which = format!("link \"{name}\", collision {}", i + 1);
+            let beside = path.parent().unwrap_or(Path::new(""));
+            let solid = shape(&collision.geometry, beside).map_err(|e| format!("{which}: {e}"))?;
+            finite(&collision.origin, &which)?;
+            let placed = (joined(at, &pose_of(&collision.origin)), solid);
+            match on {
+                0 => base_shapes.push(placed),
+                k => slides[k - 1].shapes.push(placed),
+            }
+        }
+        if name.starts_with(PROBE) {
+            if on != 2 {
+                return Err(format!(
+                    "link \"{name}\" is a probe, but not fixed to the head \"{head}\""
+                ));
+            }
+            probes.push(ProbeMount {
+                name: name.clone(),
+                offset_m: at.p_WB - head_B,
+            });
+        }
+    }
+    if probes.is_empty() {
+        return Err(format!(
+            "no probe: no link whose name begins with \"{PROBE}\" is fixed to the head \"{head}\""
+        ));
+    }
+    if probes.len() > MAX_PROBES {
+        return Err(format!("{} probes, but {MAX_PROBES} at most", probes.len()));
+    }
+    if slides[1].shapes.is_empty() {
+        return Err(format!(
+            "link \"{head}\" has no <collision>, nor has any link fixed to it: it could not touch anything"
+        ));
+    }
+    Ok(Frame {
+        base_shapes,
+        slides,
+        head_B,
+        probes,
+    })
+}
+
+/// The part on which a link sits: 0 the base, 1 and 2 the slides.
+fn part_of(robot: &Robot, moving: &[&Joint; 2], link: &str) -> usize {
+    let mut link = link;
+    loop {
+        if let Some(k) = moving.iter().position(|j| j.child.link == link) {
+            return k + 1;
+        }
+        match robot.joints.iter().find(|j| j.child.link == link) {
+            Some(joint) => link = &joint.parent.link,
+            None => return 0,
+        }
+    }
+}
+
+/// Every link but one is the child of exactly one joint, names are unique, numbers finite.
+fn check_tree(robot: &Robot) -> Result<(), String> {
+    for (i, link) in robot.links.iter().enumerate() {
+        if robot.links[..i].iter().any(|l| l.name == link.name) {
+            return Err(format!("link \"{}\" is there twice", link.name));
+        }
+    }
+    let base = &root(robot)?.name;
+    for (i, joint) in robot.joints.iter().enumerate() {
+        let child = &joint.child.link;
+        finite(&joint.origin, &format!("joint \"{}\"", joint.name))?;
+        if let Some(other) = robot.joints[..i].iter().find(|j| &j.child.link == child) {
+            return Err(format!(
+                "link \"{child}\" is the child of two joints, \"{}\" and \"{}\"",
+                other.name, joint.name
+            ));
+        }
+    }
+    let links = place(robot, base)?;
+    match robot.links.iter().find(|l| !links.contains_key(&l.name)) {
+        Some(link) => Err(format!(
+            "link \"{}\" is not joined to \"{base}\"",
+            link.name
+        )),
+        None => Ok(()),
+    }
+}
+
+fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> {
+    let all = origin.xyz.iter().chain(origin.rpy.iter());
+    match all.into_iter().find(|v| !v.is_finite()) {
+        Some(v) => Err(format!("{whose}: <origin> must be finite, got {v}")),
+        None => Ok(()),
+    }
+}
+
+/// The two joints that move, the one nearer to the base first.
+fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
+    let mut moving = Vec::new();
+    for joint in &robot.joints {
+        match joint.joint_type {
+            JointType::Fixed => {}
+            JointType::Prismatic => moving.push(joint),
+            ref other => {
+                return Err(format!(
+                    "joint \"{}\" is {}, but a gantry's joints are prismatic or fixed",
+                    joint.name,
+                    format!("{other:?}").to_lowercase()
+                ));
+            }
+        }
+    }
+    let names: Vec<String> = moving.iter().map(|j| format!("\"{}\"", j.name)).collect();
+    let [a, b] = moving[..] else {
+        let found = match names.len() {
+            0 => "none is".to_string(),
+            n => format!("{n} are: {}", names.join(", ")),
+        };
+        return Err(format!(
+            "two joints have to be prismatic, an axis on the base and one on that; {found}"
+        ));
+    };
+    // Which of the two is met first on the way down from the other.
+    let mut link = a.parent.link.as_str();
+    while let Some(joint) = robot.joints.iter().find(|j| j.child.link == link) {
+        if joint.name == b.name {
+            return Ok([b, a]);
+        }
+        link = &joint.parent.link;
+    }
+    Ok([a, b])
+}
+
+/// Axis of the base along which a joint moves, and in which sense.
+fn along(joint: &Joint, child_B: &Pose) -> Result<(usize, f64), String> {
+    let given = Vector3::from(joint.axis.xyz.0);
+    let length = given.norm();
+    if !(length > 0.0 && length.is_finite()) {
+        return Err(format!(
+            "joint \"{}\": <axis> must have a length > 0, got {} {} {}",
+            joint.name, given.x, given.y, given.z
+        ));
+    }
+    let along_B = child_B.R_WB * (given / length);
+    for axis in 0..2 {
+        if 1.0 - along_B[axis].abs() < SKEW * SKEW {
+            return Ok((axis, along_B[axis].signum()));
+        }
+    }
+    Err(format!(
+        "joint \"{}\": its axis must lie along x or y of the base, but points to {:.4} {:.4} {:.4} there",
+        joint.name, along_B.x, along_B.y, along_B.z
+    ))
+}
+
+fn limits(joint: &Joint) -> Result<AxisLimits, String> {
+    let (name, l) = (&joint.name, &joint.limit);
+    if *l == JointLimit::default() {
+        return Err(format!("joint \"{name}\" has no <limit>"));
+    }
+    if !(l.lower.is_finite() && l.upper.is_finite() && l.lower < l.upper) {
+        return Err(format!(
+            "joint \"{name}\", limit: lower must be less than upper, got {} and {}",
+            l.lower, l.upper
+        ));
+    }
+    for (what, v, unit) in [("velocity", l.velocity, "m/s"), ("effort", l.effort, "N")] {
+        if !(v > 0.0 && v.is_finite()) {
+            return Err(format!(
+                "joint \"{name}\", limit: {what} must be > 0 {unit}, got {v}"
+            ));
+        }
+    }
+    Ok(AxisLimits {
+        travel_m: [l.lower, l.upper],
+        speed_m_s: l.velocity,
+        effort_N: l.effort,
+    })
+}

@@ -1,0 +1,63 @@
+//! What a scenario says of a gantry.
+
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// Which gantry.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum GantrySpec {
+    /// The gantry of the blue-crab tracker, or any other of two level slides.
+    CrabGantry(CrabGantrySpec),
+}
+
+impl Default for GantrySpec {
+    fn default() -> Self {
+        GantrySpec::CrabGantry(CrabGantrySpec::default())
+    }
+}
+
+/// A gantry: its frame by URDF, its drives by numbers. Travel, greatest speeds, greatest forces, masses, shapes
+/// and probes stand in the URDF; the paper says nothing of its drives beyond the speeds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrabGantrySpec {
+    /// URDF file, relative to the scenario file; `None`: the one built in.
+    pub urdf: Option<String>,
+    /// Acceleration and braking of each axis, m/s²: top speed within 0.3 s.
+    pub acceleration_m_s2: Positive,
+    /// Standard deviation of where a move ends, drawn for each move and axis, m. Two of them are 0.1 mm, the
+    /// order of the ± 0.05 to 0.2 mm that makers of belt-driven rodless units state as repeatability.
+    pub repeatability_m: NonNegative,
+    /// Lost motion between motor and carriage on reversal, m: 0 for a preloaded belt or screw.
+    pub backlash_m: NonNegative,
+    /// One count of the encoder at the carriage, m: 8000 counts a turn of a belt pulley of 80 mm.
+    pub encoder_m: Positive,
+    /// Position loop: speed for each metre of error, 1/s.
+    pub position_gain_per_s: Positive,
+    /// Time constant of the speed loop, s.
+    pub response_s: Positive,
+    /// A target is reached when the encoder is so close to it, m (CiA 402, object 6067h).
+    pub settle_m: Positive,
+    /// Greatest following error, m (CiA 402, object 6065h).
+    pub following_error_m: Positive,
+    /// How long it may be greater before the drive stops and reports `blocked`, s (CiA 402, object 6066h).
+    pub following_time_s: NonNegative,
+}
+
+impl Default for CrabGantrySpec {
+    fn default() -> Self {
+        Self {
+            urdf: None,
+            acceleration_m_s2: Positive::new(0.5),
+            repeatability_m: NonNegative::new(5e-5),
+            backlash_m: NonNegative::new(0.0),
+            encoder_m: Positive::new(1e-5),
+            position_gain_per_s: Positive::new(10.0),
+            response_s: Positive::new(0.005),
+            settle_m: Positive::new(2e-4),
+            following_error_m: Positive::new(0.005),
+            following_time_s: NonNegative::new(0.1),
+        }
+    }
+}

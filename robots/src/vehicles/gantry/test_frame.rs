@@ -1,0 +1,315 @@
+//! What a URDF of a gantry says, and what a wrong one is told.
+
+use super::frame::{Frame, read};
+use super::machine::Gantry;
+use super::spec::{CrabGantrySpec, GantrySpec};
+use nalgebra::{Vector2, Vector3};
+use std::path::Path;
+use world::frames::Pose;
+use world::physics::JointState;
+use world::ranges::Positive;
+use world::units::Heading;
+
+const GOOD: &str = include_str!("../../../urdf/crab_gantry.urdf");
+const FIRST: &str = r#"<limit lower="0" upper="2" velocity="0.15" effort="200"/>"#;
+
+/// Another's gantry: the slide across on the base, turned mounts, counting the other way, two probes.
+pub(super) const OTHER: &str = r#"<robot name="other">
+  <link name="frame"><collision><origin xyz="0 0 1"/><geometry><sphere radius="0.1"/></geometry></collision></link>
+  <link name="bridge"><inertial><mass value="8"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="motor"><inertial><mass value="1.5"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
+  <link name="cart"><inertial><mass value="2"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial>
+    <collision><geometry><box size="0.05 0.05 0.05"/></geometry></collision></link>
+  <link name="stalk"/><link name="probe_a"/><link name="probe_b"/>
+  <joint name="cart_slide" type="prismatic"><parent link="motor"/><child link="cart"/>
+    <origin xyz="0 0 -0.1" rpy="0 0 0"/><axis xyz="0 2 0"/>
+    <limit lower="-1" upper="3" velocity="0.3" effort="30"/></joint>
+  <joint name="motor_mount" type="fixed"><parent link="bridge"/><child link="motor"/><origin xyz="0 0 0.1"/></joint>
+  <joint name="bridge_slide" type="prismatic"><parent link="frame"/><child link="bridge"/>
+    <origin xyz="0.2 0 0.4" rpy="0 0 1.5708"/><axis xyz="-1 0 0"/>
+    <limit lower="-0.2" upper="0.6" velocity="0.2" effort="40"/></joint>
+  <joint name="stalk_mount" type="fixed"><parent link="cart"/><child link="stalk"/><origin xyz="0 0 -0.3"/></joint>
+  <joint name="a" type="fixed"><parent link="stalk"/><child link="probe_a"/><origin xyz="0.04 0 0"/></joint>
+  <joint name="b" type="fixed"><parent link="stalk"/><child link="probe_b"/><origin xyz="-0.04 0 0"/></joint>
+</robot>"#;
+
+fn parse(text: &str) -> Result<Frame, String> {
+    read(text, Path::new("/no/such/place/g.urdf")).map_err(|e| e.to_string())
+}
+
+#[track_caller]
+fn fails(from: &str, to: &str, message: &str) {
+    assert!(GOOD.contains(from), "{from}");
+    let error = parse(&GOOD.replacen(from, to, 1)).expect_err("this is wrong");
+    assert_eq!(error, format!("/no/such/place/g.urdf: {message}"));
+}
+
+fn at(a: f64, b: f64) -> [JointState; 2] {
+    [a, b].map(|position_m| JointState {
+        position_m,
+        ..JointState::default()
+    })
+}
+
+#[test]
+fn the_built_in_gantry_is_the_paper_s() {
+    let gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    let layout = gantry.layout(20.0, [-5.0, 5.0]);
+    assert_eq!(layout.travel_m, [[0.0, 2.0], [-0.5, 0.5]]);
+    assert_eq!(layout.max_speed_m_s, [0.15, 0.15]);
+    assert_eq!(gantry.joint_names(), ["along_stream", "across_stream"]);
+    let names: Vec<&str> = layout.probes.iter().map(|p| p.name.as_str()).collect();
+    assert_eq!(names, ["probe_left", "probe_right", "probe_centre"]);
+    // A base on the bed at (3, 4) whose x, up-stream, points west: the flume's stream goes east.
+    let base = Pose::level(Vector3::new(3.0, 4.0, -0.2), Heading::from_deg(270.0));
+    let tips: Vec<Vector3<f64>> = gantry.tips_W(&base, &at(1.5, 0.25)).collect();
+    let want = [(-0.0625, 0.075), (0.0625, 0.075), (0.0, 0.125)];
+    for (tip, (north, up)) in tips.iter().zip(want) {
+        let want = Vector3::new(1.5, 3.75 + north, -0.2 + up);
+        assert!((tip - want).norm() < 1e-12, "{tip} instead of {want}");
+    }
+    assert!((gantry.head_W(&base, &at(1.5, 0.25)) - tips[2]).norm() < 1e-12);
+}
+
+#[test]
+fn another_gantry_with_axes_swapped_and_turned_is_understood() {
+    let frame = parse(OTHER).expect("another gantry");
+    let [bridge, cart] = &frame.slides;
+    assert_eq!(
+        (bridge.joint.as_str(), bridge.axis, bridge.sign),
+        ("bridge_slide", 1, -1.0)
+    );
+    assert_eq!(
+        (cart.joint.as_str(), cart.axis, cart.sign),
+        ("cart_slide", 0, -1.0)
+    );
+    assert_eq!((bridge.mass_kg, cart.mass_kg), (9.5, 2.0));
+    assert!((frame.head_B - Vector3::new(0.2, 0.0, 0.4)).norm() < 1e-9);
+    // Turned by a quarter, x of the stalk points to the left.
+    let tip = frame.probes[0].offset_m;
+    assert!((tip - Vector3::new(0.0, 0.04, -0.3)).norm() < 1e-6, "{tip}");
+    assert_eq!(frame.base_shapes.len(), 1);
+
+    let dir = std::env::temp_dir().join(format!("rheotaxis-gantry-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).expect("a directory");
+    std::fs::write(dir.join("other.urdf"), OTHER).expect("a file");
+    let spec = GantrySpec::CrabGantry(CrabGantrySpec {
+        urdf: Some("other.urdf".into()),
+        ..CrabGantrySpec::default()
+    });
+    let gantry = Gantry::load(&spec, &dir).expect("another gantry");
+    std::fs::remove_dir_all(&dir).expect("cleaned up");
+    let layout = gantry.layout(20.0, [-5.0, 5.0]);
+    assert_eq!(layout.travel_m, [[-3.0, 1.0], [-0.6, 0.2]]);
+    assert_eq!(layout.max_speed_m_s, [0.3, 0.2]);
+    let base = Pose::level(Vector3::zeros(), Heading::from_deg(90.0));
+    let body = gantry
+        .body_spec("g", &base, Vector2::new(-2.0, 0.1))
+        .expect("inside");
+    assert_eq!(body.start_m, [-0.1, 2.0]);
+    let head = gantry.head_W(&base, &at(-0.1, 2.0));
+    assert!(
+        (head - Vector3::new(-1.8, 0.1, 0.4)).norm() < 1e-9,
+        "{head}"
+    );
+    let error = gantry
+        .body_spec("g", &base, Vector2::new(0.0, 0.3))
+        .expect_err("outside");
+    assert_eq!(
+        error.to_string(),
+        "start: left_m: must be from -0.6 to 0.2 m, got 0.3"
+    );
+}
+
+#[test]
+fn broken_trees_are_told() {
+    let error = parse("<robot name=\"x\"><link").expect_err("broken");
+    assert!(
+        error.starts_with("/no/such/place/g.urdf: not a URDF file: "),
+        "{error}"
+    );
+    let error = parse("no xml at all").expect_err("broken");
+    assert!(
+        error.starts_with("/no/such/place/g.urdf: not a URDF file: "),
+        "{error}"
+    );
+    fails(
+        "<parent link=\"beam\"/>",
+        "<parent link=\"boom\"/>",
+        "joint \"across_stream\": no link \"boom\"",
+    );
+    fails(
+        "<child link=\"probe_left\"/>",
+        "<child link=\"head\"/>",
+        "link \"head\" is the child of two joints, \"across_stream\" and \"left_mount\"",
+    );
+    fails(
+        "<link name=\"base\"/>",
+        "<link name=\"base\"/><link name=\"bench\"/>",
+        "link \"bench\" is not joined to \"base\"",
+    );
+    fails(
+        "<link name=\"base\"/>",
+        "<link name=\"base\"/><link name=\"beam\"/>",
+        "link \"beam\" is there twice",
+    );
+    fails(
+        "<origin xyz=\"0 0 0.6\"/>",
+        "<origin xyz=\"0 NaN 0.6\"/>",
+        "joint \"along_stream\": <origin> must be finite, got NaN",
+    );
+}
+
+#[test]
+fn broken_axes_are_told() {
+    let across = "name=\"across_stream\" type=\"prismatic\"";
+    let to = |kind: &str| across.replace("prismatic", kind);
+    fails(
+        across,
+        &to("fixed"),
+        "two joints have to be prismatic, an axis on the base and one on that; 1 are: \"along_stream\"",
+    );
+    fails(
+        across,
+        &to("revolute"),
+        "joint \"across_stream\" is revolute, but a gantry's joints are prismatic or fixed",
+    );
+    fails(
+        across,
+        &to("continuous"),
+        "joint \"across_stream\" is continuous, but a gantry's joints are prismatic or fixed",
+    );
+    fails(
+        "name=\"left_mount\" type=\"fixed\"",
+        "name=\"left_mount\" type=\"prismatic\"",
+        "two joints have to be prismatic, an axis on the base and one on that; 3 are: \"along_stream\", \"across_stream\", \"left_mount\"",
+    );
+    fails(
+        "<parent link=\"beam\"/>",
+        "<parent link=\"base\"/>",
+        "joint \"across_stream\" is not carried by joint \"along_stream\": the base carries a slide, that one the other",
+    );
+    fails(
+        "<axis xyz=\"0 1 0\"/>",
+        "<axis xyz=\"1 0 0\"/>",
+        "joints \"along_stream\" and \"across_stream\" are parallel: one has to lie along x of \"base\", the other along y",
+    );
+    fails(
+        "<axis xyz=\"0 1 0\"/>",
+        "<axis xyz=\"0 1 1\"/>",
+        "joint \"across_stream\": its axis must lie along x or y of the base, but points to 0.0000 0.7071 0.7071 there",
+    );
+    fails(
+        "<axis xyz=\"0 1 0\"/>",
+        "<axis xyz=\"0 0 0\"/>",
+        "joint \"across_stream\": <axis> must have a length > 0, got 0 0 0",
+    );
+}
+
+#[test]
+fn broken_limits_are_told() {
+    fails(FIRST, "", "joint \"along_stream\" has no <limit>");
+    let with = |from: &str, to: &str| FIRST.replace(from, to);
+    fails(
+        FIRST,
+        &with("upper=\"2\"", "upper=\"-2\""),
+        "joint \"along_stream\", limit: lower must be less than upper, got 0 and -2",
+    );
+    fails(
+        FIRST,
+        &with("upper=\"2\"", "upper=\"NaN\""),
+        "joint \"along_stream\", limit: lower must be less than upper, got 0 and NaN",
+    );
+    fails(
+        FIRST,
+        &with("0.15", "0"),
+        "joint \"along_stream\", limit: velocity must be > 0 m/s, got 0",
+    );
+    fails(
+        FIRST,
+        &with("200", "-1"),
+        "joint \"along_stream\", limit: effort must be > 0 N, got -1",
+    );
+}
+
+#[test]
+fn broken_masses_and_shapes_are_told() {
+    for mass in ["0", "-2", "NaN"] {
+        let to = format!("<mass value=\"{mass}\"/>");
+        fails(
+            "<mass value=\"4\"/>",
+            &to,
+            &format!("link \"head\": <mass> must be > 0 kg, got {mass}"),
+        );
+    }
+    let light = "<link name=\"probe_left\"><inertial><mass value=\"-1\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"1\"/></inertial>";
+    fails(
+        "<link name=\"probe_left\">",
+        light,
+        "link \"probe_left\": <mass> must be >= 0 kg, got -1",
+    );
+    fails(
+        "<cylinder radius=\"0.004\"",
+        "<cylinder radius=\"0\"",
+        "link \"probe_left\", collision 1: cylinder radius must be > 0, got 0",
+    );
+    fails(
+        "<box size=\"0.1 1.25 0.1\"/>",
+        "<mesh filename=\"beam.stl\"/>",
+        "link \"beam\", collision 1: mesh \"beam.stl\": No such file or directory (os error 2)",
+    );
+}
+
+#[test]
+fn missing_and_too_many_probes_are_told() {
+    let none = GOOD.replace("probe_", "sensor_");
+    let error = parse(&none).expect_err("no probe");
+    assert_eq!(
+        error,
+        "/no/such/place/g.urdf: no probe: no link whose name begins with \"probe_\" is fixed to the head \"head\""
+    );
+    fails(
+        "<parent link=\"head\"/>\n    <child link=\"probe_left\"/>",
+        "<parent link=\"beam\"/>\n    <child link=\"probe_left\"/>",
+        "link \"probe_left\" is a probe, but not fixed to the head \"head\"",
+    );
+    let more: String = (0..6)
+        .map(|i| format!("<link name=\"probe_{i}\"/><joint name=\"j{i}\" type=\"fixed\"><parent link=\"head\"/><child link=\"probe_{i}\"/></joint>"))
+        .collect();
+    fails(
+        "</robot>",
+        &format!("{more}</robot>"),
+        "9 probes, but 8 at most",
+    );
+}
+
+#[test]
+fn drives_that_cannot_do_it_are_told() {
+    let told = |spec: CrabGantrySpec| {
+        let spec = GantrySpec::CrabGantry(spec);
+        let error = Gantry::load(&spec, Path::new(".")).expect_err("cannot be");
+        error.to_string()
+    };
+    let base = CrabGantrySpec::default;
+    assert_eq!(
+        told(CrabGantrySpec {
+            acceleration_m_s2: Positive::new(10.0),
+            ..base()
+        }),
+        "acceleration_m_s2: must be at most 8.333333333333334 m/s2, got 10: joint \"along_stream\" has 200 N for 24 kg"
+    );
+    assert_eq!(
+        told(CrabGantrySpec {
+            encoder_m: Positive::new(0.001),
+            ..base()
+        }),
+        "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot tell"
+    );
+    let gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    gantry.check_step(0.02).expect("a usual step");
+    let error = gantry.check_step(0.1).expect_err("too long");
+    assert_eq!(
+        error.to_string(),
+        "position_gain_per_s: must be at most 5 1/s at a step of 0.1 s, got 10"
+    );
+}

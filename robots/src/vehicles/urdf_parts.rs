@@ -1,0 +1,137 @@
+//! What every reader of a URDF needs: text to links and joints, poses, shapes, files.
+//!
+//! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint`.
+//!
+//! *Parameters:* none.
+//!
+//! *Deviations:* none.
+
+use super::mesh;
+use crate::error::RobotError;
+use nalgebra::{UnitQuaternion, Vector3};
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use urdf_rs::{Geometry, Link, Robot};
+use world::frames::Pose;
+use world::physics::Shape;
+
+/// Text and path of a URDF beside the scenario, or of the one built in.
+pub(super) fn open(
+    file: Option<&str>,
+    base_dir: &Path,
+    built_in: (&str, &str),
+) -> Result<(String, PathBuf), RobotError> {
+    let Some(name) = file else {
+        let (name, text) = built_in;
+        return Ok((text.into(), PathBuf::from(format!("built-in {name}"))));
+    };
+    let path = base_dir.join(name);
+    match std::fs::read_to_string(&path) {
+        Ok(text) => Ok((text, path)),
+        Err(e) => Err(RobotError::File {
+            path: path.display().to_string(),
+            problem: e.to_string(),
+        }),
+    }
+}
+
+/// Links and joints; every joint has its links.
+pub(super) fn parse(text: &str) -> Result<Robot, String> {
+    let robot = urdf_rs::read_from_string(text).map_err(|e| format!("not a URDF file: {e}"))?;
+    for joint in &robot.joints {
+        for end in [&joint.parent.link, &joint.child.link] {
+            if !robot.links.iter().any(|l| &l.name == end) {
+                return Err(format!("joint \"{}\": no link \"{end}\"", joint.name));
+            }
+        }
+    }
+    Ok(robot)
+}
+
+/// The first link that hangs on no other.
+pub(super) fn root(robot: &Robot) -> Result<&Link, String> {
+    let is_child = |l: &Link| robot.joints.iter().any(|j| j.child.link == l.name);
+    robot
+        .links
+        .iter()
+        .find(|l| !is_child(l))
+        .ok_or_else(|| "every link is the child of a joint: there is no body".into())
+}
+
+/// Pose of every link that hangs on `body`, joints at zero.
+pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>, String> {
+    let mut links = BTreeMap::new();
+    links.insert(body.to_string(), pose_of(&urdf_rs::Pose::default()));
+    // Each round places at least one link more, or the rest does not hang on the body.
+    for _ in &robot.joints {
+        for joint in &robot.joints {
+            if let Some(parent) = links.get(&joint.parent.link).copied() {
+                let pose = joined(&parent, &pose_of(&joint.origin));
+                links.entry(joint.child.link.clone()).or_insert(pose);
+            }
+        }
+    }
+    Ok(links)
+}
+
+/// A collision shape; mesh files are looked for in the folder `beside`.
+pub(super) fn shape(geometry: &Geometry, beside: &Path) -> Result<Shape, String> {
+    let positive = |v: f64, what: &str| {
+        if v > 0.0 && v.is_finite() {
+            Ok(v)
+        } else {
+            Err(format!("{what} must be > 0, got {v}"))
+        }
+    };
+    Ok(match geometry {
+        Geometry::Box { size } => {
+            for v in size.iter() {
+                positive(*v, "box size")?;
+            }
+            Shape::Box {
+                size_m: Vector3::from(size.0),
+            }
+        }
+        Geometry::Cylinder { radius, length } => Shape::Cylinder {
+            radius_m: positive(*radius, "cylinder radius")?,
+            length_m: positive(*length, "cylinder length")?,
+        },
+        Geometry::Capsule { radius, length } => Shape::Capsule {
+            radius_m: positive(*radius, "capsule radius")?,
+            length_m: positive(*length, "capsule length")?,
+        },
+        Geometry::Sphere { radius } => Shape::Sphere {
+            radius_m: positive(*radius, "sphere radius")?,
+        },
+        Geometry::Mesh { filename, scale } => {
+            let file = filename.strip_prefix("file://").unwrap_or(filename);
+            let points = mesh::points(&beside.join(file))
+                .map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
+            let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));
+            let hull = Shape::Hull {
+                points_m: points.iter().map(|p| p.component_mul(&scale)).collect(),
+            };
+            if !hull.is_solid() {
+                return Err(format!("mesh \"{filename}\": its corners span no volume"));
+            }
+            hull
+        }
+    })
+}
+
+/// An `<origin>` as a pose.
+pub(super) fn pose_of(p: &urdf_rs::Pose) -> Pose {
+    let [roll, pitch, yaw] = p.rpy.0;
+    Pose {
+        p_WB: Vector3::from(p.xyz.0),
+        R_WB: UnitQuaternion::from_euler_angles(roll, pitch, yaw),
+    }
+}
+
+/// `inner`, given in the axes of `outer`, in those in which `outer` is given.
+pub(super) fn joined(outer: &Pose, inner: &Pose) -> Pose {
+    Pose {
+        p_WB: outer.point(inner.p_WB),
+        R_WB: outer.R_WB * inner.R_WB,
+    }
+}

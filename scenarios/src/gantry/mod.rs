@@ -1,0 +1,15 @@
+//! Gantries in a scenario: what its file says of them, how they come to life, what they do in a tick, and what
+//! is seen of them.
+
+pub(crate) mod assemble;
+pub(crate) mod check;
+mod frame;
+#[cfg(test)]
+pub(crate) mod sample;
+mod spec;
+mod summary;
+pub(crate) mod system;
+
+pub use frame::GantryFrame;
+pub use spec::{GantryBlock, HeadSpec, PlaceSpec};
+pub use summary::{GantryPath, GantrySummary};

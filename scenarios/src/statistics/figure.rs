@@ -1,0 +1,47 @@
+//! One figure of a plume, and all of them.
+
+/// Beyond this factor from what is expected a figure is flagged.
+const FACTOR: f64 = 2.0;
+
+/// A figure of ours beside what is expected.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// What it is.
+    pub name: String,
+    /// Its unit; empty for a ratio.
+    pub unit: &'static str,
+    /// Ours.
+    pub ours: f64,
+    /// What is expected, where something is.
+    pub expected: Option<f64>,
+    /// Where the expectation comes from, or how ours is defined.
+    pub source: &'static str,
+}
+
+impl Figure {
+    /// Ours over what is expected.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        self.expected.map(|e| self.ours / e)
+    }
+
+    /// Whether the ratio lies outside 0.5 to 2.
+    #[must_use]
+    pub fn flagged(&self) -> bool {
+        self.ratio()
+            .is_some_and(|r| !(1.0 / FACTOR..=FACTOR).contains(&r))
+    }
+}
+
+/// The figures of a scenario's plume.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Statistics {
+    /// Name of the scenario.
+    pub name: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// How long the plume was watched after the spin-up, s.
+    pub watched_s: f64,
+    /// The figures.
+    pub figures: Vec<Figure>,
+}

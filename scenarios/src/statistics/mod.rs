@@ -1,0 +1,13 @@
+//! The plume's statistics beside published ones: `rheotaxis statistics`.
+
+mod expected;
+mod figure;
+mod gamma;
+mod measure;
+mod results;
+mod series;
+mod write;
+
+pub use figure::{Figure, Statistics};
+pub use measure::{StatisticsError, statistics};
+pub use write::{table, write};

@@ -1,0 +1,337 @@
+//! Two driven slides, one carried by the other: the axes of a gantry, as joints of rapier.
+//!
+//! *Source:* R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, ch. 3 (reduced coordinates);
+//! a servo's inner loop makes the axis follow a commanded speed within the force it has.
+//!
+//! *Parameters:* `travel_m`, `mass_kg` of each axis; `speed_m_s`, `max_force_N`, `response_s` of each drive.
+//!
+//! *Deviations:* the chain is a multibody of rapier: two coordinates, so nothing drifts off its rail. rapier
+//! begins to act on a limit only once it is passed; an end stop that takes all speed is therefore put at each
+//! limit after the step, and a joint is never beyond it. Bearings have no friction and carry all weight;
+//! contacts of a gantry slide without friction, so that the drives' forces follow from the balance of
+//! momentum (rapier does not report those of a multibody's motors). A gantry does not touch itself. Driven into
+//! a fixed solid at 0.15 m/s with 200 N, 25 kg overlap it by less than 0.1 mm (a test holds it).
+
+use super::convert::{from_vector, pose, vector};
+use super::gantry_report::{GantryContact, Solid};
+use super::shape::Shape;
+use super::solid::Physics;
+use crate::frames::{Pose, Truth};
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector3;
+use rapier3d::prelude as r;
+
+/// Names a gantry of one [`Physics`].
+#[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct GantryId(pub(super) usize);
+
+/// One slide with what it carries, but for the next slide. All places are in the gantry's base axes, as they
+/// are with both joints at zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AxisSpec {
+    /// Direction of travel, of length 1.
+    pub along_B: Vector3<f64>,
+    /// Least and greatest position, m.
+    pub travel_m: [f64; 2],
+    /// Mass that moves, kg.
+    pub mass_kg: f64,
+    /// Collision shapes.
+    pub shapes: Vec<(Pose, Shape)>,
+}
+
+/// A gantry as the solver needs it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GantryBodySpec {
+    /// Name for messages.
+    pub id: String,
+    /// Where its base stands.
+    pub base: Pose,
+    /// Collision shapes that stay where they are, in base axes.
+    pub base_shapes: Vec<(Pose, Shape)>,
+    /// The slide on the base, and the slide on that one, with the head.
+    pub axes: [AxisSpec; 2],
+    /// Where the joints start, m.
+    pub start_m: [f64; 2],
+}
+
+/// What a drive is told in one step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct AxisDrive {
+    /// Speed to take, m/s.
+    pub speed_m_s: f64,
+    /// Greatest force, N.
+    pub max_force_N: f64,
+    /// Time constant of the speed loop when the force suffices, s.
+    pub response_s: f64,
+}
+
+/// How a joint stands after the latest step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct JointState {
+    /// Position, m.
+    pub position_m: f64,
+    /// Speed, m/s.
+    pub speed_m_s: f64,
+    /// Mean force of its drive in that step, N.
+    pub force_N: f64,
+}
+
+pub(super) struct Gantry {
+    pub(super) id: String,
+    base: Pose,
+    pub(super) base_handle: r::RigidBodyHandle,
+    pub(super) slides: [r::RigidBodyHandle; 2],
+    joints: [r::MultibodyJointHandle; 2],
+    along_B: [Vector3<f64>; 2],
+    travel_m: [[f64; 2]; 2],
+    mass_kg: [f64; 2],
+    drives: [AxisDrive; 2],
+    states: [JointState; 2],
+    pub(super) contact: GantryContact,
+}
+
+impl Gantry {
+    /// Generalised momentum for given joint speeds, N s.
+    fn momentum(&self, v: [f64; 2]) -> [f64; 2] {
+        let [first, second] = self.mass_kg;
+        let shared = second * self.along_B[0].dot(&self.along_B[1]);
+        [
+            (first + second) * v[0] + shared * v[1],
+            shared * v[0] + second * v[1],
+        ]
+    }
+}
+
+impl Physics {
+    /// Adds a gantry.
+    ///
+    /// # Panics
+    /// If a direction is not of length 1, a start lies outside its travel or the points of a hull span no
+    /// volume: whoever read them has to check that.
+    pub fn add_gantry(&mut self, spec: GantryBodySpec) -> GantryId {
+        let id = &spec.id;
+        let fixed = r::RigidBodyBuilder::fixed().pose(pose(&spec.base));
+        let base_handle = self.world.insert_body(fixed);
+        self.dress(id, base_handle, &spec.base_shapes);
+        let mut parent = base_handle;
+        let mut slides = [base_handle; 2];
+        let mut joints = Vec::with_capacity(2);
+        for (k, axis) in spec.axes.iter().enumerate() {
+            let [low, high] = axis.travel_m;
+            assert!(
+                (axis.along_B.norm() - 1.0).abs() < 1e-9 && axis.mass_kg > 0.0,
+                "gantry {id}: axis {k} needs a direction of length 1 and a mass > 0"
+            );
+            assert!(
+                low < high && (low..=high).contains(&spec.start_m[k]),
+                "gantry {id}: axis {k} cannot start at {} m in {low} to {high} m",
+                spec.start_m[k]
+            );
+            // It never turns: any inertia does.
+            let props = r::MassProperties::new(
+                r::Vector::ZERO,
+                axis.mass_kg,
+                r::Vector::splat(axis.mass_kg),
+            );
+            let slide = r::RigidBodyBuilder::dynamic()
+                .pose(pose(&spec.base))
+                .additional_mass_properties(props)
+                .can_sleep(false);
+            let slide = self.world.insert_body(slide);
+            self.dress(id, slide, &axis.shapes);
+            let joint = r::PrismaticJointBuilder::new(vector(&axis.along_B))
+                .limits(axis.travel_m)
+                .motor_velocity(0.0, 1.0)
+                .motor_max_force(0.0);
+            let joint = self
+                .world
+                .insert_multibody_joint(parent, slide, joint)
+                .expect("a chain of new bodies has no loop");
+            joints.push(joint);
+            slides[k] = slide;
+            parent = slide;
+        }
+        let joints = [joints[0], joints[1]];
+        let start = |k: usize| JointState {
+            position_m: spec.start_m[k],
+            ..JointState::default()
+        };
+        self.gantries.push(Gantry {
+            id: spec.id,
+            base: spec.base,
+            base_handle,
+            slides,
+            joints,
+            along_B: spec.axes.each_ref().map(|a| a.along_B),
+            travel_m: spec.axes.each_ref().map(|a| a.travel_m),
+            mass_kg: spec.axes.each_ref().map(|a| a.mass_kg),
+            drives: [AxisDrive::default(); 2],
+            states: [start(0), start(1)],
+            contact: GantryContact::default(),
+        });
+        let (chain, _) = self.world.multibody_joints.get_mut(joints[1]).expect("new");
+        chain.set_self_contacts_enabled(false);
+        // Finds that the base stands fast: only then are there just two coordinates.
+        chain.forward_kinematics(&self.world.bodies, true);
+        assert_eq!(chain.ndofs(), 2);
+        self.shift(self.gantries.len() - 1, spec.start_m);
+        GantryId(self.gantries.len() - 1)
+    }
+
+    fn dress(&mut self, id: &str, on: r::RigidBodyHandle, shapes: &[(Pose, Shape)]) {
+        for (at, shape) in shapes {
+            let shared = shape
+                .shared()
+                .unwrap_or_else(|| panic!("gantry {id}: a hull needs points that span a volume"));
+            let collider = r::ColliderBuilder::new(shared)
+                .position(pose(at))
+                .density(0.0)
+                .friction(0.0)
+                .friction_combine_rule(r::CoefficientCombineRule::Multiply);
+            self.world.insert_collider(collider, Some(on));
+        }
+    }
+
+    /// Moves the joints by so much, at once.
+    fn shift(&mut self, gantry: usize, by_m: [f64; 2]) {
+        let joint = self.gantries[gantry].joints[1];
+        let set = &mut self.world.multibody_joints;
+        let (chain, _) = set.get_mut(joint).expect("never removed");
+        chain.apply_displacements(&by_m);
+        chain.forward_kinematics(&self.world.bodies, false);
+        chain.update_rigid_bodies(&mut self.world.bodies, true);
+    }
+
+    /// Tells the drives what to do until told otherwise.
+    ///
+    /// # Panics
+    /// If a number is not finite, a force negative or a response not positive.
+    pub fn drive(&mut self, id: GantryId, drives: [AxisDrive; 2]) {
+        let gantry = &self.gantries[id.0];
+        for (k, drive) in drives.iter().enumerate() {
+            assert!(
+                drive.speed_m_s.is_finite() && drive.max_force_N >= 0.0 && drive.response_s > 0.0,
+                "gantry {}: axis {k} cannot be driven by {drive:?}; mend the drive's parameters",
+                gantry.id
+            );
+            let set = &mut self.world.multibody_joints;
+            let (chain, link) = set.get_mut(gantry.joints[k]).expect("never removed");
+            let motor = &mut chain.link_mut(link).expect("its link").joint.data.motors[0];
+            motor.target_vel = drive.speed_m_s;
+            motor.damping = 1.0 / drive.response_s;
+            motor.max_force = drive.max_force_N;
+        }
+        self.gantries[id.0].drives = drives;
+    }
+
+    /// The joints after the latest step.
+    #[must_use]
+    pub fn joints(&self, id: GantryId) -> [JointState; 2] {
+        self.gantries[id.0].states
+    }
+
+    /// Where base axes would be if they were carried by the second slide; it never turns.
+    #[must_use]
+    pub fn head(&self, id: GantryId) -> Truth {
+        let g = &self.gantries[id.0];
+        let [a, b] = &g.states;
+        Truth {
+            pose: Pose {
+                p_WB: g
+                    .base
+                    .point(g.along_B[0] * a.position_m + g.along_B[1] * b.position_m),
+                R_WB: g.base.R_WB,
+            },
+            v_WB_B: g.along_B[0] * a.speed_m_s + g.along_B[1] * b.speed_m_s,
+            w_WB_B: Vector3::zeros(),
+        }
+    }
+
+    /// What a gantry touched in the latest step.
+    #[must_use]
+    pub fn gantry_contact(&self, id: GantryId) -> GantryContact {
+        self.gantries[id.0].contact
+    }
+
+    /// Reads what rapier made of the gantries in a step.
+    pub(super) fn read_gantries(&mut self) {
+        for i in 0..self.gantries.len() {
+            let touched = self.gantries[i].slides.map(|s| self.touched(s));
+            let contact = self.gantry_touch(i, &touched);
+            let gantry = &self.gantries[i];
+            let mut states = gantry.states;
+            let mut back = [0.0; 2];
+            let mut freed = [0.0; 2];
+            for k in 0..2 {
+                let set = &mut self.world.multibody_joints;
+                let (chain, link) = set.get_mut(gantry.joints[k]).expect("never removed");
+                let link = *chain.link(link).expect("its link");
+                let q = link.joint.coords()[0];
+                let v = chain.joint_velocity(&link)[0];
+                assert!(
+                    q.is_finite() && v.is_finite(),
+                    "gantry {}: axis {k} is no longer finite after {states:?}; use a shorter time.step_s",
+                    gantry.id
+                );
+                freed[k] = v;
+                let [low, high] = gantry.travel_m[k];
+                let held = q.clamp(low, high);
+                back[k] = held - q;
+                let stopped = (held == low && v < 0.0) || (held == high && v > 0.0);
+                if stopped {
+                    chain.generalized_velocity_mut()[link.assembly_id()] = 0.0;
+                }
+                states[k].position_m = held;
+                states[k].speed_m_s = if stopped { 0.0 } else { v };
+            }
+            let before = gantry.momentum(gantry.states.map(|s| s.speed_m_s));
+            let after = gantry.momentum(freed);
+            let pushed = touched.map(|t| gantry.base.R_WB.inverse() * t.impulse_N_s);
+            let by_contact = [
+                (pushed[0] + pushed[1]).dot(&gantry.along_B[0]),
+                pushed[1].dot(&gantry.along_B[1]),
+            ];
+            for k in 0..2 {
+                let force_N = (after[k] - before[k] - by_contact[k]) / self.dt_s();
+                let most = gantry.drives[k].max_force_N;
+                // What goes beyond the drive's force at an end of the travel came from the stop there.
+                let [low, high] = gantry.travel_m[k];
+                let way = 2.0 * self.dt_s() * gantry.drives[k].speed_m_s.abs();
+                let q = states[k].position_m;
+                let at_stop = q - low <= way || high - q <= way;
+                states[k].force_N = if at_stop {
+                    force_N.clamp(-most, most)
+                } else {
+                    force_N
+                };
+            }
+            self.gantries[i].states = states;
+            self.gantries[i].contact = contact;
+            if back != [0.0; 2] {
+                self.shift(i, back);
+            }
+        }
+    }
+
+    /// Name of something solid, for messages.
+    #[must_use]
+    pub fn name(&self, solid: Solid) -> &str {
+        match solid {
+            Solid::Fixed(i) => &self.fixed[i].name,
+            Solid::Body(id) => self.body_name(id),
+            Solid::Gantry(id) => &self.gantries[id.0].id,
+        }
+    }
+
+    /// Where one collider of a pair touches the other, as the solver saw it.
+    pub(super) fn touch_point(&self, pair: &r::ContactPair) -> Option<Vector3<f64>> {
+        let (manifold, deepest) = pair.find_deepest_contact()?;
+        let first = self.world.colliders.get(pair.collider1)?;
+        let part = manifold
+            .subshape_pos1()
+            .copied()
+            .unwrap_or(r::Pose::IDENTITY);
+        let point = (*first.position() * part).transform_point(deepest.local_p1);
+        Some(from_vector(point))
+    }
+}

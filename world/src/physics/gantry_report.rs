@@ -1,0 +1,92 @@
+//! What a gantry ran into: which slide, what it met, where and how hard.
+
+use super::gantry::GantryId;
+use super::solid::{BodyId, ContactReport, Physics};
+use nalgebra::Vector3;
+use rapier3d::prelude as r;
+
+/// Something solid of one [`Physics`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Solid {
+    /// A fixed thing, by the order in which they were added.
+    Fixed(usize),
+    /// A moving body.
+    Body(BodyId),
+    /// Another gantry.
+    Gantry(GantryId),
+}
+
+/// What a gantry touched in the latest step.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct GantryContact {
+    /// Impulse on the first slide and on the second with the head, world axes, N s.
+    pub impulse_N_s: [Vector3<f64>; 2],
+    /// Deepest overlap at the beginning of the step as the solver had it, m: it keeps contacts that hardly
+    /// moved, so that hundredths of a millimetre may be missing.
+    pub max_penetration_m: f64,
+    /// What pushed back most.
+    pub with: Option<Solid>,
+    /// Where that was, world axes, m.
+    pub at_W: Option<Vector3<f64>>,
+}
+
+impl GantryContact {
+    /// Something pushed back.
+    #[must_use]
+    pub fn touching(&self) -> bool {
+        self.with.is_some()
+    }
+}
+
+impl Physics {
+    /// Puts together what the two slides of a gantry touched.
+    pub(super) fn gantry_touch(
+        &self,
+        gantry: usize,
+        touched: &[ContactReport; 2],
+    ) -> GantryContact {
+        let mut contact = GantryContact {
+            impulse_N_s: touched.map(|t| t.impulse_N_s),
+            max_penetration_m: touched[0]
+                .max_penetration_m
+                .max(touched[1].max_penetration_m),
+            ..GantryContact::default()
+        };
+        if !touched.iter().any(|t| t.touching) {
+            return contact;
+        }
+        let mut hardest = 0.0;
+        for slide in self.gantries[gantry].slides {
+            for &collider in self.world.bodies[slide].colliders() {
+                for pair in self.world.contact_pairs_with(collider) {
+                    let impulse = pair.total_impulse_magnitude();
+                    if impulse > hardest {
+                        hardest = impulse;
+                        let other = if pair.collider1 == collider {
+                            pair.collider2
+                        } else {
+                            pair.collider1
+                        };
+                        contact.with = self.solid(other);
+                        contact.at_W = self.touch_point(pair);
+                    }
+                }
+            }
+        }
+        contact
+    }
+
+    fn solid(&self, collider: r::ColliderHandle) -> Option<Solid> {
+        let Some(parent) = self.world.colliders[collider].parent() else {
+            let fixed = self.fixed.iter().position(|f| f.collider == collider);
+            return fixed.map(Solid::Fixed);
+        };
+        let gantry = self
+            .gantries
+            .iter()
+            .position(|g| g.base_handle == parent || g.slides.contains(&parent));
+        gantry
+            .map(|i| Solid::Gantry(GantryId(i)))
+            .or_else(|| self.body_of(parent).map(Solid::Body))
+    }
+}
