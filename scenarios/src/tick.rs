@@ -42,6 +42,7 @@ pub fn tick() -> Schedule {
     tick.add_systems((
         system::read_instruments.in_set(Stage::Sense),
         system::estimate_state.in_set(Stage::Estimate),
+        system::update_map.in_set(Stage::Map),
         system::decide.in_set(Stage::Decide),
         system::guide.in_set(Stage::Guide),
         system::actuate.in_set(Stage::Actuate),

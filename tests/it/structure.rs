@@ -172,6 +172,7 @@ fn algorithm_files_say_where_they_come_from() {
         "robots/src/behave",
         "robots/src/declare",
         "robots/src/guide",
+        "robots/src/plan",
     ] {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();

@@ -20,6 +20,8 @@ mod tests_mean;
 #[cfg(test)]
 mod tests_mixed;
 #[cfg(test)]
+mod tests_round;
+#[cfg(test)]
 mod tests_water;
 
 pub use index::CUT_SIGMAS;

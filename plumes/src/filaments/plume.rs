@@ -61,6 +61,7 @@ pub struct Plume {
     now_s: f64,
     path: Path,
     solids: Solids,
+    brought_out: u64,
     index: OnceLock<Index>,
 }
 
@@ -100,6 +101,7 @@ impl Plume {
             now_s: 0.0,
             path: Path::detect(),
             solids: Solids::default(),
+            brought_out: 0,
             index: OnceLock::new(),
         })
     }
@@ -139,7 +141,7 @@ impl Plume {
             sweep(store, old, t0_s, t1_s, |block| {
                 kernel::step(self.path, &self.cells, &self.grid.data, key, block);
             });
-            self.solids.keep_out(store);
+            self.brought_out += self.solids.keep_out(store);
         }
         self.steps += 1;
     }
@@ -194,6 +196,12 @@ impl Plume {
     #[must_use]
     pub fn left(&self) -> u64 {
         self.stores.iter().map(|s| s.left).sum()
+    }
+
+    /// How often a filament that ended a step in a solid was brought out.
+    #[must_use]
+    pub fn brought_out(&self) -> u64 {
+        self.brought_out
     }
 
     /// Mass in the domain, kg.

@@ -3,7 +3,8 @@
 //! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic
 //! condition w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
 //!
-//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise).
+//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise), `blockage`
+//! (absent: the currents pass through obstacles).
 //!
 //! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law; the vertical one follows
 //! the surfaces that lie linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each: water
@@ -17,11 +18,13 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::fields::{Flow, Mixing, WaterSample};
+use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
+use crate::flow::blockage::{BlockageSpec, Blocked};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn, Profile, Sheet};
@@ -40,6 +43,8 @@ pub struct WaterSpec {
     pub mixing: MixingSpec,
     /// Density where no layers give it, kg/m³.
     pub density_kg_m3: Positive,
+    /// Obstacles and bed turn the currents aside; absent: currents pass through obstacles.
+    pub blockage: Option<BlockageSpec>,
 }
 
 impl Default for WaterSpec {
@@ -49,6 +54,7 @@ impl Default for WaterSpec {
             bed: None,
             mixing: MixingSpec::default(),
             density_kg_m3: Positive::new(1026.0),
+            blockage: None,
         }
     }
 }
@@ -63,6 +69,7 @@ pub struct Water {
     bed: Option<BoundaryLayer>,
     mixing: MixingSpec,
     density: f64,
+    blocked: Option<Blocked>,
 }
 
 /// The water over one place at one time; cheap to ask at many heights.
@@ -76,7 +83,32 @@ pub struct Column<'a> {
 }
 
 impl WaterSpec {
-    /// The water over a terrain, checked.
+    /// The water round obstacles, if [`Self::blockage`] asks for it; else as [`Self::build`] has it.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn build_round(
+        &self,
+        area: &Area,
+        terrain: &Terrain,
+        obstacles: &Obstacles,
+        seed: u64,
+    ) -> Result<Water, PlumeError> {
+        let mut water = self.build(area, terrain, seed)?;
+        if let Some(spec) = &self.blockage {
+            let free = water.clone();
+            water.blocked = Some(Blocked::new(
+                spec,
+                area,
+                &free.ground,
+                obstacles,
+                free.clone(),
+            )?);
+        }
+        Ok(water)
+    }
+
+    /// The water over a terrain as it would be without obstacles, checked.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
@@ -92,6 +124,7 @@ impl WaterSpec {
             bed,
             mixing: self.mixing.clone(),
             density: self.density_kg_m3.get(),
+            blocked: None,
         };
         for (i, current) in self.currents.iter().enumerate() {
             let field = format!("water.currents[{i}]");
@@ -124,7 +157,22 @@ impl WaterSpec {
 }
 
 impl Water {
-    /// The water over (east, north) `p` at time `t_s`.
+    /// How the obstacles' part was worked out, if they turn the currents aside.
+    #[must_use]
+    pub fn blocked(&self) -> Option<&Blocked> {
+        self.blocked.as_ref()
+    }
+
+    /// Whether it never changes.
+    pub(crate) fn is_steady(&self) -> bool {
+        self.meanders.is_empty() && self.layered.as_ref().is_none_or(Layered::is_steady)
+    }
+
+    pub(crate) fn floor(&self, p: Vector2<f64>) -> Floor {
+        self.ground.floor(p)
+    }
+
+    /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
     #[must_use]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
         let floor = self.ground.floor(p);
@@ -255,9 +303,17 @@ impl Flow for Water {
         for m in &mut self.meanders {
             m.advance(t_s);
         }
+        if let Some(blocked) = &mut self.blocked {
+            blocked.advance(t_s);
+        }
     }
 
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        if let Some(blocked) = &self.blocked
+            && let Some(v) = blocked.velocity(p, &self.ground.floor(p.xy()), t_s)
+        {
+            return v;
+        }
         self.column(p.xy(), t_s).velocity(p.z)
     }
 
@@ -284,12 +340,29 @@ impl Flow for Water {
         let u_star = column.friction_velocity();
         for (z, node) in heights_m.iter().zip(out) {
             *node = column.both(*z, u_star);
+            if let Some(blocked) = &self.blocked {
+                let still = self.bed.is_some();
+                if let Some(v) = blocked.at_node(place, *z, &column.floor, t_s, still) {
+                    node.0 = v;
+                }
+            }
         }
     }
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
         const H: f64 = 1e-3;
+        if let Some(blocked) = &self.blocked
+            && let Some((velocity, gradient, rate)) =
+                blocked.sample(p, &self.ground.floor(p.xy()), t_s)
+        {
+            return WaterSample {
+                velocity,
+                gradient,
+                rate,
+                density_kg_m3: self.density(p, t_s),
+            };
+        }
         let column =
             |dx: f64, dy: f64, dt: f64| self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt);
         let here = column(0.0, 0.0, 0.0);

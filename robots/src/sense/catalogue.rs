@@ -39,4 +39,9 @@ pub const CATALOGUE: &[Entry] = &[
         what: "Position fixes from a long acoustic baseline: period, noise, drop-outs.",
         source: "Pang 2009, sections 4 and 5.6",
     },
+    Entry {
+        name: "ranging",
+        what: "Ranges ahead in a fan of beams against solids and bed: noise, range, drop-outs.",
+        source: "Petillot, Tena Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240",
+    },
 ];

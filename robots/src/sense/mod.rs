@@ -8,6 +8,7 @@ mod depth;
 mod dvl;
 mod fluorometer;
 mod lbl;
+mod ranging;
 mod suite;
 #[cfg(test)]
 mod testing;
@@ -21,4 +22,5 @@ pub use depth::{Depth, DepthSpec};
 pub use dvl::{Dvl, DvlSpec};
 pub use fluorometer::{Fluorometer, FluorometerSpec};
 pub use lbl::{Lbl, LblSpec};
+pub use ranging::{Ranging, RangingSpec};
 pub use suite::{SensorSuite, SensorsSpec};

@@ -179,6 +179,8 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
         traced_m: first.and_then(|(r, _)| r.traced_m),
         travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum(),
         detections: summary.robots.iter().map(|r| r.detections).sum(),
+        correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s))
+            .min_by(f64::total_cmp),
         spin_up_wall_s: totals.spin_up_wall_s,
         mission_wall_s: totals.mission_wall_s,
         error: None,

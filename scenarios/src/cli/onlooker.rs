@@ -9,8 +9,8 @@ use super::progress::Progress;
 use crate::frame::{Frame, PlumeFrame};
 use crate::live::{Live, LiveMeta, LiveOptions, run_id};
 use crate::report::{
-    MassBalance, ObstacleOutline, Recorder, ReportError, RobotInfo, RunEnd, RunInfo, RunOutcome,
-    RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable, write_all,
+    BeliefTrack, MassBalance, ObstacleOutline, Recorder, ReportError, RobotInfo, RunEnd, RunInfo,
+    RunOutcome, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable, write_all,
 };
 use crate::scenario::Loaded;
 use crate::system::Dye;
@@ -30,6 +30,7 @@ pub(super) struct Onlooker<'a> {
     text: String,
     builder: SummaryBuilder,
     track: TrackTable,
+    beliefs: BeliefTrack,
     recorder: Option<Recorder>,
     live: Option<Live>,
     progress: Progress,
@@ -73,7 +74,8 @@ impl<'a> Onlooker<'a> {
         let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;
         let recorder = (!args.no_record)
             .then(|| Recorder::create(&out.join("run.mcap"), &run))
-            .transpose()?;
+            .transpose()?
+            .map(|r| r.with_map_period(scenario.record.map_period_s.get()));
         let progress = Progress::new(loaded, args);
         let live = if args.no_zenoh {
             None
@@ -104,6 +106,7 @@ impl<'a> Onlooker<'a> {
             text: loaded.text.clone(),
             builder: SummaryBuilder::new(&run),
             track,
+            beliefs: BeliefTrack::default(),
             recorder,
             live,
             progress,
@@ -193,6 +196,7 @@ impl<'a> Onlooker<'a> {
             &RunReport {
                 summary: &summary,
                 track: &track,
+                beliefs: &self.beliefs,
                 plume: self.last_plume.as_ref(),
                 area: world.resource::<Area>(),
                 terrain: world.resource::<Terrain>(),
@@ -224,6 +228,7 @@ impl Watch for Onlooker<'_> {
         self.builder.observe(frame);
         let rows = self.track.push(frame);
         self.note(rows);
+        self.beliefs.push(frame);
         if let Some(recorder) = &mut self.recorder {
             let recorded = recorder.frame(frame);
             self.note(recorded);
@@ -242,6 +247,7 @@ impl Watch for Onlooker<'_> {
         if let Some(live) = &self.live {
             live.plume(plume);
         }
+        self.beliefs.plume(plume);
         self.last_plume = Some(plume.clone());
     }
 

@@ -1,7 +1,7 @@
 //! Everything a run leaves behind, written into one folder.
 
 use super::files::{ReportError, make_folder, write_whole};
-use super::{SourceTruth, Summary, Track, figures, html};
+use super::{BeliefTrack, SourceTruth, Summary, Track, belief_track, figures, html};
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -24,6 +24,8 @@ pub struct RunReport<'a> {
     pub summary: &'a Summary,
     /// Where the robots went.
     pub track: &'a Track,
+    /// Their maps of where the source may be.
+    pub beliefs: &'a BeliefTrack,
     /// The plume at the end; none in a run without one.
     pub plume: Option<&'a PlumeFrame>,
     /// The operating area.
@@ -38,8 +40,9 @@ pub struct RunReport<'a> {
     pub scenario_text: &'a str,
 }
 
-/// Writes `summary.json`, `map.{svg,png}`, `series-<robot>.{svg,png}`, `plume.csv` and
-/// `report.html` into a folder, making it if need be; the paths of what was written.
+/// Writes `summary.json`, `map.{svg,png}`, `series-<robot>.{svg,png}`, `plume.csv`, of robots that keep a map
+/// `belief-<robot>.{svg,png,csv}` and `convergence.{svg,png}`, and `report.html` into a folder, making it if
+/// need be; the paths of what was written.
 ///
 /// # Errors
 /// If the folder or a file cannot be written.
@@ -53,15 +56,26 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
     let mut figures = vec![("map".to_owned(), "Map".to_owned(), figures::map(run))];
     for robot in &run.track.robots {
         let id = &robot.info.id;
-        // An id may hold what a file's name may not.
-        let safe: String = id
-            .chars()
-            .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
-            .collect();
         let svg = figures::series(run, robot);
         figures.push((
-            format!("series-{safe}"),
+            format!("series-{}", safe(id)),
             format!("Time series of {id}"),
+            svg,
+        ));
+    }
+    for robot in &run.beliefs.robots {
+        let name = format!("belief-{}", safe(&robot.id));
+        let path = out_dir.join(format!("{name}.csv"));
+        let csv = belief_track::csv(robot, run.sources);
+        written.push(write_whole(&path, csv.as_bytes())?);
+        let title = format!("Where {} believed the source", robot.id);
+        figures.push((name, title, figures::belief(run, robot)));
+    }
+    if !run.beliefs.robots.is_empty() {
+        let svg = figures::convergence(run);
+        figures.push((
+            "convergence".to_owned(),
+            "Convergence of the maps".to_owned(),
             svg,
         ));
     }
@@ -82,6 +96,13 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
     let page = html::page(run.summary, &shown, run.scenario_text);
     written.push(write_whole(&out_dir.join("report.html"), page.as_bytes())?);
     Ok(written)
+}
+
+/// An id may hold what a file's name may not.
+fn safe(id: &str) -> String {
+    id.chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect()
 }
 
 /// The filaments that the map shows.
