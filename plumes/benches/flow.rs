@@ -5,10 +5,12 @@ use nalgebra::{Vector2, Vector3};
 use plumes::flow::bed::BedSpec;
 use plumes::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
 use plumes::flow::meander::MeanderSpec;
-use plumes::flow::{CurrentSpec, FlowGrid, GridShape, Water, WaterSpec};
+use plumes::flow::{BlockageSpec, CurrentSpec, FlowGrid, GridShape, Water, WaterSpec};
+use std::path::Path;
 use world::area::Area;
 use world::fields::Flow;
-use world::ranges::{HeadingDeg, NonNegative, Positive};
+use world::obstacles::{BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
+use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -31,6 +33,10 @@ fn bed() -> Terrain {
 
 /// Two layers, two waves, log law and meander: the water off Duck.
 fn water() -> Water {
+    water_spec().build(&area(), &bed(), 1).expect("legal water")
+}
+
+fn water_spec() -> WaterSpec {
     let layer = |speed, heading, density| LayerSpec {
         speed_m_s: NonNegative::new(speed),
         heading_deg: HeadingDeg::new(heading),
@@ -61,15 +67,14 @@ fn water() -> Water {
         cell_m: Positive::new(25.0),
         diffusivity_m2_s: None,
     };
-    let spec = WaterSpec {
+    WaterSpec {
         currents: vec![CurrentSpec::Layered(layers), CurrentSpec::Meander(meander)],
         bed: Some(BedSpec {
             roughness_m: Positive::new(0.001),
             thickness_m: Positive::new(2.0),
         }),
         ..WaterSpec::default()
-    };
-    spec.build(&area(), &bed(), 1).expect("legal water")
+    }
 }
 
 #[divan::bench]
@@ -117,4 +122,78 @@ fn meander_step(bencher: Bencher<'_, '_>) {
         t += 5.0;
         w.advance(t);
     });
+}
+
+/// A turned block and ten piles.
+fn solids() -> Obstacles {
+    let m = Positive::new;
+    let build = |shape, east_m: f64, north_m: f64| {
+        let spec = ObstacleSpec {
+            id: "o".into(),
+            shape,
+            east_m: Finite::new(east_m),
+            north_m: Finite::new(north_m),
+            base: Default::default(),
+            heading_deg: HeadingDeg::new(30.0),
+        };
+        Obstacle::build(&spec, &bed(), Path::new("")).expect("a block or a pile")
+    };
+    let block = ShapeSpec::Box(BoxShape {
+        size_m: (m(60.0), m(30.0), m(5.0)),
+    });
+    let pile = || {
+        ShapeSpec::Cylinder(CylinderShape {
+            radius_m: m(5.0),
+            height_m: m(9.0),
+        })
+    };
+    let piles = (0..10).map(|k| build(pile(), 60.0, -200.0 + 30.0 * f64::from(k)));
+    Obstacles(piles.chain([build(block, -20.0, 50.0)]).collect())
+}
+
+/// The same water led round them, in 478 x 187 x 11 = 983 000 cells or an eighth.
+fn round(cell_m: f64, steady: bool) -> Water {
+    let mut spec = water_spec();
+    if steady {
+        spec.currents.truncate(1);
+        if let CurrentSpec::Layered(layered) = &mut spec.currents[0] {
+            layered.interfaces[0].waves.clear();
+        }
+    }
+    spec.blockage = Some(BlockageSpec {
+        cell_m: Positive::new(cell_m),
+        levels: 12,
+        ..BlockageSpec::default()
+    });
+    spec.build_round(&area(), &bed(), &solids(), 1)
+        .expect("water round obstacles")
+}
+
+/// Cells, solid or open, and one solution from nothing.
+#[divan::bench(args = [2.5, 5.0], sample_count = 3, sample_size = 1)]
+fn blockage_steady(bencher: Bencher<'_, '_>, cell_m: f64) {
+    bencher.bench_local(|| round(cell_m, true));
+}
+
+/// The next solution, thirty seconds on, from the one before.
+#[divan::bench(args = [2.5, 5.0], sample_count = 3, sample_size = 1)]
+fn blockage_next(bencher: Bencher<'_, '_>, cell_m: f64) {
+    let mut w = round(cell_m, false);
+    let mut t = 59.0;
+    bencher.bench_local(|| {
+        w.advance(t);
+        t += 30.0;
+    });
+}
+
+#[divan::bench]
+fn blockage_velocity(bencher: Bencher<'_, '_>) {
+    let w = round(5.0, false);
+    bencher.bench_local(|| w.velocity(black_box(&Vector3::new(40.0, -300.0, -3.0)), 1.0));
+}
+
+#[divan::bench]
+fn blockage_sample(bencher: Bencher<'_, '_>) {
+    let w = round(5.0, false);
+    bencher.bench_local(|| w.sample(black_box(&Vector3::new(40.0, -300.0, -3.0)), 1.0));
 }

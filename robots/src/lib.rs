@@ -9,6 +9,8 @@ pub mod error;
 pub mod estimate;
 pub mod guide;
 pub mod handoff;
+pub mod map;
+pub mod plan;
 pub mod sense;
 pub mod strategy;
 pub mod track;

@@ -4,21 +4,22 @@ use crate::gantry::assemble as gantry;
 use crate::gantry::system::outcome;
 use crate::scenario::{RobotSpec, Scenario};
 use crate::system::{
-    Dye, Helm, Hull, Instruments, Log, Mind, Navigator, Outbox, Pilotage, RobotId, Water,
+    Cartographer, Dye, Helm, Hull, Instruments, Log, Mind, Navigator, Outbox, Pilotage, RobotId,
+    Water,
 };
 use crate::tick::tick;
 use bevy_ecs::prelude::{Schedule, World};
 use nalgebra::Vector3;
 use plumes::error::PlumeError;
 use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::GridShape;
+use plumes::flow::{BlockageSpec, GridShape};
 use robots::actuate::Autopilot;
 use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
 use robots::guide::Guidance;
 use robots::handoff::{
     ActuatorCommand, Behaviour, Command, Decision, GantryDecision, Goal, GuidanceStatus, Manoeuvre,
-    Outcome, Readings, Vertical,
+    Outcome, Readings, Setting, Vertical,
 };
 use robots::sense::SensorSuite;
 use robots::vehicles::Vehicle;
@@ -31,7 +32,6 @@ use world::obstacles::{Obstacle, Obstacles};
 use world::physics::Physics;
 use world::record::Digest;
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// Why a scenario that could be read cannot be assembled.
 #[derive(Debug, thiserror::Error)]
@@ -77,7 +77,10 @@ impl Simulation {
         let obstacles = (scenario.obstacles.iter())
             .map(|spec| Obstacle::build(spec, &terrain, base_dir))
             .collect::<Result<Vec<_>, _>>()?;
-        let flow = scenario.water.build(&area, &terrain, seed)?;
+        let solids = scenario.solid(&Obstacles(obstacles.clone()));
+        let flow = (scenario.water).build_round(&area, &terrain, &solids, seed)?;
+        // Where the water goes round obstacles the plume sees it at the corners of the cells it was worked out in.
+        let blockage = scenario.water.blockage.as_ref();
         let plume = Plume::new(
             &scenario.sources,
             &area,
@@ -85,10 +88,10 @@ impl Simulation {
             seed,
             PlumeSettings {
                 refresh_s: scenario.time.flow_period_s.get(),
-                grid: GridShape::fitting(&area),
+                grid: blockage.map_or_else(|| GridShape::fitting(&area), BlockageSpec::grid_shape),
             },
         )?
-        .with_obstacles(Obstacles(obstacles.clone()))?;
+        .with_obstacles(solids)?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);
         for obstacle in &obstacles {
@@ -96,12 +99,13 @@ impl Simulation {
         }
 
         let mut world = World::new();
+        let charted = Obstacles(obstacles);
         for spec in &scenario.robots {
             spawn(
                 &mut world,
                 &mut physics,
                 spec,
-                &terrain,
+                &spec.setting(&area, &terrain, &charted),
                 base_dir,
                 seed,
                 dt_s,
@@ -123,7 +127,7 @@ impl Simulation {
         let every = |period_s: f64| Every::period(period_s, dt_s);
         world.insert_resource(Clock::new(dt_s));
         world.insert_resource(area);
-        world.insert_resource(Obstacles(obstacles));
+        world.insert_resource(charted);
         world.insert_resource(Water {
             flow,
             t0_s: spin_up_s,
@@ -217,14 +221,14 @@ fn spawn(
     world: &mut World,
     physics: &mut Physics,
     spec: &RobotSpec,
-    terrain: &Terrain,
+    setting: &Setting,
     base_dir: &Path,
     seed: u64,
     dt_s: f64,
 ) -> Result<(), RobotError> {
     let id = spec.id.as_str();
     let heading = spec.start.heading_deg.heading();
-    let p_W = spec.start.p_W(terrain);
+    let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
     let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
@@ -244,8 +248,11 @@ fn spawn(
         vertical: Vertical::Depth(-p_W.z),
         speed_m_s: 0.0,
     };
-    let strategy = spec.strategy.build()?;
-    world.spawn((
+    let strategy = spec.strategy.build(setting)?;
+    let mapper = (spec.map.as_ref())
+        .map(|map| map.build(&setting.area, Stream::new(seed, id, "map")))
+        .transpose()?;
+    let mut robot = world.spawn((
         RobotId(id.to_string()),
         truth,
         Hull { vehicle, body },
@@ -264,6 +271,7 @@ fn spawn(
                 goal,
                 declared: None,
                 lost_points: Vec::new(),
+                planned: std::sync::Arc::default(),
                 outcome: None,
             },
             Pilotage(Guidance::new(&spec.guidance)),
@@ -274,5 +282,8 @@ fn spawn(
             Log::default(),
         ),
     ));
+    if let Some(mapper) = mapper {
+        robot.insert((mapper.belief().clone(), Cartographer(mapper)));
+    }
     Ok(())
 }

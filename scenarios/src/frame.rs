@@ -2,10 +2,11 @@
 //! figures are made from. Made in the Report stage; nobody who reads it can reach back.
 
 use crate::gantry::GantryFrame;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
-    ActuatorCommand, Behaviour, ChemicalReading, Command, Declaration, Estimate, Goal,
+    ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
 };
+use std::sync::Arc;
 use world::frames::Truth;
 
 /// One robot at one instant.
@@ -33,6 +34,10 @@ pub struct RobotFrame {
     pub behaviour: Behaviour,
     /// Points where it lost the plume, as it believes (east, north), m.
     pub lost_points: Vec<Vector2<f64>>,
+    /// The path it means to take (ENU), m; empty without one.
+    pub planned: Arc<Vec<Vector3<f64>>>,
+    /// Where it believes the source may be, if it keeps a map; renewed only when [`Belief::updates`] has grown.
+    pub belief: Option<Belief>,
     /// Its declaration, once made.
     pub declaration: Option<Declaration>,
 }

@@ -58,7 +58,7 @@ impl SpunUp {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Origin {
     seed: u64,
-    blocks: [(&'static str, String); 7],
+    blocks: [(&'static str, String); 8],
 }
 
 impl Origin {
@@ -70,6 +70,7 @@ impl Origin {
                 ("area", text(&scenario.area)),
                 ("terrain", text(&scenario.terrain)),
                 ("water", text(&scenario.water)),
+                ("obstacles", text(&scenario.obstacles)),
                 ("sources", text(&scenario.sources)),
                 ("time.spin_up_s", text(&time.spin_up_s)),
                 ("time.spin_up_period_s", text(&time.spin_up_period_s)),

@@ -2,16 +2,17 @@
 
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use crate::gantry::system::{Pictured, picture};
-use bevy_ecs::prelude::{Component, Query, Res, ResMut, Resource};
+use bevy_ecs::prelude::{Component, DetectChanges, Query, Ref, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::Plume;
 use robots::actuate::Autopilot;
 use robots::estimate::Estimator;
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, ChemicalReading, Command, Decision, Declaration, Estimate, GuidanceStatus,
-    Observation, Readings,
+    ActuatorCommand, Belief, ChemicalReading, Command, Decision, Declaration, Estimate,
+    GuidanceStatus, Observation, Readings,
 };
+use robots::map::{MapObservation, Mapper};
 use robots::sense::SensorSuite;
 use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
@@ -19,6 +20,7 @@ use world::area::Area;
 use world::clock::{Clock, Every};
 use world::fields::{Flow, Mixing, WaterSample};
 use world::frames::Truth;
+use world::obstacles::Obstacles;
 use world::physics::{BodyId, Physics};
 use world::record::Digest;
 use world::seeds::Stream;
@@ -55,6 +57,10 @@ pub struct Mind {
     /// Where it was launched, as its navigation had it.
     pub home: Vector2<f64>,
 }
+
+/// A robot's mapper.
+#[derive(Component)]
+pub struct Cartographer(pub Box<dyn Mapper>);
 
 /// A robot's guidance.
 #[derive(Component)]
@@ -138,10 +144,12 @@ pub(crate) fn read_instruments(
     water: Res<Water>,
     dye: Res<Dye>,
     terrain: Res<Terrain>,
+    obstacles: Res<Obstacles>,
     mut robots: Query<(&Truth, &mut Instruments, &mut Readings)>,
 ) {
     for (truth, mut suite, mut readings) in &mut robots {
-        *readings = suite.0.read(&clock, truth, &*water, &dye.plume, &terrain);
+        let plume = &dye.plume;
+        *readings = (suite.0).read(&clock, truth, &*water, plume, &terrain, &obstacles);
     }
 }
 
@@ -154,18 +162,36 @@ pub(crate) fn estimate_state(
     }
 }
 
-pub(crate) fn decide(
+pub(crate) fn update_map(
     clock: Res<Clock>,
-    area: Res<Area>,
-    mut robots: Query<(
-        &Readings,
-        &Estimate,
-        &GuidanceStatus,
-        &mut Mind,
-        &mut Decision,
-    )>,
+    mut robots: Query<(&Readings, &Estimate, &mut Cartographer, &mut Belief)>,
 ) {
-    for (readings, estimate, guidance, mut mind, mut decision) in &mut robots {
+    for (readings, estimate, mut mapper, mut belief) in &mut robots {
+        let p = estimate.position;
+        mapper.0.step(&MapObservation {
+            t_s: clock.t_s(),
+            p_W: Vector3::new(p.x, p.y, -estimate.depth_m),
+            detected: readings.chemical.map(|c| c.detected),
+            flow: estimate.flow.map(|f| f.velocity),
+        });
+        let new = mapper.0.belief();
+        if new.updates != belief.updates {
+            *belief = new.clone();
+        }
+    }
+}
+
+type Deciding<'a> = (
+    &'a Readings,
+    &'a Estimate,
+    &'a GuidanceStatus,
+    Option<&'a Belief>,
+    &'a mut Mind,
+    &'a mut Decision,
+);
+
+pub(crate) fn decide(clock: Res<Clock>, area: Res<Area>, mut robots: Query<Deciding>) {
+    for (readings, estimate, guidance, belief, mut mind, mut decision) in &mut robots {
         let seen = Observation {
             t_s: clock.t_s(),
             estimate: *estimate,
@@ -173,6 +199,8 @@ pub(crate) fn decide(
             guidance: *guidance,
             area: *area,
             home: mind.home,
+            belief: belief.cloned(),
+            ranging: readings.ranging.clone(),
         };
         let mind = &mut *mind;
         *decision = mind.strategy.step(&seen, &mut mind.rng);
@@ -237,13 +265,21 @@ pub(crate) fn drift_plume(clock: Res<Clock>, mut water: ResMut<Water>, mut dye: 
     }
 }
 
+type Digested<'a> = (
+    &'a Truth,
+    &'a Estimate,
+    &'a Decision,
+    &'a ActuatorCommand,
+    Option<Ref<'a, Belief>>,
+);
+
 pub(crate) fn digest_state(
     clock: Res<Clock>,
     dye: Res<Dye>,
     mut digest: ResMut<Digest>,
-    robots: Query<(&Truth, &Estimate, &Decision, &ActuatorCommand)>,
+    robots: Query<Digested>,
 ) {
-    for (truth, estimate, decision, set) in &robots {
+    for (truth, estimate, decision, set, belief) in &robots {
         digest.f64s(truth.pose.p_WB.as_slice());
         digest.f64s(truth.pose.R_WB.coords.as_slice());
         digest.f64s(truth.v_WB_B.as_slice());
@@ -252,6 +288,10 @@ pub(crate) fn digest_state(
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
         digest.f64s(&[set.rudder_rad, set.stern_rad, set.rpm]);
         digest.f64s(&[f64::from(decision.goal.id), decision.behaviour as u8 as f64]);
+        // Only when it is new: a map is large and changes seldom.
+        if let Some(belief) = belief.filter(|b| b.is_changed()) {
+            digest.f64s(&belief.p);
+        }
     }
     if (clock.step + 1).is_multiple_of(dye.every.steps) {
         dye.plume.digest_into(&mut digest);
@@ -266,6 +306,7 @@ type Whole<'a> = (
     &'a Decision,
     &'a Command,
     &'a ActuatorCommand,
+    Option<&'a Belief>,
     &'a mut Log,
 );
 
@@ -279,7 +320,7 @@ pub(crate) fn take_frame(
     gantries: Query<Pictured>,
 ) {
     let mut ends = false;
-    for (_, _, _, readings, decision, _, _, mut log) in &mut robots {
+    for (_, _, _, readings, decision, _, _, _, mut log) in &mut robots {
         if let Some(reading) = readings.chemical {
             log.chemical = Some(reading);
             log.detected |= reading.detected;
@@ -294,7 +335,7 @@ pub(crate) fn take_frame(
         .any(|(.., searcher)| searcher.stopped_s == Some(clock.t_s()));
     if ends || outbox.frame_every.due(&clock) {
         let robots = robots.iter_mut().map(
-            |(id, truth, estimate, _, decision, command, set, mut log)| {
+            |(id, truth, estimate, _, decision, command, set, belief, mut log)| {
                 let p = truth.pose.p_WB;
                 RobotFrame {
                     id: id.0.clone(),
@@ -308,6 +349,8 @@ pub(crate) fn take_frame(
                     detected: std::mem::take(&mut log.detected),
                     behaviour: decision.behaviour,
                     lost_points: decision.lost_points.clone(),
+                    planned: decision.planned.clone(),
+                    belief: belief.cloned(),
                     declaration: log.declaration,
                 }
             },

@@ -43,6 +43,7 @@ pub fn tick() -> Schedule {
     tick.add_systems((
         (system::read_instruments, gantry::read_probes).in_set(Stage::Sense),
         system::estimate_state.in_set(Stage::Estimate),
+        system::update_map.in_set(Stage::Map),
         (system::decide, gantry::track).in_set(Stage::Decide),
         system::guide.in_set(Stage::Guide),
         (system::actuate, gantry::drive_gantries).in_set(Stage::Actuate),

@@ -74,6 +74,8 @@ pub struct Trial {
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
     declarations: BTreeMap<String, Declaration>,
+    /// Least horizontal distance between a robot and a source so far, m.
+    closest_m: f64,
 }
 
 impl Trial {
@@ -97,6 +99,7 @@ impl Trial {
             flow_samples: 0,
             sources,
             declarations: BTreeMap::new(),
+            closest_m: f64::INFINITY,
         })
     }
 
@@ -210,6 +213,10 @@ impl Trial {
         let (frame, plume) = (outbox.frame.take(), outbox.plume.take());
         if let Some(frame) = frame {
             for robot in &frame.robots {
+                for source in &self.sources {
+                    let away_m = (source - robot.truth.pose.p_WB).xy().norm();
+                    self.closest_m = self.closest_m.min(away_m);
+                }
                 if let Some(declared) = robot.declaration {
                     self.declarations.insert(robot.id.clone(), declared);
                 }
@@ -249,6 +256,11 @@ impl Trial {
             } else {
                 RunOutcome::NotFound
             };
+        }
+        if let SuccessSpec::Reached(wanted) = &self.success
+            && self.closest_m <= wanted.within_m.get()
+        {
+            return RunOutcome::Found;
         }
         if missions.contains(&Some(Outcome::Aborted)) {
             RunOutcome::Aborted

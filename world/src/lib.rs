@@ -18,3 +18,4 @@ pub mod seeds;
 pub mod stage;
 pub mod terrain;
 pub mod units;
+pub mod voxels;

@@ -74,6 +74,15 @@ impl Terrain {
         Vector3::new(-dx, -dy, 1.0).normalize()
     }
 
+    /// Least depth anywhere, m.
+    #[must_use]
+    pub fn shallowest_m(&self) -> f64 {
+        match *self {
+            Terrain::Level { depth_m } => depth_m,
+            Terrain::Slope { shallow_m, .. } => shallow_m,
+        }
+    }
+
     /// Greatest depth anywhere, m.
     #[must_use]
     pub fn deepest_m(&self) -> f64 {

@@ -22,6 +22,8 @@ mod tests_mean;
 #[cfg(test)]
 mod tests_mixed;
 #[cfg(test)]
+mod tests_round;
+#[cfg(test)]
 mod tests_water;
 mod thread;
 mod walls;

@@ -63,6 +63,7 @@ pub struct Plume {
     now_s: f64,
     path: Path,
     solids: Solids,
+    brought_out: u64,
     index: OnceLock<Index>,
 }
 
@@ -103,6 +104,7 @@ impl Plume {
             now_s: 0.0,
             path: Path::detect(),
             solids: Solids::default(),
+            brought_out: 0,
             index: OnceLock::new(),
         })
     }
@@ -159,7 +161,7 @@ impl Plume {
                 }
                 keep_between(walls, store);
             }
-            self.solids.keep_out(store);
+            self.brought_out += self.solids.keep_out(store);
         }
         if carries {
             self.carried_s = Some(t1_s);
@@ -217,6 +219,12 @@ impl Plume {
     #[must_use]
     pub fn left(&self) -> u64 {
         self.stores.iter().map(|s| s.left).sum()
+    }
+
+    /// How often a filament that ended a step in a solid was brought out.
+    #[must_use]
+    pub fn brought_out(&self) -> u64 {
+        self.brought_out
     }
 
     /// Mass in the domain, kg.

@@ -27,8 +27,9 @@ impl Solids {
         Self { obstacles, boxes }
     }
 
-    /// Brings every filament of a store out of the solids.
-    pub(super) fn keep_out(&self, store: &mut Store) {
+    /// Brings every filament of a store out of the solids; how many.
+    pub(super) fn keep_out(&self, store: &mut Store) -> u64 {
+        let mut brought = 0;
         for (low, high) in &self.boxes {
             for n in 0..store.len() {
                 let p = Vector3::new(store.x[n], store.y[n], store.z[n]);
@@ -37,8 +38,10 @@ impl Solids {
                 }
                 let out = self.obstacles.way_out(&p.map(f64::from));
                 [store.x[n], store.y[n], store.z[n]] = [out.x as f32, out.y as f32, out.z as f32];
+                brought += u64::from(out != p.map(f64::from));
             }
         }
+        brought
     }
 }
 

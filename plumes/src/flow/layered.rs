@@ -106,6 +106,13 @@ pub struct Layered {
     faces: Vec<Face>,
 }
 
+impl Layered {
+    /// Whether no wave moves its interfaces.
+    pub(crate) fn is_steady(&self) -> bool {
+        self.faces.iter().all(|f| f.waves.is_empty())
+    }
+}
+
 impl LayeredSpec {
     /// The current, checked; absent phases come from the seed.
     ///

@@ -1,6 +1,7 @@
 //! The water: one file a flow, summed into one answer.
 
 pub mod bed;
+mod blockage;
 pub mod catalogue;
 pub mod channel;
 pub mod coloured_noise;
@@ -17,6 +18,7 @@ mod tests_water;
 pub mod uniform;
 pub mod water;
 
+pub use blockage::{BlockageSpec, Blocked, Solved};
 pub use catalogue::{CATALOGUE, CurrentSpec};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

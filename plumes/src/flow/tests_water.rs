@@ -303,6 +303,7 @@ fn a_flume_has_its_friction_and_mixing() {
             ..MixingSpec::default()
         },
         density_kg_m3: Positive::new(998.0),
+        blockage: None,
     };
     let bed = Terrain::Level { depth_m: 0.2 };
     let w = spec.build(&duck_area(), &bed, 1).unwrap();

@@ -3,7 +3,8 @@
 //! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic
 //! condition w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
 //!
-//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise).
+//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise), `blockage`
+//! (absent: the currents pass through obstacles).
 //!
 //! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law, plus an open channel's, which has its
 //! own (files `channel`, `eddies`); the vertical one follows
@@ -14,15 +15,19 @@
 //! where the layers' thinning and thickening is tanh-shaped and w straight, which reverses with the wave.
 //! Below the bed and above the surface the values at them hold.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+mod answers;
+
+use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::area::Area;
-use world::fields::{Flow, Mixing, SideWalls, WaterSample};
+use world::fields::{Flow, Mixing};
+use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
+use crate::flow::blockage::{BlockageSpec, Blocked};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::Channel;
 use crate::flow::eddies::Eddies;
@@ -44,6 +49,8 @@ pub struct WaterSpec {
     pub mixing: MixingSpec,
     /// Density where no layers give it, kg/m³.
     pub density_kg_m3: Positive,
+    /// Obstacles and bed turn the currents aside; absent: currents pass through obstacles.
+    pub blockage: Option<BlockageSpec>,
 }
 
 impl Default for WaterSpec {
@@ -53,6 +60,7 @@ impl Default for WaterSpec {
             bed: None,
             mixing: MixingSpec::default(),
             density_kg_m3: Positive::new(1026.0),
+            blockage: None,
         }
     }
 }
@@ -68,6 +76,7 @@ pub struct Water {
     mixing: MixingSpec,
     density: f64,
     flume: Option<Flume>,
+    blocked: Option<Blocked>,
 }
 
 /// The water over one place at one time; cheap to ask at many heights.
@@ -81,7 +90,32 @@ pub struct Column<'a> {
 }
 
 impl WaterSpec {
-    /// The water over a terrain, checked.
+    /// The water round obstacles, if [`Self::blockage`] asks for it; else as [`Self::build`] has it.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn build_round(
+        &self,
+        area: &Area,
+        terrain: &Terrain,
+        obstacles: &Obstacles,
+        seed: u64,
+    ) -> Result<Water, PlumeError> {
+        let mut water = self.build(area, terrain, seed)?;
+        if let Some(spec) = &self.blockage {
+            let free = water.clone();
+            water.blocked = Some(Blocked::new(
+                spec,
+                area,
+                &free.ground,
+                obstacles,
+                free.clone(),
+            )?);
+        }
+        Ok(water)
+    }
+
+    /// The water over a terrain as it would be without obstacles, checked.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
@@ -98,6 +132,7 @@ impl WaterSpec {
             mixing: self.mixing.clone(),
             density: self.density_kg_m3.get(),
             flume: None,
+            blocked: None,
         };
         for (i, current) in self.currents.iter().enumerate() {
             let field = format!("water.currents[{i}]");
@@ -151,7 +186,22 @@ impl Water {
             .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
     }
 
-    /// The water over (east, north) `p` at time `t_s`.
+    /// How the obstacles' part was worked out, if they turn the currents aside.
+    #[must_use]
+    pub fn blocked(&self) -> Option<&Blocked> {
+        self.blocked.as_ref()
+    }
+
+    /// Whether it never changes.
+    pub(crate) fn is_steady(&self) -> bool {
+        self.meanders.is_empty() && self.layered.as_ref().is_none_or(Layered::is_steady)
+    }
+
+    pub(crate) fn floor(&self, p: Vector2<f64>) -> Floor {
+        self.ground.floor(p)
+    }
+
+    /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
     #[must_use]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
         let floor = self.ground.floor(p);
@@ -288,79 +338,5 @@ impl Column<'_> {
                 + flume.map_or(0.0, |flume| flume.k_h),
             k_z_m2_s: spec.background_vertical_m2_s.get() + k_z,
         }
-    }
-}
-
-impl Flow for Water {
-    fn advance(&mut self, t_s: f64) {
-        for m in &mut self.meanders {
-            m.advance(t_s);
-        }
-    }
-
-    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        self.column(p.xy(), t_s).velocity(p.z) + self.eddying(p, t_s)
-    }
-
-    fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
-        if let Some(eddies) = self.eddies() {
-            eddies.carry(t_s, dt_s, places);
-        }
-    }
-
-    fn walls(&self) -> Option<SideWalls> {
-        self.flume.as_ref().map(|f| f.walls)
-    }
-
-    fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
-        match &self.layered {
-            Some(_) => self.column(p.xy(), t_s).density(p.z),
-            None => self.density,
-        }
-    }
-
-    fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
-        let column = self.column(p.xy(), t_s);
-        column.mixing(p.z, column.friction_velocity())
-    }
-
-    fn column(
-        &self,
-        place: Vector2<f64>,
-        heights_m: &[f64],
-        t_s: f64,
-        out: &mut [(Vector3<f64>, Mixing)],
-    ) {
-        let column = Water::column(self, place, t_s);
-        let u_star = column.friction_velocity();
-        for (z, node) in heights_m.iter().zip(out) {
-            *node = column.both(*z, u_star);
-        }
-    }
-
-    fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
-        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
-        const H: f64 = 1e-3;
-        let column =
-            |dx: f64, dy: f64, dt: f64| self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt);
-        let here = column(0.0, 0.0, 0.0);
-        let twice = 1.0 / (2.0 * H);
-        let across = |a: Column<'_>, b: Column<'_>| (a.velocity(p.z) - b.velocity(p.z)) * twice;
-        let back = H.min(t_s);
-        let mut sample = WaterSample {
-            velocity: here.velocity(p.z),
-            gradient: Matrix3::from_columns(&[
-                across(column(H, 0.0, 0.0), column(-H, 0.0, 0.0)),
-                across(column(0.0, H, 0.0), column(0.0, -H, 0.0)),
-                (here.velocity(p.z + H) - here.velocity(p.z - H)) * twice,
-            ]),
-            rate: (column(0.0, 0.0, H).velocity(p.z) - column(0.0, 0.0, -back).velocity(p.z))
-                / (H + back),
-            density_kg_m3: here.density(p.z),
-        };
-        if let Some(eddies) = self.eddies() {
-            eddies.add_to(&mut sample, p, t_s);
-        }
-        sample
     }
 }

@@ -2,6 +2,12 @@
 
 mod along_flow;
 mod catalogue;
+mod credible_area;
+#[cfg(test)]
+mod testing;
+mod unchanged;
 
 pub use along_flow::AlongFlow;
-pub use catalogue::{CATALOGUE, DeclareSpec};
+pub use catalogue::{BeliefRule, BeliefRuleSpec, CATALOGUE, DeclareSpec};
+pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
+pub use unchanged::{Params as UnchangedParams, Unchanged};

@@ -2,8 +2,9 @@
 
 use super::Goal;
 use bevy_ecs::prelude::Component;
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
+use std::sync::Arc;
 
 /// What the vehicle is doing, in the field's words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Hash, PartialOrd, Ord)]
@@ -28,11 +29,13 @@ pub enum Behaviour {
     GoHome,
     /// Mission over.
     Done,
+    /// On a planned path to where the source is believed.
+    FollowPath,
 }
 
 impl Behaviour {
     /// All behaviours, for tables and legends.
-    pub const ALL: [Behaviour; 9] = [
+    pub const ALL: [Behaviour; 10] = [
         Behaviour::Idle,
         Behaviour::OpenLoop,
         Behaviour::GoTo,
@@ -42,6 +45,7 @@ impl Behaviour {
         Behaviour::Reacquire,
         Behaviour::GoHome,
         Behaviour::Done,
+        Behaviour::FollowPath,
     ];
 
     /// Name as it stands in files and topics.
@@ -57,6 +61,7 @@ impl Behaviour {
             Behaviour::Reacquire => "reacquire",
             Behaviour::GoHome => "go_home",
             Behaviour::Done => "done",
+            Behaviour::FollowPath => "follow_path",
         }
     }
 }
@@ -93,6 +98,8 @@ pub struct Decision {
     pub declared: Option<Declaration>,
     /// Points where the plume was lost (east, north), m; changes seldom.
     pub lost_points: Vec<Vector2<f64>>,
+    /// The path it means to take (ENU), m, the vehicle's place when it was planned first; empty without one.
+    pub planned: Arc<Vec<Vector3<f64>>>,
     /// Set when the mission is over.
     pub outcome: Option<Outcome>,
 }

@@ -1,6 +1,6 @@
 //! What the vehicle believes: never the truth, and a type of its own so that they cannot be confused.
 
-use super::{ChemicalReading, GuidanceStatus};
+use super::{Belief, ChemicalReading, GuidanceStatus, RangeScan};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -92,4 +92,8 @@ pub struct Observation {
     pub area: Area,
     /// Where the vehicle was launched (its own first position), and where Go-Home leads.
     pub home: Vector2<f64>,
+    /// Where the source may be, if the robot keeps a map of it.
+    pub belief: Option<Belief>,
+    /// Forward ranging, if the sensor reported in this tick.
+    pub ranging: Option<RangeScan>,
 }

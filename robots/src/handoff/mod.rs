@@ -1,6 +1,7 @@
 //! Plain data passed between the stages; a stage knows these and no other stage.
 
 mod behaviour;
+mod belief;
 mod command;
 mod decision;
 mod estimate;
@@ -9,8 +10,10 @@ mod goal;
 mod lost_points;
 mod places;
 mod readings;
+mod setting;
 
 pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
+pub use belief::{Belief, BeliefGrid};
 pub use command::{ActuatorCommand, Command, Setpoint};
 pub use decision::{Behaviour, Decision, Declaration, Outcome};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};
@@ -22,9 +25,10 @@ pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use lost_points::{LostPoint, LostPoints};
 pub use places::{edges, inside};
 pub use readings::{
-    AdcpReading, AltimeterReading, AttitudeReading, ChemicalReading, DepthReading, DvlReading,
-    LblFix, Readings,
+    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, DepthReading,
+    DvlReading, LblFix, RangeScan, Readings,
 };
+pub use setting::Setting;
 
 #[cfg(test)]
 pub(crate) mod testing;

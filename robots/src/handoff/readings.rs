@@ -2,6 +2,7 @@
 
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
+use std::sync::Arc;
 use world::units::Heading;
 
 /// Chemical sensor.
@@ -71,8 +72,28 @@ pub struct LblFix {
     pub position: Vector2<f64>,
 }
 
+/// One beam of the forward ranging.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Beam {
+    /// Direction in body axes (FLU), unit vector.
+    pub dir_B: Vector3<f64>,
+    /// Way to what threw the sound back, m; `None` when nothing did within the range.
+    pub echo_m: Option<f64>,
+}
+
+/// One ping of the forward ranging; beams that dropped out are left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RangeScan {
+    /// Place of the instrument in body axes (FLU), m.
+    pub p_BS: Vector3<f64>,
+    /// Its range, m.
+    pub max_m: f64,
+    /// What its beams said.
+    pub beams: Arc<[Beam]>,
+}
+
 /// All readings of one tick.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Readings {
     /// Chemical sensor.
     pub chemical: Option<ChemicalReading>,
@@ -88,4 +109,6 @@ pub struct Readings {
     pub altimeter: Option<AltimeterReading>,
     /// Position fix.
     pub lbl: Option<LblFix>,
+    /// Forward ranging.
+    pub ranging: Option<RangeScan>,
 }

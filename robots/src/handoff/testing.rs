@@ -46,6 +46,8 @@ pub(crate) fn seen(
         guidance: GuidanceStatus::default(),
         area: area(),
         home: Vector2::new(10.0, -250.0),
+        belief: None,
+        ranging: None,
     }
 }
 

@@ -44,4 +44,9 @@ pub const CATALOGUE: &[Entry] = &[
         what: "Conductivity probes of a gantry's head, scanned together: voltage with noise, quantisation, saturation.",
         source: "Webster et al. 2012, section 3",
     },
+    Entry {
+        name: "ranging",
+        what: "Ranges ahead in a fan of beams against solids and bed: noise, range, drop-outs.",
+        source: "Petillot, Tena Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240",
+    },
 ];

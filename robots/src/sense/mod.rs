@@ -9,6 +9,7 @@ mod dvl;
 mod fluorometer;
 mod lbl;
 mod probe;
+mod ranging;
 mod suite;
 #[cfg(test)]
 mod testing;
@@ -23,4 +24,5 @@ pub use dvl::{Dvl, DvlSpec};
 pub use fluorometer::{Fluorometer, FluorometerSpec};
 pub use lbl::{Lbl, LblSpec};
 pub use probe::{Probes, ProbesSpec};
+pub use ranging::{Ranging, RangingSpec};
 pub use suite::{SensorSuite, SensorsSpec};

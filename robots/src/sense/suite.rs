@@ -2,7 +2,7 @@
 
 use super::{
     Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Depth, DepthSpec, Dvl, DvlSpec,
-    Fluorometer, FluorometerSpec, Lbl, LblSpec,
+    Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec,
 };
 use crate::error::RobotError;
 use crate::handoff::Readings;
@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use world::clock::Clock;
 use world::fields::{Concentration, Flow};
 use world::frames::{Pose, Truth};
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// The instruments a scenario fits to a robot; one left out is not on board.
@@ -32,6 +33,8 @@ pub struct SensorsSpec {
     pub altimeter: Option<AltimeterSpec>,
     /// Position fixes.
     pub lbl: Option<LblSpec>,
+    /// Forward ranging.
+    pub ranging: Option<RangingSpec>,
 }
 
 /// The instruments of a robot.
@@ -44,11 +47,12 @@ pub struct SensorSuite {
     depth: Option<Depth>,
     altimeter: Option<Altimeter>,
     lbl: Option<Lbl>,
+    ranging: Option<Ranging>,
 }
 
 impl SensorSuite {
     /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `altimeter`; compass and baseline need none).
+    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `altimeter`, `ranging`; compass and baseline need none).
     ///
     /// # Errors
     /// When a mount is missing or an instrument cannot be as described.
@@ -89,6 +93,9 @@ impl SensorSuite {
             lbl: (spec.lbl.as_ref())
                 .map(|s| Lbl::new(s, robot_id, seed, dt_s))
                 .transpose()?,
+            ranging: (spec.ranging.as_ref())
+                .map(|s| Ranging::new(s, place("ranging")?, robot_id, seed, dt_s))
+                .transpose()?,
         })
     }
 
@@ -100,6 +107,7 @@ impl SensorSuite {
         flow: &dyn Flow,
         dye: &dyn Concentration,
         terrain: &Terrain,
+        obstacles: &Obstacles,
     ) -> Readings {
         Readings {
             chemical: (self.fluorometer.as_mut()).and_then(|s| s.read(clock, truth, dye)),
@@ -109,6 +117,7 @@ impl SensorSuite {
             depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth)),
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
+            ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
         }
     }
 }
@@ -128,6 +137,7 @@ mod tests {
             depth: Some(DepthSpec::default()),
             altimeter: Some(AltimeterSpec::default()),
             lbl: Some(LblSpec::default()),
+            ranging: Some(RangingSpec::default()),
         }
     }
 
@@ -141,7 +151,7 @@ mod tests {
         let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
         let t = at(0.0, 0.0, -5.0);
         run(5_000, 0.02, |c| {
-            Some(suite.read(c, &t, &Still, &Clean, &BED))
+            Some(suite.read(c, &t, &Still, &Clean, &BED, &Obstacles::default()))
         })
     }
 
@@ -157,6 +167,7 @@ mod tests {
             "depth",
             "altimeter",
             "lbl",
+            "ranging",
         ] {
             let (mut spec, mut want) = (all(), whole.clone());
             match name {
@@ -166,10 +177,11 @@ mod tests {
                 "compass" => spec.compass = None,
                 "depth" => spec.depth = None,
                 "altimeter" => spec.altimeter = None,
-                _ => spec.lbl = None,
+                "lbl" => spec.lbl = None,
+                _ => spec.ranging = None,
             }
             for r in &mut want {
-                let before = *r;
+                let before = r.clone();
                 match name {
                     "fluorometer" => r.chemical = None,
                     "dvl" => r.dvl = None,
@@ -177,15 +189,16 @@ mod tests {
                     "compass" => r.attitude = None,
                     "depth" => r.depth = None,
                     "altimeter" => r.altimeter = None,
-                    _ => r.lbl = None,
+                    "lbl" => r.lbl = None,
+                    _ => r.ranging = None,
                 }
                 lost += usize::from(*r != before);
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25 and 5 Hz, and what came through of 3 fixes.
+        // 100 s at 10, 5, 1, 25, 25, 5 and 2 Hz, and what came through of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
-        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 500 + fixes);
+        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 500 + 200 + fixes);
     }
 
     #[test]

@@ -10,6 +10,11 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Pang 2009, section 5, Fig. 5",
     },
     Entry {
+        name: "MapAndPlan",
+        what: "zig-zag to the first detection, then planned paths to the map's likeliest cell, until a rule declares",
+        source: "Wang & Pang, section II",
+    },
+    Entry {
         name: "OpenLoop",
         what: "rudder, stern plane and propeller from a time table",
         source: "open-loop vehicle trials (Prestero 2001, chapter 6)",

@@ -2,10 +2,14 @@
 
 mod amp;
 mod catalogue;
+mod map_and_plan;
 mod open_loop;
 mod spec;
 
 pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
+pub use map_and_plan::{
+    AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
+};
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use spec::{Strategy, StrategySpec, VerticalSpec};

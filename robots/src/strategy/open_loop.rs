@@ -14,6 +14,7 @@ use crate::handoff::{
     Side, Stride, Vertical,
 };
 use std::num::NonZeroUsize;
+use std::sync::Arc;
 use world::seeds::Stream;
 
 /// The time table.
@@ -78,6 +79,7 @@ impl Strategy for OpenLoop {
             goal: self.goal.unwrap_or_else(|| direct(0, still, seen)),
             declared: None,
             lost_points: Vec::new(),
+            planned: Arc::default(),
             outcome: self.over.then_some(Outcome::Completed),
         }
     }

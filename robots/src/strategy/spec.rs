@@ -1,9 +1,10 @@
 //! What a scenario says about the strategy.
 
 use super::amp::{Amp, AmpSpec};
+use super::map_and_plan::{MapAndPlan, MapAndPlanSpec};
 use super::open_loop::{OpenLoop, OpenLoopSpec};
 use crate::error::RobotError;
-use crate::handoff::{Decision, Observation, Vertical};
+use crate::handoff::{Decision, Observation, Setting, Vertical};
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
@@ -20,6 +21,8 @@ pub trait Strategy: std::fmt::Debug + Send + Sync {
 pub enum StrategySpec {
     /// Pang's adaptive mission planner: find, track in, track out, reacquire, declare.
     Amp(AmpSpec),
+    /// A map of the source, and planned paths to its likeliest cell.
+    MapAndPlan(MapAndPlanSpec),
     /// Actuators from a time table.
     OpenLoop(OpenLoopSpec),
 }
@@ -29,9 +32,10 @@ impl StrategySpec {
     ///
     /// # Errors
     /// [`RobotError::Invalid`] when fields contradict each other.
-    pub fn build(&self) -> Result<Box<dyn Strategy>, RobotError> {
+    pub fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
         Ok(match self {
             StrategySpec::Amp(spec) => Box::new(Amp::new(spec)?),
+            StrategySpec::MapAndPlan(spec) => Box::new(MapAndPlan::new(spec, setting)?),
             StrategySpec::OpenLoop(spec) => Box::new(OpenLoop::new(spec)?),
         })
     }

@@ -12,6 +12,7 @@ macro_rules! catalog {
         &[$(Template {
             name: $name,
             text: include_str!(concat!("../../catalog/campaigns/", $name, ".ron")),
+            files: &[],
         }),*]
     };
 }

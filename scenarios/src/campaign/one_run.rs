@@ -199,6 +199,8 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
         near_speed_m_s,
         far_offset_m,
         near_offset_m,
+        correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s))
+            .min_by(f64::total_cmp),
         spin_up_wall_s: totals.spin_up_wall_s,
         mission_wall_s: totals.mission_wall_s,
         error: None,

@@ -6,7 +6,7 @@ use super::{list, say};
 use crate::scenario::template;
 use std::fs::File;
 use std::io::{ErrorKind, Write};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Writes the template, or without one lists what there is.
 pub(super) fn init(args: &InitArgs) -> Exit {
@@ -31,7 +31,11 @@ pub(super) fn init(args: &InitArgs) -> Exit {
         Some(path) => path.clone(),
     };
     let shown = path.display();
-    match File::create_new(&path).and_then(|mut f| f.write_all(found.text.as_bytes())) {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    match File::create_new(&path)
+        .and_then(|mut f| f.write_all(found.text.as_bytes()))
+        .and_then(|()| found.write_files(folder))
+    {
         Ok(()) => {
             say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
             Exit::Success

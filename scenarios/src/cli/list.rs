@@ -24,6 +24,7 @@ const SECTIONS: &[Section] = &[
         "Behaviours",
         robots::behave::CATALOGUE,
     ),
+    section(ListKind::Algorithms, "Source maps", robots::map::CATALOGUE),
     section(
         ListKind::Algorithms,
         "Declaration rules",

@@ -11,9 +11,9 @@ use crate::frame::{Frame, PlumeFrame};
 use crate::gantry::GantryBlock;
 use crate::live::{Live, LiveMeta, LiveOptions, run_id};
 use crate::report::{
-    GantryInfo, MassBalance, ObstacleOutline, ProbeTables, Recorder, ReportError, RobotInfo,
-    RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
-    write_all,
+    BeliefTrack, GantryInfo, MassBalance, ObstacleOutline, ProbeTables, Recorder, ReportError,
+    RobotInfo, RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder, Totals,
+    TrackTable, write_all,
 };
 use crate::scenario::Loaded;
 use crate::system::Dye;
@@ -36,6 +36,7 @@ pub(super) struct Onlooker<'a> {
     builder: SummaryBuilder,
     track: TrackTable,
     probes: ProbeTables,
+    beliefs: BeliefTrack,
     recorder: Option<Recorder>,
     live: Option<Live>,
     progress: Progress,
@@ -80,7 +81,8 @@ impl<'a> Onlooker<'a> {
         let probes = ProbeTables::create(out, gantries(loaded)?)?;
         let recorder = (!args.no_record)
             .then(|| Recorder::create(&out.join("run.mcap"), &run))
-            .transpose()?;
+            .transpose()?
+            .map(|r| r.with_map_period(scenario.record.map_period_s.get()));
         let progress = Progress::new(loaded, args);
         let live = if args.no_zenoh {
             None
@@ -112,6 +114,7 @@ impl<'a> Onlooker<'a> {
             builder: SummaryBuilder::new(&run),
             track,
             probes,
+            beliefs: BeliefTrack::default(),
             recorder,
             live,
             progress,
@@ -203,6 +206,7 @@ impl<'a> Onlooker<'a> {
                 summary: &summary,
                 track: &track,
                 gantries: &gantries,
+                beliefs: &self.beliefs,
                 plume: self.last_plume.as_ref(),
                 dye: (!sources.is_empty()).then_some(plume),
                 area: world.resource::<Area>(),
@@ -265,6 +269,7 @@ impl Watch for Onlooker<'_> {
         self.note(rows);
         let scans = self.probes.push(frame);
         self.note(scans);
+        self.beliefs.push(frame);
         if let Some(recorder) = &mut self.recorder {
             let recorded = recorder.frame(frame);
             self.note(recorded);
@@ -283,6 +288,7 @@ impl Watch for Onlooker<'_> {
         if let Some(live) = &self.live {
             live.plume(plume);
         }
+        self.beliefs.plume(plume);
         self.last_plume = Some(plume.clone());
     }
 

@@ -271,6 +271,8 @@ pub(super) mod tests {
             detected: false,
             behaviour: Behaviour::Find,
             lost_points: Vec::new(),
+            planned: std::sync::Arc::default(),
+            belief: None,
             declaration: None,
         };
         Frame {

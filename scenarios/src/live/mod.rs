@@ -13,6 +13,8 @@ mod topics;
 #[cfg(feature = "live")]
 mod mailbox;
 #[cfg(feature = "live")]
+mod map_message;
+#[cfg(feature = "live")]
 mod message;
 #[cfg(feature = "live")]
 mod message_gantry;

@@ -1,6 +1,7 @@
 //! The thread that owns the zenoh session, and the run's handle on it.
 
 use super::mailbox::{Mailbox, Work};
+use super::map_message::MapGate;
 use super::tree::Tree;
 use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message};
 use crate::frame::{Frame, PlumeFrame};
@@ -150,21 +151,27 @@ fn publish(
         }
         Ok(mut tree) => {
             let _nobody_waits = up.send(Ok(endpoint(&session)));
-            serve(&mut tree, mailbox);
+            serve(&mut tree, mailbox, options.plume_period);
         }
     }
     // Explicitly: a session closed when statics are dropped panics.
     let _closed = session.close().wait();
 }
 
-fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox) {
+fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
+    let mut maps = MapGate::new(map_period);
     // A message that cannot be sent is lost like one that did not fit: the run goes on.
     let mut last = (0.0, 0);
+    let mut newest: Option<Frame> = None;
     loop {
         match mailbox.next() {
             Work::Frame(frame) => {
                 last = (frame.t_s, frame.step);
+                for message in maps.due(&frame, false) {
+                    drop(tree.say(message));
+                }
                 say_state(tree, &frame, mailbox.counts());
+                newest = Some(frame);
             }
             Work::Plume(plume) => drop(tree.say(message::plume(&plume))),
             Work::End {
@@ -172,6 +179,12 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox) {
                 plume,
                 digest,
             } => {
+                // The last map may have been held back when its state was sent.
+                for message in (frame.as_ref().or(newest.as_ref()))
+                    .map_or_else(Vec::new, |frame| maps.due(frame, true))
+                {
+                    drop(tree.say(message));
+                }
                 if let Some(frame) = frame {
                     last = (frame.t_s, frame.step);
                     say_state(tree, &frame, mailbox.counts());

@@ -1,8 +1,10 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
 
+mod belief_track;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
+mod map_record;
 mod probes;
 mod recorder;
 mod recorder_gantry;
@@ -11,6 +13,7 @@ mod summary_builder;
 mod track;
 mod write;
 
+pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
 pub use files::ReportError;
 pub(crate) use files::{make_folder, write_whole};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};

@@ -1,10 +1,11 @@
 //! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
 
 use super::ReportError;
+use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Command, Estimate, Vertical};
+use robots::handoff::{Belief, Command, Estimate, Vertical};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use world::record::{
@@ -35,7 +36,12 @@ pub struct Recorder {
     behaviours: Vec<&'static str>,
     declared: Vec<bool>,
     gantries: Vec<GantryRecorder>,
+    maps: Vec<(String, MapTimes)>,
+    map_period_s: f64,
 }
+
+/// Time between two recorded maps where the scenario does not say, s.
+const MAP_PERIOD_S: f64 = 10.0;
 
 impl Recorder {
     /// Starts a recording that will end at `path`; the folder must exist.
@@ -59,7 +65,16 @@ impl Recorder {
             behaviours: Vec::new(),
             declared: Vec::new(),
             gantries: Vec::new(),
+            maps: Vec::new(),
+            map_period_s: MAP_PERIOD_S,
         })
+    }
+
+    /// The same with a period between two recorded maps of where the source may be, s.
+    #[must_use]
+    pub fn with_map_period(mut self, period_s: f64) -> Self {
+        self.map_period_s = period_s;
+        self
     }
 
     /// Records one frame. Behaviours and declarations are written when they change.
@@ -73,6 +88,7 @@ impl Recorder {
         self.declared.resize(frame.robots.len(), false);
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
+            self.map(frame.t_s, robot)?;
         }
         self.gantries
             .resize_with(frame.gantries.len(), GantryRecorder::default);
@@ -168,6 +184,31 @@ impl Recorder {
         Ok(())
     }
 
+    fn map(&mut self, t_s: f64, robot: &RobotFrame) -> Result<(), RecordError> {
+        let Some(belief) = &robot.belief else {
+            return Ok(());
+        };
+        let k = match self.maps.iter().position(|(id, _)| *id == robot.id) {
+            Some(k) => k,
+            None => {
+                self.maps.push((robot.id.clone(), MapTimes::default()));
+                self.maps.len() - 1
+            }
+        };
+        match self.maps[k].1.due(t_s, self.map_period_s, belief) {
+            Some(due) => self.write_map(&robot.id, &due),
+            None => Ok(()),
+        }
+    }
+
+    fn write_map(&mut self, id: &str, belief: &Belief) -> Result<(), RecordError> {
+        let t = nanoseconds(belief.t_s);
+        let rows = map_record::points(belief);
+        let cloud = point_cloud(t, WORLD, map_record::FIELDS, &rows);
+        let topic = format!("/{id}/map");
+        self.file.write(&topic, Kind::PointCloud2, t, &cloud)
+    }
+
     /// Records filaments as a cloud; `concentration` is that at a filament's middle, kg/m³,
     /// `mass` / ((2π)^(3/2) `size`³).
     ///
@@ -196,6 +237,11 @@ impl Recorder {
     /// # Errors
     /// If the file cannot be written or renamed.
     pub fn finish(mut self, digest: &str) -> Result<PathBuf, ReportError> {
+        for (id, mut times) in std::mem::take(&mut self.maps) {
+            if let Some(last) = times.last() {
+                self.write_map(&id, &last)?;
+            }
+        }
         self.file.metadata("result", &[("digest", digest)])?;
         Ok(self.file.finish()?)
     }

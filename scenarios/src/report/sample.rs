@@ -7,6 +7,8 @@ use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
     FlowEstimate, Setpoint, Vertical,
 };
+use robots::handoff::{Belief, BeliefGrid};
+use std::sync::Arc;
 use world::area::Area;
 use world::frames::{Pose, Truth};
 use world::math;
@@ -48,6 +50,30 @@ pub(super) fn source() -> SourceTruth {
         id: "s1".into(),
         position: Vector3::new(-242.0, 414.0, -6.0),
         flow: Heading::from_deg(158.0).unit() * 0.1,
+    }
+}
+
+/// A belief that draws together round the source.
+pub(super) fn belief(t_s: f64) -> Belief {
+    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 15, 1]);
+    let wide = 400.0 / (1.0 + t_s / 10.0);
+    let from = source().position.xy();
+    let weight = |i: usize| {
+        let d = (grid.centre(i).xy() - from).norm_squared();
+        math::exp(-0.5 * d / (wide * wide)) + 1e-12
+    };
+    let p: Vec<f64> = (0..grid.len()).map(weight).collect();
+    let total: f64 = p.iter().sum();
+    let p: Vec<f64> = p.iter().map(|p| p / total).collect();
+    Belief {
+        t_s,
+        updates: 1 + t_s as u64,
+        informed: t_s > 20.0,
+        best: (0..p.len()).fold(0, |m, i| if p[i] > p[m] { i } else { m }),
+        entropy_nat: p.iter().map(|p| -p * math::ln(*p)).sum(),
+        credible_95: 7.0 * wide * wide,
+        p: Arc::new(p),
+        grid: Arc::new(grid),
     }
 }
 
@@ -132,6 +158,8 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 detected: in_plume,
                 behaviour,
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
+                planned: std::sync::Arc::default(),
+                belief: Some(belief(t_s.floor())),
                 declaration: (k >= declare_at).then(|| Declaration {
                     t_s: declare_at as f64 * 0.1,
                     position: from + flow.unit() * 12.0 + side * 5.0,

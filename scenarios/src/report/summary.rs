@@ -110,6 +110,8 @@ pub struct RobotSummary {
     pub detections: u64,
     /// Straight distance from the first detection to the declared source, m: how far it traced the plume.
     pub traced_m: Option<f64>,
+    /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
+    pub correct_cell_s: Option<f64>,
     /// Length of the true path, m.
     pub travelled_m: f64,
     /// Distance between believed and true position at the end, m.

@@ -8,7 +8,8 @@ use super::summary::{
 use crate::frame::{Frame, RobotFrame};
 use crate::gantry::GantryPath;
 use nalgebra::{Vector2, Vector3};
-use robots::handoff::{Behaviour, Declaration};
+use robots::handoff::{Behaviour, BeliefGrid, Declaration};
+use std::sync::Arc;
 use world::units::Heading;
 
 /// A true source and the flow there.
@@ -97,6 +98,8 @@ struct Robot {
     error_m: f64,
     greatest_error_m: f64,
     behaviour_s: Vec<(Behaviour, f64)>,
+    /// The likeliest cell of its map and since when, with the map's cells.
+    best: Option<(f64, usize, Arc<BeliefGrid>)>,
 }
 
 impl Robot {
@@ -113,6 +116,7 @@ impl Robot {
             error_m: 0.0,
             greatest_error_m: 0.0,
             behaviour_s: Vec::new(),
+            best: None,
         }
     }
 
@@ -135,6 +139,14 @@ impl Robot {
             self.detections += 1;
             self.first_detection.get_or_insert((t_s, p.xy()));
         }
+        if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
+            && self
+                .best
+                .as_ref()
+                .is_none_or(|(_, cell, _)| *cell != b.best)
+        {
+            self.best = Some((b.t_s, b.best, b.grid.clone()));
+        }
         self.declaration = self.declaration.or(r.declaration);
         self.error_m = (r.estimate.position - p.xy()).norm();
         self.greatest_error_m = self.greatest_error_m.max(self.error_m);
@@ -153,6 +165,13 @@ impl Robot {
             first_detection: self.first_detection.map(|d| d.1.into()),
             detections: self.detections,
             traced_m,
+            correct_cell_s: (self.best.as_ref())
+                .filter(|(_, best, grid)| {
+                    sources
+                        .iter()
+                        .any(|s| grid.cell(&s.position) == Some(*best))
+                })
+                .map(|(since_s, ..)| *since_s),
             travelled_m: self.travelled_m,
             final_position_error_m: self.error_m,
             greatest_position_error_m: self.greatest_error_m,

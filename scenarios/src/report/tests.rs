@@ -2,8 +2,8 @@
 
 use super::sample::{area, frames, info, plume, robots, source, terrain};
 use super::{
-    MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder, Totals, Track,
-    TrackTable, write_all,
+    BeliefTrack, MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder,
+    Totals, Track, TrackTable, write_all,
 };
 use crate::frame::{Frame, PlumeFrame};
 use nalgebra::Vector2;
@@ -119,6 +119,7 @@ fn recording_holds_every_topic() {
         "result",
         "scenario.ron",
         "/auv0/declaration",
+        "/auv0/map",
         "/plume",
     ] {
         let found = bytes.windows(part.len()).any(|w| w == part.as_bytes());
@@ -129,6 +130,7 @@ fn recording_holds_every_topic() {
 fn report_of(
     summary: &Summary,
     track: &Track,
+    frames: &[Frame],
     plume: Option<&PlumeFrame>,
     area: &Area,
     terrain: &Terrain,
@@ -137,10 +139,18 @@ fn report_of(
     let out = dir.path().join("out");
     let sources = [source()];
     let info = info();
+    let mut beliefs = BeliefTrack::default();
+    if let Some(plume) = plume {
+        beliefs.plume(plume);
+    }
+    for f in frames {
+        beliefs.push(f);
+    }
     let run = RunReport {
         summary,
         track,
         gantries: &[],
+        beliefs: &beliefs,
         plume,
         dye: None,
         area,
@@ -168,17 +178,24 @@ fn report_of(
 
 #[test]
 fn whole_report_of_a_run() {
-    let (summary, track) = told(&frames(600));
-    let names = report_of(&summary, &track, Some(&plume()), &area(), &terrain());
+    let run = frames(600);
+    let (summary, track) = told(&run);
+    let plume = plume();
+    let names = report_of(&summary, &track, &run, Some(&plume), &area(), &terrain());
     assert_eq!(
         names,
         [
             "summary.json",
             "plume.csv",
+            "belief-auv0.csv",
             "map.svg",
             "map.png",
             "series-auv0.svg",
             "series-auv0.png",
+            "belief-auv0.svg",
+            "belief-auv0.png",
+            "convergence.svg",
+            "convergence.png",
             "report.html"
         ]
     );
@@ -189,16 +206,17 @@ fn runs_in_which_nothing_happened() {
     let nobody = SummaryBuilder::new(&info()).finish(end(RunOutcome::Failed), &[]);
     let none = Track::default();
     assert_eq!(
-        report_of(&nobody, &none, None, &area(), &terrain()).len(),
+        report_of(&nobody, &none, &[], None, &area(), &terrain()).len(),
         4
     );
     // Zero frames, a robot known beforehand.
     let track = TrackTable::in_memory(robots()).finish();
-    report_of(&nobody, &track, None, &area(), &terrain());
+    report_of(&nobody, &track, &[], None, &area(), &terrain());
     // One frame; an empty plume.
-    let (summary, track) = told(&frames(600)[..1]);
+    let one = &frames(600)[..1];
+    let (summary, track) = told(one);
     let empty = PlumeFrame::default();
-    report_of(&summary, &track, Some(&empty), &area(), &terrain());
+    report_of(&summary, &track, one, Some(&empty), &area(), &terrain());
 }
 
 #[test]
@@ -214,6 +232,7 @@ fn areas_from_a_flume_to_an_ocean() {
         report_of(
             &nobody,
             &Track::default(),
+            &[],
             None,
             &area,
             &Terrain::Level { depth_m },

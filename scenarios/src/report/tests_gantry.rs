@@ -206,6 +206,7 @@ fn written(
         &RunReport {
             summary: &summary(frames),
             track: &Track::default(),
+            beliefs: &crate::report::BeliefTrack::default(),
             gantries: &tables.finish(),
             plume: None,
             dye,

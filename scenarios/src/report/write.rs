@@ -2,7 +2,7 @@
 
 use super::files::{ReportError, make_folder, write_whole};
 use super::probes::file_name;
-use super::{GantryTrack, SourceTruth, Summary, Track, figures, html};
+use super::{BeliefTrack, GantryTrack, SourceTruth, Summary, Track, belief_track, figures, html};
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -28,6 +28,8 @@ pub struct RunReport<'a> {
     pub track: &'a Track,
     /// What the gantries did.
     pub gantries: &'a [GantryTrack],
+    /// The robots' maps of where the source may be.
+    pub beliefs: &'a BeliefTrack,
     /// Some of the plume's filaments at the end; none in a run without one.
     pub plume: Option<&'a PlumeFrame>,
     /// What is dissolved in the water at the end, for sections through it.
@@ -47,6 +49,7 @@ pub struct RunReport<'a> {
 /// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder, making it if need be; the paths of what
 /// was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
 /// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
+/// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`.
 ///
 /// # Errors
 /// If the folder or a file cannot be written.
@@ -56,6 +59,11 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
     if let Some(plume) = run.plume {
         let path = out_dir.join("plume.csv");
         written.push(write_whole(&path, plume_csv(plume, run.area).as_bytes())?);
+    }
+    for robot in &run.beliefs.robots {
+        let path = out_dir.join(format!("belief-{}.csv", file_name(&robot.id)));
+        let csv = belief_track::csv(robot, run.sources);
+        written.push(write_whole(&path, csv.as_bytes())?);
     }
     let mut shown = Vec::new();
     for (name, title, svg) in figures_of(run) {
@@ -90,6 +98,17 @@ fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
             format!("Time series of {id}"),
             figures::series(run, robot),
         ));
+    }
+    for robot in &run.beliefs.robots {
+        figures.push((
+            format!("belief-{}", file_name(&robot.id)),
+            format!("Where {} believed the source", robot.id),
+            figures::belief(run, robot),
+        ));
+    }
+    if !run.beliefs.robots.is_empty() {
+        let title = "Convergence of the maps".to_owned();
+        figures.push(("convergence".to_owned(), title, figures::convergence(run)));
     }
     for t in run.gantries {
         let id = &t.info.id;

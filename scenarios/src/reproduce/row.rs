@@ -133,20 +133,23 @@ pub struct Reference {
     pub arms: Vec<(String, Loaded)>,
 }
 
+macro_rules! row {
+    ($name:literal) => {
+        (
+            $name,
+            include_str!(concat!("../../../tests/reference/rows/", $name, ".ron")),
+        )
+    };
+}
+
 /// Row files that come with the program.
 const ROWS: &[(&str, &str)] = &[
-    (
-        "crab",
-        include_str!("../../../tests/reference/rows/crab.ron"),
-    ),
-    (
-        "crab_arms",
-        include_str!("../../../tests/reference/rows/crab_arms.ron"),
-    ),
-    (
-        "duck_st",
-        include_str!("../../../tests/reference/rows/duck_st.ron"),
-    ),
+    row!("crab"),
+    row!("crab_arms"),
+    row!("duck_st"),
+    row!("wp_laminar"),
+    row!("wp_turbulent"),
+    row!("wp_dead_end"),
 ];
 
 /// All rows that come with the program.

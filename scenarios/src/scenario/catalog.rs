@@ -1,5 +1,8 @@
 //! The scenarios that come with the program, word for word.
 
+use std::path::{Path, PathBuf};
+use world::record::Digest;
+
 /// A scenario that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Template {
@@ -7,11 +10,63 @@ pub struct Template {
     pub name: &'static str,
     /// The file.
     pub text: &'static str,
+    /// The files it names, by their paths relative to it.
+    pub files: &'static [(&'static str, &'static [u8])],
+}
+
+impl Template {
+    /// Puts the files it names where they can be read, and says in which folder; no folder where there are none.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn unpack(&self) -> std::io::Result<PathBuf> {
+        if self.files.is_empty() {
+            return Ok(PathBuf::new());
+        }
+        let mut digest = Digest::default();
+        self.files.iter().for_each(|(path, bytes)| {
+            digest.text(path);
+            digest.text(&String::from_utf8_lossy(bytes));
+        });
+        // Named after what is in it: another version of the program has another folder.
+        let folder = std::env::temp_dir().join(format!("rheotaxis-{}", digest.hex()));
+        for (path, bytes) in self.files {
+            let to = folder.join(path);
+            if std::fs::read(&to).is_ok_and(|there| there == *bytes) {
+                continue;
+            }
+            self.write_beside(&folder, path, bytes)?;
+        }
+        Ok(folder)
+    }
+
+    /// Writes the files it names into a folder.
+    ///
+    /// # Errors
+    /// If one cannot be written.
+    pub fn write_files(&self, folder: &Path) -> std::io::Result<()> {
+        (self.files.iter()).try_for_each(|(path, bytes)| self.write_beside(folder, path, bytes))
+    }
+
+    /// Whole or not at all, whoever else writes it at the same time.
+    fn write_beside(&self, folder: &Path, path: &str, bytes: &[u8]) -> std::io::Result<()> {
+        let to = folder.join(path);
+        if let Some(parent) = to.parent() {
+            std::fs::create_dir_all(parent)?;
+        }
+        let part = to.with_extension(format!("part{}", std::process::id()));
+        std::fs::write(&part, bytes)?;
+        std::fs::rename(&part, &to)
+    }
 }
 
 macro_rules! catalog {
-    ($($name:literal),* $(,)?) => {
-        &[$(Template { name: $name, text: include_str!(concat!("../../catalog/", $name, ".ron")) }),*]
+    ($($name:literal $(with $file:literal)*),* $(,)?) => {
+        &[$(Template {
+            name: $name,
+            text: include_str!(concat!("../../catalog/", $name, ".ron")),
+            files: &[$(($file, include_bytes!(concat!("../../catalog/", $file)))),*],
+        }),*]
     };
 }
 
@@ -23,6 +78,11 @@ pub const CATALOG: &[Template] = catalog![
     "remus_turning_circle",
     "remus_zigzag",
     "remus_dive",
+    "wp_laminar",
+    "wp_turbulent",
+    "wp_dead_end",
+    "harbour_3d",
+    "reef_mesh" with "meshes/reef.obj",
 ];
 
 /// The one of that name.
@@ -35,7 +95,6 @@ pub fn template(name: &str) -> Option<&'static Template> {
 mod tests {
     use super::*;
     use crate::scenario::parse;
-    use std::path::Path;
 
     #[test]
     fn holds_every_file_of_the_folder() {
@@ -56,7 +115,7 @@ mod tests {
         for t in CATALOG {
             let scenario = parse(t.name, t.text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
             assert_eq!(
-                crate::scenario::check(&scenario, Path::new("")),
+                crate::scenario::check(&scenario, &t.unpack().unwrap()),
                 [],
                 "{}",
                 t.name

@@ -1,18 +1,20 @@
 //! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
 
+use super::check_obstacles;
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, SuccessSpec, TerrainSpec};
 use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
+use robots::handoff::Setting;
 use robots::sense::SensorSuite;
 use robots::strategy::StrategySpec;
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
-use world::error::WorldError;
-use world::obstacles::{Obstacle, Obstacles};
+use world::obstacles::{ObstacleSpec, Obstacles};
+use world::seeds::Stream;
 use world::terrain::Terrain;
 
 /// A robot's start nearer to an obstacle than this touches it with its hull, m.
@@ -32,13 +34,23 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     if let Err(PlumeError::Invalid { field, problem }) = scenario.water.build(&area, &terrain, 0) {
         found.push(Found::error(field, problem));
     }
-    let obstacles = obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    let solid = scenario.solid(&obstacles);
+    check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
+    known(
+        "permeable",
+        &scenario.permeable,
+        &scenario.obstacles,
+        &mut found,
+    );
     sources(scenario, &area, &terrain, &obstacles, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
         parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+        let setting = robot.setting(&area, &terrain, &obstacles);
+        mind(i, robot, &setting, &scenario.obstacles, &mut found);
     }
     let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
     twins("gantries", &gantry_ids, &mut found);
@@ -97,45 +109,6 @@ fn sources(
     let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
     names("sources", &ids, found);
     twins("sources", &ids, found);
-}
-
-fn obstacles(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    base_dir: &Path,
-    found: &mut Vec<Found>,
-) -> Obstacles {
-    let ids: Vec<&str> = scenario.obstacles.iter().map(|o| o.id.as_str()).collect();
-    names("obstacles", &ids, found);
-    twins("obstacles", &ids, found);
-    let mut built = Vec::new();
-    for (i, spec) in scenario.obstacles.iter().enumerate() {
-        let path = format!("obstacles[{i}]");
-        match Obstacle::build(spec, terrain, base_dir) {
-            Ok(obstacle) => {
-                let (min, max) = area.bounds();
-                let (lo, hi) = obstacle.bounds();
-                if lo.x > max.x || hi.x < min.x || lo.y > max.y || hi.y < min.y {
-                    found.push(Found::warning(
-                        path,
-                        format!("obstacle \"{}\" lies wholly outside the area", spec.id),
-                    ));
-                }
-                built.push(obstacle);
-            }
-            Err(e @ WorldError::File { .. }) => {
-                found.push(
-                    Found::error(format!("{path}.shape.file"), e.to_string())
-                        .hint("paths are relative to the scenario file"),
-                );
-            }
-            Err(WorldError::Invalid { field, problem }) => {
-                found.push(Found::error(within(&path, "shape", &field), problem));
-            }
-        }
-    }
-    Obstacles(built)
 }
 
 fn start(
@@ -221,7 +194,40 @@ fn start(
     }
 }
 
-/// Builds what can fail: hull, instruments, strategy.
+/// That a list of obstacles' ids names such as there are.
+fn known(list: &str, ids: &[String], obstacles: &[ObstacleSpec], found: &mut Vec<Found>) {
+    for (k, id) in ids.iter().enumerate() {
+        if !obstacles.iter().any(|o| o.id == *id) {
+            let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
+            found.push(Found::error(
+                format!("{list}[{k}]"),
+                format!("the scenario has no obstacle \"{id}\"; it has {known:?}"),
+            ));
+        }
+    }
+}
+
+/// Builds its strategy, on its chart.
+fn mind(
+    i: usize,
+    robot: &RobotSpec,
+    setting: &Setting,
+    obstacles: &[ObstacleSpec],
+    found: &mut Vec<Found>,
+) {
+    let path = format!("robots[{i}]");
+    known(&format!("{path}.chart"), &robot.chart, obstacles, found);
+    if let Some(map) = &robot.map
+        && let Err(e) = map.build(&setting.area, Stream::new(0, "", ""))
+    {
+        found.push(robot_error(&path, "map", e));
+    }
+    if let Err(e) = robot.strategy.build(setting) {
+        found.push(robot_error(&path, "strategy", e));
+    }
+}
+
+/// Builds what can fail: hull, instruments.
 fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<Found>) {
     let path = format!("robots[{i}]");
     match Vehicle::load(&robot.vehicle, base_dir) {
@@ -233,9 +239,6 @@ fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut 
             }
         }
         Err(e) => found.push(robot_error(&path, "vehicle", e)),
-    }
-    if let Err(e) = robot.strategy.build() {
-        found.push(robot_error(&path, "strategy", e));
     }
 }
 
@@ -300,7 +303,7 @@ fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
 }
 
 /// Names that end up in keys and file names.
-fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
     for (i, id) in ids.iter().enumerate() {
         if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
             found.push(Found::error(format!("{list}[{i}].id"), problem));
@@ -308,7 +311,7 @@ fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
     }
 }
 
-fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
     for (i, id) in ids.iter().enumerate() {
         if let Some(twin) = ids[..i].iter().position(|other| other == id) {
             found.push(Found::error(

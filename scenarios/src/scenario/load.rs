@@ -63,8 +63,16 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     let name = path
         .file_stem()
         .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let mut base_dir = path.parent().unwrap_or(Path::new("")).to_path_buf();
     let text = match (read(path), catalog::template(&shown)) {
-        (Err(Unread::Missing), Some(template)) => template.text.to_string(),
+        (Err(Unread::Missing), Some(template)) => {
+            base_dir = template.unpack().map_err(|e| ScenarioError::File {
+                path: shown.clone(),
+                problem: format!("the files it names cannot be unpacked: {e}"),
+                help: Some("they go to the folder for temporary files".to_string()),
+            })?;
+            template.text.to_string()
+        }
         (Err(Unread::Missing), None) => {
             return Err(ScenarioError::File {
                 path: shown,
@@ -90,7 +98,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     Ok(Loaded {
         scenario: parse(&shown, &text)?,
         name,
-        base_dir: path.parent().unwrap_or(Path::new("")).to_path_buf(),
+        base_dir,
         path: path.to_path_buf(),
         hash: digest.hex(),
         text,

@@ -2,6 +2,7 @@
 
 mod catalog;
 mod check;
+mod check_obstacles;
 mod explain;
 mod fault;
 mod load;
@@ -16,6 +17,6 @@ pub use fault::{Fault, Found, ScenarioError};
 pub use load::{Loaded, load, parse};
 pub(crate) use outline::Outline;
 pub use schema::{
-    AreaSpec, DeclaredSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec,
-    SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
+    AreaSpec, DeclaredSpec, Id, LevelSpec, ReachedSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec,
+    StartSpec, SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
 };

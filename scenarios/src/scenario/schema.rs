@@ -7,12 +7,14 @@ use plumes::release::SourceSpec;
 use robots::actuate::AutopilotSpec;
 use robots::estimate::EstimatorSpec;
 use robots::guide::GuidanceSpec;
+use robots::handoff::Setting;
+use robots::map::MapSpec;
 use robots::sense::SensorsSpec;
 use robots::strategy::StrategySpec;
 use robots::vehicles::VehicleSpec;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
-use world::obstacles::ObstacleSpec;
+use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
@@ -41,6 +43,10 @@ pub struct Scenario {
     /// Solid things in the water; any number.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,
+    /// Ids of obstacles that water and dye pass through: a paper's block that its plume does not feel. Vehicles and
+    /// ranging meet them all the same.
+    #[serde(default)]
+    pub permeable: Vec<String>,
     /// Who searches; any number.
     #[serde(default)]
     pub robots: Vec<RobotSpec>,
@@ -215,8 +221,37 @@ pub struct RobotSpec {
     /// How those become rudder, stern plane and propeller.
     #[serde(default)]
     pub autopilot: AutopilotSpec,
+    /// Its map of where the source may be, if it keeps one.
+    #[serde(default)]
+    pub map: Option<MapSpec>,
+    /// Ids of the obstacles on its chart; what else stands in the water it must find by its ranging. The bed is charted.
+    #[serde(default)]
+    pub chart: Vec<String>,
     /// What it does.
     pub strategy: StrategySpec,
+}
+
+impl Scenario {
+    /// Those of the obstacles that water and dye do not pass through.
+    #[must_use]
+    pub fn solid(&self, obstacles: &Obstacles) -> Obstacles {
+        let solid = |o: &&Obstacle| !self.permeable.contains(&o.id);
+        Obstacles(obstacles.0.iter().filter(solid).cloned().collect())
+    }
+}
+
+impl RobotSpec {
+    /// What its mission is told beforehand.
+    #[must_use]
+    pub fn setting(&self, area: &Area, terrain: &Terrain, obstacles: &Obstacles) -> Setting {
+        let charted = |o: &&Obstacle| self.chart.contains(&o.id);
+        Setting {
+            area: *area,
+            bed: terrain.clone(),
+            chart: Obstacles(obstacles.0.iter().filter(charted).cloned().collect()),
+            maps: self.map.is_some(),
+        }
+    }
 }
 
 /// Where a robot starts; either its depth or its altitude is given.
@@ -303,6 +338,8 @@ fn spin_up_period() -> Positive {
 pub enum SuccessSpec {
     /// A robot declared a source, near enough to a real one.
     Declared(DeclaredSpec),
+    /// A robot came near enough to a real source, whatever it declared.
+    Reached(ReachedSpec),
     /// Every robot came to its planned end.
     #[default]
     Completed,
@@ -316,6 +353,14 @@ pub struct DeclaredSpec {
     pub within_m: Positive,
 }
 
+/// What counts as having come near enough.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReachedSpec {
+    /// Greatest horizontal distance between a robot and a true source, m.
+    pub within_m: Positive,
+}
+
 /// What is written down, and how often.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
@@ -326,6 +371,8 @@ pub struct RecordSpec {
     pub plume_period_s: Positive,
     /// Most filaments recorded or published at once.
     pub plume_points: u32,
+    /// Period of the recorded maps of where the source may be, s.
+    pub map_period_s: Positive,
 }
 
 impl Default for RecordSpec {
@@ -334,6 +381,7 @@ impl Default for RecordSpec {
             frame_period_s: Positive::new(0.1),
             plume_period_s: Positive::new(10.0),
             plume_points: 2000,
+            map_period_s: Positive::new(10.0),
         }
     }
 }

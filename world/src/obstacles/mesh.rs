@@ -14,6 +14,9 @@ use parry3d::shape::{TriMesh, TriMeshFlags};
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// No obstacle reaches farther from its own origin, m: a wrong unit, or a broken number.
+const FARTHEST_M: f64 = 1e5;
+
 /// Builds the surface, with vertices scaled to metres.
 pub(super) fn closed(
     triangles: &[Triangle],
@@ -25,6 +28,17 @@ pub(super) fn closed(
         place,
         problem,
     };
+    let far = |t: &Triangle| {
+        t.as_flattened()
+            .iter()
+            .any(|v| v.abs() * scale > FARTHEST_M)
+    };
+    if let Some(n) = triangles.iter().position(far) {
+        let problem = format!(
+            "a corner is farther than {FARTHEST_M} m from the origin: give scale, metres in one unit of the file"
+        );
+        return Err(fail(format!(": triangle {}", n + 1), problem));
+    }
     let mut index_of = BTreeMap::new();
     let mut vertices = Vec::new();
     let mut faces = Vec::new();

@@ -14,8 +14,16 @@ use std::path::Path;
 /// A triangle's corners, in units of the file.
 pub(super) type Triangle = [[f64; 3]; 3];
 
-/// Reads the triangles of a file; its ending says which format it has.
+/// Reads the triangles of an STL or OBJ file; its ending says which format it has.
+///
+/// # Errors
+/// If the file is missing, broken, empty, or larger than can be used.
 pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, WorldError> {
+    open(path, parse)
+}
+
+/// Reads a file and makes of it what its ending says.
+fn open<T>(path: &Path, parse: fn(&[u8], &str) -> Result<T, Wrong>) -> Result<T, WorldError> {
     let fail = |(place, problem)| WorldError::File {
         path: path.display().to_string(),
         place,
@@ -24,6 +32,32 @@ pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, WorldError> {
     let bytes = std::fs::read(path).map_err(|e| fail((String::new(), e.to_string())))?;
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     parse(&bytes, &ending.to_lowercase()).map_err(fail)
+}
+
+/// Reads the corners alone, for a hull that needs no faces: all vertices of an OBJ file, used or not; three of each triangle of an STL file.
+///
+/// # Errors
+/// If the file is missing, broken or empty.
+pub fn read_corners(path: &Path) -> Result<Vec<[f64; 3]>, WorldError> {
+    open(path, corners)
+}
+
+fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
+    if ending != "obj" {
+        return Ok(parse(bytes, ending)?.into_iter().flatten().collect());
+    }
+    let text = String::from_utf8_lossy(bytes);
+    let mut points = Vec::new();
+    for (n, line) in text.lines().enumerate() {
+        let mut words = line.split_whitespace();
+        if words.next() == Some("v") {
+            points.push(numbers(words, &format!(":{}", n + 1))?);
+        }
+    }
+    if points.is_empty() {
+        return Err((String::new(), "holds no vertex".into()));
+    }
+    Ok(points)
 }
 
 fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
@@ -39,12 +73,21 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
     if triangles.is_empty() {
         return Err((String::new(), "holds no triangle".into()));
     }
+    if triangles.len() > MOST {
+        let problem = format!(
+            "{} triangles are more than {MOST}: simplify the surface",
+            triangles.len()
+        );
+        return Err((String::new(), problem));
+    }
     Ok(triangles)
 }
 
 /// What went wrong, with the place.
-type Wrong = (String, String);
+pub(super) type Wrong = (String, String);
 
+/// Most triangles of a surface: half a gigabyte with what is built of them.
+const MOST: usize = 2_000_000;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
@@ -225,6 +268,19 @@ endfacet
     }
 
     #[test]
+    fn corners_need_no_faces() {
+        let o = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        assert_eq!(corners(o.as_bytes(), "obj").unwrap().len(), 3);
+        let ascii = format!("{FACET}endsolid t\n");
+        assert_eq!(
+            corners(ascii.as_bytes(), "stl").unwrap()[2],
+            [0.0, 1.0, 0.5]
+        );
+        let says = corners(b"", "obj").expect_err("an empty file").1;
+        assert_eq!(says, "holds no vertex");
+    }
+
+    #[test]
     fn broken_files_say_where() {
         let at = |text: &str, ending| wrong(text.as_bytes(), ending);
         assert_eq!(
@@ -252,6 +308,19 @@ endfacet
         assert_eq!(
             at("", "ply"),
             ": mesh files end in .stl or .obj, not \".ply\""
+        );
+    }
+
+    #[test]
+    fn too_many_triangles_are_refused() {
+        let faces = "f 1 2 3\n".repeat(MOST + 1);
+        let got = wrong(
+            format!("v 0 0 0\nv 1 0 0\nv 0 1 0\n{faces}").as_bytes(),
+            "obj",
+        );
+        assert_eq!(
+            got,
+            ": 2000001 triangles are more than 2000000: simplify the surface"
         );
     }
 

@@ -1,13 +1,21 @@
-//! Solid things standing in the water: boxes, cylinders and closed meshes.
+//! Solid things standing in the water: boxes, cylinders, height fields and closed meshes.
 
+mod heightfield_file;
 mod mesh;
 mod mesh_file;
 mod outline;
+mod placing;
 mod solid;
 mod spec;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod tests_placing;
 mod way_out;
 
+pub use mesh_file::read_corners;
+pub use placing::Remark;
 pub use solid::{Obstacle, Obstacles};
-pub use spec::{Base, BoxShape, CylinderShape, MeshShape, ObstacleSpec, ShapeSpec};
+pub use spec::{
+    Base, BoxShape, CylinderShape, HeightfieldShape, MeshShape, ObstacleSpec, ShapeSpec,
+};

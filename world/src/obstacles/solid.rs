@@ -6,15 +6,15 @@
 //!
 //! *Deviations:* parry's cylinder stands along its own y axis, so the pose of a cylinder turns y up.
 
-use super::{Base, ObstacleSpec, ShapeSpec, mesh, mesh_file};
+use super::{Base, ObstacleSpec, ShapeSpec, heightfield_file, mesh, mesh_file};
 use crate::error::WorldError;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
 use bevy_ecs::prelude::Resource;
 use nalgebra::{UnitQuaternion, Vector3};
 use parry3d::math::{Pose as ParryPose, Rotation, Vector};
-use parry3d::query::Ray;
-use parry3d::shape::SharedShape;
+use parry3d::query::{Ray, intersection_test};
+use parry3d::shape::{Cuboid, SharedShape};
 use std::f64::consts::FRAC_PI_2;
 use std::path::Path;
 
@@ -49,6 +49,7 @@ impl Obstacle {
         base_dir: &Path,
     ) -> Result<Self, WorldError> {
         let yaw = UnitQuaternion::from_euler_angles(0.0, 0.0, spec.heading_deg.heading().yaw());
+        let mut foot_m = 0.0;
         let (shape, R_WB) = match &spec.shape {
             ShapeSpec::Box(b) => {
                 let (x, y, z) = b.size_m;
@@ -67,6 +68,16 @@ impl Obstacle {
                 let triangles = mesh_file::read(&path)?;
                 (
                     SharedShape::new(mesh::closed(&triangles, m.scale.get(), &path)?),
+                    yaw,
+                )
+            }
+            ShapeSpec::Heightfield(h) => {
+                let path = base_dir.join(&h.file);
+                let triangles = heightfield_file::read(&path)?.triangles();
+                // Its rim is no part of what stands on the bed.
+                foot_m = heightfield_file::SKIRT_M * h.scale.get();
+                (
+                    SharedShape::new(mesh::closed(&triangles, h.scale.get(), &path)?),
                     yaw,
                 )
             }
@@ -95,7 +106,7 @@ impl Obstacle {
             Base::Depth(d) => -d.get(),
             Base::Z(z) => z.get(),
         };
-        built.pose.p_WB.z = base_z - min.z;
+        built.pose.p_WB.z = base_z - min.z - foot_m;
         Ok(built)
     }
 
@@ -132,14 +143,29 @@ impl Obstacle {
         self.shape.cast_ray(&self.parry_pose(), &ray, max_m, true)
     }
 
+    /// Whether a block of half extents `half_m` shares more than nothing with the obstacle's surface, or with its inside
+    /// where the shape is a solid one.
+    #[must_use]
+    pub fn meets_box(&self, pose_WB: &Pose, half_m: [f64; 3]) -> bool {
+        let block = Cuboid::new(Vector::new(half_m[0], half_m[1], half_m[2]));
+        let at = to_parry_pose(pose_WB);
+        intersection_test(&self.parry_pose(), &*self.shape, &at, &block)
+            .expect("parry can intersect a block with any shape that an obstacle has")
+            .intersecting
+    }
+
     /// The pose in parry's types, as rapier wants it too.
     pub(crate) fn parry_pose(&self) -> ParryPose {
-        let q = self.pose.R_WB.coords;
-        ParryPose::from_parts(
-            to_parry(&self.pose.p_WB),
-            Rotation::from_xyzw(q.x, q.y, q.z, q.w),
-        )
+        to_parry_pose(&self.pose)
     }
+}
+
+fn to_parry_pose(pose: &Pose) -> ParryPose {
+    let q = pose.R_WB.coords;
+    ParryPose::from_parts(
+        to_parry(&pose.p_WB),
+        Rotation::from_xyzw(q.x, q.y, q.z, q.w),
+    )
 }
 
 fn to_parry(v: &Vector3<f64>) -> Vector {

@@ -3,7 +3,7 @@
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use serde::{Deserialize, Serialize};
 
-/// One obstacle of a scenario.
+/// One obstacle of a scenario. Obstacles may overlap: they are one solid then.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleSpec {
@@ -36,6 +36,8 @@ pub enum ShapeSpec {
     Cylinder(CylinderShape),
     /// A closed surface from a file.
     Mesh(MeshShape),
+    /// Heights on a grid from a file: a reef, a mound, a dredged slope.
+    Heightfield(HeightfieldShape),
 }
 
 /// A block, centred on its place.
@@ -63,6 +65,18 @@ pub struct MeshShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file.
+    #[serde(default = "one")]
+    pub scale: Positive,
+}
+
+/// Heights on a regular grid from an Esri ASCII grid file (.asc); its middle comes to stand at the obstacle's place, its lowest
+/// height at the obstacle's base, and below it is solid for another metre (times the scale).
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeightfieldShape {
+    /// Path, relative to the scenario file.
+    pub file: String,
+    /// Metres in one unit of the file, of `cellsize` and heights alike.
     #[serde(default = "one")]
     pub scale: Positive,
 }

@@ -18,6 +18,7 @@ use crate::handoff::{
     Outcome, PlumeMemory, Side, Stride, Vertical, detects,
 };
 use nalgebra::Vector2;
+use std::sync::Arc;
 use world::seeds::Stream;
 
 /// The behaviours it is composed of.
@@ -40,7 +41,7 @@ impl Behaviours {
             Behaviour::TrackOut => Some(self.track_out.as_mut()),
             Behaviour::Reacquire => Some(self.reacquire.as_mut()),
             Behaviour::GoHome => Some(&mut self.go_home),
-            Behaviour::Idle | Behaviour::OpenLoop | Behaviour::Done => None,
+            Behaviour::Idle | Behaviour::OpenLoop | Behaviour::FollowPath | Behaviour::Done => None,
         }
     }
 }
@@ -249,6 +250,7 @@ impl Strategy for Amp {
             goal: self.goal,
             declared,
             lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
+            planned: Arc::default(),
             outcome: self.outcome,
         }
     }

@@ -2,8 +2,10 @@
 //! rasterised with a font the program carries, so both show the same on a machine without fonts.
 
 mod approach;
+mod belief;
 pub(crate) mod canvas;
 mod contours;
+mod convergence;
 mod flume;
 mod map;
 mod map_layers;
@@ -18,7 +20,9 @@ mod series;
 mod series_panels;
 
 pub(super) use approach::approach;
+pub(super) use belief::belief;
 pub(crate) use canvas::escaped;
+pub(super) use convergence::convergence;
 pub(super) use flume::flume;
 pub(super) use map::map;
 pub(super) use probe_records::probe_records;

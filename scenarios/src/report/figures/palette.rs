@@ -31,6 +31,7 @@ pub(super) fn behaviour(b: Behaviour) -> &'static str {
         Behaviour::Reacquire => "#cc79a7",
         Behaviour::GoHome => "#000000",
         Behaviour::Done => "#888888",
+        Behaviour::FollowPath => "#009e73",
     }
 }
 
@@ -46,6 +47,7 @@ pub(super) fn words(b: Behaviour) -> &'static str {
         Behaviour::Reacquire => "Reacquire",
         Behaviour::GoHome => "Go-Home",
         Behaviour::Done => "Done",
+        Behaviour::FollowPath => "Follow path",
     }
 }
 
@@ -92,5 +94,14 @@ pub(super) fn plume(share: f64) -> String {
         mix([0xd3, 0xe8, 0xa8], [0x5a, 0xae, 0x61], 2.0 * share)
     } else {
         mix([0x5a, 0xae, 0x61], [0x00, 0x44, 0x1b], 2.0 * share - 1.0)
+    }
+}
+
+/// Chance that the source is there, from small (0) to the largest (1).
+pub(super) fn likelihood(share: f64) -> String {
+    if share < 0.5 {
+        mix([0xff, 0xf7, 0xec], [0xfc, 0x8d, 0x59], 2.0 * share)
+    } else {
+        mix([0xfc, 0x8d, 0x59], [0x7f, 0x00, 0x00], 2.0 * share - 1.0)
     }
 }

@@ -1,0 +1,16 @@
+//! Water that goes round obstacles: the currents made free of divergence and tangent to bed, surface and solids.
+
+mod blocked;
+mod cells;
+mod field;
+mod multigrid;
+mod solve;
+mod spec;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_flow;
+
+pub use blocked::Blocked;
+pub use solve::Solved;
+pub use spec::BlockageSpec;

@@ -1,0 +1,257 @@
+//! The correction that makes given fluxes free of divergence at the least change: a Poisson equation in the open cells.
+//!
+//! *Source*: Sherman 1978, J. Appl. Meteorol. 17, 312 (MATHEW: mass-consistent wind by variation, equations 3 to 8);
+//! Chorin 1968, Math. Comp. 22, 745 (projection); conjugate gradients with multigrid inside: Tatebe 1993, NASA CP-3224, 621.
+//!
+//! *Parameters*: none; solved until no cell's divergence exceeds [`TOLERANCE`] of U/cell, U the fastest incoming current.
+//!
+//! *Deviations*: all of Sherman's moduli are alike, weighted by the volume between two cells' middles, so that over a
+//! level bed the correction is a potential flow. Over a sloping one the terms that cross between the bed-following axes are
+//! left out (order of the slope squared): the result is still exactly free of divergence and tangent. Water comes and goes through the sides at
+//! fixed potential; solids, bed and surface let nothing through: a block across a channel slows the channel. Measured, one core: 983 000 cells in
+//! 13 steps and 2 s; a cylinder of 4 cells a radius is off potential theory by 3.9 % of U rms between 1.3 and 4 radii, one of
+//! 8 cells by 2.2 %; within a cell of a round wall the staircase shows.
+
+use super::cells::{Cells, Faces};
+use super::multigrid::{Level, Multigrid};
+use crate::flow::ground::Ground;
+
+/// Divergence left in any cell, as a part of fastest current by horizontal cell size.
+const TOLERANCE: f64 = 1e-7;
+/// Conjugate-gradient steps after which something is wrong; 10 to 30 are usual.
+const MOST_STEPS: usize = 300;
+
+/// How a solution went.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Solved {
+    /// Open cells.
+    pub open_cells: usize,
+    /// All cells.
+    pub cells: usize,
+    /// Steps of the conjugate gradients.
+    pub steps: usize,
+    /// Greatest divergence left, as a part of fastest current by cell size.
+    pub divergence: f64,
+}
+
+/// The operator for one set of cells.
+#[derive(Clone, Debug)]
+pub(super) struct Projector {
+    grid: Multigrid,
+    // Conductance of each face, m; 0 where nothing passes.
+    through: Faces<f64>,
+    // Depth at the middle of each column, m.
+    depth: Vec<f64>,
+}
+
+impl Projector {
+    pub(super) fn new(cells: &Cells, ground: &Ground) -> Self {
+        let n = cells.n;
+        let depth_at = |a: f64, b: f64| -ground.floor(cells.place(a, b)).z;
+        let mut depth = Vec::with_capacity(n[0] * n[1]);
+        for i in 0..n[0] {
+            for j in 0..n[1] {
+                depth.push(depth_at(i as f64 + 0.5, j as f64 + 0.5));
+            }
+        }
+        let empty = || vec![0.0; cells.open.len()];
+        let mut next = [empty(), empty(), empty()];
+        let mut edge = empty();
+        let mut conductances = |d: usize| {
+            let mut all = Vec::new();
+            cells.each_face(d, |f| {
+                let [i, j, k] = f;
+                if !cells.passes(d, f) {
+                    all.push(0.0);
+                    return;
+                }
+                let sides = cells.beside(d, f);
+                let ds = |k: usize| cells.s[k + 1] - cells.s[k];
+                let c = match d {
+                    0 => depth_at(i as f64, j as f64 + 0.5) * cells.d[1] * ds(k) / cells.d[0],
+                    1 => depth_at(i as f64 + 0.5, j as f64) * cells.d[0] * ds(k) / cells.d[1],
+                    _ => {
+                        let way = depth[i * n[1] + j] * (cells.middle(k) - cells.middle(k - 1));
+                        cells.d[0] * cells.d[1] / way
+                    }
+                };
+                match sides {
+                    [Some(below), Some(_)] => {
+                        next[d][below] = c;
+                        all.push(c);
+                    }
+                    // From a cell's middle to the side it is half as far.
+                    [one, other] => {
+                        edge[one.or(other).expect("a face has a cell")] += 2.0 * c;
+                        all.push(2.0 * c);
+                    }
+                }
+            });
+            all
+        };
+        let through = Faces {
+            x: conductances(0),
+            y: conductances(1),
+            s: conductances(2),
+        };
+        Self {
+            grid: Multigrid::new(Level::new(n, next, edge)),
+            through,
+            depth,
+        }
+    }
+
+    /// Turns fluxes (m³/s) that may pass anywhere into such as pass nothing solid and are free of divergence, at the least
+    /// change. `phi` is the guess to start from, and the solution after.
+    ///
+    /// # Panics
+    /// If the fluxes are no numbers or the equation cannot be solved.
+    pub(super) fn project(
+        &self,
+        cells: &Cells,
+        flux: &mut Faces<f64>,
+        phi: &mut Vec<f64>,
+    ) -> Solved {
+        for (flux, through) in [
+            (&mut flux.x, &self.through.x),
+            (&mut flux.y, &self.through.y),
+            (&mut flux.s, &self.through.s),
+        ] {
+            for (f, t) in flux.iter_mut().zip(through) {
+                if *t == 0.0 {
+                    *f = 0.0;
+                }
+            }
+        }
+        let fastest = self.fastest(cells, flux);
+        assert!(
+            fastest.is_finite(),
+            "the currents to be led round obstacles are not finite: check water.currents"
+        );
+        let level = self.grid.finest();
+        let b: Vec<f64> = self.outflow(cells, flux).iter().map(|d| -d).collect();
+        phi.resize(b.len(), 0.0);
+        let limit = self.limits(cells, fastest);
+        let mut r = vec![0.0; b.len()];
+        level.apply(phi, &mut r);
+        for (r, b) in r.iter_mut().zip(&b) {
+            *r = b - *r;
+        }
+        let worst = |r: &[f64]| {
+            let parts = r.iter().zip(&limit).map(|(r, l)| r.abs() * l);
+            parts.fold(0.0, f64::max)
+        };
+        let dot = |a: &[f64], b: &[f64]| -> f64 { a.iter().zip(b).map(|(a, b)| a * b).sum() };
+        let mut scratch = self.grid.scratch();
+        let mut z = vec![0.0; b.len()];
+        let mut p = vec![0.0; b.len()];
+        let mut q = vec![0.0; b.len()];
+        let (mut steps, mut old, mut left) = (0, 1.0, worst(&r));
+        while left > TOLERANCE {
+            assert!(
+                steps < MOST_STEPS,
+                "water round obstacles: divergence {left:e} left after {steps} steps; make water.blockage cells less flat"
+            );
+            self.grid.cycle(&r, &mut z, &mut scratch);
+            let rz = dot(&r, &z);
+            let beta = if steps == 0 { 0.0 } else { rz / old };
+            old = rz;
+            for (p, z) in p.iter_mut().zip(&z) {
+                *p = z + beta * *p;
+            }
+            level.apply(&p, &mut q);
+            let alpha = rz / dot(&p, &q);
+            for n in 0..r.len() {
+                phi[n] += alpha * p[n];
+                r[n] -= alpha * q[n];
+            }
+            left = worst(&r);
+            steps += 1;
+        }
+        self.correct(cells, flux, phi);
+        Solved {
+            open_cells: cells.open_count(),
+            cells: cells.open.len(),
+            steps,
+            divergence: left,
+        }
+    }
+
+    /// Fastest current through any face, m/s.
+    fn fastest(&self, cells: &Cells, flux: &Faces<f64>) -> f64 {
+        let mut fastest = 0.0_f64;
+        for (flux, through, d) in [(&flux.x, &self.through.x, 0), (&flux.y, &self.through.y, 1)] {
+            for (f, t) in flux.iter().zip(through).filter(|(_, t)| **t != 0.0) {
+                // Area = conductance · distance.
+                let speed = f.abs() / (t * cells.d[d]);
+                // Not `max`, which would pass over what is not a number.
+                fastest = if speed <= fastest { fastest } else { speed };
+            }
+        }
+        fastest
+    }
+
+    /// For each cell what turns an outflow (m³/s) into divergence · cell / fastest.
+    fn limits(&self, cells: &Cells, fastest: f64) -> Vec<f64> {
+        let nz = cells.n[2];
+        let size = cells.d[0].min(cells.d[1]);
+        let per = if fastest > 0.0 { size / fastest } else { 0.0 };
+        (0..cells.open.len())
+            .map(|c| {
+                let ds = cells.s[c % nz + 1] - cells.s[c % nz];
+                per / (cells.d[0] * cells.d[1] * self.depth[c / nz] * ds)
+            })
+            .collect()
+    }
+
+    /// What leaves each cell, m³/s.
+    pub(super) fn outflow(&self, cells: &Cells, flux: &Faces<f64>) -> Vec<f64> {
+        let mut out = vec![0.0; cells.open.len()];
+        for (d, flux) in [&flux.x, &flux.y, &flux.s].into_iter().enumerate() {
+            cells.each_face(d, |f| {
+                let through = flux[cells.face(d, f)];
+                let [below, above] = cells.beside(d, f);
+                if let Some(c) = below {
+                    out[c] += through;
+                }
+                if let Some(c) = above {
+                    out[c] -= through;
+                }
+            });
+        }
+        out
+    }
+
+    fn correct(&self, cells: &Cells, flux: &mut Faces<f64>, phi: &[f64]) {
+        let sets = [
+            (&mut flux.x, &self.through.x),
+            (&mut flux.y, &self.through.y),
+            (&mut flux.s, &self.through.s),
+        ];
+        for (d, (flux, through)) in sets.into_iter().enumerate() {
+            cells.each_face(d, |f| {
+                let at = cells.face(d, f);
+                let [below, above] = cells.beside(d, f).map(|c| c.map_or(0.0, |c| phi[c]));
+                flux[at] += through[at] * (below - above);
+            });
+        }
+    }
+
+    /// Depth-integrated velocities from fluxes: along and across m²/s, upwards through the surfaces of equal s m/s.
+    pub(super) fn velocities(cells: &Cells, flux: &Faces<f64>) -> Faces<f32> {
+        let nz = cells.n[2];
+        let side = |flux: &[f64], width: f64| -> Vec<f32> {
+            let per = |(n, f): (usize, &f64)| {
+                let k = n % nz;
+                (f / (width * (cells.s[k + 1] - cells.s[k]))) as f32
+            };
+            flux.iter().enumerate().map(per).collect()
+        };
+        let top = cells.d[0] * cells.d[1];
+        Faces {
+            x: side(&flux.x, cells.d[1]),
+            y: side(&flux.y, cells.d[0]),
+            s: flux.s.iter().map(|f| (f / top) as f32).collect(),
+        }
+    }
+}

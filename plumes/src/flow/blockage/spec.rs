@@ -1,0 +1,109 @@
+//! Blockage as a scenario asks for it.
+
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::obstacles::Obstacles;
+use world::ranges::{Fraction, NonNegative, Positive};
+use world::terrain::Terrain;
+
+use super::cells::Cells;
+use crate::error::PlumeError;
+use crate::flow::grid::GridShape;
+use crate::flow::ground::Ground;
+
+/// Obstacles and bed turn the water aside; without this block currents pass through obstacles as if they were not there.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct BlockageSpec {
+    /// Horizontal size of a cell, m: a few to the narrowest obstacle or gap; made to fit, never larger.
+    pub cell_m: Positive,
+    /// Surfaces from bed to surface between which the cells lie.
+    pub levels: u32,
+    /// 0 spaces them evenly; 0.9 puts ten times as many near the bed.
+    pub stretch: Fraction,
+    /// How far the cells reach beyond the area, m: past it the water is as it would be without obstacles.
+    pub margin_m: NonNegative,
+    /// The currents are worked out again at multiples of this, s, and go straight from one to the next in between: short against meander and
+    /// waves. Steady currents are worked out once.
+    pub period_s: Positive,
+}
+
+impl Default for BlockageSpec {
+    fn default() -> Self {
+        Self {
+            cell_m: Positive::new(2.5),
+            levels: 21,
+            stretch: Fraction::new(0.5),
+            margin_m: NonNegative::new(50.0),
+            period_s: Positive::new(30.0),
+        }
+    }
+}
+
+/// Shortest period, s: questions may come a second after the latest advance, and must find a field on both sides.
+const SHORTEST_S: f64 = 2.0;
+/// Most cells: about 200 bytes each while they are solved.
+pub(super) const MOST_CELLS: f64 = 4e6;
+/// Legal counts of levels.
+const LEVELS: (u32, u32) = (2, 201);
+
+impl BlockageSpec {
+    /// The grid for the plume's flow whose nodes are the corners of these cells.
+    #[must_use]
+    pub fn grid_shape(&self) -> GridShape {
+        GridShape {
+            cell_m: self.cell_m.get(),
+            levels: self.levels as usize,
+            stretch: self.stretch.get(),
+            margin_m: self.margin_m.get(),
+        }
+    }
+
+    /// Whether the cells can be made, without solving anything; the numbers of the obstacles that hold no cell's middle, so that
+    /// the water goes through them.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn unfelt(
+        &self,
+        area: &Area,
+        terrain: &Terrain,
+        obstacles: &Obstacles,
+    ) -> Result<Vec<usize>, PlumeError> {
+        let cells = Cells::new(self, area, &Ground::new(terrain), obstacles)?;
+        let felt = cells.felt.iter().enumerate();
+        Ok(felt.filter(|(_, f)| !**f).map(|(n, _)| n).collect())
+    }
+
+    pub(super) fn check(&self) -> Result<(), PlumeError> {
+        let wrong = |field: &str, problem: String| PlumeError::Invalid {
+            field: format!("water.blockage.{field}"),
+            problem,
+        };
+        if !(LEVELS.0..=LEVELS.1).contains(&self.levels) {
+            return Err(wrong(
+                "levels",
+                format!(
+                    "must be from {} to {}, got {}",
+                    LEVELS.0, LEVELS.1, self.levels
+                ),
+            ));
+        }
+        if self.stretch.get() >= 0.99 {
+            return Err(wrong(
+                "stretch",
+                format!("must be from 0 to 0.99, got {}", self.stretch.get()),
+            ));
+        }
+        if self.period_s.get() < SHORTEST_S {
+            return Err(wrong(
+                "period_s",
+                format!(
+                    "must be at least {SHORTEST_S} s, got {}",
+                    self.period_s.get()
+                ),
+            ));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,105 @@
+//! What the whole water answers: the trait [`Flow`].
+
+use super::{Column, Water};
+use nalgebra::{Matrix3, Vector2, Vector3};
+use world::fields::{Flow, Mixing, SideWalls, WaterSample};
+
+impl Flow for Water {
+    fn advance(&mut self, t_s: f64) {
+        for m in &mut self.meanders {
+            m.advance(t_s);
+        }
+        if let Some(blocked) = &mut self.blocked {
+            blocked.advance(t_s);
+        }
+    }
+
+    fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        let turned = (self.blocked.as_ref())
+            .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
+        let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
+        if self.flume.is_none() {
+            return mean;
+        }
+        mean + self.eddying(p, t_s)
+    }
+
+    fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
+        if let Some(eddies) = self.eddies() {
+            eddies.carry(t_s, dt_s, places);
+        }
+    }
+
+    fn walls(&self) -> Option<SideWalls> {
+        self.flume.as_ref().map(|f| f.walls)
+    }
+
+    fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        match &self.layered {
+            Some(_) => self.column(p.xy(), t_s).density(p.z),
+            None => self.density,
+        }
+    }
+
+    fn mixing(&self, p: &Vector3<f64>, t_s: f64) -> Mixing {
+        let column = self.column(p.xy(), t_s);
+        column.mixing(p.z, column.friction_velocity())
+    }
+
+    fn column(
+        &self,
+        place: Vector2<f64>,
+        heights_m: &[f64],
+        t_s: f64,
+        out: &mut [(Vector3<f64>, Mixing)],
+    ) {
+        let column = Water::column(self, place, t_s);
+        let u_star = column.friction_velocity();
+        for (z, node) in heights_m.iter().zip(out) {
+            *node = column.both(*z, u_star);
+            if let Some(blocked) = &self.blocked {
+                let still = self.bed.is_some();
+                if let Some(v) = blocked.at_node(place, *z, &column.floor, t_s, still) {
+                    node.0 = v;
+                }
+            }
+        }
+    }
+
+    fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
+        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
+        const H: f64 = 1e-3;
+        if let Some(blocked) = &self.blocked
+            && let Some((velocity, gradient, rate)) =
+                blocked.sample(p, &self.ground.floor(p.xy()), t_s)
+        {
+            return WaterSample {
+                velocity,
+                gradient,
+                rate,
+                density_kg_m3: self.density(p, t_s),
+            };
+        }
+        let column =
+            |dx: f64, dy: f64, dt: f64| self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt);
+        let here = column(0.0, 0.0, 0.0);
+        let twice = 1.0 / (2.0 * H);
+        let across = |a: Column<'_>, b: Column<'_>| (a.velocity(p.z) - b.velocity(p.z)) * twice;
+        let back = H.min(t_s);
+        let mut sample = WaterSample {
+            velocity: here.velocity(p.z),
+            gradient: Matrix3::from_columns(&[
+                across(column(H, 0.0, 0.0), column(-H, 0.0, 0.0)),
+                across(column(0.0, H, 0.0), column(0.0, -H, 0.0)),
+                (here.velocity(p.z + H) - here.velocity(p.z - H)) * twice,
+            ]),
+            rate: (column(0.0, 0.0, H).velocity(p.z) - column(0.0, 0.0, -back).velocity(p.z))
+                / (H + back),
+            density_kg_m3: here.density(p.z),
+        };
+        if let Some(eddies) = self.eddies() {
+            eddies.add_to(&mut sample, p, t_s);
+        }
+        sample
+    }
+}

@@ -1,0 +1,79 @@
+//! Declares when the source is believed to lie within a small enough area.
+//!
+//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section 2.8.
+//!
+//! *Parameters*: greatest size of the smallest set of cells with 95 % of the probability, `below`: m² in a map of the
+//! plane, m³ in a map of space, 50 (five of the cells of Wang & Pang); it must have been so for `for_s`, s, 5.
+//!
+//! *Deviations*: none of our own making; none of the papers has this rule.
+
+use crate::handoff::Belief;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// The rule's parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// Greatest size of the 95 % region, m² (m³ in a map of space).
+    pub below: Positive,
+    /// For this long, s.
+    pub for_s: NonNegative,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            below: Positive::new(50.0),
+            for_s: NonNegative::new(5.0),
+        }
+    }
+}
+
+/// State of the rule.
+#[derive(Clone, Debug)]
+pub struct CredibleArea {
+    params: Params,
+    since_s: Option<f64>,
+}
+
+impl CredibleArea {
+    /// Nothing seen yet.
+    #[must_use]
+    pub fn new(params: &Params) -> Self {
+        Self {
+            params: params.clone(),
+            since_s: None,
+        }
+    }
+
+    /// The source's place (ENU, m), if the map says so at `t_s`: the mean over the cells nearest the likeliest one would
+    /// mix separate hills, so it is the likeliest cell itself.
+    pub fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
+        if !belief.informed || belief.credible_95 > self.params.below.get() {
+            self.since_s = None;
+            return None;
+        }
+        let since_s = *self.since_s.get_or_insert(t_s);
+        (t_s - since_s >= self.params.for_s.get()).then(|| belief.grid.centre(belief.best))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::testing::belief;
+
+    #[test]
+    fn small_for_long_enough() {
+        let mut rule = CredibleArea::new(&Params::default());
+        assert_eq!(rule.step(0.0, &belief(4, false, 10.0)), None);
+        assert_eq!(rule.step(1.0, &belief(4, true, 50.1)), None);
+        assert_eq!(rule.step(2.0, &belief(4, true, 50.0)), None);
+        assert_eq!(rule.step(6.0, &belief(4, true, 60.0)), None);
+        assert_eq!(rule.step(7.0, &belief(5, true, 40.0)), None);
+        let b = belief(3, true, 30.0);
+        assert_eq!(rule.step(12.0, &b), Some(b.grid.centre(3)));
+    }
+}

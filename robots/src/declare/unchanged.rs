@@ -1,0 +1,83 @@
+//! Declares when the likeliest cell of the map has stayed the same for a while.
+//!
+//! *Source*: Wang & Pang, section II-D: "the estimated source location ... does not change over 30 seconds".
+//!
+//! *Parameters*: `for_s`, s, 30.
+//!
+//! *Deviations*: time counts from the first detection on: before it the map says nothing, and does not change either.
+
+use crate::handoff::Belief;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::ranges::Positive;
+
+/// The rule's parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// The likeliest cell must have stayed the same for this long, s.
+    pub for_s: Positive,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            for_s: Positive::new(30.0),
+        }
+    }
+}
+
+/// State of the rule.
+#[derive(Clone, Debug)]
+pub struct Unchanged {
+    for_s: f64,
+    since: Option<(usize, f64)>,
+}
+
+impl Unchanged {
+    /// Nothing seen yet.
+    #[must_use]
+    pub fn new(params: &Params) -> Self {
+        Self {
+            for_s: params.for_s.get(),
+            since: None,
+        }
+    }
+
+    /// The source's place (ENU, m), if the map says so at `t_s`.
+    pub fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
+        if !belief.informed {
+            self.since = None;
+            return None;
+        }
+        match self.since {
+            Some((cell, since_s)) if cell == belief.best => {
+                (t_s - since_s >= self.for_s).then(|| belief.grid.centre(cell))
+            }
+            _ => {
+                self.since = Some((belief.best, t_s));
+                None
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::testing::belief;
+
+    #[test]
+    fn thirty_seconds_of_the_same_cell() {
+        let mut rule = Unchanged::new(&Params::default());
+        assert_eq!(rule.step(0.0, &belief(4, false, 10.0)), None);
+        assert_eq!(rule.step(100.0, &belief(4, true, 10.0)), None);
+        assert_eq!(rule.step(129.9, &belief(4, true, 10.0)), None);
+        // Another cell for a moment begins the count anew.
+        assert_eq!(rule.step(129.95, &belief(3, true, 10.0)), None);
+        assert_eq!(rule.step(130.0, &belief(4, true, 10.0)), None);
+        assert_eq!(rule.step(159.9, &belief(4, true, 10.0)), None);
+        let b = belief(4, true, 10.0);
+        assert_eq!(rule.step(160.0, &b), Some(b.grid.centre(4)));
+    }
+}

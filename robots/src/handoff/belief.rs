@@ -1,0 +1,136 @@
+//! Where the source may be, as a robot believes: a grid of probabilities, with the numbers a planner asks for.
+
+use bevy_ecs::prelude::Component;
+use nalgebra::Vector3;
+use std::sync::Arc;
+use world::area::Area;
+
+/// A regular grid of cells, axes along the operating area's own (see [`BeliefGrid::centre`]).
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeliefGrid {
+    /// Corner of the cell (0, 0, 0), world ENU, m.
+    pub corner: Vector3<f64>,
+    /// World direction of the grid's first and second axis (unit, horizontal, perpendicular).
+    pub axes: [nalgebra::Vector2<f64>; 2],
+    /// Size of a cell along the first, second and vertical axis, m.
+    pub cell_m: [f64; 3],
+    /// Cells along the first, second and vertical axis; 1 in the third for a map of the plane.
+    pub n: [usize; 3],
+}
+
+impl BeliefGrid {
+    /// `n` cells over an operating area, between two depths (m): first axis along the area's own, second to
+    /// the left of it, third upwards. With the axis towards the east they are east, north and up.
+    #[must_use]
+    pub fn over(area: &Area, top_depth_m: f64, bottom_depth_m: f64, n: [usize; 3]) -> Self {
+        let along = area.axis.unit();
+        let left = nalgebra::Vector2::new(-along.y, along.x);
+        let corner = area.centre - along * (area.length_m / 2.0) - left * (area.width_m / 2.0);
+        let high = bottom_depth_m - top_depth_m;
+        Self {
+            corner: Vector3::new(corner.x, corner.y, -bottom_depth_m),
+            axes: [along, left],
+            cell_m: [
+                area.length_m / n[0] as f64,
+                area.width_m / n[1] as f64,
+                high / n[2] as f64,
+            ],
+            n,
+        }
+    }
+
+    /// How many cells.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.n[0] * self.n[1] * self.n[2]
+    }
+
+    /// No cell at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Index of a cell: first axis fastest.
+    #[must_use]
+    pub fn index(&self, [i, j, k]: [usize; 3]) -> usize {
+        (k * self.n[1] + j) * self.n[0] + i
+    }
+
+    /// Place of a cell in the grid.
+    #[must_use]
+    pub fn place(&self, index: usize) -> [usize; 3] {
+        let (row, i) = (index / self.n[0], index % self.n[0]);
+        [i, row % self.n[1], row / self.n[1]]
+    }
+
+    /// Middle of a cell, world ENU, m.
+    #[must_use]
+    pub fn centre(&self, index: usize) -> Vector3<f64> {
+        self.world(self.local_centre(index))
+    }
+
+    /// A point (world ENU, m) in the grid's own axes, m from its corner.
+    #[must_use]
+    pub fn local(&self, p_W: &Vector3<f64>) -> [f64; 3] {
+        let d = p_W.xy() - self.corner.xy();
+        [
+            d.dot(&self.axes[0]),
+            d.dot(&self.axes[1]),
+            p_W.z - self.corner.z,
+        ]
+    }
+
+    /// A point in the grid's own axes (m from its corner) in the world (ENU, m).
+    #[must_use]
+    pub fn world(&self, local: [f64; 3]) -> Vector3<f64> {
+        let xy = self.corner.xy() + self.axes[0] * local[0] + self.axes[1] * local[1];
+        Vector3::new(xy.x, xy.y, self.corner.z + local[2])
+    }
+
+    /// Middle of a cell in the grid's own axes, m from its corner.
+    #[must_use]
+    pub fn local_centre(&self, index: usize) -> [f64; 3] {
+        let place = self.place(index);
+        [0, 1, 2].map(|a| (place[a] as f64 + 0.5) * self.cell_m[a])
+    }
+
+    /// The cell that holds a point (world ENU, m), if any; in a map of the plane the height does not matter.
+    #[must_use]
+    pub fn cell(&self, p_W: &Vector3<f64>) -> Option<usize> {
+        let local = self.local(p_W);
+        let mut cell = [0; 3];
+        for axis in 0..3 {
+            if axis == 2 && self.n[2] == 1 {
+                continue;
+            }
+            let q = (local[axis] / self.cell_m[axis]).floor();
+            if !(q >= 0.0 && q < self.n[axis] as f64) {
+                return None;
+            }
+            cell[axis] = q as usize;
+        }
+        Some(self.index(cell))
+    }
+}
+
+/// A belief at one instant; cheap to clone.
+#[derive(Component, Clone, Debug, PartialEq)]
+pub struct Belief {
+    /// When it was last updated, s.
+    pub t_s: f64,
+    /// Counts the updates.
+    pub updates: u64,
+    /// At least one detection went into it.
+    pub informed: bool,
+    /// Its grid.
+    pub grid: Arc<BeliefGrid>,
+    /// Probability of each cell; they sum to 1.
+    pub p: Arc<Vec<f64>>,
+    /// Most probable cell (the first of equals).
+    pub best: usize,
+    /// Entropy, nat.
+    pub entropy_nat: f64,
+    /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in a map of the space).
+    pub credible_95: f64,
+}

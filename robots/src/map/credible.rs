@@ -1,0 +1,66 @@
+//! Size of the smallest set of cells that holds a share of the probability.
+//!
+//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section 2.8.
+//!
+//! *Parameters*: the share.
+//!
+//! *Deviations*: whole cells: the last one is counted whole.
+
+/// How many cells, the most probable first, reach `share` of the total; by halving, so in time linear in
+/// the cells. `work` is scratch.
+pub(super) fn cells(p: &[f64], share: f64, work: &mut Vec<f64>) -> usize {
+    work.clear();
+    work.extend_from_slice(p);
+    let mut rest: &mut [f64] = work;
+    let (mut taken, mut wanted) = (0, share);
+    while rest.len() > 1 {
+        let mid = rest.len() / 2;
+        rest.select_nth_unstable_by(mid, |a, b| b.total_cmp(a));
+        let upper: f64 = rest[..mid].iter().sum();
+        if upper >= wanted {
+            rest = &mut rest[..mid];
+        } else {
+            wanted -= upper;
+            taken += mid;
+            rest = &mut rest[mid..];
+        }
+    }
+    taken + rest.len()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn by_hand() {
+        let mut work = Vec::new();
+        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.5, &mut work), 1);
+        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.89, &mut work), 2);
+        assert_eq!(cells(&[0.1, 0.6, 0.3], 0.95, &mut work), 3);
+        assert_eq!(cells(&[1.0], 0.95, &mut work), 1);
+        // 1000 equal cells: 950, give or take the one on which rounding falls.
+        let even = vec![0.001; 1000];
+        assert!(cells(&even, 0.95, &mut work).abs_diff(950) <= 1);
+    }
+
+    proptest! {
+        #![proptest_config(crate::handoff::testing::fixed(128))]
+
+        #[test]
+        fn same_as_by_sorting(p in proptest::collection::vec(0.001..1.0f64, 1..200)) {
+            let total: f64 = p.iter().sum();
+            let p: Vec<f64> = p.iter().map(|v| v / total).collect();
+            let mut sorted = p.clone();
+            sorted.sort_by(|a, b| b.total_cmp(a));
+            let mut sum = 0.0;
+            let by_sorting = sorted.iter().take_while(|v| {
+                let before = sum;
+                sum += **v;
+                before < 0.95
+            }).count();
+            prop_assert_eq!(cells(&p, 0.95, &mut Vec::new()), by_sorting);
+        }
+    }
+}

@@ -1,0 +1,35 @@
+//! Where the source may be: mappers turn detections, and their absence, into a belief.
+//!
+//! One back-trajectory (`flow_history`, `releases`, `kernel`) serves all; each mapper's file says how it
+//! fuses what that gives.
+
+mod bayesian;
+mod catalogue;
+mod credible;
+mod flow_history;
+mod hmm;
+mod kernel;
+mod log_belief;
+mod particle_filter;
+mod pomdp;
+mod releases;
+mod spec;
+mod terms;
+mod watch;
+
+pub use bayesian::{Bayesian, BayesianSpec};
+pub use catalogue::{CATALOGUE, MapSpec, Mapper};
+pub use hmm::{Hmm, HmmSpec};
+pub use particle_filter::{ParticleFilter, ParticleFilterSpec};
+pub use pomdp::{Pomdp, PomdpSpec};
+pub use spec::{GridSpec, TrajectorySpec};
+pub use watch::MapObservation;
+
+#[cfg(test)]
+mod testing;
+#[cfg(test)]
+mod tests_belief;
+#[cfg(test)]
+mod tests_kernel;
+#[cfg(test)]
+mod tests_search;

@@ -1,0 +1,314 @@
+//! Source map by a particle filter: possible source positions, weighted by what was and was not smelt.
+//!
+//! *Source*: Li, Meng, Wang & Zeng 2011 (Autonomous Robots 30(3)); roughening: Gordon, Salmond & Smith 1993,
+//! eq. 15; systematic resampling: Kitagawa 1996.
+//!
+//! *Parameters*: particles, 1000; `roughening` K, 0.2 (Gordon's); resampling when the effective number falls
+//! under `resample_below`, 0.5 of all; a detection that the particles explain with less than `lost_below`, 0.01,
+//! sends half of them back along its trajectory; μ, σ, h in `trajectory`; ε, `false_detection`.
+//!
+//! *Deviations*: reconstructed (the paper's own equations were not at hand): the likelihood is that of
+//! `Pomdp`, 1 − γ and γ by the back-trajectory, at each particle's own place in the place of a cell's middle;
+//! ε on either side (γ at least ε), so that weights never all vanish. Particles start evenly over the area.
+//! A set that cannot explain a detection has lost the source (none was near it when it was resampled): half are
+//! then drawn anew from the releases that could have been met, as Lenser & Veloso 2000 reset a lost robot.
+//! The belief on the grid is the weight of the particles in each cell, with the share ε spread over all.
+
+use super::catalogue::Mapper;
+use super::kernel::Kernel;
+use super::log_belief::LogBelief;
+use super::spec::{GridSpec, TrajectorySpec, invalid, some_false_detection};
+use super::watch::{MapObservation, Watch};
+use crate::error::RobotError;
+use crate::handoff::{Belief, BeliefGrid};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use world::math;
+use world::ranges::{Fraction, NonNegative, Positive};
+use world::seeds::Stream;
+
+/// Legal numbers of particles.
+const PARTICLES: (u32, u32) = (10, 100_000);
+
+/// The mapper's parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ParticleFilterSpec {
+    /// The cells of the belief made from the particles.
+    pub grid: GridSpec,
+    /// How dye is believed to travel.
+    pub trajectory: TrajectorySpec,
+    /// Time between two updates, s.
+    pub update_period_s: Positive,
+    /// Chance ε of a detection where no dye is; must be greater than 0.
+    pub false_detection: Fraction,
+    /// How many particles.
+    pub particles: u32,
+    /// Resample when the effective number is under this share of all.
+    pub resample_below: Fraction,
+    /// The particles have lost the source when they give a detection that is made less than this chance.
+    pub lost_below: Fraction,
+    /// Scatter after resampling, K: as a share of the particles' extent over their number's root.
+    pub roughening: NonNegative,
+}
+
+impl Default for ParticleFilterSpec {
+    fn default() -> Self {
+        Self {
+            grid: GridSpec::default(),
+            trajectory: TrajectorySpec::default(),
+            update_period_s: Positive::new(1.0),
+            false_detection: Fraction::new(1e-6),
+            particles: 1000,
+            resample_below: Fraction::new(0.5),
+            lost_below: Fraction::new(0.01),
+            roughening: NonNegative::new(0.2),
+        }
+    }
+}
+
+/// The mapper at work.
+#[derive(Clone, Debug)]
+pub struct ParticleFilter {
+    watch: Watch,
+    kernel: Kernel,
+    belief: LogBelief,
+    spec: ParticleFilterSpec,
+    false_detection: f64,
+    rng: Stream,
+    /// Places in the grid's own axes, m.
+    places: Vec<[f64; 3]>,
+    weights: Vec<f64>,
+    extent_m: [f64; 3],
+    mass: Vec<f64>,
+}
+
+impl ParticleFilter {
+    /// A mapper with particles all over the grid.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] for a number of particles or a chance out of range.
+    pub fn new(
+        spec: &ParticleFilterSpec,
+        grid: BeliefGrid,
+        mut rng: Stream,
+    ) -> Result<Self, RobotError> {
+        spec.trajectory.check()?;
+        if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
+            return Err(invalid(
+                "particles",
+                &format!(
+                    "must be from {} to {}, got {}",
+                    PARTICLES.0, PARTICLES.1, spec.particles
+                ),
+            ));
+        }
+        let grid = Arc::new(grid);
+        let extent_m = [0, 1, 2].map(|a| grid.cell_m[a] * grid.n[a] as f64);
+        let count = spec.particles as usize;
+        let places = (0..count)
+            .map(|_| extent_m.map(|e| e * rng.uniform()))
+            .collect();
+        let history = spec
+            .trajectory
+            .history(spec.trajectory.release_period_s.get());
+        Ok(Self {
+            watch: Watch::new(&grid, history, spec.update_period_s.get()),
+            kernel: Kernel::new(&grid, &spec.trajectory),
+            belief: LogBelief::uniform(&grid),
+            spec: spec.clone(),
+            false_detection: some_false_detection(spec.false_detection)?,
+            rng,
+            places,
+            weights: vec![1.0 / count as f64; count],
+            extent_m,
+            mass: vec![0.0; grid.len()],
+        })
+    }
+
+    /// Bayes' rule for each particle.
+    fn weigh(&mut self, detected: bool) {
+        let e = self.false_detection;
+        for (place, w) in self.places.iter().zip(&mut self.weights) {
+            let gamma = self.kernel.not_detecting_from(*place);
+            *w *= if detected {
+                e + (1.0 - e) * (1.0 - gamma)
+            } else {
+                gamma.max(e)
+            };
+        }
+        let total: f64 = self.weights.iter().sum();
+        if detected && total < self.spec.lost_below.get() {
+            self.send_back();
+        } else {
+            for w in &mut self.weights {
+                *w /= total;
+            }
+        }
+    }
+
+    /// Draws every other particle anew from the releases that may have been met; all weigh alike then.
+    fn send_back(&mut self) {
+        let releases: Vec<_> = self.watch.history.releases().collect();
+        let sigmas = self.spec.trajectory.sigmas();
+        let (at, plane) = (self.kernel.at(), self.belief.belief().grid.n[2] == 1);
+        for place in self.places.iter_mut().step_by(2) {
+            // Releases from outside the area cannot be: another is drawn, a few times.
+            for _ in 0..20 {
+                let pick = (self.rng.uniform() * releases.len() as f64) as usize;
+                let (age, s) = releases[pick.min(releases.len() - 1)];
+                let root = age.sqrt();
+                let mut drawn = [0, 1, 2].map(|a| {
+                    let drift = s.get(a).copied().unwrap_or(0.0);
+                    at[a] - drift + sigmas[a] * root * self.rng.normal()
+                });
+                drawn[2] = if plane {
+                    place[2]
+                } else {
+                    within(drawn[2], self.extent_m[2])
+                };
+                if (0..2).all(|a| (0.0..self.extent_m[a]).contains(&drawn[a])) {
+                    *place = drawn;
+                    break;
+                }
+            }
+        }
+        let even = 1.0 / self.weights.len() as f64;
+        self.weights.fill(even);
+    }
+
+    fn resample_if_worn(&mut self) {
+        let count = self.weights.len() as f64;
+        let effective = 1.0 / self.weights.iter().map(|w| w * w).sum::<f64>();
+        if effective >= self.spec.resample_below.get() * count {
+            return;
+        }
+        let scatter = self.scatter();
+        let start = self.rng.uniform();
+        let mut kept = Vec::with_capacity(self.places.len());
+        let (mut i, mut upto) = (0, self.weights[0]);
+        for m in 0..self.weights.len() {
+            let mark = (m as f64 + start) / count;
+            while upto < mark && i + 1 < self.weights.len() {
+                i += 1;
+                upto += self.weights[i];
+            }
+            let mut place = self.places[i];
+            for (axis, x) in place.iter_mut().enumerate() {
+                *x = within(*x + scatter[axis] * self.rng.normal(), self.extent_m[axis]);
+            }
+            kept.push(place);
+        }
+        self.places = kept;
+        self.weights.fill(1.0 / count);
+    }
+
+    /// Standard deviation of the roughening along each axis, m: K·E·N^(−1/d).
+    fn scatter(&self) -> [f64; 3] {
+        let axes = if self.belief.belief().grid.n[2] == 1 {
+            2
+        } else {
+            3
+        };
+        let root = math::powf(self.places.len() as f64, -1.0 / f64::from(axes));
+        [0, 1, 2].map(|axis| {
+            if axis >= axes as usize {
+                return 0.0;
+            }
+            let alive = self.places.iter().zip(&self.weights);
+            // Particles of no weight are not resampled and do not widen the extent.
+            let xs = alive.filter(|(_, w)| **w > 1e-12).map(|(p, _)| p[axis]);
+            let (lo, hi) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+                (l.min(x), h.max(x))
+            });
+            self.spec.roughening.get() * (hi - lo).max(0.0) * root
+        })
+    }
+
+    fn onto_grid(&mut self, t_s: f64, detected: bool) {
+        let grid = self.belief.belief().grid.clone();
+        let e = self.false_detection;
+        self.mass.fill(e / grid.len() as f64);
+        for (place, w) in self.places.iter().zip(&self.weights) {
+            let cell = [0, 1, 2].map(|a| ((place[a] / grid.cell_m[a]) as usize).min(grid.n[a] - 1));
+            self.mass[grid.index(cell)] += (1.0 - e) * w;
+        }
+        self.belief.replace(t_s, detected, &self.mass);
+    }
+}
+
+/// A coordinate mirrored back into [0, extent].
+fn within(x: f64, extent: f64) -> f64 {
+    let folded = x.rem_euclid(2.0 * extent);
+    folded.min(2.0 * extent - folded)
+}
+
+impl Mapper for ParticleFilter {
+    fn step(&mut self, seen: &MapObservation) {
+        let Some(sighting) = self.watch.step(seen) else {
+            return;
+        };
+        self.kernel.gather(&self.watch.history, sighting.cell);
+        self.weigh(sighting.detected);
+        self.onto_grid(sighting.t_s, sighting.detected);
+        self.resample_if_worn();
+    }
+
+    fn belief(&self) -> &Belief {
+        self.belief.belief()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::map::testing;
+
+    fn filter(particles: u32) -> ParticleFilter {
+        let spec = ParticleFilterSpec {
+            particles,
+            ..ParticleFilterSpec::default()
+        };
+        let grid = spec.grid.build(&testing::paper_area()).expect("grid");
+        ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map")).expect("filter")
+    }
+
+    #[test]
+    fn systematic_resampling_keeps_each_particle_near_its_share() {
+        let mut f = filter(1000);
+        f.spec.roughening = NonNegative::new(0.0);
+        f.spec.resample_below = Fraction::new(1.0);
+        let total = 1000.0 * 1001.0 / 2.0;
+        for (i, w) in f.weights.iter_mut().enumerate() {
+            *w = (i + 1) as f64 / total;
+        }
+        let (places, weights) = (f.places.clone(), f.weights.clone());
+        f.resample_if_worn();
+        for (place, w) in places.iter().zip(weights) {
+            let copies = f.places.iter().filter(|p| *p == place).count() as f64;
+            // The property that makes it systematic: floor or ceiling of N·w.
+            assert!((copies - 1000.0 * w).abs() <= 1.0 + 1e-9);
+        }
+    }
+
+    #[test]
+    fn roughened_particles_stay_in_the_area() {
+        for x in [-250.0, -1.0, 0.0, 50.0, 100.0, 101.0, 730.0] {
+            assert!((0.0..=100.0).contains(&within(x, 100.0)));
+        }
+        assert!((within(-3.0, 100.0) - 3.0).abs() < 1e-12);
+        assert!((within(103.0, 100.0) - 97.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_number_out_of_range_is_refused() {
+        let spec = ParticleFilterSpec {
+            particles: 3,
+            ..ParticleFilterSpec::default()
+        };
+        let grid = spec.grid.build(&testing::paper_area()).expect("grid");
+        let e = ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map"));
+        let text = e.expect_err("three are too few").to_string();
+        assert_eq!(text, "map.particles: must be from 10 to 100000, got 3");
+    }
+}

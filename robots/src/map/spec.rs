@@ -1,0 +1,175 @@
+//! What all mappers are told: the grid, and how dye is believed to travel.
+
+use super::flow_history::FlowHistory;
+use crate::error::RobotError;
+use crate::handoff::BeliefGrid;
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::ranges::{Fraction, NonNegative, Positive};
+
+/// Most cells a map may have: a million are 8 MB a table.
+const MOST_CELLS: u64 = 1_000_000;
+/// Most releases a look-back may hold.
+const MOST_RELEASES: f64 = 100_000.0;
+
+/// The cells, over the operating area.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GridSpec {
+    /// Cells along the area's axis.
+    pub along: u32,
+    /// Cells across it.
+    pub across: u32,
+    /// Cells from bottom to top; 1 is a map of the plane.
+    pub vertical: u32,
+    /// Upper edge of the map, m below the surface.
+    pub top_depth_m: NonNegative,
+    /// Lower edge of the map, m below the surface; must be given for a map of the space.
+    pub bottom_depth_m: Option<Positive>,
+}
+
+impl Default for GridSpec {
+    fn default() -> Self {
+        Self {
+            along: 40,
+            across: 25,
+            vertical: 1,
+            top_depth_m: NonNegative::new(0.0),
+            bottom_depth_m: None,
+        }
+    }
+}
+
+impl GridSpec {
+    /// The grid over an area.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] for no cells, too many, or a map of the space without its depths.
+    pub fn build(&self, area: &Area) -> Result<BeliefGrid, RobotError> {
+        let n = [self.along, self.across, self.vertical];
+        for (name, count) in ["along", "across", "vertical"].into_iter().zip(n) {
+            if count == 0 {
+                return Err(invalid(
+                    &format!("grid.{name}"),
+                    "must be at least 1, got 0",
+                ));
+            }
+        }
+        let cells: u64 = n.iter().map(|&c| u64::from(c)).product();
+        if cells > MOST_CELLS {
+            return Err(invalid(
+                "grid",
+                &format!("must have at most {MOST_CELLS} cells, got {cells}"),
+            ));
+        }
+        let top = self.top_depth_m.get();
+        let bottom = match self.bottom_depth_m {
+            Some(b) if b.get() > top => b.get(),
+            Some(b) => {
+                return Err(invalid(
+                    "grid.bottom_depth_m",
+                    &format!("must be greater than top_depth_m, {top}, got {}", b.get()),
+                ));
+            }
+            None if self.vertical > 1 => {
+                return Err(invalid(
+                    "grid.bottom_depth_m",
+                    "must be given when vertical is more than 1",
+                ));
+            }
+            None => top + 1.0,
+        };
+        Ok(BeliefGrid::over(area, top, bottom, n.map(|c| c as usize)))
+    }
+}
+
+/// How dye is believed to travel from a source to the sensor.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TrajectorySpec {
+    /// Chance of detecting dye that is there, μ.
+    pub mu: Fraction,
+    /// Spread of dye in a second along the area's axis, σx, m/√s.
+    pub sigma_x_m_rts: Positive,
+    /// The same across it, σy, m/√s.
+    pub sigma_y_m_rts: Positive,
+    /// The same in the vertical, σz, m/√s; not used in a map of the plane.
+    pub sigma_z_m_rts: Positive,
+    /// Releases older than this are not looked at, h, s.
+    pub lookback_s: Positive,
+    /// Time between two releases, the papers' time unit, s.
+    pub release_period_s: Positive,
+    /// Neighbouring releases are taken together while their places differ by less than this share of their
+    /// spread (root mean square); 0: never.
+    pub merge: Fraction,
+    /// Releases before the mission count as well, in a flow as it was measured since; else the source is taken to have
+    /// begun with the mission, as the papers do.
+    pub steady_before: bool,
+}
+
+impl Default for TrajectorySpec {
+    fn default() -> Self {
+        Self {
+            mu: Fraction::new(0.9),
+            sigma_x_m_rts: Positive::new(0.5),
+            sigma_y_m_rts: Positive::new(0.5),
+            sigma_z_m_rts: Positive::new(0.05),
+            lookback_s: Positive::new(600.0),
+            release_period_s: Positive::new(1.0),
+            merge: Fraction::new(0.3),
+            steady_before: true,
+        }
+    }
+}
+
+impl TrajectorySpec {
+    /// Refuses what cannot be remembered.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] for a look-back of less than one release or of too many.
+    pub fn check(&self) -> Result<(), RobotError> {
+        let (h, unit) = (self.lookback_s.get(), self.release_period_s.get());
+        let releases = h / unit;
+        if !(1.0..=MOST_RELEASES).contains(&releases) {
+            return Err(invalid(
+                "trajectory.lookback_s",
+                &format!(
+                    "must hold from 1 to {MOST_RELEASES} releases, {unit} s apart, got {releases}"
+                ),
+            ));
+        }
+        Ok(())
+    }
+
+    /// An empty history of the flow, with a mark every `period_s`.
+    pub(super) fn history(&self, period_s: f64) -> FlowHistory {
+        FlowHistory::new(period_s, self.lookback_s.get(), self.steady_before)
+    }
+
+    /// σx, σy, σz, m/√s.
+    #[must_use]
+    pub fn sigmas(&self) -> [f64; 3] {
+        [self.sigma_x_m_rts, self.sigma_y_m_rts, self.sigma_z_m_rts].map(Positive::get)
+    }
+}
+
+/// A setup error of a mapper.
+pub(super) fn invalid(field: &str, problem: &str) -> RobotError {
+    RobotError::Invalid {
+        field: format!("map.{field}"),
+        problem: problem.to_string(),
+    }
+}
+
+/// Refuses an ε that would let a belief vanish.
+pub(super) fn some_false_detection(epsilon: Fraction) -> Result<f64, RobotError> {
+    let e = epsilon.get();
+    if e > 0.0 && e < 1.0 {
+        Ok(e)
+    } else {
+        Err(invalid(
+            "false_detection",
+            &format!("must be greater than 0 and less than 1, got {e}"),
+        ))
+    }
+}

@@ -1,0 +1,98 @@
+//! What a mapper saw between two of its updates: the flow always, the dye if any reading met it.
+//!
+//! *Source*: Wang & Pang, section II-C: the vehicle is in a cell, and detects or does not, once a time unit.
+//!
+//! *Parameters*: time between two updates, s.
+//!
+//! *Deviations*: the sensor reports many times a time unit: one detection makes the unit one of detection, at the
+//! place of the last detection; else the place is that of the last reading.
+
+use super::flow_history::{FlowHistory, SLACK_S};
+use crate::handoff::BeliefGrid;
+use nalgebra::{Vector2, Vector3};
+use std::sync::Arc;
+
+/// What a mapper sees in a tick: only what the vehicle measured and believes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapObservation {
+    /// Time, s.
+    pub t_s: f64,
+    /// Believed position, world ENU, m.
+    pub p_W: Vector3<f64>,
+    /// Whether the chemical sensor detected; `None` when it did not report in this tick.
+    pub detected: Option<bool>,
+    /// Flow measured at the vehicle (east, north), m/s.
+    pub flow: Option<Vector2<f64>>,
+}
+
+/// One piece of evidence: the vehicle was in this cell, and dye was or was not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Sighting {
+    /// When, s.
+    pub t_s: f64,
+    /// The vehicle's cell.
+    pub cell: usize,
+    /// At least one reading since the last update detected.
+    pub detected: bool,
+}
+
+/// Gathers observations, and hands out a sighting each time an update is due.
+#[derive(Clone, Debug)]
+pub(super) struct Watch {
+    /// The flow as measured.
+    pub history: FlowHistory,
+    grid: Arc<BeliefGrid>,
+    period_s: f64,
+    next_s: Option<f64>,
+    pending: Option<(bool, Vector3<f64>)>,
+}
+
+impl Watch {
+    /// A watch over the grid with an update every `period_s`.
+    pub(super) fn new(grid: &Arc<BeliefGrid>, history: FlowHistory, period_s: f64) -> Self {
+        Self {
+            history,
+            grid: grid.clone(),
+            period_s,
+            next_s: None,
+            pending: None,
+        }
+    }
+
+    /// Takes in an observation.
+    pub(super) fn see(&mut self, seen: &MapObservation) {
+        let flow = (seen.flow).map(|v| [v.dot(&self.grid.axes[0]), v.dot(&self.grid.axes[1])]);
+        self.history.record(seen.t_s, flow);
+        // A detection stands for the whole period, at the place where it was last made.
+        match (seen.detected, self.pending) {
+            (Some(true), _) | (Some(false), None | Some((false, _))) => {
+                self.pending = Some((seen.detected == Some(true), seen.p_W));
+            }
+            _ => {}
+        }
+    }
+
+    /// Takes in an observation; a sighting when an update is due and there is something to go by: a reading,
+    /// inside the grid, and a flow.
+    pub(super) fn step(&mut self, seen: &MapObservation) -> Option<Sighting> {
+        self.see(seen);
+        let next = *self.next_s.get_or_insert(seen.t_s + self.period_s);
+        if seen.t_s < next - SLACK_S {
+            return None;
+        }
+        let missed = ((seen.t_s - next + SLACK_S) / self.period_s).floor();
+        self.next_s = Some(next + (missed + 1.0) * self.period_s);
+        self.take(seen.t_s)
+    }
+
+    /// What was gathered, handed out once.
+    pub(super) fn take(&mut self, t_s: f64) -> Option<Sighting> {
+        let (detected, p_W) = self.pending.take()?;
+        self.history.releases().next()?;
+        Some(Sighting {
+            t_s,
+            cell: self.grid.cell(&p_W)?,
+            detected,
+        })
+    }
+}

@@ -1,0 +1,160 @@
+//! A*: the cheapest way by length and clearance, smoothed to what the vehicle can follow; or the paper's own costs.
+//!
+//! *Source*: Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968, IEEE Trans. Syst. Sci. Cybern. 4, 100.
+//!
+//! *Parameters*: `cost`, `Metric` or `Paper` (1000 in an obstacle cell, none elsewhere, Manhattan h, five moves); for
+//! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5); the share added to the cost
+//! beside a solid, `clearance_weight`, 2, falling to none at `clearance_m`, m, 4; the cost of a metre up or down in
+//! metres along, `climb`, 3 (a REMUS climbs at less than 20°).
+//!
+//! *Deviations*: eq. 8 gives free cells no cost, which makes the search greedy: it is kept under `Paper` (see
+//! `paper_cost.rs`), and the default is the length. See `search.rs` for the search, `smooth.rs` for what follows it.
+
+use super::ends::Ends;
+use super::paper_cost::FiveMoves;
+use super::search::{Costs, Search};
+use super::{From, NoPath, Path, Planner, Reach, Room, smooth};
+use crate::error::RobotError;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// Which costs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Cost {
+    /// Length and clearance; 8 moves in the plane, 26 in space; smoothed.
+    #[default]
+    Metric,
+    /// The paper's: 1000 in obstacle cells, zero elsewhere; five moves relative to the heading; the plane only.
+    Paper,
+}
+
+/// Parameters of the planner.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// Which costs.
+    pub cost: Cost,
+    /// Turning radius the path is smoothed to, m.
+    pub turn_radius_m: Positive,
+    /// Share added to the cost of a step beside a solid; at most 3.9.
+    pub clearance_weight: NonNegative,
+    /// Clearance over the hull's own at which nothing is added any more, m.
+    pub clearance_m: NonNegative,
+    /// Cost of a metre up or down, in metres along; from 1 to 20.
+    pub climb: Positive,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            cost: Cost::Metric,
+            turn_radius_m: Positive::new(12.0),
+            clearance_weight: NonNegative::new(2.0),
+            clearance_m: NonNegative::new(4.0),
+            climb: Positive::new(3.0),
+        }
+    }
+}
+
+/// The planner with the arrays it keeps.
+#[derive(Clone, Debug)]
+pub struct AStar {
+    costs: Costs,
+    turn_radius_m: f64,
+    paper: Option<FiveMoves>,
+    search: Search,
+    ends: Ends,
+}
+
+impl AStar {
+    /// # Errors
+    /// [`RobotError::Invalid`] when a weight is beyond what the costs can hold.
+    pub fn new(params: &Params) -> Result<Self, RobotError> {
+        let wrong = |field: &str, says: &str, got: f64| RobotError::Invalid {
+            field: format!("strategy.MapAndPlan.planner.AStar.{field}"),
+            problem: format!("must be {says}, got {got}"),
+        };
+        let (weight, climb) = (params.clearance_weight.get(), params.climb.get());
+        if weight > 3.9 {
+            return Err(wrong("clearance_weight", "from 0 to 3.9", weight));
+        }
+        if !(1.0..=20.0).contains(&climb) {
+            return Err(wrong("climb", "from 1 to 20", climb));
+        }
+        let soft_m = params.clearance_m.get();
+        let costs = Costs {
+            climb,
+            weight,
+            soft_m,
+        };
+        Ok(Self {
+            costs,
+            turn_radius_m: params.turn_radius_m.get(),
+            paper: (params.cost == Cost::Paper).then(FiveMoves::default),
+            search: Search::new(costs),
+            ends: Ends::default(),
+        })
+    }
+
+    /// Clearance beyond the hull's own that it tells apart, m.
+    #[must_use]
+    pub fn reach_m(params: &Params) -> f64 {
+        params.clearance_m.get()
+    }
+}
+
+impl Planner for AStar {
+    fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath> {
+        if let Some(paper) = &mut self.paper {
+            return paper.plan(room, start, goal);
+        }
+        let e = self
+            .ends
+            .resolve(room, |c| room.free(c), &start.p_W, goal)?;
+        let (cells, _) = (self.search.run(room, e.start, e.goal, false))
+            .expect("cells of one component are joined by moves over faces: the flood and the search disagree, a fault of the planner");
+        let mut points: Vec<_> = cells.iter().map(|c| room.lattice().centre(*c)).collect();
+        let plane_z = start.p_W.z;
+        if room.plane() {
+            points.iter_mut().for_each(|p| p.z = plane_z);
+        }
+        // The start and, where it can be reached, the goal themselves in the place of their cells' middles.
+        let own = *start;
+        if !e.leaves_solid {
+            points[0] = own.p_W;
+        }
+        let mut end = *goal;
+        if room.plane() {
+            end.z = plane_z;
+        }
+        let reach = if e.at_goal && room.lattice().cell(&end) == Some(e.goal) {
+            if points.len() > 1 {
+                points.pop();
+            }
+            points.push(end);
+            Reach::Goal
+        } else {
+            Reach::Nearest((points[points.len() - 1] - end).norm())
+        };
+        let pulled = smooth::pull(room, &self.costs, &points);
+        let (mut points, tightest_m) = if e.leaves_solid {
+            (pulled, 0.0)
+        } else {
+            smooth::round(room, &own, &pulled, self.turn_radius_m)
+        };
+        if e.leaves_solid {
+            points.insert(0, own.p_W);
+        }
+        Ok(Path {
+            points,
+            reach,
+            leaves_solid: e.leaves_solid,
+            tightest_m,
+        })
+    }
+}
+
+#[cfg(test)]
+#[path = "a_star_tests.rs"]
+mod tests;

@@ -1,0 +1,66 @@
+//! What a planner is asked and what it answers.
+
+use super::Room;
+use nalgebra::Vector3;
+use std::fmt::Debug;
+use world::units::Heading;
+
+/// Where a path begins.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct From {
+    /// Place (ENU), m.
+    pub p_W: Vector3<f64>,
+    /// Direction of motion.
+    pub heading: Heading,
+}
+
+/// How far a path leads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Reach {
+    /// To the cell of the goal.
+    Goal,
+    /// To the nearest free cell that can be reached, this far from the goal, m.
+    Nearest(f64),
+    /// Into a minimum of the potential, this far from the goal, m.
+    Caught(f64),
+}
+
+/// A planned path.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Path {
+    /// Corners (ENU), m, the start first.
+    pub points: Vec<Vector3<f64>>,
+    /// How far it leads.
+    pub reach: Reach,
+    /// The start lay in a solid or too near to one: the first leg leads out and is not free.
+    pub leaves_solid: bool,
+    /// Tightest turn it asks for (radius, m): infinite on a straight path, zero at a sharp corner.
+    pub tightest_m: f64,
+}
+
+impl Path {
+    /// Its length, m.
+    #[must_use]
+    pub fn length_m(&self) -> f64 {
+        self.points.windows(2).map(|w| (w[1] - w[0]).norm()).sum()
+    }
+}
+
+/// Why there is no path at all.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum NoPath {
+    /// Not one cell is free.
+    #[error(
+        "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the margin smaller"
+    )]
+    Full,
+}
+
+/// A path planner: one room, one start, one goal, one answer; never a hang.
+pub trait Planner: Debug + Send + Sync {
+    /// A path from `start` to `goal` (ENU, m).
+    ///
+    /// # Errors
+    /// When not one cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
+    fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath>;
+}

@@ -1,0 +1,314 @@
+//! The room a planner plans in: a grid of cells, each with its clearance from what is charted or was sensed.
+//!
+//! *Source*: occupancy grids, Moravec & Elfes 1985, ICRA, 116 (evidence for and against each cell); inflation by the
+//! hull, Lozano-Pérez 1983, IEEE Trans. Comput. 32, 108.
+//!
+//! *Parameters*: hull radius with its margin, `hull_m`; clearance beyond which cells are not told apart, `reach_m`;
+//! evidence of an echo +2, of a beam that passed through −1, held within ±6; a cell counts as solid from +2 on.
+//!
+//! *Deviations*: evidence is counted in whole numbers, not in logarithms of odds. A cell is free when every point of
+//! it is at least the hull's radius away from any solid, so that any line through free cells is free of collisions.
+//! A cell with an echo counts as solid as a whole. The searcher's chart is what the scenario hands it beforehand; all
+//! else comes from its own ranging, placed by its own navigation.
+
+use crate::handoff::BeliefGrid;
+use nalgebra::Vector3;
+use world::obstacles::Obstacles;
+use world::terrain::Terrain;
+
+/// Evidence of an echo in a cell.
+const ECHO: i8 = 2;
+/// Evidence at which a cell counts as solid.
+const SOLID: i8 = 2;
+/// Most evidence kept, either way.
+const MOST: i8 = 6;
+
+/// A grid of cells with clearances.
+#[derive(Clone, Debug)]
+pub struct Room {
+    lattice: BeliefGrid,
+    hull_m: f64,
+    reach_m: f64,
+    half_diagonal_m: f64,
+    charted_m: Vec<f32>,
+    evidence: Vec<i8>,
+    clearance_m: Vec<f32>,
+    sensed: Vec<u32>,
+    stale: bool,
+    revision: u64,
+}
+
+impl Room {
+    /// An empty room.
+    #[must_use]
+    pub fn new(lattice: BeliefGrid, hull_m: f64, reach_m: f64) -> Self {
+        let c = lattice.cell_m;
+        let z = if lattice.n[2] == 1 { 0.0 } else { c[2] };
+        let half_diagonal_m = 0.5 * (c[0] * c[0] + c[1] * c[1] + z * z).sqrt();
+        let cells = lattice.len();
+        Self {
+            lattice,
+            hull_m,
+            reach_m: reach_m + hull_m + half_diagonal_m,
+            half_diagonal_m,
+            charted_m: vec![f32::INFINITY; cells],
+            evidence: vec![0; cells],
+            clearance_m: vec![f32::INFINITY; cells],
+            sensed: Vec::new(),
+            stale: false,
+            revision: 0,
+        }
+    }
+
+    /// Puts charted solids into the room, and in a room of three dimensions bed and surface. `level` gives the height
+    /// (z, m) at which the vehicle moves over a place (east, north) in a room of the plane.
+    pub fn chart(
+        &mut self,
+        solids: &Obstacles,
+        terrain: &Terrain,
+        level: impl Fn(f64, f64) -> f64,
+    ) {
+        let plane = self.plane();
+        let boxes: Vec<_> = solids.0.iter().map(|o| (o, o.bounds())).collect();
+        for cell in 0..self.lattice.len() {
+            let mut p = self.lattice.centre(cell);
+            if plane {
+                p.z = level(p.x, p.y);
+            }
+            let mut d = self.charted_m[cell].into();
+            if !plane {
+                let bed = (p.z - terrain.bed_z(p.x, p.y)) * terrain.normal(p.x, p.y).z;
+                d = f64::min(d, bed.min(-p.z));
+            }
+            for (solid, (lo, hi)) in &boxes {
+                let away = (lo - p).sup(&(p - hi)).sup(&Vector3::zeros());
+                if away.norm() < self.reach_m.min(d) {
+                    d = d.min(solid.distance(&p));
+                }
+            }
+            self.charted_m[cell] = d.min(self.reach_m) as f32;
+        }
+        self.stale = true;
+        self.refresh();
+    }
+
+    /// What a beam from `from` said that ended at `to` (ENU, m): with an echo there, or with none on the way.
+    pub fn beam(&mut self, from: &Vector3<f64>, to: &Vector3<f64>, echo: bool) {
+        let ends_in = echo.then(|| self.lattice.cell(to)).flatten();
+        let mut passed = usize::MAX;
+        let step = 0.5 * self.narrowest_m();
+        let steps = ((to - from).norm() / step).floor() as usize;
+        for k in 0..steps {
+            let p = from + (to - from) * (k as f64 / steps as f64);
+            match self.lattice.cell(&p) {
+                Some(cell) if cell != passed && Some(cell) != ends_in => {
+                    passed = cell;
+                    self.weigh(cell, -1);
+                }
+                _ => {}
+            }
+        }
+        if let Some(cell) = ends_in {
+            self.weigh(cell, ECHO);
+        }
+    }
+
+    fn weigh(&mut self, cell: usize, by: i8) {
+        let before = self.evidence[cell];
+        let now = (before + by).clamp(-MOST, MOST);
+        self.evidence[cell] = now;
+        let (was, is) = (before >= SOLID, now >= SOLID);
+        if is && !was {
+            self.sensed.push(cell as u32);
+            if !self.stale {
+                self.stamp(cell);
+                self.revision += 1;
+            }
+        } else if was && !is {
+            self.sensed.retain(|c| *c as usize != cell);
+            self.stale = true;
+        }
+    }
+
+    /// Brings the clearances up to date after cells were found free again; cheap when none was.
+    pub fn refresh(&mut self) {
+        if !std::mem::take(&mut self.stale) {
+            return;
+        }
+        self.clearance_m.copy_from_slice(&self.charted_m);
+        for k in 0..self.sensed.len() {
+            self.stamp(self.sensed[k] as usize);
+        }
+        self.revision += 1;
+    }
+
+    /// Takes a solid cell into the clearances of those round it.
+    fn stamp(&mut self, solid: usize) {
+        let at = self.lattice.place(solid);
+        let n = self.lattice.n;
+        let c = self.lattice.cell_m;
+        let reach = [0, 1, 2].map(|a| (self.reach_m / c[a]).ceil() as usize + 1);
+        let span = |a: usize| at[a].saturating_sub(reach[a])..(at[a] + reach[a] + 1).min(n[a]);
+        let gap = |a: usize, i: usize| (i.abs_diff(at[a]) as f64 - 0.5).max(0.0) * c[a];
+        for k in span(2) {
+            for j in span(1) {
+                for i in span(0) {
+                    let (x, y, z) = (gap(0, i), gap(1, j), gap(2, k));
+                    let d = if [i, j, k] == at {
+                        -self.half_diagonal_m
+                    } else {
+                        (x * x + y * y + z * z).sqrt()
+                    };
+                    let cell = self.lattice.index([i, j, k]);
+                    self.clearance_m[cell] = self.clearance_m[cell].min(d as f32);
+                }
+            }
+        }
+    }
+
+    /// A map of the plane.
+    #[must_use]
+    pub fn plane(&self) -> bool {
+        self.lattice.n[2] == 1
+    }
+
+    /// Its cells.
+    #[must_use]
+    pub fn lattice(&self) -> &BeliefGrid {
+        &self.lattice
+    }
+
+    /// Counts the changes of its clearances.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// How many cells were sensed to be solid.
+    #[must_use]
+    pub fn sensed(&self) -> usize {
+        self.sensed.len()
+    }
+
+    /// Distance of a cell's middle from the nearest solid, m; negative inside one, at most a little over the reach.
+    #[must_use]
+    pub fn clearance_m(&self, cell: usize) -> f64 {
+        f64::from(self.clearance_m[cell])
+    }
+
+    /// Half the diagonal of a cell, m.
+    #[must_use]
+    pub fn half_diagonal_m(&self) -> f64 {
+        self.half_diagonal_m
+    }
+
+    /// Clearance that makes a cell free, m: the hull's radius and half the cell's diagonal.
+    #[must_use]
+    pub fn needed_m(&self) -> f64 {
+        self.hull_m + self.half_diagonal_m
+    }
+
+    /// Every point of the cell is at least the hull's radius away from any solid.
+    #[must_use]
+    pub fn free(&self, cell: usize) -> bool {
+        self.clearance_m(cell) >= self.needed_m()
+    }
+
+    /// The middle of the cell lies in a solid.
+    #[must_use]
+    pub fn solid(&self, cell: usize) -> bool {
+        self.clearance_m(cell) < 0.0
+    }
+
+    /// Shortest side of a cell, m.
+    #[must_use]
+    pub fn narrowest_m(&self) -> f64 {
+        let c = self.lattice.cell_m;
+        let flat = c[0].min(c[1]);
+        if self.plane() { flat } else { flat.min(c[2]) }
+    }
+
+    /// The cell nearest to a point (ENU, m), also to one outside.
+    #[must_use]
+    pub fn nearest_cell(&self, p_W: &Vector3<f64>) -> usize {
+        let g = &self.lattice;
+        let d = p_W.xy() - g.corner.xy();
+        let local = [d.dot(&g.axes[0]), d.dot(&g.axes[1]), p_W.z - g.corner.z];
+        let place = [0, 1, 2].map(|a| {
+            let q = (local[a] / g.cell_m[a]).floor();
+            q.clamp(0.0, (g.n[a] - 1) as f64) as usize
+        });
+        g.index(place)
+    }
+
+    /// Whether all cells that a straight line (ENU, m) runs through hold to `open`.
+    #[must_use]
+    pub fn line(
+        &self,
+        a: &Vector3<f64>,
+        b: &Vector3<f64>,
+        mut open: impl FnMut(usize) -> bool,
+    ) -> bool {
+        let g = &self.lattice;
+        let local = |p: &Vector3<f64>| {
+            let d = p.xy() - g.corner.xy();
+            let z = if self.plane() {
+                0.5
+            } else {
+                (p.z - g.corner.z) / g.cell_m[2]
+            };
+            [
+                d.dot(&g.axes[0]) / g.cell_m[0],
+                d.dot(&g.axes[1]) / g.cell_m[1],
+                z,
+            ]
+        };
+        let (a, b) = (local(a), local(b));
+        let mut at = a.map(|v| v.floor() as i64);
+        let end = b.map(|v| v.floor() as i64);
+        let inside = |c: [i64; 3]| (0..3).all(|k| c[k] >= 0 && c[k] < g.n[k] as i64);
+        let mut go = |c: [i64; 3]| inside(c) && open(g.index(c.map(|v| v as usize)));
+        if !go(at) {
+            return false;
+        }
+        // From face to face (Amanatides & Woo 1987, Eurographics, 3).
+        let slope = [0, 1, 2].map(|k| b[k] - a[k]);
+        let sign = slope.map(|s| if s > 0.0 { 1 } else { -1 });
+        let mut next = [0, 1, 2].map(|k| {
+            let face = at[k] + i64::from(slope[k] > 0.0);
+            if at[k] == end[k] {
+                f64::INFINITY
+            } else {
+                (face as f64 - a[k]) / slope[k]
+            }
+        });
+        while at != end {
+            let k = (0..3)
+                .min_by(|i, j| next[*i].total_cmp(&next[*j]))
+                .unwrap_or(0);
+            if !next[k].is_finite() {
+                return true;
+            }
+            at[k] += sign[k];
+            next[k] = if at[k] == end[k] {
+                f64::INFINITY
+            } else {
+                next[k] + 1.0 / slope[k].abs()
+            };
+            if !go(at) {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// Whether a straight line (ENU, m) runs through free cells only.
+    #[must_use]
+    pub fn line_free(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
+        self.line(a, b, |cell| self.free(cell))
+    }
+}
+
+#[cfg(test)]
+#[path = "room_tests.rs"]
+mod tests;

@@ -1,0 +1,55 @@
+//! What the planners' tests share.
+
+use super::Room;
+use crate::handoff::BeliefGrid;
+use nalgebra::{Vector2, Vector3};
+use std::path::Path;
+use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
+use world::ranges::{Finite, HeadingDeg, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Cells from the datum on, axes east and north, standing on a bed 8 m down.
+pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
+    BeliefGrid {
+        corner: Vector3::new(0.0, 0.0, -8.0),
+        axes: [Vector2::x(), Vector2::y()],
+        cell_m,
+        n,
+    }
+}
+
+/// A block on a bed 8 m down.
+pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Obstacle {
+    let [x, y, z] = size_m.map(Positive::new);
+    let spec = ObstacleSpec {
+        id: id.into(),
+        shape: ShapeSpec::Box(BoxShape { size_m: (x, y, z) }),
+        east_m: Finite::new(east_m),
+        north_m: Finite::new(north_m),
+        base: Base::default(),
+        heading_deg: HeadingDeg::new(90.0),
+    };
+    Obstacle::build(&spec, &Terrain::Level { depth_m: 8.0 }, Path::new(".")).expect("a legal block")
+}
+
+/// A room with blocks in it.
+pub(crate) fn room(n: [usize; 3], cell_m: [f64; 3], blocks: Vec<Obstacle>) -> Room {
+    let mut room = Room::new(lattice(n, cell_m), 0.4, 10.0);
+    let bed = Terrain::Level { depth_m: 8.0 };
+    room.chart(&Obstacles(blocks), &bed, |_, _| -4.0);
+    room
+}
+
+/// A room with single cells solid at random.
+pub(crate) fn speckled(n: [usize; 3], cell_m: [f64; 3], share: f64, seed: u64) -> Room {
+    let mut room = Room::new(lattice(n, cell_m), 0.0, 0.0);
+    let mut rng = Stream::new(seed, "room", "solid");
+    for cell in 0..room.lattice().len() {
+        if rng.uniform() < share {
+            let p = room.lattice().centre(cell);
+            room.beam(&p, &p, true);
+        }
+    }
+    room
+}

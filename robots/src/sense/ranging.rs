@@ -1,0 +1,230 @@
+//! Forward ranging: a fan of sound beams that says how far the next solid or the bed is in each direction.
+//!
+//! *Source:* multi-beam forward-looking sonar for obstacle avoidance and path planning of underwater vehicles: Petillot, Tena
+//! Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240.
+//!
+//! *Parameters:* pings a second `rate_hz` 2; `beams` 41 over `width_deg` 120°, in `rows` 1 over `height_deg` 20°; range from
+//! `min_range_m` 0.5 m to `max_range_m` 40 m; noise `noise_m` 0.1 m, one standard deviation; share of beams that
+//! drop out, `dropout`, 0.02. Values of the class, not of one instrument.
+//!
+//! *Deviations:* beams without width, told apart in both directions; no side lobes and no echoes by way of the surface, which
+//! itself throws none back. A beam that drops out says nothing; one without echo says that the way is free.
+
+use crate::error::RobotError;
+use crate::handoff::{Beam, RangeScan};
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+use world::math;
+use world::obstacles::Obstacles;
+use world::ranges::{Fraction, NonNegative, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Most beams in a ping.
+const MOST: u32 = 1024;
+/// Step along a beam in looking for the bed, m, and halvings of the step that met it.
+const BED_STEP: (f64, u32) = (0.5, 20);
+
+/// What a scenario may say of the ranging.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct RangingSpec {
+    /// Pings a second, Hz.
+    pub rate_hz: Positive,
+    /// Beams side by side.
+    pub beams: u32,
+    /// Angle from the outermost beam on the left to that on the right, °, at most 360.
+    pub width_deg: NonNegative,
+    /// Rows of beams, one above the other.
+    pub rows: u32,
+    /// Angle from the lowest row to the highest, °, at most 180.
+    pub height_deg: NonNegative,
+    /// Least range, m.
+    pub min_range_m: NonNegative,
+    /// Greatest range, m.
+    pub max_range_m: Positive,
+    /// Standard deviation of the noise, m.
+    pub noise_m: NonNegative,
+    /// Share of the beams that say nothing.
+    pub dropout: Fraction,
+}
+
+impl Default for RangingSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(2.0),
+            beams: 41,
+            width_deg: NonNegative::new(120.0),
+            rows: 1,
+            height_deg: NonNegative::new(20.0),
+            min_range_m: NonNegative::new(0.5),
+            max_range_m: Positive::new(40.0),
+            noise_m: NonNegative::new(0.1),
+            dropout: Fraction::new(0.02),
+        }
+    }
+}
+
+/// Forward ranging on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Ranging {
+    every: Every,
+    p_BS: Vector3<f64>,
+    dirs_B: Vec<Vector3<f64>>,
+    min_m: f64,
+    max_m: f64,
+    noise_m: f64,
+    dropout: f64,
+    rng: Stream,
+}
+
+impl Ranging {
+    /// A ranging at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step, or the fan cannot be.
+    pub fn new(
+        spec: &RangingSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let wrong = |field: &str, problem: String| RobotError::Invalid {
+            field: format!("sensors.ranging.{field}"),
+            problem,
+        };
+        for (field, n) in [("beams", spec.beams), ("rows", spec.rows)] {
+            if n == 0 || spec.beams.saturating_mul(spec.rows) > MOST {
+                return Err(wrong(
+                    field,
+                    format!("must be at least 1, and beams times rows at most {MOST}, got {n}"),
+                ));
+            }
+        }
+        for (field, angle, most) in [
+            ("width_deg", spec.width_deg, 360.0),
+            ("height_deg", spec.height_deg, 180.0),
+        ] {
+            if angle.get() > most {
+                return Err(wrong(
+                    field,
+                    format!("must be from 0 to {most}, got {}", angle.get()),
+                ));
+            }
+        }
+        let (min_m, max_m) = (spec.min_range_m.get(), spec.max_range_m.get());
+        if min_m >= max_m {
+            return Err(wrong(
+                "max_range_m",
+                format!("must be greater than min_range_m, {min_m} m, got {max_m}"),
+            ));
+        }
+        let spread = |k: u32, n: u32, whole_deg: f64| {
+            let part = if n > 1 {
+                f64::from(k) / f64::from(n - 1) - 0.5
+            } else {
+                0.0
+            };
+            math::sin_cos((part * whole_deg).to_radians())
+        };
+        let dirs_B = (0..spec.rows)
+            .flat_map(|row| (0..spec.beams).map(move |beam| (row, beam)))
+            .map(|(row, beam)| {
+                let (up, flat) = spread(row, spec.rows, spec.height_deg.get());
+                let (left, forward) = spread(beam, spec.beams, spec.width_deg.get());
+                Vector3::new(flat * forward, flat * left, up)
+            })
+            .collect();
+        Ok(Self {
+            every: super::tools::every("sensors.ranging.rate_hz", spec.rate_hz.get(), dt_s)?,
+            p_BS,
+            dirs_B,
+            min_m,
+            max_m,
+            noise_m: spec.noise_m.get(),
+            dropout: spec.dropout.get(),
+            rng: Stream::new(seed, robot_id, "ranging"),
+        })
+    }
+
+    /// The ping of this step, if one is due.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        obstacles: &Obstacles,
+        terrain: &Terrain,
+    ) -> Option<RangeScan> {
+        if !self.every.due(clock) {
+            return None;
+        }
+        let from = truth.pose.point(self.p_BS);
+        let mut beams = Vec::with_capacity(self.dirs_B.len());
+        for dir_B in &self.dirs_B {
+            // Drawn for every beam, so that what is met shifts no later number.
+            let (lost, noise) = (self.rng.uniform() < self.dropout, self.rng.normal());
+            if lost {
+                continue;
+            }
+            let dir = truth.pose.R_WB * dir_B;
+            let solid = obstacles.ray(&from, &dir, self.max_m);
+            let bed = way_to_bed(terrain, &from, &dir, solid.unwrap_or(self.max_m));
+            let echo_m = solid.into_iter().chain(bed).min_by(f64::total_cmp);
+            match echo_m {
+                Some(range) if range < self.min_m => {}
+                Some(range) => beams.push(Beam {
+                    dir_B: *dir_B,
+                    echo_m: Some((range + self.noise_m * noise).max(0.0)),
+                }),
+                None => beams.push(Beam {
+                    dir_B: *dir_B,
+                    echo_m: None,
+                }),
+            }
+        }
+        Some(RangeScan {
+            p_BS: self.p_BS,
+            max_m: self.max_m,
+            beams: beams.into(),
+        })
+    }
+}
+
+/// Way along a unit vector to the bed within `max_m`, m.
+fn way_to_bed(
+    terrain: &Terrain,
+    from: &Vector3<f64>,
+    dir: &Vector3<f64>,
+    max_m: f64,
+) -> Option<f64> {
+    let above = |range: f64| {
+        let p = from + dir * range;
+        p.z - terrain.bed_z(p.x, p.y)
+    };
+    // Over the whole beam no bed is higher than its ends' least depth allows: most beams end here.
+    let lowest = from.z.min(from.z + dir.z * max_m);
+    if lowest > -terrain.shallowest_m() {
+        return None;
+    }
+    let (step, halvings) = BED_STEP;
+    let n = (max_m / step).ceil().max(1.0) as u32;
+    let at = |k: u32| max_m * f64::from(k) / f64::from(n);
+    let met = (1..=n).find(|k| above(at(*k)) <= 0.0)?;
+    let (mut free, mut under) = (at(met - 1), at(met));
+    for _ in 0..halvings {
+        let middle = 0.5 * (free + under);
+        if above(middle) <= 0.0 {
+            under = middle;
+        } else {
+            free = middle;
+        }
+    }
+    Some(under)
+}
+
+#[cfg(test)]
+#[path = "ranging_tests.rs"]
+mod tests;

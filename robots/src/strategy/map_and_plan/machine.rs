@@ -1,0 +1,361 @@
+//! Map and plan: zig-zag to the first detection, then along planned paths to where the map has the source, until a rule declares.
+//!
+//! *Source*: Wang & Pang, section II-A, Fig. 1.
+//!
+//! *Parameters*: see [`MapAndPlanSpec`].
+//!
+//! *Deviations*: the paper's zig-zag knows no obstacle; here a leg that runs into one is led round it by the planner, to
+//! where the leg is free again. What the vehicle does at the target while the map still wavers is not said there: see
+//! [`AtTarget`]. A cell that is solid through and through is no target: the paper's map does not know of obstacles. The map is the robot's own (`map` in the scenario); without one the strategy is refused.
+
+use super::super::amp::AfterDeclaration;
+use super::super::spec::Strategy;
+use super::pilot::{Pilot, place};
+use super::spec::{AtTarget, MapAndPlanSpec};
+use crate::declare::BeliefRule;
+use crate::error::RobotError;
+use crate::handoff::{
+    Behave, Behaviour, Belief, Decision, Declaration, Goal, LostPoints, Manoeuvre, Observation,
+    Outcome, PlumeMemory, Setting, Side, Stride, Vertical,
+};
+use nalgebra::{Vector2, Vector3};
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// A leg of the search is looked along this far, m: two turning circles of 12 m and a margin.
+const LOOK_M: f64 = 30.0;
+/// Step in looking for where a leg is free again, m, and how long it must then be.
+const BEYOND: (f64, f64) = (1.0, 6.0);
+/// Home is reached within this distance, m.
+const HOME_M: f64 = 10.0;
+
+/// State of the strategy.
+#[derive(Debug)]
+pub struct MapAndPlan {
+    speed_m_s: f64,
+    vertical: Vertical,
+    arrive_m: f64,
+    at_target: AtTarget,
+    after: AfterDeclaration,
+    find: Box<dyn Behave>,
+    rule: BeliefRule,
+    pilot: Pilot,
+    memory: PlumeMemory,
+    now: Behaviour,
+    goal: Goal,
+    /// The leg that the search asks for.
+    leg: Option<Manoeuvre>,
+    /// Where a leg round an obstacle leads.
+    detour: Option<Vector3<f64>>,
+    /// The cell aimed at, and which of the places round it (0: itself).
+    aim: Option<(usize, u32)>,
+    /// Whether a cell must be visited before it is declared, and the one visited last.
+    visit_first: bool,
+    visited: Option<usize>,
+    /// The likeliest cell that is not wholly solid, and of which state of map and room.
+    likeliest: Option<((u64, u64), usize)>,
+    outcome: Option<Outcome>,
+}
+
+impl MapAndPlan {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the robot keeps no map, or parameters contradict each other.
+    pub fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
+        if !setting.maps {
+            return Err(RobotError::Invalid {
+                field: "strategy".into(),
+                problem: "MapAndPlan goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Pomdp()".into(),
+            });
+        }
+        let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
+        Ok(Self {
+            speed_m_s,
+            vertical,
+            arrive_m: spec.arrive_m.get(),
+            at_target: spec.at_target,
+            after: spec.after_declaration,
+            find: spec.find.build()?,
+            rule: BeliefRule::new(&spec.declare),
+            pilot: Pilot::new(spec, setting)?,
+            memory: PlumeMemory {
+                up_flow: None,
+                last_detection: None,
+                leaves: Side::Left,
+                lost: LostPoints::new(NonZeroUsize::MIN),
+            },
+            now: Behaviour::Idle,
+            goal: Goal {
+                id: 0,
+                manoeuvre: Manoeuvre::GoToPoint {
+                    point: Vector2::zeros(),
+                    radius_m: None,
+                },
+                vertical,
+                speed_m_s,
+            },
+            leg: None,
+            detour: None,
+            aim: None,
+            visit_first: spec.visit_first,
+            visited: None,
+            likeliest: None,
+            outcome: None,
+        })
+    }
+
+    fn turn_to(&mut self, next: Behaviour, seen: &Observation) {
+        self.now = next;
+        self.pilot.drop_path();
+        self.detour = None;
+        match next {
+            Behaviour::Find => self.find.enter(seen, &self.memory),
+            Behaviour::Done => {
+                self.outcome.get_or_insert(Outcome::Completed);
+            }
+            _ => {}
+        }
+    }
+
+    fn steer_by(&mut self, manoeuvre: Manoeuvre, z_m: Option<f64>, anew: bool) {
+        self.goal = Goal {
+            id: self.goal.id + u32::from(anew),
+            manoeuvre,
+            vertical: z_m.map_or(self.vertical, |z| Vertical::Depth(-z.min(0.0))),
+            speed_m_s: self.speed_m_s,
+        };
+    }
+
+    /// Along a planned path towards `wish`; true at its end.
+    fn towards(&mut self, seen: &Observation, wish: Vector3<f64>) -> bool {
+        let s = self.pilot.steer(seen, wish);
+        let course = Manoeuvre::Course { course: s.course };
+        self.steer_by(course, s.z_m, s.replanned);
+        s.ended || (wish - place(&seen.estimate)).xy().norm() < self.arrive_m
+    }
+
+    fn search(&mut self, seen: &Observation, rng: &mut Stream) {
+        let at = place(&seen.estimate);
+        let arrived = match self.leg {
+            Some(Manoeuvre::GoToPoint { point, .. }) => {
+                (point - at.xy()).norm() < 2.0 * self.arrive_m
+            }
+            _ => false,
+        };
+        match self.find.step(seen, arrived, &mut self.memory, rng) {
+            Stride::Start(leg) | Stride::Adjust(leg) => {
+                self.leg = Some(leg);
+                self.detour = None;
+                self.pilot.drop_path();
+                self.steer_by(leg, None, true);
+            }
+            Stride::Over | Stride::Keep => {}
+        }
+        match self.leg {
+            Some(Manoeuvre::GoToPoint { point, .. }) => {
+                let z = self.pilot.level(point.x, point.y);
+                self.towards(seen, Vector3::new(point.x, point.y, z));
+            }
+            Some(Manoeuvre::Course { course }) => self.along(seen, course),
+            _ => {}
+        }
+    }
+
+    /// A leg of the search, round what stands in its way.
+    fn along(&mut self, seen: &Observation, course: Heading) {
+        if self.detour.is_none() {
+            self.detour = self.way_round(seen, course);
+        }
+        if let Some(to) = self.detour {
+            if self.towards(seen, to) {
+                self.detour = None;
+                self.pilot.drop_path();
+            }
+            return;
+        }
+        let leg = Manoeuvre::Course { course };
+        if self.goal.manoeuvre != leg {
+            self.steer_by(leg, None, true);
+        }
+    }
+
+    /// Where a leg that runs into something is free again; `None` when it runs into nothing near.
+    fn way_round(&self, seen: &Observation, course: Heading) -> Option<Vector3<f64>> {
+        let (at, room) = (place(&seen.estimate), self.pilot.room());
+        let u = course.unit();
+        let on = |m: f64| {
+            let p = at.xy() + u * m;
+            Vector3::new(p.x, p.y, at.z)
+        };
+        let inside = |m: f64| seen.area.contains(on(m).xy());
+        let (step, free_m) = BEYOND;
+        let reach = (1..=(LOOK_M / step) as u32)
+            .map(|k| f64::from(k) * step)
+            .take_while(|m| inside(*m))
+            .last()?;
+        let closed = |from: f64, to: f64| !room.line_free(&on(from), &on(to));
+        if !closed(0.0, reach) {
+            return None;
+        }
+        let first = (0..)
+            .map(|k| f64::from(k) * step)
+            .find(|m| closed(*m, m + step))?;
+        let beyond = (1..)
+            .map(|k| first + f64::from(k) * step)
+            .take_while(|m| inside(*m + free_m))
+            .find(|m| !closed(*m, m + free_m));
+        // Where the leg is closed up to the edge it is led back along its mirror image.
+        beyond.map(|m| on(m + free_m)).or_else(|| {
+            let back = seen.estimate.attitude.heading.opposite().unit() * LOOK_M;
+            let p = crate::handoff::inside(&seen.area, at.xy() + back, LOOK_M / 2.0);
+            Some(Vector3::new(p.x, p.y, at.z))
+        })
+    }
+
+    /// Towards the likeliest cell, and what is to be done there.
+    fn trace(&mut self, seen: &Observation, belief: &Belief) {
+        let place = match self.aim {
+            Some((cell, place)) if cell == belief.best => place,
+            _ => 0,
+        };
+        self.aim = Some((belief.best, place));
+        let wish = self.wish(belief, place);
+        if self.towards(seen, wish) {
+            let last = match self.at_target {
+                AtTarget::Circle => 0,
+                AtTarget::Cross(_) => 2,
+            };
+            if place == last {
+                self.visited = Some(belief.best);
+            }
+            self.aim = Some((belief.best, if place == last { 0 } else { place + 1 }));
+        }
+    }
+
+    /// The target, or one of the two places down-flow of it between which the plume is crossed.
+    fn wish(&self, belief: &Belief, place: u32) -> Vector3<f64> {
+        let mut p = belief.grid.centre(belief.best);
+        if belief.grid.n[2] == 1 {
+            p.z = self.pilot.level(p.x, p.y);
+        }
+        if let (AtTarget::Cross(c), Some(up), 1..) = (self.at_target, self.memory.up_flow, place) {
+            let side = if place == 1 { 1.0 } else { -1.0 };
+            let right = up.turned(std::f64::consts::FRAC_PI_2).unit();
+            let d = right * (side * c.across_m.get()) - up.unit() * c.down_m.get();
+            p += Vector3::new(d.x, d.y, 0.0);
+        }
+        p
+    }
+
+    /// What the map says, the likeliest cell taken among those that are not wholly solid: there is no source in those.
+    fn informed(&mut self, seen: &Observation) -> Option<Belief> {
+        let belief = seen.belief.as_ref().filter(|b| b.informed)?;
+        let key = (belief.updates, self.pilot.room().revision());
+        let best = match self.likeliest {
+            Some((of, best)) if of == key => best,
+            _ => {
+                let free = |cell: &usize| !self.pilot.in_solid(&belief.grid, *cell);
+                let likelier =
+                    |a: &usize, b: &usize| belief.p[*a].total_cmp(&belief.p[*b]).then(b.cmp(a));
+                if free(&belief.best) {
+                    belief.best
+                } else {
+                    (0..belief.p.len())
+                        .filter(free)
+                        .max_by(likelier)
+                        .unwrap_or(belief.best)
+                }
+            }
+        };
+        self.likeliest = Some((key, best));
+        Some(Belief {
+            best,
+            ..belief.clone()
+        })
+    }
+
+    fn declared(&mut self, seen: &Observation, belief: &Belief) -> Option<Declaration> {
+        let position = self.rule.step(seen.t_s, belief)?;
+        if self.visit_first && self.visited != Some(belief.best) {
+            return None;
+        }
+        Some(Declaration {
+            t_s: seen.t_s,
+            position: position.xy(),
+            rule: self.rule.name(),
+        })
+    }
+}
+
+impl Strategy for MapAndPlan {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        self.pilot.sense(seen);
+        if let Some(flow) = seen.estimate.flow {
+            self.memory.up_flow = Some(flow.up_flow());
+        }
+        if seen.guidance.aborted && self.outcome.is_none() {
+            self.outcome = Some(Outcome::Aborted);
+            self.turn_to(Behaviour::Done, seen);
+        }
+        let informed = self.informed(seen);
+        if matches!(self.now, Behaviour::Idle | Behaviour::Find) && informed.is_some() {
+            self.turn_to(Behaviour::FollowPath, seen);
+        } else if self.now == Behaviour::Idle {
+            self.turn_to(Behaviour::Find, seen);
+        }
+        let mut declared = None;
+        if let (Behaviour::FollowPath, Some(belief)) = (self.now, &informed) {
+            declared = self.declared(seen, belief);
+            if declared.is_some() {
+                self.turn_to(
+                    match self.after {
+                        AfterDeclaration::GoHome => Behaviour::GoHome,
+                        AfterDeclaration::Stop => Behaviour::Done,
+                    },
+                    seen,
+                );
+            }
+        }
+        match (self.now, &informed) {
+            (Behaviour::Find, _) => self.search(seen, rng),
+            (Behaviour::FollowPath, Some(belief)) => self.trace(seen, belief),
+            (Behaviour::GoHome, _) => {
+                let home = Vector3::new(
+                    seen.home.x,
+                    seen.home.y,
+                    self.pilot.level(seen.home.x, seen.home.y),
+                );
+                self.towards(seen, home);
+                if (seen.home - seen.estimate.position).norm() < HOME_M {
+                    self.turn_to(Behaviour::Done, seen);
+                }
+            }
+            _ => {}
+        }
+        Decision {
+            behaviour: self.now,
+            goal: self.goal,
+            declared,
+            lost_points: Vec::new(),
+            planned: match self.now {
+                Behaviour::Done => Arc::default(),
+                _ => self.pilot.planned(),
+            },
+            outcome: self.outcome,
+        }
+    }
+}
+
+#[cfg(test)]
+impl MapAndPlan {
+    /// How far the newest path leads.
+    pub(super) fn reach(&self) -> Option<crate::plan::Reach> {
+        self.pilot.reach()
+    }
+
+    /// Cells that were sensed to be solid.
+    pub(super) fn sensed(&self) -> usize {
+        self.pilot.room().sensed()
+    }
+}

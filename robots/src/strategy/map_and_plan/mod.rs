@@ -1,0 +1,10 @@
+//! Map and plan: a map of the source, a planner that leads to its likeliest cell, a rule that declares.
+
+mod machine;
+mod pilot;
+mod spec;
+#[cfg(test)]
+mod tests;
+
+pub use machine::MapAndPlan;
+pub use spec::{AtTarget, CrossSpec, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec};

@@ -1,0 +1,256 @@
+//! What leads the vehicle through its room: keeps the obstacle map, plans, plans anew, follows.
+//!
+//! *Source*: Wang & Pang, section II-D: the path is planned again when its target moves, and followed until then.
+//!
+//! *Parameters*: see [`MapAndPlanSpec`].
+//!
+//! *Deviations*: a new plan is made as well when what was sensed since closes the path ahead, when the vehicle is off it,
+//! and when its end was reached and the target is not there. An echo counts for an obstacle unless the chart
+//! has the bed there; in a room of the plane only nearly level beams say anything about its cells.
+
+use super::spec::MapAndPlanSpec;
+use crate::error::RobotError;
+use crate::handoff::{BeliefGrid, Estimate, Observation, RangeScan, Setting, Vertical};
+use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Room};
+use nalgebra::{UnitQuaternion, Vector3};
+use std::sync::Arc;
+use world::terrain::Terrain;
+use world::units::Heading;
+
+/// An echo this near to the charted bed, m, is the bed's.
+const BED_M: f64 = 1.0;
+/// Beams steeper than this (sine) are not looked at in a room of the plane.
+const STEEPEST: f64 = 0.2;
+/// Slower than this over ground the nose is taken for the course, m/s.
+const SLOWEST_M_S: f64 = 0.2;
+/// A path with less than this left has been followed to its end, m.
+const END_M: f64 = 0.5;
+/// A wish that moved by less than this is the same, m.
+const SAME_M: f64 = 1e-3;
+
+/// What to steer now.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Steering {
+    pub(super) course: Heading,
+    /// Height on the path (z, m); `None` in a room of the plane.
+    pub(super) z_m: Option<f64>,
+    /// The end of the path has been reached.
+    pub(super) ended: bool,
+    /// A new plan was made in this tick.
+    pub(super) replanned: bool,
+}
+
+/// State of the pilot.
+#[derive(Debug)]
+pub(super) struct Pilot {
+    room: Room,
+    planner: Box<dyn Planner>,
+    bed: Terrain,
+    vertical: Vertical,
+    look_ahead_m: f64,
+    replan_off_m: f64,
+    replan_s: f64,
+    follow: Option<Follow>,
+    reach: Option<Reach>,
+    wish: Vector3<f64>,
+    revision: u64,
+    planned_s: f64,
+}
+
+impl Pilot {
+    pub(super) fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
+        let planner = spec.planner.build()?;
+        if spec.planner.plane_only() && !spec.room.plane() {
+            return Err(RobotError::Invalid {
+                field: "strategy.MapAndPlan.planner.AStar.cost".into(),
+                problem:
+                    "the paper's costs are for a room of the plane; take Metric, or room: Plane()"
+                        .into(),
+            });
+        }
+        let cells = spec.room.cells(setting)?;
+        let vertical = Vertical::from(spec.vertical);
+        let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach_m());
+        room.chart(&setting.chart, &setting.bed, |x, y| {
+            level(vertical, &setting.bed, x, y)
+        });
+        let lattice = room.lattice();
+        if !(0..lattice.len()).any(|cell| room.free(cell)) {
+            return Err(RobotError::Invalid {
+                field: "strategy.MapAndPlan.room".into(),
+                problem: NoPath::Full.to_string(),
+            });
+        }
+        Ok(Self {
+            revision: room.revision(),
+            room,
+            planner,
+            bed: setting.bed.clone(),
+            vertical,
+            look_ahead_m: spec.look_ahead_m.get(),
+            replan_off_m: spec.replan_off_m.get(),
+            replan_s: spec.replan_s.get(),
+            follow: None,
+            reach: None,
+            wish: Vector3::zeros(),
+            planned_s: f64::NEG_INFINITY,
+        })
+    }
+
+    /// Takes a ping into the map of obstacles.
+    pub(super) fn sense(&mut self, seen: &Observation) {
+        let Some(scan) = &seen.ranging else { return };
+        let at = place(&seen.estimate);
+        let a = &seen.estimate.attitude;
+        let turn = UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw());
+        self.take_in(scan, at, turn);
+    }
+
+    fn take_in(&mut self, scan: &RangeScan, at: Vector3<f64>, turn: UnitQuaternion<f64>) {
+        let from = at + turn * scan.p_BS;
+        for beam in scan.beams.iter() {
+            let dir = turn * beam.dir_B;
+            if self.room.plane() && dir.z.abs() > STEEPEST {
+                continue;
+            }
+            let to = from + dir * beam.echo_m.unwrap_or(scan.max_m);
+            let solid = beam.echo_m.is_some() && to.z - self.bed.bed_z(to.x, to.y) > BED_M;
+            self.room.beam(&from, &to, solid);
+        }
+        self.room.refresh();
+    }
+
+    /// The map of obstacles.
+    pub(super) fn room(&self) -> &Room {
+        &self.room
+    }
+
+    /// Whether a cell of a map is solid at its middle and half-way to each of its corners.
+    pub(super) fn in_solid(&self, grid: &BeliefGrid, cell: usize) -> bool {
+        let middle = grid.centre(cell);
+        let z = if grid.n[2] == 1 {
+            self.level(middle.x, middle.y)
+        } else {
+            middle.z
+        };
+        let quarter = [
+            grid.axes[0] * (grid.cell_m[0] / 4.0),
+            grid.axes[1] * (grid.cell_m[1] / 4.0),
+        ];
+        [
+            (0.0, 0.0),
+            (1.0, 1.0),
+            (1.0, -1.0),
+            (-1.0, 1.0),
+            (-1.0, -1.0),
+        ]
+        .iter()
+        .all(|(a, b)| {
+            let p = middle.xy() + quarter[0] * *a + quarter[1] * *b;
+            let at = Vector3::new(p.x, p.y, z);
+            self.room.solid(self.room.nearest_cell(&at))
+        })
+    }
+
+    /// The path still ahead; empty without one.
+    pub(super) fn planned(&self) -> Arc<Vec<Vector3<f64>>> {
+        self.follow
+            .as_ref()
+            .map(|f| f.points().clone())
+            .unwrap_or_default()
+    }
+
+    /// How far the newest path leads.
+    #[cfg(test)]
+    pub(super) fn reach(&self) -> Option<Reach> {
+        self.reach
+    }
+
+    /// Forgets the path.
+    pub(super) fn drop_path(&mut self) {
+        self.follow = None;
+    }
+
+    /// Height at which the vehicle moves over a place (east, north) without a path in space, z, m.
+    pub(super) fn level(&self, x: f64, y: f64) -> f64 {
+        level(self.vertical, &self.bed, x, y)
+    }
+
+    /// What to steer to come to `wish` (ENU, m).
+    pub(super) fn steer(&mut self, seen: &Observation, wish: Vector3<f64>) -> Steering {
+        let at = place(&seen.estimate);
+        let mut steer = self.follow.as_mut().map(|f| f.step(&at));
+        let moved = (wish - self.wish).norm() > SAME_M;
+        let due = seen.t_s - self.planned_s >= self.replan_s;
+        let ended = steer.is_some_and(|s| s.left_m < END_M);
+        let off = steer.is_some_and(|s| s.off_m > self.replan_off_m);
+        let again = steer.is_none() || (due && (moved || ended || off || self.closed()));
+        if again {
+            let start = From {
+                p_W: at,
+                heading: moving(&seen.estimate),
+            };
+            let path = self
+                .planner
+                .plan(&self.room, &start, &wish)
+                .unwrap_or_else(|full| {
+                    // What was sensed since the start of the mission fills the whole room: go for the wish itself.
+                    let NoPath::Full = full;
+                    Path {
+                        points: vec![at, wish],
+                        reach: Reach::Goal,
+                        leaves_solid: true,
+                        tightest_m: 0.0,
+                    }
+                });
+            let mut follow = Follow::new(&path, self.look_ahead_m);
+            steer = Some(follow.step(&at));
+            self.follow = Some(follow);
+            self.reach = Some(path.reach);
+            self.wish = wish;
+            self.planned_s = seen.t_s;
+            self.revision = self.room.revision();
+        }
+        let steer = steer.expect("a path was just made where there was none");
+        Steering {
+            course: steer.course,
+            z_m: (!self.room.plane()).then_some(steer.z_m),
+            ended: ended && !moved,
+            replanned: again,
+        }
+    }
+
+    /// What was sensed since the plan closes the path ahead.
+    fn closed(&mut self) -> bool {
+        if self.room.revision() == self.revision {
+            return false;
+        }
+        self.revision = self.room.revision();
+        self.follow.as_ref().is_some_and(|f| {
+            let rest = f.rest();
+            !rest.windows(2).all(|w| self.room.line_free(&w[0], &w[1]))
+        })
+    }
+}
+
+fn level(vertical: Vertical, bed: &Terrain, x: f64, y: f64) -> f64 {
+    match vertical {
+        Vertical::Altitude(m) => bed.bed_z(x, y) + m,
+        Vertical::Depth(m) => -m,
+    }
+}
+
+/// Where the vehicle believes it is (ENU), m.
+pub(super) fn place(est: &Estimate) -> Vector3<f64> {
+    Vector3::new(est.position.x, est.position.y, -est.depth_m)
+}
+
+/// Direction of motion over ground.
+fn moving(est: &Estimate) -> Heading {
+    let v = est.v_ground();
+    if v.norm() > SLOWEST_M_S {
+        Heading::of(v)
+    } else {
+        est.attitude.heading
+    }
+}

@@ -1,0 +1,180 @@
+//! What a scenario says about map and plan.
+
+use super::super::amp::AfterDeclaration;
+use super::super::spec::VerticalSpec;
+use crate::behave::FindSpec;
+use crate::declare::BeliefRuleSpec;
+use crate::error::RobotError;
+use crate::handoff::{BeliefGrid, Setting};
+use crate::plan::PlannerSpec;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// Most cells of a planner's room.
+const MOST_CELLS: f64 = 4e6;
+
+/// Composition and parameters; a default with a section is the paper's (Wang & Pang), others are ours.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MapAndPlanSpec {
+    /// Speed over ground, m/s (section III-B: 2).
+    pub speed_m_s: Positive,
+    /// Altitude or depth; in a room of space as long as there is no path.
+    pub vertical: VerticalSpec,
+    /// Looking for the plume until the first detection (section II-A: zig-zag).
+    pub find: FindSpec,
+    /// Cells the planner plans over.
+    pub room: RoomSpec,
+    /// The planner.
+    pub planner: PlannerSpec,
+    /// When to declare.
+    pub declare: BeliefRuleSpec,
+    /// A cell is declared only after the vehicle has been there, or as near as can be reached; the paper does not ask for
+    /// it, but its vehicle is never under way for as long as the map must stay unchanged.
+    pub visit_first: bool,
+    /// What to do where the source is believed, until it is declared or believed elsewhere.
+    pub at_target: AtTarget,
+    /// What follows the declaration.
+    pub after_declaration: AfterDeclaration,
+    /// Hull's radius with a margin for navigation and for swinging wide, m.
+    pub hull_m: NonNegative,
+    /// The path is steered to this far ahead, m.
+    pub look_ahead_m: Positive,
+    /// A place counts as reached within this distance, m.
+    pub arrive_m: Positive,
+    /// A path is planned anew when the vehicle is farther off it than this, m.
+    pub replan_off_m: Positive,
+    /// Least time between two plans, s.
+    pub replan_s: NonNegative,
+}
+
+impl Default for MapAndPlanSpec {
+    fn default() -> Self {
+        Self {
+            speed_m_s: Positive::new(2.0),
+            vertical: VerticalSpec::Altitude(Positive::new(2.0)),
+            find: FindSpec::default(),
+            room: RoomSpec::default(),
+            planner: PlannerSpec::default(),
+            declare: BeliefRuleSpec::default(),
+            visit_first: true,
+            at_target: AtTarget::default(),
+            after_declaration: AfterDeclaration::default(),
+            hull_m: NonNegative::new(1.0),
+            look_ahead_m: Positive::new(6.0),
+            arrive_m: Positive::new(5.0),
+            replan_off_m: Positive::new(8.0),
+            replan_s: NonNegative::new(1.0),
+        }
+    }
+}
+
+/// The planner's cells, over the operating area.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum RoomSpec {
+    /// At one height.
+    Plane(PlaneSpec),
+    /// From the bed to the surface.
+    Space(SpaceSpec),
+}
+
+impl Default for RoomSpec {
+    fn default() -> Self {
+        Self::Plane(PlaneSpec::default())
+    }
+}
+
+/// Cells of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlaneSpec {
+    /// Sides along the area's axis and across it, m.
+    pub cell_m: (Positive, Positive),
+}
+
+impl Default for PlaneSpec {
+    fn default() -> Self {
+        Self {
+            cell_m: (Positive::new(1.0), Positive::new(1.0)),
+        }
+    }
+}
+
+/// Cells of space.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SpaceSpec {
+    /// Sides along the area's axis, across it and upwards, m.
+    pub cell_m: (Positive, Positive, Positive),
+}
+
+impl Default for SpaceSpec {
+    fn default() -> Self {
+        Self {
+            cell_m: (Positive::new(1.0), Positive::new(1.0), Positive::new(1.0)),
+        }
+    }
+}
+
+impl RoomSpec {
+    /// The cells: whole ones that cover the area, their sides made a little smaller to fit.
+    ///
+    /// # Errors
+    /// When they would be too many.
+    pub(super) fn cells(&self, setting: &Setting) -> Result<BeliefGrid, RobotError> {
+        let (sides, depth_m) = match self {
+            RoomSpec::Plane(p) => ([p.cell_m.0, p.cell_m.1, Positive::new(1.0)], 1.0),
+            RoomSpec::Space(s) => (
+                [s.cell_m.0, s.cell_m.1, s.cell_m.2],
+                setting.bed.deepest_m(),
+            ),
+        };
+        let extents = [setting.area.length_m, setting.area.width_m, depth_m];
+        let counts = [0, 1, 2].map(|a| (extents[a] / sides[a].get() - 1e-9).ceil().max(1.0));
+        let all: f64 = counts.iter().product();
+        if all > MOST_CELLS {
+            return Err(RobotError::Invalid {
+                field: "strategy.MapAndPlan.room".into(),
+                problem: format!(
+                    "its cells would be {all:.0}, at most {MOST_CELLS:.0} are possible; make them larger"
+                ),
+            });
+        }
+        let n = counts.map(|c| c as usize);
+        Ok(BeliefGrid::over(&setting.area, 0.0, depth_m, n))
+    }
+
+    /// Of the plane.
+    pub(super) fn plane(&self) -> bool {
+        matches!(self, RoomSpec::Plane(_))
+    }
+}
+
+/// What to do at the target.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum AtTarget {
+    /// Steer for it again and again, which circles round it (section III-B: the heading is always that to the target).
+    #[default]
+    Circle,
+    /// Cross the water down-flow of it, from side to side.
+    Cross(CrossSpec),
+}
+
+/// Crossings down-flow of the target.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CrossSpec {
+    /// Distance down-flow, m.
+    pub down_m: NonNegative,
+    /// Distance to either side, m.
+    pub across_m: Positive,
+}
+
+impl Default for CrossSpec {
+    fn default() -> Self {
+        Self {
+            down_m: NonNegative::new(5.0),
+            across_m: Positive::new(15.0),
+        }
+    }
+}

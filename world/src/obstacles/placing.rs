@@ -1,0 +1,140 @@
+//! Whether obstacles make sense where they stand.
+//!
+//! *Source*: none; what a scenario's author most likely did not mean.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: obstacles may overlap, as piles and the quay on them do: they are one solid then, for hull, ranging, filaments, voxels and
+//! water alike.
+
+use super::{Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
+use crate::area::Area;
+use crate::terrain::Terrain;
+use nalgebra::{Vector2, Vector3};
+
+/// A surface from a file this many times wider than the area's diagonal was not meant in metres.
+const TOO_WIDE: f64 = 5.0;
+/// One narrower than this was neither, m.
+const TOO_NARROW_M: f64 = 0.02;
+/// Points along, across and upwards at which open water is looked for.
+const LOOKS: [usize; 3] = [64, 64, 8];
+
+/// Something odd about an obstacle.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// Whether a run makes no sense with it.
+    pub wrong: bool,
+    /// What.
+    pub problem: String,
+    /// What to do about it.
+    pub hint: String,
+}
+
+fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
+    Remark {
+        wrong,
+        problem,
+        hint: hint.into(),
+    }
+}
+
+impl Obstacle {
+    /// What is odd about its size and place.
+    #[must_use]
+    pub fn remarks(&self, spec: &ObstacleSpec, area: &Area, terrain: &Terrain) -> Vec<Remark> {
+        let (low, high) = self.bounds();
+        let id = &self.id;
+        let wide = (high - low).max();
+        if matches!(spec.shape, ShapeSpec::Mesh(_) | ShapeSpec::Heightfield(_)) {
+            let diagonal = Vector2::new(area.length_m, area.width_m).norm();
+            if wide > TOO_WIDE * diagonal {
+                let problem = format!(
+                    "obstacle \"{id}\" is {wide:.0} m wide in an area of {:.0} x {:.0} m",
+                    area.length_m, area.width_m
+                );
+                let thousandth = wide / 1000.0 <= TOO_WIDE * diagonal;
+                let hint = if thousandth {
+                    "if the file is in millimetres, give scale: 0.001"
+                } else {
+                    "give scale: metres in one unit of the file"
+                };
+                return vec![remark(true, problem, hint)];
+            }
+            if wide < TOO_NARROW_M {
+                let problem = format!("obstacle \"{id}\" is only {wide:.2e} m wide");
+                return vec![remark(
+                    true,
+                    problem,
+                    "give scale: metres in one unit of the file; 1000 if it is in kilometres",
+                )];
+            }
+        }
+        let mut found = Vec::new();
+        let (least, most) = area.bounds();
+        if low.x > most.x || high.x < least.x || low.y > most.y || high.y < least.y {
+            found.push(remark(
+                false,
+                format!("obstacle \"{id}\" lies wholly outside the area"),
+                "bring it inside, or make the area larger",
+            ));
+        } else if low.z >= 0.0 {
+            found.push(remark(
+                false,
+                format!(
+                    "obstacle \"{id}\" stands wholly above the surface, from {:.2} m on",
+                    low.z
+                ),
+                "give base: Depth(m below the surface)",
+            ));
+        } else {
+            let beds = [
+                (low.x, low.y),
+                (low.x, high.y),
+                (high.x, low.y),
+                (high.x, high.y),
+            ];
+            let deepest = beds
+                .map(|(x, y)| terrain.bed_z(x, y))
+                .into_iter()
+                .fold(f64::INFINITY, f64::min);
+            if high.z <= deepest {
+                found.push(remark(false, format!("obstacle \"{id}\" lies wholly under the bed: its top is {:.2} m below the surface", -high.z), "give a smaller depth in base"));
+            }
+        }
+        found
+    }
+}
+
+impl ObstacleSpec {
+    /// Whether it differs from another in nothing but its name.
+    #[must_use]
+    pub fn is_copy_of(&self, other: &Self) -> bool {
+        let renamed = Self {
+            id: other.id.clone(),
+            ..self.clone()
+        };
+        renamed == *other
+    }
+}
+
+impl Obstacles {
+    /// Whether they leave open water in the area, as far as a closely meshed look shows.
+    #[must_use]
+    pub fn leave_water(&self, area: &Area, terrain: &Terrain) -> bool {
+        let part = |n: usize, d: usize| (n as f64 + 0.5) / LOOKS[d] as f64;
+        (0..LOOKS[0]).any(|i| {
+            (0..LOOKS[1]).any(|j| {
+                let local = Vector2::new(
+                    (part(i, 0) - 0.5) * area.length_m,
+                    (part(j, 1) - 0.5) * area.width_m,
+                );
+                let p = area.world(local);
+                let bed = terrain.bed_z(p.x, p.y);
+                (0..LOOKS[2]).any(|k| {
+                    self.containing(&Vector3::new(p.x, p.y, bed * part(k, 2)))
+                        .is_none()
+                })
+            })
+        })
+    }
+}
