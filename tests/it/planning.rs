@@ -68,7 +68,9 @@ fn parry_distance(solids: &Obstacles, a: &Vector3<f64>, b: &Vector3<f64>) -> f64
         .map(|o| {
             let q = o.pose.R_WB.coords;
             let pose = Pose::from_parts(to(&o.pose.p_WB), Rotation::from_xyzw(q.x, q.y, q.z, q.w));
-            distance(&Pose::IDENTITY, &swept, &pose, &*o.shape).expect("parry knows both shapes")
+            distance(&Pose::IDENTITY, &swept, &pose, &*o.shape)
+                .expect("parry knows both shapes")
+                .distance
         })
         .fold(f64::INFINITY, f64::min)
 }

@@ -173,6 +173,7 @@ fn algorithm_files_say_where_they_come_from() {
         "robots/src/declare",
         "robots/src/guide",
         "robots/src/track",
+        "robots/src/map",
         "robots/src/plan",
     ] {
         for (file, text) in sources(folder) {
