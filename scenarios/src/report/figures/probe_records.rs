@@ -269,7 +269,11 @@ fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
     );
     if let Some((s, found)) = t.stopped {
         panels::event(c, &panel, s, "");
-        let how = if found { "stopped: source declared" } else { "gave up" };
+        let how = if found {
+            "stopped: source declared"
+        } else {
+            "gave up"
+        };
         let at = [panel.right(), panel.top - 8.0];
         c.text(at, 11.0, Anchor::End, &format!("{how} at {s:.1} s"));
     }
