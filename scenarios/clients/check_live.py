@@ -19,7 +19,8 @@ import tempfile
 import time
 
 HERE = pathlib.Path(__file__).resolve().parent
-TOPICS = ["clock", "truth", "estimate", "behaviour", "plume", "scenario", "version", "digest", "schema"]
+TOPICS = ["clock", "truth", "estimate", "behaviour", "joints", "probes", "spikes", "gantry_behaviour", "plume",
+          "scenario", "version", "digest", "schema"]
 LINGER_S = 8
 
 
@@ -125,9 +126,13 @@ class Client:
         must(set(TOPICS) <= set(schemas), f"`{self.name}` misses schemas: {sorted(schemas)}")
         for key, value in self.messages():
             name = "schema" if "/meta/schema/" in key else key.rpartition("/")[2]
+            if "/gantry/" in key and f"gantry_{name}" in schemas:
+                name = f"gantry_{name}"  # a vehicle has its own
             missing = set(schemas[name]["required"]) - set(value)
             must(not missing, f"`{self.name}`: {key} lacks {missing}")
-        must(self.of("/truth") and self.of("/estimate"), f"`{self.name}` saw no state")
+        vehicle = self.of("/truth") and self.of("/estimate")
+        gantry = self.of("/joints") and self.of("/probes") and self.of("/spikes")
+        must(vehicle or gantry, f"`{self.name}` saw no state")
         must(self.ended(), f"`{self.name}` saw no end")
         must({"digest": digest} in self.of("/meta/digest"), f"`{self.name}` saw another digest")
 

@@ -7,7 +7,7 @@
 Start it before, during or after the mission, as long as the run is there: it waits for a run, asks
 for all that was said before it came (scenario, version, schemas, newest state), prints what follows,
 and stops when the run is gone. `rheotaxis topics` explains the keys. KEY narrows what follows, for
-example 'rheotaxis/*/auv/*/chemical'.
+example 'rheotaxis/*/auv/*/chemical' or 'rheotaxis/*/gantry/*/probes'.
 """
 import sys
 import zenoh

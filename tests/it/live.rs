@@ -11,7 +11,10 @@ mod setup;
 use kit::{
     PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, plume, sent, start,
 };
+use rheotaxis::frame::Frame;
 use rheotaxis::live::{Live, LiveOptions, Payload, topics};
+use rheotaxis::scenario;
+use rheotaxis::trial::{Trial, Watch};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::net::TcpListener;
@@ -242,5 +245,54 @@ fn every_message_keeps_its_published_schema() {
     assert_eq!(packed.len(), 100 * 5 * 4);
     let mass = f32::from_le_bytes(packed[16..20].try_into().unwrap());
     assert_eq!(mass, 1e-6);
+    session.close().wait().unwrap();
+}
+
+/// Hands on what it sees.
+struct Publishing(Live);
+impl Watch for Publishing {
+    fn frame(&mut self, frame: &Frame) {
+        self.0.publish(frame);
+    }
+}
+
+#[test]
+fn a_gantry_in_its_flume_keeps_the_schemas() {
+    let dir = tempfile::tempdir().unwrap();
+    let loaded = scenario::load(&crate::flume::short_flume(dir.path())).unwrap();
+    let mut watch = Publishing(start("flume_1"));
+    let ended = Trial::assemble(&loaded, 1).unwrap().run(&mut watch);
+    let Publishing(live) = watch;
+    live.end(&ended.digest);
+    let session = client(live.endpoint());
+    let mut seen = kept(&session, "flume_1");
+    while !seen
+        .get("clock")
+        .is_some_and(|clock| json(clock)["ended"] == true)
+    {
+        seen = kept(&session, "flume_1");
+    }
+    for topic in ["joints", "probes", "spikes", "gantry_behaviour"] {
+        let schema = json(&seen[&format!("meta/schema/{topic}")]);
+        let key = format!("gantry/crab0/{}", topic.trim_start_matches("gantry_"));
+        let mut wrong = Vec::new();
+        broken(&schema, &json(&seen[&key]), &key, &mut wrong);
+        assert!(wrong.is_empty(), "{wrong:#?}");
+    }
+    let doing = json(&seen["gantry/crab0/behaviour"]);
+    assert_eq!(doing["behaviour"], "sweep");
+    let joints = json(&seen["gantry/crab0/joints"]);
+    let head = joints["head_m"][0].as_f64().unwrap();
+    assert!(
+        (head - 1.14).abs() < 0.01,
+        "it starts 114 cm down-stream: {head}"
+    );
+    assert_eq!(
+        json(&seen["gantry/crab0/probes"])["volts"]
+            .as_array()
+            .unwrap()
+            .len(),
+        3
+    );
     session.close().wait().unwrap();
 }

@@ -5,6 +5,7 @@ mod bad_input;
 mod campaign;
 mod common;
 mod determinism;
+mod flume;
 mod golden;
 mod interrupt;
 mod live;

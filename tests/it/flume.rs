@@ -1,0 +1,76 @@
+//! A gantry's run as its user meets it: what it leaves behind, and that nobody who looks on changes it.
+
+use crate::common;
+use std::path::Path;
+
+/// The crab's flume, cut short: the plume is on its way, the head in its first sweep.
+pub(crate) fn short_flume(dir: &Path) -> std::path::PathBuf {
+    let text = include_str!("../../scenarios/catalog/flume_crab.ron");
+    let short = common::with_fields(text, &[("spin_up_s", "10"), ("limit_s", "6")]);
+    let path = dir.join("short_flume.ron");
+    std::fs::write(&path, short).unwrap();
+    path
+}
+
+#[test]
+fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = short_flume(dir.path());
+    let run = |name: &str, options: &[&str]| -> String {
+        let out = dir.path().join(name);
+        let mut args = vec!["run", file.to_str().unwrap(), "--quiet", "--out"];
+        args.push(out.to_str().unwrap());
+        args.extend_from_slice(options);
+        let end = common::rheotaxis(&args);
+        let said = String::from_utf8_lossy(&end.stderr).into_owned();
+        assert_eq!(end.status.code(), Some(3), "out of time: {said}");
+        let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
+        let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+        summary["digest"].as_str().unwrap().to_string()
+    };
+    let bare = run("bare", &["--no-zenoh", "--no-record"]);
+    assert_eq!(bare, run("live", &["--zenoh-listen", "tcp/127.0.0.1:0"]));
+    let out = dir.path().join("live");
+    for name in [
+        "run.mcap",
+        "flume-crab0.svg",
+        "flume-crab0.png",
+        "probes-crab0.svg",
+        "probes-crab0.png",
+        "report.html",
+    ] {
+        assert!(out.join(name).exists(), "{name}");
+    }
+    assert!(!out.join("map.svg").exists());
+
+    let table = std::fs::read_to_string(out.join("probes-crab0.csv")).unwrap();
+    let header: Vec<&str> = table.lines().next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|h| *h == name).unwrap();
+    let (t, v) = (column("t_s"), column("probe_left_v"));
+    let rows: Vec<Vec<&str>> = table
+        .lines()
+        .skip(1)
+        .map(|l| l.split(',').collect())
+        .collect();
+    // Twenty scans a second for six seconds.
+    assert_eq!(rows.len(), 120);
+    assert!(rows.iter().all(|r| r.len() == header.len()));
+    for pair in rows.windows(2) {
+        let [a, b] = [&pair[0], &pair[1]].map(|r| r[t].parse::<f64>().unwrap());
+        assert!((b - a - 0.05).abs() < 1e-9, "{a} {b}");
+        let volts: f64 = pair[0][v].parse().unwrap();
+        assert!((-5.0..=5.0).contains(&volts));
+    }
+}
+
+#[test]
+fn list_explains_the_tracker_and_the_gantry() {
+    let algorithms = common::rheotaxis(&["list", "algorithms"]).stdout;
+    let algorithms = String::from_utf8(algorithms).unwrap();
+    for unit in robots::track::UNITS.iter().chain(robots::track::STRATEGIES) {
+        assert!(algorithms.contains(unit.what), "{}", unit.name);
+        assert!(algorithms.contains(unit.source), "{}", unit.name);
+    }
+    let vehicles = String::from_utf8(common::rheotaxis(&["list", "vehicles"]).stdout).unwrap();
+    assert!(vehicles.contains("CrabGantry"));
+}
