@@ -8,7 +8,6 @@ mod determinism;
 mod golden;
 mod interrupt;
 mod live;
-mod planning;
 mod reproduce;
 mod scenarios;
 mod spin_up;

@@ -15,7 +15,7 @@ mod tests_water;
 pub mod uniform;
 pub mod water;
 
-pub use blockage::{Blocked, BlockageSpec, Solved};
+pub use blockage::{BlockageSpec, Blocked, Solved};
 pub use catalogue::{CATALOGUE, CurrentSpec};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

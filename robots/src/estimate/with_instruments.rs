@@ -50,7 +50,14 @@ mod tests {
                 ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, -depth_m), east))
             };
             let bed = Terrain::Level { depth_m: 8.0 };
-            let readings = suite.read(&clock, &truth, &TwoLayers, &Clean, &bed, &Default::default());
+            let readings = suite.read(
+                &clock,
+                &truth,
+                &TwoLayers,
+                &Clean,
+                &bed,
+                &Default::default(),
+            );
             all.push((p, e.step(&clock, &readings)));
             clock.advance();
         }

@@ -117,8 +117,7 @@ impl SensorSuite {
             depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth)),
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
-            ranging: (self.ranging.as_mut())
-                .and_then(|s| s.read(clock, truth, obstacles, terrain)),
+            ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
         }
     }
 }

@@ -123,7 +123,10 @@ impl Robot {
             self.first_detection.get_or_insert((t_s, p.xy()));
         }
         if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
-            && self.best.as_ref().is_none_or(|(_, cell, _)| *cell != b.best)
+            && self
+                .best
+                .as_ref()
+                .is_none_or(|(_, cell, _)| *cell != b.best)
         {
             self.best = Some((b.t_s, b.best, b.grid.clone()));
         }
@@ -155,7 +158,9 @@ impl Robot {
             traced_m,
             correct_cell_s: (self.best.as_ref())
                 .filter(|(_, best, grid)| {
-                    sources.iter().any(|s| grid.cell(&s.position) == Some(*best))
+                    sources
+                        .iter()
+                        .any(|s| grid.cell(&s.position) == Some(*best))
                 })
                 .map(|(since_s, ..)| *since_s),
             travelled_m: self.travelled_m,

@@ -36,7 +36,12 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
     let solid = scenario.solid(&obstacles);
     check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
-    known("permeable", &scenario.permeable, &scenario.obstacles, &mut found);
+    known(
+        "permeable",
+        &scenario.permeable,
+        &scenario.obstacles,
+        &mut found,
+    );
     sources(scenario, &area, &terrain, &obstacles, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);

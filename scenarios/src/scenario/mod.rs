@@ -16,6 +16,6 @@ pub use fault::{Fault, Found, ScenarioError};
 pub use load::{Loaded, load, parse};
 pub(crate) use outline::Outline;
 pub use schema::{
-    AreaSpec, DeclaredSpec, Id, LevelSpec, ReachedSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec,
-    SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
+    AreaSpec, DeclaredSpec, Id, LevelSpec, ReachedSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec,
+    StartSpec, SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
 };

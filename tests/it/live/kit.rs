@@ -96,7 +96,7 @@ pub(super) fn frame(step: u64) -> Frame {
         behaviour: Behaviour::TrackIn,
         lost_points: vec![Vector2::new(1.0, 2.0)],
         planned: std::sync::Arc::default(),
-            belief: None,
+        belief: None,
         declaration: Some(Declaration {
             t_s: 1.0,
             position: Vector2::new(5.0, 6.0),

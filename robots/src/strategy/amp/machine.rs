@@ -41,10 +41,7 @@ impl Behaviours {
             Behaviour::TrackOut => Some(self.track_out.as_mut()),
             Behaviour::Reacquire => Some(self.reacquire.as_mut()),
             Behaviour::GoHome => Some(&mut self.go_home),
-            Behaviour::Idle
-            | Behaviour::OpenLoop
-            | Behaviour::FollowPath
-            | Behaviour::Done => None,
+            Behaviour::Idle | Behaviour::OpenLoop | Behaviour::FollowPath | Behaviour::Done => None,
         }
     }
 }
