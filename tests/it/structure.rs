@@ -248,6 +248,8 @@ fn every_catalogue_entry_has_a_source_and_a_scenario() {
     let variants = [
         robots::strategy::CATALOGUE,
         robots::declare::CATALOGUE,
+        robots::map::CATALOGUE,
+        robots::plan::CATALOGUE,
         robots::estimate::CATALOGUE,
         robots::track::STRATEGIES,
         robots::vehicles::CATALOGUE,

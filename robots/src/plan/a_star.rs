@@ -156,5 +156,5 @@ impl Planner for AStar {
 }
 
 #[cfg(test)]
-#[path = "a_star_tests.rs"]
+#[path = "tests_a_star.rs"]
 mod tests;

@@ -1,4 +1,10 @@
 //! What a planner is asked and what it answers.
+//!
+//! *Source*: Wang & Pang, section II-D: a start (the vehicle's cell), a goal (the likeliest cell), a series of points.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: the paper does not say what a planner answers that cannot reach its goal: see [`Reach`].
 
 use super::Room;
 use nalgebra::Vector3;

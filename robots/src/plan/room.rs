@@ -4,7 +4,8 @@
 //! hull, Lozano-Pérez 1983, IEEE Trans. Comput. 32, 108.
 //!
 //! *Parameters*: hull radius with its margin, `hull_m`; clearance beyond which cells are not told apart, `reach_m`;
-//! evidence of an echo +2, of a beam that passed through −1, held within ±6; a cell counts as solid from +2 on.
+//! evidence of an echo +2, of a beam that passed through −1, held within ±6; a cell counts as solid from +2 on, and
+//! as free again from −2 on.
 //!
 //! *Deviations*: evidence is counted in whole numbers, not in logarithms of odds. A cell is free when every point of
 //! it is at least the hull's radius away from any solid, so that any line through free cells is free of collisions.
@@ -20,6 +21,8 @@ use world::terrain::Terrain;
 const ECHO: i8 = 2;
 /// Evidence at which a cell counts as solid.
 const SOLID: i8 = 2;
+/// Evidence at which a cell that was solid counts as free again: noise at a wall must not make it flicker.
+const FREE: i8 = -2;
 /// Most evidence kept, either way.
 const MOST: i8 = 6;
 
@@ -33,7 +36,11 @@ pub struct Room {
     charted_m: Vec<f32>,
     evidence: Vec<i8>,
     clearance_m: Vec<f32>,
+    /// Cells found solid, as flags and as a list.
+    found: Vec<bool>,
     sensed: Vec<u32>,
+    /// Steps to the cells within reach of a solid one, with their middles' distances from it, m.
+    round: Vec<([i32; 3], f32)>,
     stale: bool,
     revision: u64,
 }
@@ -46,14 +53,17 @@ impl Room {
         let z = if lattice.n[2] == 1 { 0.0 } else { c[2] };
         let half_diagonal_m = 0.5 * (c[0] * c[0] + c[1] * c[1] + z * z).sqrt();
         let cells = lattice.len();
+        let reach_m = reach_m + hull_m + half_diagonal_m;
         Self {
+            round: round(&lattice, reach_m, half_diagonal_m),
             lattice,
             hull_m,
-            reach_m: reach_m + hull_m + half_diagonal_m,
+            reach_m,
             half_diagonal_m,
             charted_m: vec![f32::INFINITY; cells],
             evidence: vec![0; cells],
             clearance_m: vec![f32::INFINITY; cells],
+            found: vec![false; cells],
             sensed: Vec::new(),
             stale: false,
             revision: 0,
@@ -114,17 +124,17 @@ impl Room {
     }
 
     fn weigh(&mut self, cell: usize, by: i8) {
-        let before = self.evidence[cell];
-        let now = (before + by).clamp(-MOST, MOST);
+        let now = (self.evidence[cell] + by).clamp(-MOST, MOST);
         self.evidence[cell] = now;
-        let (was, is) = (before >= SOLID, now >= SOLID);
-        if is && !was {
+        if now >= SOLID && !self.found[cell] {
+            self.found[cell] = true;
             self.sensed.push(cell as u32);
             if !self.stale {
                 self.stamp(cell);
                 self.revision += 1;
             }
-        } else if was && !is {
+        } else if now <= FREE && self.found[cell] {
+            self.found[cell] = false;
             self.sensed.retain(|c| *c as usize != cell);
             self.stale = true;
         }
@@ -144,24 +154,13 @@ impl Room {
 
     /// Takes a solid cell into the clearances of those round it.
     fn stamp(&mut self, solid: usize) {
-        let at = self.lattice.place(solid);
-        let n = self.lattice.n;
-        let c = self.lattice.cell_m;
-        let reach = [0, 1, 2].map(|a| (self.reach_m / c[a]).ceil() as usize + 1);
-        let span = |a: usize| at[a].saturating_sub(reach[a])..(at[a] + reach[a] + 1).min(n[a]);
-        let gap = |a: usize, i: usize| (i.abs_diff(at[a]) as f64 - 0.5).max(0.0) * c[a];
-        for k in span(2) {
-            for j in span(1) {
-                for i in span(0) {
-                    let (x, y, z) = (gap(0, i), gap(1, j), gap(2, k));
-                    let d = if [i, j, k] == at {
-                        -self.half_diagonal_m
-                    } else {
-                        (x * x + y * y + z * z).sqrt()
-                    };
-                    let cell = self.lattice.index([i, j, k]);
-                    self.clearance_m[cell] = self.clearance_m[cell].min(d as f32);
-                }
+        let at = self.lattice.place(solid).map(|v| v as i32);
+        let n = self.lattice.n.map(|v| v as i32);
+        for (step, d) in &self.round {
+            let to = [0, 1, 2].map(|a| at[a] + step[a]);
+            if (0..3).all(|a| (0..n[a]).contains(&to[a])) {
+                let cell = ((to[2] * n[1] + to[1]) * n[0] + to[0]) as usize;
+                self.clearance_m[cell] = self.clearance_m[cell].min(*d);
             }
         }
     }
@@ -309,6 +308,31 @@ impl Room {
     }
 }
 
+/// The cells within reach of a solid one, which counts as solid as a whole.
+fn round(lattice: &BeliefGrid, reach_m: f64, half_diagonal_m: f64) -> Vec<([i32; 3], f32)> {
+    let c = lattice.cell_m;
+    let span = [0, 1, 2].map(|a| {
+        let cells = (reach_m / c[a]).ceil().min(lattice.n[a] as f64) as i32 + 1;
+        if lattice.n[a] == 1 { 0 } else { cells }
+    });
+    let gap = |a: usize, i: i32| (f64::from(i.abs()) - 0.5).max(0.0) * c[a];
+    let mut round = Vec::new();
+    for k in -span[2]..=span[2] {
+        for j in -span[1]..=span[1] {
+            for i in -span[0]..=span[0] {
+                let (x, y, z) = (gap(0, i), gap(1, j), gap(2, k));
+                let d = (x * x + y * y + z * z).sqrt();
+                if [i, j, k] == [0; 3] {
+                    round.push(([0; 3], -half_diagonal_m as f32));
+                } else if d < reach_m {
+                    round.push(([i, j, k], d as f32));
+                }
+            }
+        }
+    }
+    round
+}
+
 #[cfg(test)]
-#[path = "room_tests.rs"]
+#[path = "tests_room.rs"]
 mod tests;

@@ -250,26 +250,17 @@ impl Search {
         let at = self.place(cell);
         let d = [0, 1, 2].map(|a| at[a].abs_diff(target[a]) as u32);
         let (mut rest, mut set, mut sum) = (d, 7_usize, 0.0);
-        for a in 0..3 {
-            if d[a] == 0 {
-                set &= !(1 << a);
-            }
-        }
+        let gone = |rest: &[u32; 3]| {
+            let zero = rest.iter().enumerate().filter(|(_, r)| **r == 0);
+            zero.map(|(a, _)| 1_usize << a).sum::<usize>()
+        };
+        set &= !gone(&rest);
         while set != 0 {
-            let least = (0..3)
-                .filter(|a| set >> a & 1 == 1)
-                .map(|a| rest[a])
-                .min()
-                .unwrap_or(0);
+            let within = |a: &usize| set >> a & 1 == 1;
+            let least = (0..3).filter(within).map(|a| rest[a]).min().unwrap_or(0);
             sum += f64::from(least) * self.lengths[set];
-            for a in 0..3 {
-                if set >> a & 1 == 1 {
-                    rest[a] -= least;
-                    if rest[a] == 0 {
-                        set &= !(1 << a);
-                    }
-                }
-            }
+            (0..3).filter(within).for_each(|a| rest[a] -= least);
+            set &= !gone(&rest);
         }
         sum as u32
     }
@@ -293,5 +284,5 @@ impl Search {
 }
 
 #[cfg(test)]
-#[path = "search_tests.rs"]
+#[path = "tests_search.rs"]
 mod tests;

@@ -25,6 +25,7 @@ const SECTIONS: &[Section] = &[
         robots::behave::CATALOGUE,
     ),
     section(ListKind::Algorithms, "Source maps", robots::map::CATALOGUE),
+    section(ListKind::Algorithms, "Planners", robots::plan::CATALOGUE),
     section(
         ListKind::Algorithms,
         "Declaration rules",

@@ -120,7 +120,7 @@ impl Drive {
     }
 
     fn step(&mut self) -> Decision {
-        let ping = (self.t_s * 10.0).round() as u64 % 5 == 0;
+        let ping = ((self.t_s * 10.0).round() as u64).is_multiple_of(5);
         let mut o: Observation = seen(
             self.t_s,
             self.p,
@@ -137,10 +137,14 @@ impl Drive {
             let turn = self.heading.turn_to(course).clamp(-most, most);
             self.heading = self.heading.turned(turn);
         }
-        self.p += self.heading.unit() * 0.2;
+        // A wall stops it.
+        let next = self.p + self.heading.unit() * 0.2;
+        let clear_m = self.truth.distance(&Vector3::new(next.x, next.y, -4.0));
+        self.nearest_m = self.nearest_m.min(clear_m);
+        if clear_m > 0.1 {
+            self.p = next;
+        }
         self.t_s += 0.1;
-        let at = Vector3::new(self.p.x, self.p.y, -4.0);
-        self.nearest_m = self.nearest_m.min(self.truth.distance(&at));
         d
     }
 

@@ -36,7 +36,11 @@ fn echoes_make_solid_and_beams_through_make_free_again() {
     r.refresh();
     assert!(r.solid(cell) && r.sensed() == 1 && r.revision() > before);
     let beyond = Vector3::new(15.0, 5.5, 0.0);
+    // One beam that passes is noise, four are a gap.
     r.beam(&from, &beyond, false);
+    r.refresh();
+    assert!(r.solid(cell));
+    (0..3).for_each(|_| r.beam(&from, &beyond, false));
     r.refresh();
     assert!(r.free(cell) && r.sensed() == 0);
     assert!(
