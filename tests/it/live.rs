@@ -44,6 +44,7 @@ fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
 fn key_of(key: &str) -> String {
     key.replace("auv/<id>", "auv/auv0")
         .replace("gantry/<id>", "gantry/crab0")
+        .replace("map/<id>", "map/auv0")
 }
 
 #[test]

@@ -18,7 +18,7 @@ use world::seeds::Stream;
 
 /// A gantry and its joints in the physics.
 #[derive(Component)]
-pub struct Rig {
+pub(crate) struct Rig {
     /// Frame and drives.
     pub gantry: Gantry,
     /// Its joints.
@@ -31,7 +31,7 @@ pub struct Rig {
 
 /// A gantry's probes.
 #[derive(Component)]
-pub struct Head {
+pub(crate) struct Head {
     /// The probes.
     pub probes: Probes,
     /// Their latest scan.
@@ -42,7 +42,7 @@ pub struct Head {
 impl Head {
     /// Probes that have not been read.
     #[must_use]
-    pub fn new(probes: Probes) -> Self {
+    pub(crate) fn new(probes: Probes) -> Self {
         Self {
             probes,
             latest: None,
@@ -53,7 +53,7 @@ impl Head {
 
 /// A gantry's searcher with the random stream it holds.
 #[derive(Component)]
-pub struct Searcher {
+pub(crate) struct Searcher {
     /// What decides.
     pub strategy: Box<dyn GantryStrategy>,
     /// Its random numbers.

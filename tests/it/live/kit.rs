@@ -5,12 +5,13 @@ use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
-    ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
-    FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, MAX_PROBES, Manoeuvre,
-    ProbeScan, Setpoint, TrackerState, Vertical,
+    ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
+    Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
+    MAX_PROBES, Manoeuvre, ProbeScan, Setpoint, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use std::time::Duration;
 use world::frames::{Pose, Truth};
 use world::physics::JointState;
@@ -45,6 +46,25 @@ pub(super) fn options(run: &str) -> LiveOptions {
 
 pub(super) fn start(run: &str) -> Live {
     Live::start(&options(run), meta()).expect("any free port will do")
+}
+
+/// Two cells, the first more likely.
+fn belief() -> Belief {
+    Belief {
+        t_s: 1.0,
+        updates: 3,
+        informed: true,
+        grid: Arc::new(BeliefGrid {
+            corner: Vector3::new(0.0, 0.0, -4.0),
+            axes: [Vector2::x(), Vector2::y()],
+            cell_m: [2.0, 3.0, 4.0],
+            n: [2, 1, 1],
+        }),
+        p: Arc::new(vec![0.75, 0.25]),
+        best: 0,
+        entropy_nat: 0.562,
+        credible_95: 12.0,
+    }
 }
 
 /// A state in which everything is said that can be.
@@ -98,8 +118,8 @@ pub(super) fn frame(step: u64) -> Frame {
         detected: true,
         behaviour: Behaviour::TrackIn,
         lost_points: vec![Vector2::new(1.0, 2.0)],
-        planned: std::sync::Arc::default(),
-        belief: None,
+        planned: Arc::default(),
+        belief: Some(belief()),
         declaration: Some(Declaration {
             t_s: 1.0,
             position: Vector2::new(5.0, 6.0),
