@@ -217,7 +217,7 @@ pub struct StatisticsArgs {
     /// How long to watch; without it 1200 s in an open channel, elsewhere the scenario's `time.limit_s`.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// Folder for statistics.csv; without it runs/<scenario>-<seed>-statistics.
+    /// Folder for statistics.csv; without it `runs/SCENARIO-SEED-statistics`.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Show no progress.
