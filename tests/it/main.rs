@@ -8,6 +8,7 @@ mod determinism;
 mod golden;
 mod interrupt;
 mod live;
+mod planning;
 mod reproduce;
 mod scenarios;
 mod spin_up;
