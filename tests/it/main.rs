@@ -9,6 +9,7 @@ mod flume;
 mod golden;
 mod interrupt;
 mod live;
+mod planning;
 mod reproduce;
 mod scenarios;
 mod spin_up;

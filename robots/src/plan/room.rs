@@ -14,6 +14,7 @@
 
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
+use std::sync::atomic::{AtomicU64, Ordering};
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
@@ -25,6 +26,14 @@ const SOLID: i8 = 2;
 const FREE: i8 = -2;
 /// Most evidence kept, either way.
 const MOST: i8 = 6;
+
+/// The last revision given out to any room of the process. Planners keep what they made of a room under its revision
+/// alone, so that no two rooms may share one; it is only ever compared, and no result depends on its value.
+static REVISION: AtomicU64 = AtomicU64::new(0);
+
+fn next_revision() -> u64 {
+    REVISION.fetch_add(1, Ordering::Relaxed) + 1
+}
 
 /// A grid of cells with clearances.
 #[derive(Clone, Debug)]
@@ -66,7 +75,7 @@ impl Room {
             found: vec![false; cells],
             sensed: Vec::new(),
             stale: false,
-            revision: 0,
+            revision: next_revision(),
         }
     }
 
@@ -131,7 +140,7 @@ impl Room {
             self.sensed.push(cell as u32);
             if !self.stale {
                 self.stamp(cell);
-                self.revision += 1;
+                self.revision = next_revision();
             }
         } else if now <= FREE && self.found[cell] {
             self.found[cell] = false;
@@ -149,7 +158,7 @@ impl Room {
         for k in 0..self.sensed.len() {
             self.stamp(self.sensed[k] as usize);
         }
-        self.revision += 1;
+        self.revision = next_revision();
     }
 
     /// Takes a solid cell into the clearances of those round it.
@@ -177,7 +186,8 @@ impl Room {
         &self.lattice
     }
 
-    /// Counts the changes of its clearances.
+    /// Stands for its clearances: equal only to itself and to copies of the room unchanged since, greater after every
+    /// change.
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision

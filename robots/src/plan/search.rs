@@ -44,7 +44,8 @@ struct Move {
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     costs: Costs,
-    of: Option<(u64, usize)>,
+    /// The room's revision that the arrays are of.
+    of: Option<u64>,
     /// Cells with a border of blocked ones all round (in the plane: no layers above and below).
     n: [usize; 3],
     penalty: Vec<u8>,
@@ -90,7 +91,7 @@ impl Search {
         goal: usize,
         blind: bool,
     ) -> Option<(Vec<usize>, u32)> {
-        if self.of != Some((room.revision(), room.lattice().len())) {
+        if self.of != Some(room.revision()) {
             self.take_in(room);
         }
         let (s, t) = (self.padded(room, start), self.padded(room, goal));
@@ -187,7 +188,7 @@ impl Search {
         let dearest = dearest + (dearest * u32::from(BLOCKED)).div_ceil(PARTS);
         let buckets = (2 * dearest as usize + 2).next_power_of_two();
         self.buckets.resize_with(buckets, Vec::new);
-        self.of = Some((room.revision(), lattice.len()));
+        self.of = Some(room.revision());
     }
 
     fn set_moves(&mut self, plane: bool) {

@@ -159,3 +159,42 @@ fn replans_when_the_room_changes() {
             && after.length_m() > before.length_m() + 5.0
     );
 }
+
+#[test]
+fn one_planner_serves_many_rooms() {
+    // As many changes and as many cells each: only what is in them differs.
+    let wall = |east_m| {
+        room(
+            [60, 60, 1],
+            [1.0; 3],
+            vec![block("w", east_m, 30.0, [4.0, 40.0, 8.0])],
+        )
+    };
+    let (start, goal) = (from(55.0, 30.0, -4.0), Vector3::new(5.0, 30.0, -4.0));
+    for cost in [Cost::Metric, Cost::Paper] {
+        let params = Params {
+            cost,
+            ..Params::default()
+        };
+        let mut used = AStar::new(&params).unwrap();
+        for r in [wall(20.0), wall(40.0), wall(55.0), wall(20.0)] {
+            let fresh = AStar::new(&params).unwrap().plan(&r, &start, &goal);
+            assert_eq!(used.plan(&r, &start, &goal), fresh);
+        }
+    }
+    // Copies that went different ways: a wall of echoes in the one, somewhere else in the other.
+    let mut first = room([60, 60, 1], [1.0; 3], vec![]);
+    let mut second = first.clone();
+    assert_eq!(first.revision(), second.revision());
+    for k in 0..40 {
+        for (r, east) in [(&mut first, 30.5), (&mut second, 40.5)] {
+            let hit = Vector3::new(east, 10.5 + f64::from(k), -4.0);
+            r.beam(&hit, &hit, true);
+        }
+    }
+    let mut used = a_star();
+    for r in [&first, &second] {
+        let path = used.plan(r, &start, &goal).unwrap();
+        assert!(free(r, &path) && path.reach == Reach::Goal, "{path:?}");
+    }
+}
