@@ -122,7 +122,7 @@ impl Gantry {
         for (k, [low, high]) in travel_m.into_iter().enumerate() {
             if !(low..=high).contains(&start_m[k]) {
                 return Err(RobotError::Invalid {
-                    field: format!("start: {}", ["forward_m", "left_m"][k]),
+                    field: format!("start.{}", ["forward_m", "left_m"][k]),
                     problem: format!("must be from {low} to {high} m, got {}", start_m[k]),
                 });
             }

@@ -117,7 +117,7 @@ fn another_gantry_with_axes_swapped_and_turned_is_understood() {
         .expect_err("outside");
     assert_eq!(
         error.to_string(),
-        "start: left_m: must be from -0.6 to 0.2 m, got 0.3"
+        "start.left_m: must be from -0.6 to 0.2 m, got 0.3"
     );
 }
 
