@@ -81,6 +81,7 @@ pub const CATALOG: &[Template] = catalog![
     "wp_laminar",
     "wp_turbulent",
     "wp_dead_end",
+    "block_in_channel",
     "four_maps",
     "harbour_3d",
     "reef_mesh" with "meshes/reef.obj",
