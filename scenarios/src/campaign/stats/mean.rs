@@ -26,7 +26,7 @@ pub fn mean_interval(values: &[f64]) -> Option<Interval> {
 
 /// The value that |t| exceeds in 5 % of cases.
 fn quantile_of_t(freedom: usize) -> f64 {
-    // Beyond this many degrees the normal one, 1.96, is wrong by less than 1e-3 of itself; so is the sum's cost saved.
+    // The quantile changes by less than 1e-3 of itself beyond; more terms would buy nothing.
     const MANY: usize = 2000;
     let (mut low, mut high) = (1.9, 13.0);
     for _ in 0..60 {
