@@ -129,6 +129,7 @@ fn solids() -> Obstacles {
     let m = Positive::new;
     let build = |shape, east_m: f64, north_m: f64| {
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: "o".into(),
             shape,
             east_m: Finite::new(east_m),

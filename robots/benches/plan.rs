@@ -25,6 +25,7 @@ fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> Room {
     let solids = (0..blocks)
         .map(|k| {
             let spec = ObstacleSpec {
+                surface: Default::default(),
                 id: format!("b{k}"),
                 shape: ShapeSpec::Box(BoxShape {
                     size_m: (
@@ -108,6 +109,7 @@ fn million_voxels_between_walls(bencher: divan::Bencher) {
     let bed = Terrain::Level { depth_m: size[2] };
     let walls = (1..10).map(|k| {
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: format!("w{k}"),
             shape: ShapeSpec::Box(BoxShape {
                 size_m: (

@@ -272,6 +272,8 @@ fn spawn(
                 declared: None,
                 lost_points: Vec::new(),
                 planned: std::sync::Arc::default(),
+                layers: Default::default(),
+                picture: false,
                 outcome: None,
             },
             Pilotage(Guidance::new(&spec.guidance)),

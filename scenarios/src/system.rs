@@ -201,6 +201,8 @@ pub(crate) fn decide(clock: Res<Clock>, area: Res<Area>, mut robots: Query<Decid
             home: mind.home,
             belief: belief.cloned(),
             ranging: readings.ranging.clone(),
+            sidescan: readings.sidescan.clone(),
+            picture: readings.picture.clone(),
         };
         let mind = &mut *mind;
         *decision = mind.strategy.step(&seen, &mut mind.rng);

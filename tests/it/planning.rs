@@ -40,6 +40,7 @@ fn obstacles(rng: &mut Stream, size: [f64; 3], bed: &Terrain) -> Obstacles {
             })
         };
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: format!("o{k}"),
             shape,
             east_m: Finite::new(within(0.0, size[0])),

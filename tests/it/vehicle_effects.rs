@@ -290,6 +290,7 @@ fn the_bed_stops_a_dive_without_giving_energy() {
 fn a_wall_stops_a_run_without_giving_energy() {
     let mut physics = Physics::new(STEP_S);
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: "wall".into(),
         shape: ShapeSpec::Box(BoxShape {
             size_m: (Positive::new(2.0), Positive::new(40.0), Positive::new(20.0)),

@@ -29,6 +29,7 @@ fn area() -> Area {
 
 fn built(shape: ShapeSpec, east_m: f64, north_m: f64, dir: &Path) -> Obstacle {
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: "o".into(),
         shape,
         east_m: Finite::new(east_m),

@@ -56,6 +56,7 @@ mod tests {
 
     fn solid(id: &str, shape: ShapeSpec, east_m: f64, heading_deg: f64) -> ObstacleSpec {
         ObstacleSpec {
+            surface: Default::default(),
             id: id.into(),
             shape,
             east_m: Finite::new(east_m),

@@ -13,6 +13,7 @@ use world::terrain::Terrain;
 fn block(bed: &Terrain, heading_deg: f64) -> Obstacles {
     let m = Positive::new;
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: "block".into(),
         shape: ShapeSpec::Box(BoxShape {
             size_m: (m(6.0), m(10.0), m(5.0)),

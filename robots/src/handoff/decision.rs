@@ -1,6 +1,6 @@
 //! What a strategy decides in a tick.
 
-use super::Goal;
+use super::{Goal, Layer};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
@@ -31,11 +31,15 @@ pub enum Behaviour {
     Done,
     /// On a planned path to where the source is believed.
     FollowPath,
+    /// Turning away from an obstacle.
+    Avoid,
+    /// Passing over a declared place with sidescan and camera.
+    Survey,
 }
 
 impl Behaviour {
     /// All behaviours, for tables and legends.
-    pub const ALL: [Behaviour; 10] = [
+    pub const ALL: [Behaviour; 12] = [
         Behaviour::Idle,
         Behaviour::OpenLoop,
         Behaviour::GoTo,
@@ -46,6 +50,8 @@ impl Behaviour {
         Behaviour::GoHome,
         Behaviour::Done,
         Behaviour::FollowPath,
+        Behaviour::Avoid,
+        Behaviour::Survey,
     ];
 
     /// Name as it stands in files and topics.
@@ -62,19 +68,59 @@ impl Behaviour {
             Behaviour::GoHome => "go_home",
             Behaviour::Done => "done",
             Behaviour::FollowPath => "follow_path",
+            Behaviour::Avoid => "avoid",
+            Behaviour::Survey => "survey",
         }
     }
+}
+
+/// What instruments other than the nose say of a declared place.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Verdict {
+    /// Nobody has looked.
+    #[default]
+    Unchecked,
+    /// A source was seen there.
+    Verified,
+    /// Looked at, and no source was seen.
+    Rejected,
 }
 
 /// A declared source.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Declaration {
+    /// Number among the robot's declarations, from 0. A later one of the same number takes the earlier one's
+    /// place: the same source, looked at since.
+    pub number: u32,
     /// When, s.
     pub t_s: f64,
     /// Where, as the vehicle believes (east, north), m.
     pub position: Vector2<f64>,
     /// By which rule.
     pub rule: &'static str,
+    /// Subregion of the mission in which it was made, from 0; `None` where the area is one.
+    pub region: Option<u32>,
+    /// What a look at it said.
+    pub verdict: Verdict,
+    /// Where the sidescan has the source, as the vehicle believes (east, north), m.
+    pub surveyed: Option<Vector2<f64>>,
+}
+
+impl Declaration {
+    /// The first declaration of a mission in one area, not looked at.
+    #[must_use]
+    pub fn first(t_s: f64, position: Vector2<f64>, rule: &'static str) -> Self {
+        Self {
+            number: 0,
+            t_s,
+            position,
+            rule,
+            region: None,
+            verdict: Verdict::Unchecked,
+            surveyed: None,
+        }
+    }
 }
 
 /// How a mission ended, as the strategy sees it.
@@ -100,6 +146,10 @@ pub struct Decision {
     pub lost_points: Vec<Vector2<f64>>,
     /// The path it means to take (ENU), m, the vehicle's place when it was planned first; empty without one.
     pub planned: Arc<Vec<Vector3<f64>>>,
+    /// The layers of a subsumption planner, lowest first; empty for other strategies.
+    pub layers: Arc<[Layer]>,
+    /// Ask the camera for a picture.
+    pub picture: bool,
     /// Set when the mission is over.
     pub outcome: Option<Outcome>,
 }

@@ -1,6 +1,7 @@
 //! What the vehicle believes: never the truth, and a type of its own so that they cannot be confused.
 
 use super::{Belief, ChemicalReading, GuidanceStatus, RangeScan};
+use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -96,4 +97,8 @@ pub struct Observation {
     pub belief: Option<Belief>,
     /// Forward ranging, if the sensor reported in this tick.
     pub ranging: Option<RangeScan>,
+    /// Sidescan sonar, if it reported in this tick.
+    pub sidescan: Option<SidescanPing>,
+    /// Camera, if it gave a picture in this tick.
+    pub picture: Option<Picture>,
 }

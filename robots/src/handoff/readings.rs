@@ -1,5 +1,6 @@
 //! What the instruments said in this tick: `None` when one did not report.
 
+use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
@@ -111,4 +112,8 @@ pub struct Readings {
     pub lbl: Option<LblFix>,
     /// Forward ranging.
     pub ranging: Option<RangeScan>,
+    /// Sidescan sonar.
+    pub sidescan: Option<SidescanPing>,
+    /// Camera.
+    pub picture: Option<Picture>,
 }

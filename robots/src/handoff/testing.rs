@@ -48,6 +48,8 @@ pub(crate) fn seen(
         home: Vector2::new(10.0, -250.0),
         belief: None,
         ranging: None,
+        sidescan: None,
+        picture: None,
     }
 }
 

@@ -23,6 +23,7 @@ pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
 pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Obstacle {
     let [x, y, z] = size_m.map(Positive::new);
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: id.into(),
         shape: ShapeSpec::Box(BoxShape { size_m: (x, y, z) }),
         east_m: Finite::new(east_m),

@@ -10,6 +10,7 @@ use world::units::Heading;
 
 fn pile(east_m: f64, north_m: f64) -> Obstacles {
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: "pile".into(),
         shape: ShapeSpec::Cylinder(CylinderShape {
             radius_m: Positive::new(0.5),

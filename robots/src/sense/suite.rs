@@ -118,6 +118,8 @@ impl SensorSuite {
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
             ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
+            sidescan: None,
+            picture: None,
         }
     }
 }

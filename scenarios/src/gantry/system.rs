@@ -182,11 +182,11 @@ fn declaration(
         .stopped_s
         .filter(|_| decision.stopped == Some(true))?;
     let off = rig.gantry.readings(joints).position_m - rig.gantry.head_m(joints);
-    Some(Declaration {
+    Some(Declaration::first(
         t_s,
-        position: head + (rig.base.R_WB * off.push(0.0)).xy(),
-        rule: "stop",
-    })
+        head + (rig.base.R_WB * off.push(0.0)).xy(),
+        "stop",
+    ))
 }
 
 /// How a gantry's mission ended, if it did.

@@ -160,10 +160,12 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
                 planned: std::sync::Arc::default(),
                 belief: Some(belief(t_s.floor())),
-                declaration: (k >= declare_at).then(|| Declaration {
-                    t_s: declare_at as f64 * 0.1,
-                    position: from + flow.unit() * 12.0 + side * 5.0,
-                    rule: "along_flow",
+                declaration: (k >= declare_at).then(|| {
+                    Declaration::first(
+                        declare_at as f64 * 0.1,
+                        from + flow.unit() * 12.0 + side * 5.0,
+                        "along_flow",
+                    )
                 }),
             };
             Frame {

@@ -89,11 +89,10 @@ fn frames() -> Vec<Frame> {
             w.spike[0] = scan > 0 && scan % 10 == 0;
             w.spike_hz = 2.0;
             g.decision.stopped = (behaviour == GantryBehaviour::Done).then_some(true);
-            g.declaration = g.decision.stopped.map(|_| Declaration {
-                t_s: DECLARED_S,
-                position: Vector2::new(0.14, 0.0),
-                rule: "stop",
-            });
+            g.declaration = g
+                .decision
+                .stopped
+                .map(|_| Declaration::first(DECLARED_S, Vector2::new(0.14, 0.0), "stop"));
             Frame {
                 t_s,
                 step: u64::from(k),

@@ -120,11 +120,7 @@ pub(super) fn frame(step: u64) -> Frame {
         lost_points: vec![Vector2::new(1.0, 2.0)],
         planned: Arc::default(),
         belief: Some(belief()),
-        declaration: Some(Declaration {
-            t_s: 1.0,
-            position: Vector2::new(5.0, 6.0),
-            rule: "p09",
-        }),
+        declaration: Some(Declaration::first(1.0, Vector2::new(5.0, 6.0), "p09")),
     };
     Frame {
         t_s: step as f64 / 10.0,
@@ -164,11 +160,7 @@ fn gantry() -> GantryFrame {
             stopped: Some(true),
         },
         touching: Some("block".to_owned()),
-        declaration: Some(Declaration {
-            t_s: 0.3,
-            position: head_W.xy(),
-            rule: "stop",
-        }),
+        declaration: Some(Declaration::first(0.3, head_W.xy(), "stop")),
     }
 }
 

@@ -7,6 +7,7 @@ mod outline;
 mod placing;
 mod solid;
 mod spec;
+mod surface;
 #[cfg(test)]
 mod tests;
 #[cfg(test)]
@@ -19,3 +20,4 @@ pub use solid::{Obstacle, Obstacles};
 pub use spec::{
     Base, BoxShape, CylinderShape, HeightfieldShape, MeshShape, ObstacleSpec, ShapeSpec,
 };
+pub use surface::Surface;

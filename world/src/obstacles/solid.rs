@@ -6,7 +6,7 @@
 //!
 //! *Deviations:* parry's cylinder stands along its own y axis, so the pose of a cylinder turns y up.
 
-use super::{Base, ObstacleSpec, ShapeSpec, heightfield_file, mesh, mesh_file};
+use super::{Base, ObstacleSpec, ShapeSpec, Surface, heightfield_file, mesh, mesh_file};
 use crate::error::WorldError;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
@@ -27,6 +27,8 @@ pub struct Obstacle {
     pub pose: Pose,
     /// The shape, in its own axes.
     pub shape: SharedShape,
+    /// How its surface looks and sounds.
+    pub surface: Surface,
 }
 
 impl std::fmt::Debug for Obstacle {
@@ -90,6 +92,7 @@ impl Obstacle {
                 R_WB,
             },
             shape,
+            surface: spec.surface.clone(),
         };
         let (min, max) = built.bounds();
         let base_z = match spec.base {

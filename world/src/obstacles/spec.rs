@@ -1,5 +1,6 @@
 //! Obstacles as a scenario file gives them.
 
+use super::Surface;
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +22,9 @@ pub struct ObstacleSpec {
     /// Direction of its own x axis; 90° unless given, so that its x points east and its y north.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
+    /// How its surface looks and sounds: grey rock unless given.
+    #[serde(default)]
+    pub surface: Surface,
 }
 
 fn east() -> HeadingDeg {

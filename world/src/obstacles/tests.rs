@@ -15,6 +15,7 @@ const LEVEL: Terrain = Terrain::Level { depth_m: 8.0 };
 
 fn spec(shape: ShapeSpec, base: Base, heading_deg: f64) -> ObstacleSpec {
     ObstacleSpec {
+        surface: Default::default(),
         id: "pile".into(),
         shape,
         east_m: Finite::new(10.0),

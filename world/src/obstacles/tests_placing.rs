@@ -24,6 +24,7 @@ fn area() -> Area {
 
 fn spec(shape: ShapeSpec, base: Base, heading_deg: f64) -> ObstacleSpec {
     ObstacleSpec {
+        surface: Default::default(),
         id: "reef".into(),
         shape,
         east_m: Finite::new(10.0),

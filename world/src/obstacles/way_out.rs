@@ -65,6 +65,7 @@ mod tests {
     fn block(id: &str, east_m: f64) -> Obstacle {
         let m = Positive::new;
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: id.into(),
             shape: ShapeSpec::Box(BoxShape {
                 size_m: (m(4.0), m(6.0), m(3.0)),

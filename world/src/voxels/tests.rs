@@ -27,6 +27,7 @@ fn bed() -> Terrain {
 
 fn solid(shape: ShapeSpec, heading_deg: f64, terrain: &Terrain) -> Obstacle {
     let spec = ObstacleSpec {
+        surface: Default::default(),
         id: "o".into(),
         shape,
         east_m: Finite::new(5.0),

@@ -63,6 +63,7 @@ pub(super) fn pile(radius_m: f64, height_m: f64) -> ShapeSpec {
 pub(super) fn solids(of: &[(ShapeSpec, f64, f64, f64)], bed: &Terrain) -> Obstacles {
     let built = of.iter().map(|(shape, east, north, heading)| {
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: "o".into(),
             shape: shape.clone(),
             east_m: Finite::new(*east),

@@ -41,7 +41,12 @@ impl Behaviours {
             Behaviour::TrackOut => Some(self.track_out.as_mut()),
             Behaviour::Reacquire => Some(self.reacquire.as_mut()),
             Behaviour::GoHome => Some(&mut self.go_home),
-            Behaviour::Idle | Behaviour::OpenLoop | Behaviour::FollowPath | Behaviour::Done => None,
+            Behaviour::Idle
+            | Behaviour::OpenLoop
+            | Behaviour::FollowPath
+            | Behaviour::Avoid
+            | Behaviour::Survey
+            | Behaviour::Done => None,
         }
     }
 }
@@ -170,11 +175,7 @@ impl Amp {
         let position = self
             .rule
             .declare(&points, self.memory.up_flow_or_nose(seen))?;
-        Some(Declaration {
-            t_s: seen.t_s,
-            position,
-            rule: self.rule.name(),
-        })
+        Some(Declaration::first(seen.t_s, position, self.rule.name()))
     }
 
     fn after_declaration(&self) -> Behaviour {
@@ -251,6 +252,8 @@ impl Strategy for Amp {
             declared,
             lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
             planned: Arc::default(),
+            layers: Arc::default(),
+            picture: false,
             outcome: self.outcome,
         }
     }

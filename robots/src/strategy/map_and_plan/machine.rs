@@ -280,11 +280,11 @@ impl MapAndPlan {
         if self.visit_first && self.visited != Some(belief.best) {
             return None;
         }
-        Some(Declaration {
-            t_s: seen.t_s,
-            position: position.xy(),
-            rule: self.rule.name(),
-        })
+        Some(Declaration::first(
+            seen.t_s,
+            position.xy(),
+            self.rule.name(),
+        ))
     }
 }
 
@@ -342,6 +342,8 @@ impl Strategy for MapAndPlan {
                 Behaviour::Done => Arc::default(),
                 _ => self.pilot.planned(),
             },
+            layers: Arc::default(),
+            picture: false,
             outcome: self.outcome,
         }
     }

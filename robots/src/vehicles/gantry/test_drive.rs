@@ -115,6 +115,7 @@ impl Bench {
     /// A block of 2 cm thickness on the bed, its near face at `forward` m, from y = -0.5 to 0.5 m.
     fn block(&mut self, forward: f64) {
         let spec = ObstacleSpec {
+            surface: Default::default(),
             id: "block".into(),
             shape: ShapeSpec::Box(BoxShape {
                 size_m: (Positive::new(0.02), Positive::new(1.0), Positive::new(0.3)),

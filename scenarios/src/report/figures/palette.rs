@@ -32,6 +32,8 @@ pub(super) fn behaviour(b: Behaviour) -> &'static str {
         Behaviour::GoHome => "#000000",
         Behaviour::Done => "#888888",
         Behaviour::FollowPath => "#009e73",
+        Behaviour::Avoid => "#f0e442",
+        Behaviour::Survey => "#6a3d9a",
     }
 }
 
@@ -48,6 +50,8 @@ pub(super) fn words(b: Behaviour) -> &'static str {
         Behaviour::GoHome => "Go-Home",
         Behaviour::Done => "Done",
         Behaviour::FollowPath => "Follow path",
+        Behaviour::Avoid => "Avoid",
+        Behaviour::Survey => "Survey",
     }
 }
 

@@ -1,0 +1,27 @@
+//! Who holds the vehicle among the layers of a subsumption planner, and whom it silences.
+
+use serde::Serialize;
+
+/// How a layer stands in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum LayerState {
+    /// Asks for nothing.
+    #[default]
+    Silent,
+    /// Its command moves the vehicle.
+    Holds,
+    /// Asks for something, but a higher layer's command takes its place.
+    Suppressed,
+    /// Its input is taken away by a higher layer: it does not even look.
+    Inhibited,
+}
+
+/// A layer in a tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Layer {
+    /// Name, as in the scenario.
+    pub name: &'static str,
+    /// How it stands.
+    pub state: LayerState,
+}

@@ -1,0 +1,26 @@
+//! How an obstacle's surface looks and sounds: what it throws back of light and of sound.
+
+use crate::ranges::{Finite, Fraction};
+use serde::{Deserialize, Serialize};
+
+/// Optical and acoustic properties of a surface.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Surface {
+    /// Share of red, green and blue light thrown back, evenly to all sides.
+    pub albedo: (Fraction, Fraction, Fraction),
+    /// Backscatter strength of a square metre at grazing angle 90°, dB.
+    pub backscatter_db: Finite,
+}
+
+impl Default for Surface {
+    /// Grey rock: a fifth of the light, -10 dB (APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook 1994,
+    /// section IV: rough rock at tens of kHz and above lies at -7 to -13 dB for steep angles).
+    fn default() -> Self {
+        let fifth = || Fraction::new(0.2);
+        Self {
+            albedo: (fifth(), fifth(), fifth()),
+            backscatter_db: Finite::new(-10.0),
+        }
+    }
+}
