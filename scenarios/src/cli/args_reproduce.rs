@@ -8,9 +8,9 @@ use std::path::PathBuf;
     long_about = "Runs the experiments of the papers over many seeds and prints each figure of ours with \
         its 95 % interval, the paper's, and whether the paper's lies inside. Shares have Wilson's interval, \
         medians and 90 % quantiles a bootstrap interval.\n\nLeaves REPRODUCTION.md, figures.csv (the table) and rows.csv \
-        (every run). Seeds are 1 to n; the figures do not depend on the number of jobs.",
+        (every run). Seeds are 1 to n, or as many from `--first-seed` on; the figures do not depend on the number of jobs.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
-        rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
+        rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
         Exit codes: 0 ran, whatever the figures say; 130 interrupted; 1 error; 2 usage."
 )]
 pub struct ReproduceArgs {
@@ -21,6 +21,10 @@ pub struct ReproduceArgs {
     #[arg(long, value_name = "N", default_value_t = 200, conflicts_with = "until_width",
         value_parser = clap::value_parser!(u64).range(1..))]
     pub seeds: u64,
+    /// The first seed; the others follow it. For figures on seeds that nobody has looked at while setting something up.
+    #[arg(long, value_name = "SEED", default_value_t = 1,
+        value_parser = clap::value_parser!(u64).range(..=1 << 62))]
+    pub first_seed: u64,
     /// 20 runs for each row: a first look.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,

@@ -71,6 +71,7 @@ fn one(reference: &Reference, args: &ReproduceArgs) -> Result<Reproduced, Reprod
     let found = AtomicU64::new(0);
     let plan = Plan {
         n,
+        first_seed: args.first_seed,
         until_half_width: args.until_width,
         jobs: args.jobs,
     };

@@ -1,4 +1,4 @@
-//! The runs behind a row: seeds 1 to n, on all cores, until there are enough.
+//! The runs behind a row: consecutive seeds, on all cores, until there are enough.
 
 use super::compare::{Compared, compare};
 use super::row::{Reference, ReproduceError, Row};
@@ -14,6 +14,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub struct Plan {
     /// Seeds; with `until_half_width` at most.
     pub n: u64,
+    /// The first seed; the others follow it.
+    pub first_seed: u64,
     /// Stop when the half width of the success interval is this or less.
     pub until_half_width: Option<f64>,
     /// Threads; 0 for one a core.
@@ -69,7 +71,7 @@ pub fn reproduce(
                             arm: arm.clone(),
                             condition: String::new(),
                             seed_index: index,
-                            seed: index + 1,
+                            seed: plan.first_seed + index,
                         };
                         let row = sharing_run(loaded, &name, &mut spun);
                         heard(&row, n * n_arms);

@@ -53,8 +53,9 @@ fn cells(c: &Compared) -> [String; 6] {
 
 fn runs_line(r: &Reproduced) -> String {
     let failed = r.runs.iter().filter(|x| x.error.is_some()).count();
-    let seeds = r.runs.iter().map(|x| x.seed).max().unwrap_or(0);
-    let mut line = format!("{} runs, seeds 1 to {seeds}", r.runs.len());
+    let last = r.runs.iter().map(|x| x.seed).max().unwrap_or(0);
+    let first = r.runs.iter().map(|x| x.seed).min().unwrap_or(0);
+    let mut line = format!("{} runs, seeds {first} to {last}", r.runs.len());
     if r.row.arms.len() > 1 {
         write!(line, ", {} arms", r.row.arms.len()).expect(TEXT);
     }
