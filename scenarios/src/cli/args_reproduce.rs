@@ -8,7 +8,7 @@ use std::path::PathBuf;
     long_about = "Runs the experiments of the papers over many seeds and prints each figure of ours with \
         its 95 % interval, the paper's, and whether the paper's lies inside. Shares have Wilson's interval, \
         medians and 90 % quantiles a bootstrap interval.\n\nLeaves REPRODUCTION.md, figures.csv (the table) and rows.csv \
-        (every run). Seeds are 1 to n, or as many from `--first-seed` on; the figures do not depend on the number of jobs.",
+        (every run), renewed every 50 seeds: an interrupted row leaves what it has done. Seeds are 1 to n, or as many from `--first-seed` on; the figures do not depend on the number of jobs.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
         Exit codes: 0 ran, whatever the figures say; 130 interrupted; 1 error; 2 usage."

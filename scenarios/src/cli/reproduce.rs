@@ -3,6 +3,7 @@
 use super::args_reproduce::ReproduceArgs;
 use super::exit::Exit;
 use super::say;
+use crate::campaign::RunRow;
 use crate::reproduce::{
     Plan, Reference, ReproduceError, Reproduced, reproduce, table, wanted, write,
 };
@@ -40,10 +41,9 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     write(&args.out, &[])?;
     let mut done = Vec::new();
     for reference in &references {
-        let reproduced = one(reference, args)?;
+        let reproduced = one(reference, args, &done)?;
         say::line(table(&reproduced));
         done.push(reproduced);
-        write(&args.out, &done)?;
     }
     say::line(format_args!(
         "results in {}: REPRODUCTION.md, figures.csv, rows.csv",
@@ -52,7 +52,11 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     Ok(())
 }
 
-fn one(reference: &Reference, args: &ReproduceArgs) -> Result<Reproduced, ReproduceError> {
+fn one(
+    reference: &Reference,
+    args: &ReproduceArgs,
+    done: &[Reproduced],
+) -> Result<Reproduced, ReproduceError> {
     let n = args.n();
     let bar = if args.quiet {
         ProgressBar::hidden()
@@ -75,12 +79,18 @@ fn one(reference: &Reference, args: &ReproduceArgs) -> Result<Reproduced, Reprod
         until_half_width: args.until_width,
         jobs: args.jobs,
     };
-    let reproduced = reproduce(reference, plan, &STOP, |row, planned| {
+    let heard = |row: &RunRow, planned| {
         bar.set_length(planned);
         bar.inc(1);
         let found =
             found.fetch_add(u64::from(row.success), Ordering::Relaxed) + u64::from(row.success);
         bar.set_message(format!("found {found}"));
+    };
+    let reproduced = reproduce(reference, plan, &STOP, heard, |so_far| {
+        let mut all = done.to_vec();
+        all.push(so_far.clone());
+        write(&args.out, &all)?;
+        Ok(())
     });
     bar.finish_and_clear();
     reproduced

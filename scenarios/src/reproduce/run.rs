@@ -9,6 +9,9 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
 
+/// Seeds after which what is known so far is shown: little is lost when the program is killed.
+const BATCH: u64 = 50;
+
 /// How many runs, on how many threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
@@ -35,15 +38,17 @@ pub struct Reproduced {
     pub figures: Vec<Compared>,
 }
 
-/// Runs one row. `heard` is told of every run that ends (from the threads), with the number now planned.
+/// Runs one row. `heard` is told of every run that ends (from the threads), with the number now planned; `kept` is shown
+/// the row as far as it has come, every 50 seeds and at the end.
 ///
 /// # Errors
-/// If the threads cannot be started, or `stop` was set: the runs in hand end, no more are begun.
+/// If the threads cannot be started, if `kept` says so, or if `stop` was set: the runs in hand end, no more are begun.
 pub fn reproduce(
     reference: &Reference,
     plan: Plan,
     stop: &AtomicBool,
     heard: impl Fn(&RunRow, u64) + Sync,
+    mut kept: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
 ) -> Result<Reproduced, ReproduceError> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(plan.jobs)
@@ -53,9 +58,15 @@ pub fn reproduce(
             problem: e.to_string(),
         })?;
     let n_arms = reference.arms.len() as u64;
-    let mut runs: Vec<RunRow> = Vec::new();
-    while let Some(n) = next(&runs, reference, plan) {
-        let from = runs.len() as u64 / n_arms;
+    let mut row = Reproduced {
+        figures: Vec::new(),
+        row: reference.row.clone(),
+        scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
+        runs: Vec::new(),
+    };
+    while let Some(planned) = next(&row.runs, reference, plan) {
+        let from = row.runs.len() as u64 / n_arms;
+        let n = planned.min(from + BATCH);
         let batch: Vec<Option<Vec<RunRow>>> = pool.install(|| {
             (from..n)
                 .into_par_iter()
@@ -74,7 +85,7 @@ pub fn reproduce(
                             seed: plan.first_seed + index,
                         };
                         let row = sharing_run(loaded, &name, &mut spun);
-                        heard(&row, n * n_arms);
+                        heard(&row, planned * n_arms);
                         Some(row)
                     };
                     reference.arms.iter().enumerate().map(one).collect()
@@ -83,14 +94,11 @@ pub fn reproduce(
         });
         let batch: Option<Vec<Vec<RunRow>>> = batch.into_iter().collect();
         let batch = batch.ok_or(ReproduceError::Interrupted)?;
-        runs.extend(batch.into_iter().flatten());
+        row.runs.extend(batch.into_iter().flatten());
+        row.figures = compare(&reference.row, &row.runs);
+        kept(&row)?;
     }
-    Ok(Reproduced {
-        figures: compare(&reference.row, &runs),
-        row: reference.row.clone(),
-        scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
-        runs,
-    })
+    Ok(row)
 }
 
 /// How many seeds there shall be next; `None` when there are enough for every arm.
