@@ -9,6 +9,7 @@ mod flume;
 mod golden;
 mod interrupt;
 mod live;
+mod memory;
 mod planning;
 mod reproduce;
 mod scenarios;
