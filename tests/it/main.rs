@@ -13,6 +13,7 @@ mod memory;
 mod planning;
 mod reproduce;
 mod scenarios;
+mod sea;
 mod spin_up;
 mod structure;
 mod vehicle;

@@ -271,11 +271,14 @@ pub struct StartSpec {
     /// Direction of its nose.
     pub heading_deg: HeadingDeg,
     /// Speed over ground, forward, m/s.
-    #[serde(default = "still")]
+    #[serde(default = "zero")]
     pub speed_m_s: NonNegative,
+    /// Standard deviation, east and north, of the fix its navigation starts from, m.
+    #[serde(default = "zero")]
+    pub fix_noise_m: NonNegative,
 }
 
-fn still() -> NonNegative {
+fn zero() -> NonNegative {
     NonNegative::new(0.0)
 }
 

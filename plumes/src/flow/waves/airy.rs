@@ -7,8 +7,9 @@
 //!
 //! *Parameters*: amplitude a (m), period 2π/ω at a fixed place (s), where it travels, ε (rad), depth h (m).
 //!
-//! *Deviations*: no Doppler shift by currents (1.5 % of k for 10 cm/s against a wave of 6 m/s). Linear theory ends at z = 0: above it and
-//! below the bed the values at them hold.
+//! *Deviations*: no Doppler shift by currents: wave number, displacement and drift are those in still water, off by about U/c where a current U
+//! goes along a wave of speed c (5 % for 20 cm/s along a wave of 2.6 s). Linear theory ends at z = 0: above it and below the bed the
+//! values at them hold.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use world::fields::WaterSample;
