@@ -3,6 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
+use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
@@ -58,7 +59,7 @@ fn tide_is_slowed_by_the_bed_and_turns_with_time() {
     let at = |z: f64, t: f64| water.velocity(&Vector3::new(5.0, 6.0, z), t);
     let (top, low) = (at(-1.0, 4000.0), at(-9.9, 4000.0));
     // ln(0.1/0.001)/ln(8/0.001), the direction unchanged.
-    let factor = (100.0_f64).log10() / (8000.0_f64).log10();
+    let factor = math::ln(100.0) / math::ln(8000.0);
     assert!((low - top * factor).norm() < 1e-12);
     assert!(at(-1.0, 4000.0).x > 0.2 && at(-1.0, 4000.0 + 6.21 * 3600.0).x < -0.2);
     let later = (at(-1.0, 4001.0) - at(-1.0, 3999.0)) / 2.0;

@@ -271,14 +271,14 @@ pub struct StartSpec {
     /// Direction of its nose.
     pub heading_deg: HeadingDeg,
     /// Speed over ground, forward, m/s.
-    #[serde(default = "zero")]
+    #[serde(default = "still")]
     pub speed_m_s: NonNegative,
     /// Standard deviation, east and north, of the fix its navigation starts from, m.
-    #[serde(default = "zero")]
+    #[serde(default = "still")]
     pub fix_noise_m: NonNegative,
 }
 
-fn zero() -> NonNegative {
+fn still() -> NonNegative {
     NonNegative::new(0.0)
 }
 
