@@ -5,6 +5,7 @@ use nalgebra::{Vector2, Vector3};
 use plumes::flow::bed::BedSpec;
 use plumes::flow::layered::{InterfaceSpec, LayerSpec, LayeredSpec, WaveSpec};
 use plumes::flow::meander::MeanderSpec;
+use plumes::flow::waves::{SpectrumSpec, WavesSpec};
 use plumes::flow::{BlockageSpec, CurrentSpec, FlowGrid, GridShape, Water, WaterSpec};
 use std::path::Path;
 use world::area::Area;
@@ -122,6 +123,32 @@ fn meander_step(bencher: Bencher<'_, '_>) {
         t += 5.0;
         w.advance(t);
     });
+}
+
+/// A wind sea of thirty-two waves.
+fn sea() -> plumes::flow::waves::Waves {
+    let spectrum = SpectrumSpec {
+        significant_height_m: Positive::new(0.35),
+        peak_period_s: Positive::new(2.6),
+        heading_deg: HeadingDeg::new(135.0),
+        peakedness: Positive::new(3.3),
+        spreading: NonNegative::new(10.0),
+        components: 32,
+    };
+    let spec = WavesSpec {
+        trains: vec![],
+        spectrum: Some(spectrum),
+        stokes: true,
+        mixing: NonNegative::new(0.028),
+    };
+    spec.build("waves", 10.0, 1).expect("legal waves")
+}
+
+/// What thirty-two waves cost hull, current profiler or fluorometer.
+#[divan::bench(counters = [divan::counter::ItemsCount::new(32_u32)])]
+fn waves_velocity(bencher: Bencher<'_, '_>) {
+    let w = sea();
+    bencher.bench_local(|| w.velocity(black_box(&Vector3::new(40.0, -30.0, -1.5)), 1.0));
 }
 
 /// A turned block and ten piles.

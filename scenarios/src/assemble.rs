@@ -9,7 +9,7 @@ use crate::system::{
 };
 use crate::tick::tick;
 use bevy_ecs::prelude::{Schedule, World};
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
 use plumes::filaments::{Plume, PlumeSettings};
 use plumes::flow::{BlockageSpec, GridShape};
@@ -234,8 +234,11 @@ fn spawn(
     let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
     let body = physics.add_body(vehicle.body_spec(id, truth));
     let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
+    let fix_noise_m = spec.start.fix_noise_m.get();
+    let mut rng = Stream::new(seed, id, "launch fix");
+    let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
     let start = Start {
-        position: p_W.xy(),
+        position: fix,
         heading,
         depth_m: -p_W.z,
     };
@@ -264,7 +267,7 @@ fn spawn(
             Mind {
                 strategy,
                 rng: Stream::new(seed, id, "strategy"),
-                home: p_W.xy(),
+                home: fix,
             },
             Decision {
                 behaviour: Behaviour::Idle,

@@ -4,7 +4,7 @@ use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use crate::gantry::system::{Pictured, picture};
 use bevy_ecs::prelude::{Component, DetectChanges, Query, Ref, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
-use plumes::filaments::Plume;
+use plumes::filaments::{Displaced, Plume};
 use robots::actuate::Autopilot;
 use robots::estimate::Estimator;
 use robots::guide::Guidance;
@@ -110,6 +110,12 @@ impl Flow for Water {
     ) {
         Flow::column(&self.flow, place, heights_m, t_s + self.t0_s, out);
     }
+    fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Option<Vector3<f64>> {
+        self.flow.displacement(p, t_s + self.t0_s)
+    }
+    fn head(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        self.flow.head(p, t_s + self.t0_s)
+    }
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
         self.flow.sample(p, t_s + self.t0_s)
     }
@@ -148,8 +154,8 @@ pub(crate) fn read_instruments(
     mut robots: Query<(&Truth, &mut Instruments, &mut Readings)>,
 ) {
     for (truth, mut suite, mut readings) in &mut robots {
-        let plume = &dye.plume;
-        *readings = (suite.0).read(&clock, truth, &*water, plume, &terrain, &obstacles);
+        let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
+        *readings = (suite.0).read(&clock, truth, &*water, &plume, &terrain, &obstacles);
     }
 }
 

@@ -58,7 +58,8 @@ pub trait Flow: Send + Sync {
     }
 
     /// Velocity and diffusivity at several heights above one place (east, north), m: what is the same
-    /// in the whole column may then be worked out once. Eddies given by [`Flow::carry`] are left out.
+    /// in the whole column may then be worked out once. Eddies given by [`Flow::carry`] are left out, and of waves given
+    /// by [`Flow::displacement`] only the mean drift is in: what is here moves mean places.
     fn column(
         &self,
         place: Vector2<f64>,
@@ -75,6 +76,17 @@ pub trait Flow: Send + Sync {
     /// Carries places (ENU, m) with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place for `dt_s[n]`.
     /// By default there are none.
     fn carry(&self, _t_s: f64, _dt_s: &[f32], _places: [&mut [f32]; 3]) {}
+
+    /// Way of the water whose mean place is `p` from there at this moment, m: the orbits of waves, which [`Flow::column`] leaves out.
+    /// None without waves.
+    fn displacement(&self, _p: &Vector3<f64>, _t_s: f64) -> Option<Vector3<f64>> {
+        None
+    }
+
+    /// Head of the waves' pressure at `p`, m of water, beside the still water's.
+    fn head(&self, _p: &Vector3<f64>, _t_s: f64) -> f64 {
+        0.0
+    }
 
     /// Vertical walls along both sides, if the water stands between such.
     fn walls(&self) -> Option<SideWalls> {

@@ -1,6 +1,7 @@
 //! Filaments: store, drift, concentration.
 
 mod cells;
+mod displaced;
 mod index;
 mod kernel;
 mod leaf;
@@ -25,8 +26,11 @@ mod tests_mixed;
 mod tests_round;
 #[cfg(test)]
 mod tests_water;
+#[cfg(test)]
+mod tests_waves;
 mod thread;
 mod walls;
 
+pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
 pub use plume::{Plume, PlumeSettings};

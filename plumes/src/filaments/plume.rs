@@ -6,7 +6,8 @@
 //! *Parameters*: [`PlumeSettings`]: the flow grid's shape and `refresh_s`, how often the flow is summed on it (s).
 //!
 //! *Deviations*: the paper's v_m, white noise of given standard deviation added every step, becomes kicks √(2K dt),
-//! whose spread does not depend on the step.
+//! whose spread does not depend on the step. Under waves filaments are at their mean places, and a source that stands still releases
+//! at p − ξ(p, t), ξ the waves' displacement (file `displaced`).
 
 use super::cells::Cells;
 use super::index::Index;
@@ -151,7 +152,15 @@ impl Plume {
             let column = self.cells.column(p.x, p.y);
             let bed = self.cells.bed(column);
             let start = [p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)];
-            self.releases[n].until(t0_s, t1_s, |t| store.push(start, bed, t));
+            let (cells, p_W) = (&self.cells, &self.sources[n].p_W);
+            self.releases[n].until(t0_s, t1_s, |t| match flow.displacement(p_W, t) {
+                None => store.push(start, bed, t),
+                Some(way) => {
+                    let p = (p_W - way).map(|v| v as f32);
+                    let bed = cells.bed(cells.column(p.x, p.y));
+                    store.push([p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)], bed, t);
+                }
+            });
             sweep(store, old, t0_s, t1_s, |block| {
                 kernel::step(self.path, &self.cells, &self.grid.data, key, block);
             });

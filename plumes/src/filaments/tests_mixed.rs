@@ -93,6 +93,16 @@ fn water_mixed_by_the_bed_stays_mixed() {
     }
 }
 
+/// Waves of 0.4 m and 4 s stir the surface: mixing that does not end there, and falls by e in 2 m.
+#[test]
+fn water_stirred_by_waves_stays_mixed() {
+    for dt in STEPS_S {
+        let k_z = |z: f64| parabolic(0.006, z + DEPTH, DEPTH) + 2.2e-3 * math::exp(0.5 * z);
+        let chi = unmixed(k_z, 1000.0, dt);
+        assert!(chi < CHI_SQUARE_999, "step {dt}: {chi}");
+    }
+}
+
 #[test]
 fn two_layers_stay_mixed() {
     for u_star in [0.02, 0.006] {

@@ -6,7 +6,9 @@ use world::catalogue::Entry;
 use crate::flow::channel::OpenChannelSpec;
 use crate::flow::layered::LayeredSpec;
 use crate::flow::meander::MeanderSpec;
+use crate::flow::tide::TideSpec;
 use crate::flow::uniform::UniformSpec;
+use crate::flow::waves::WavesSpec;
 
 /// One current; a scenario lists those that add up.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -20,6 +22,10 @@ pub enum CurrentSpec {
     Meander(MeanderSpec),
     /// A channel between side walls with its own bed and turbulence; at most one of these.
     OpenChannel(OpenChannelSpec),
+    /// Current ellipses of the tide.
+    Tide(TideSpec),
+    /// Surface waves; at most one of these, with any number of trains.
+    Waves(WavesSpec),
 }
 
 /// One row for each current.
@@ -43,5 +49,15 @@ pub const CATALOGUE: &[Entry] = &[
         name: "OpenChannel",
         what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
         source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
+    },
+    Entry {
+        name: "Tide",
+        what: "Tidal current: ellipses of constituents, rotating or rectilinear",
+        source: "Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; Foreman 1978",
+    },
+    Entry {
+        name: "Waves",
+        what: "Surface waves by linear theory, trains or a JONSWAP sea: orbits for hull and instruments, Stokes' drift and mixing for the plume",
+        source: "Dean & Dalrymple 1991, Water Wave Mechanics; Hasselmann et al. 1973; Andrews & McIntyre 1978, J. Fluid Mech. 89, 609",
     },
 ];

@@ -14,9 +14,13 @@ pub mod meander;
 pub mod mixing;
 mod solenoidal;
 #[cfg(test)]
+mod tests_sea;
+#[cfg(test)]
 mod tests_water;
+pub mod tide;
 pub mod uniform;
 pub mod water;
+pub mod waves;
 
 pub use blockage::{BlockageSpec, Blocked, Solved};
 pub use catalogue::{CATALOGUE, CurrentSpec};

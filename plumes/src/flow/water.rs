@@ -6,14 +6,15 @@
 //! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise), `blockage`
 //! (absent: the currents pass through obstacles).
 //!
-//! *Deviations*: the horizontal current is (uniform + meander + layer) times the bed's log law, plus an open channel's, which has its
+//! *Deviations*: the horizontal current is (uniform + tide + meander + layer) times the bed's log law, plus an open channel's, which has its
 //! own (files `channel`, `eddies`); the vertical one follows
 //! the surfaces that lie linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each: water
 //! goes through neither bed, interface nor surface. Over a level bed meander and boundary layer are free of
 //! divergence. What is left (off Duck 1e-4 1/s rms, 1e-3 at worst): u·∇H/H over a sloping bed, a current
 //! given as a speed being no transport; second order in the interface's waves; and inside the interface,
 //! where the layers' thinning and thickening is tanh-shaped and w straight, which reverses with the wave.
-//! Below the bed and above the surface the values at them hold.
+//! Below the bed and above the surface the values at them hold. Waves add their orbits to the velocity, their drift and mixing to the
+//! plume's column (file `waves::sea`).
 
 mod answers;
 
@@ -36,6 +37,8 @@ use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn, Profile, Sheet};
 use crate::flow::meander::Meander;
 use crate::flow::mixing::{self, MixingSpec};
+use crate::flow::tide::Tide;
+use crate::flow::waves::Waves;
 
 /// The water of a scenario; by default still.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -70,12 +73,14 @@ impl Default for WaterSpec {
 pub struct Water {
     ground: Ground,
     uniform: Vector2<f64>,
+    tides: Vec<Tide>,
     meanders: Vec<Meander>,
     layered: Option<Layered>,
     bed: Option<BoundaryLayer>,
     mixing: MixingSpec,
     density: f64,
     flume: Option<Flume>,
+    waves: Option<Waves>,
     blocked: Option<Blocked>,
 }
 
@@ -126,12 +131,14 @@ impl WaterSpec {
         let mut water = Water {
             ground: Ground::new(terrain),
             uniform: Vector2::zeros(),
+            tides: Vec::new(),
             meanders: Vec::new(),
             layered: None,
             bed,
             mixing: self.mixing.clone(),
             density: self.density_kg_m3.get(),
             flume: None,
+            waves: None,
             blocked: None,
         };
         for (i, current) in self.currents.iter().enumerate() {
@@ -151,6 +158,17 @@ impl WaterSpec {
                 CurrentSpec::OpenChannel(spec) => {
                     let alone = water.flume.is_none() && water.bed.is_none();
                     water.flume = Some(Flume::build(spec, &field, area, terrain, alone, seed)?);
+                }
+                CurrentSpec::Tide(spec) => water.tides.push(spec.build(&field)?),
+                CurrentSpec::Waves(spec) if water.waves.is_none() => {
+                    let depth = -water.ground.floor(area.centre).z;
+                    water.waves = Some(spec.build(&field, depth, seed)?);
+                }
+                CurrentSpec::Waves(_) => {
+                    let problem = "only one Waves can move the surface; add the second one's \
+                                   trains to the first"
+                        .to_owned();
+                    return Err(PlumeError::Invalid { field, problem });
                 }
             }
         }
@@ -181,6 +199,12 @@ impl Water {
         self.flume.as_ref().and_then(|f| f.eddies.as_ref())
     }
 
+    /// The surface waves, if there are any.
+    #[must_use]
+    pub fn waves(&self) -> Option<&Waves> {
+        self.waves.as_ref()
+    }
+
     fn eddying(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.eddies()
             .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
@@ -192,9 +216,11 @@ impl Water {
         self.blocked.as_ref()
     }
 
-    /// Whether it never changes.
+    /// Whether its currents never change; waves pass by without turning them.
     pub(crate) fn is_steady(&self) -> bool {
-        self.meanders.is_empty() && self.layered.as_ref().is_none_or(Layered::is_steady)
+        self.meanders.is_empty()
+            && self.tides.is_empty()
+            && self.layered.as_ref().is_none_or(Layered::is_steady)
     }
 
     pub(crate) fn floor(&self, p: Vector2<f64>) -> Floor {
@@ -205,7 +231,8 @@ impl Water {
     #[must_use]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
         let floor = self.ground.floor(p);
-        let wandering = self.meanders.iter().map(|m| m.velocity(p, t_s));
+        let tides = self.tides.iter().map(|t| t.velocity(t_s));
+        let wandering = tides.chain(self.meanders.iter().map(|m| m.velocity(p, t_s)));
         Column {
             water: self,
             floor,
@@ -324,6 +351,9 @@ impl Column<'_> {
             || mixing::parabolic(u_star_m_s, height, reach),
             |flume| flume.vertical(height),
         );
+        if let Some(waves) = &self.water.waves {
+            k_z += waves.vertical(z);
+        }
         if k_z > 0.0
             && let Some(p) = profile
         {

@@ -1,16 +1,17 @@
-//! Depth: the pressure at its mount, as metres below the still surface.
+//! Depth: the pressure at its mount, as metres below the still surface; waves passing over are in it.
 //!
 //! *Source:* strain-gauge pressure sensors of coastal AUVs: 0.01 % of 100 m full scale.
 //!
 //! *Parameters:* rate `rate_hz` 25 Hz; noise `noise_m` 0.01 m.
 //!
-//! *Deviations:* pressure under waves and the density profile are not turned into depth errors.
+//! *Deviations:* the density profile is not turned into depth errors; the pressure of the vehicle's own motion is left out.
 
 use crate::error::RobotError;
 use crate::handoff::DepthReading;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
+use world::fields::Flow;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
@@ -64,13 +65,14 @@ impl Depth {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<DepthReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, flow: &dyn Flow) -> Option<DepthReading> {
         if !self.every.due(clock) {
             return None;
         }
-        let z = truth.pose.point(self.p_BS).z;
+        let p = truth.pose.point(self.p_BS);
+        let head_m = flow.head(&p, clock.t_s());
         Some(DepthReading {
-            depth_m: -z + self.noise_m * self.rng.normal(),
+            depth_m: -p.z + head_m + self.noise_m * self.rng.normal(),
         })
     }
 }
@@ -79,16 +81,39 @@ impl Depth {
 mod tests {
     use super::super::testing::{assert_normal, at, nose_up, run};
     use super::*;
+    use world::fields::Still;
 
     #[test]
     fn reads_the_depth_of_its_mount_with_its_noise() {
         let nose = Vector3::new(0.5, 0.0, 0.1);
         let mut d = Depth::new(&DepthSpec::default(), nose, "auv0", 1, 0.02).unwrap();
         let t = nose_up(at(0.0, 0.0, -5.0), 30.0);
-        let v = run(20_000, 0.02, |c| d.read(c, &t));
+        let v = run(20_000, 0.02, |c| d.read(c, &t, &Still));
         assert_eq!(v.len(), 10_000);
         let got: Vec<f64> = v.iter().map(|r| r.depth_m).collect();
         let rise = 0.5 * 0.5 + 0.1 * 0.75_f64.sqrt();
         assert_normal(&got, 5.0 - rise, 0.01);
+    }
+
+    struct Swell;
+    impl Flow for Swell {
+        fn velocity(&self, _: &Vector3<f64>, _: f64) -> Vector3<f64> {
+            Vector3::zeros()
+        }
+        fn head(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+            0.1 * t_s - 0.01 * p.z
+        }
+    }
+
+    #[test]
+    fn feels_the_pressure_of_waves() {
+        let spec = DepthSpec {
+            noise_m: NonNegative::new(0.0),
+            ..Default::default()
+        };
+        let mut d = Depth::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let v = run(101, 0.02, |c| d.read(c, &at(0.0, 0.0, -5.0), &Swell));
+        assert!((v[0].depth_m - 5.05).abs() < 1e-12);
+        assert!((v[50].depth_m - 5.25).abs() < 1e-12);
     }
 }

@@ -114,7 +114,7 @@ impl SensorSuite {
             dvl: (self.dvl.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
             adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, terrain)),
             attitude: (self.compass.as_mut()).and_then(|s| s.read(clock, truth)),
-            depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth)),
+            depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth, flow)),
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
             ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),

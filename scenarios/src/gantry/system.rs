@@ -1,9 +1,10 @@
 //! The systems of gantries: probes and encoders, the searcher, the drives; and what is seen of them.
 
 use super::frame::GantryFrame;
-use crate::system::{Dye, RobotId};
+use crate::system::{Dye, RobotId, Water};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::{Vector2, Vector3};
+use plumes::filaments::Displaced;
 use robots::handoff::{
     Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
 };
@@ -66,14 +67,16 @@ pub(crate) fn read_probes(
     clock: Res<Clock>,
     physics: Res<Physics>,
     dye: Res<Dye>,
+    water: Res<Water>,
     mut gantries: Query<(&Rig, &mut Head, &mut GantryReadings)>,
 ) {
+    let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
     for (rig, mut head, mut readings) in &mut gantries {
         let joints = physics.joints(rig.joints);
         let head = &mut *head;
         head.tips_W.clear();
         head.tips_W.extend(rig.gantry.tips_W(&rig.base, &joints));
-        let scan = head.probes.read(&clock, &head.tips_W, &dye.plume);
+        let scan = head.probes.read(&clock, &head.tips_W, &plume);
         head.latest = scan.or(head.latest);
         *readings = GantryReadings {
             scan,

@@ -147,6 +147,7 @@ const ROWS: &[(&str, &str)] = &[
     row!("crab"),
     row!("crab_arms"),
     row!("duck_st"),
+    row!("dalian_bay"),
     row!("wp_laminar"),
     row!("wp_turbulent"),
     row!("wp_dead_end"),

@@ -73,6 +73,7 @@ macro_rules! catalog {
 /// All of them, in the order of lists.
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
+    "dalian_bay",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

@@ -273,6 +273,9 @@ pub struct StartSpec {
     /// Speed over ground, forward, m/s.
     #[serde(default = "still")]
     pub speed_m_s: NonNegative,
+    /// Standard deviation, east and north, of the fix its navigation starts from, m.
+    #[serde(default = "still")]
+    pub fix_noise_m: NonNegative,
 }
 
 fn still() -> NonNegative {

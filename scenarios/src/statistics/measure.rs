@@ -13,7 +13,7 @@ use super::series::Series;
 use crate::assemble::AssembleError;
 use crate::scenario::Loaded;
 use nalgebra::{Vector2, Vector3};
-use plumes::filaments::{Plume, PlumeSettings};
+use plumes::filaments::{Displaced, Plume, PlumeSettings};
 use plumes::flow::{GridShape, Water};
 use world::fields::{Concentration, Flow};
 use world::obstacles::{Obstacle, Obstacles};
@@ -161,7 +161,10 @@ impl Watch {
             .bed_z(source.x, source.y);
         let mean = match water.channel() {
             Some(channel) => channel.along * channel.mean_m_s,
-            None => water.velocity(&source, t_s).xy(),
+            None => {
+                let orbit = water.waves().map(|w| w.velocity(&source, t_s));
+                (water.velocity(&source, t_s) - orbit.unwrap_or_default()).xy()
+            }
         };
         if mean.norm() < 1e-4 {
             return Err(StatisticsError::Still(loaded.name.clone()));
@@ -213,10 +216,11 @@ impl Watch {
                 }
             }
         }
+        let dye = Displaced::new(plume, water, t_s);
         for (i, distance) in self.distances.iter().enumerate() {
             let p = self.source.xy() + self.along * *distance;
             for (k, height) in self.heights.iter().enumerate() {
-                let value = plume.at(&Vector3::new(p.x, p.y, self.bed_z + height));
+                let value = dye.at(&Vector3::new(p.x, p.y, self.bed_z + height));
                 self.odour[i][k].values.push(value);
             }
         }

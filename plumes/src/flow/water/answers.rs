@@ -18,10 +18,22 @@ impl Flow for Water {
         let turned = (self.blocked.as_ref())
             .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
         let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
+        let mean = match &self.waves {
+            Some(waves) => mean + waves.velocity(p, t_s),
+            None => mean,
+        };
         if self.flume.is_none() {
             return mean;
         }
         mean + self.eddying(p, t_s)
+    }
+
+    fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Option<Vector3<f64>> {
+        self.waves().map(|waves| waves.displacement(p, t_s))
+    }
+
+    fn head(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        self.waves().map_or(0.0, |waves| waves.head(p, t_s))
     }
 
     fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
@@ -63,6 +75,10 @@ impl Flow for Water {
                     node.0 = v;
                 }
             }
+            if let Some(waves) = &self.waves {
+                let drift = waves.drift(*z);
+                node.0 += Vector3::new(drift.x, drift.y, 0.0);
+            }
         }
     }
 
@@ -73,12 +89,16 @@ impl Flow for Water {
             && let Some((velocity, gradient, rate)) =
                 blocked.sample(p, &self.ground.floor(p.xy()), t_s)
         {
-            return WaterSample {
+            let mut sample = WaterSample {
                 velocity,
                 gradient,
                 rate,
                 density_kg_m3: self.density(p, t_s),
             };
+            if let Some(waves) = &self.waves {
+                waves.add_to(&mut sample, p, t_s);
+            }
+            return sample;
         }
         let column =
             |dx: f64, dy: f64, dt: f64| self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt);
@@ -99,6 +119,9 @@ impl Flow for Water {
         };
         if let Some(eddies) = self.eddies() {
             eddies.add_to(&mut sample, p, t_s);
+        }
+        if let Some(waves) = &self.waves {
+            waves.add_to(&mut sample, p, t_s);
         }
         sample
     }

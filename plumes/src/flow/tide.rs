@@ -1,0 +1,179 @@
+//! Tidal current: ellipses that the water runs through with the periods of the tide's constituents.
+//!
+//! *Source*: current ellipses, Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; sign of the minor axis as in Foreman 1978,
+//! Manual for Tidal Currents Analysis and Prediction (positive turns anticlockwise):
+//! u(t) = Σ A cos(ωt − φ) e + B sin(ωt − φ) e⊥, e the major axis, e⊥ to its left.
+//!
+//! *Parameters*: `constituents`, each with `period_h` 2π/ω (h; M2 12.4206, S2 12, K1 23.9345, O1 25.8193), `major_m_s` A,
+//! `minor_m_s` B (m/s; 0 is rectilinear), `heading_deg` of e, `phase_deg` φ: A is reached φ/360 of a period after time zero, which is the
+//! beginning of the spin-up.
+//!
+//! *Deviations*: the same at all places of the area, which is small against the tide's wave of some hundred kilometres. Over depth it is
+//! the water's bed that slows it (`bed`, the logarithmic law), in step with the current above: the boundary layer settles in less than
+//! an hour. The surface does not rise and sink. A meander is carried by the tide as it is at time zero.
+
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use world::math;
+use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+
+use crate::error::PlumeError;
+
+/// The tide's current: constituents that add up.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TideSpec {
+    /// One at least.
+    pub constituents: Vec<ConstituentSpec>,
+}
+
+/// One constituent.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ConstituentSpec {
+    /// Period, h.
+    #[serde(default = "m2")]
+    pub period_h: Positive,
+    /// Greatest speed, m/s.
+    pub major_m_s: NonNegative,
+    /// Speed a quarter of a period later, to the left of the major axis, m/s; negative: to the right.
+    #[serde(default = "none")]
+    pub minor_m_s: Finite,
+    /// Where the water goes at the greatest speed, degrees clockwise from north.
+    pub heading_deg: HeadingDeg,
+    /// When: degrees of a period after time zero.
+    #[serde(default = "none")]
+    pub phase_deg: Finite,
+}
+
+const fn m2() -> Positive {
+    Positive::new(12.420_601_2)
+}
+
+const fn none() -> Finite {
+    Finite::new(0.0)
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Constituent {
+    major: Vector2<f64>,
+    minor: Vector2<f64>,
+    omega_rad_s: f64,
+    phase_rad: f64,
+}
+
+/// The tide's current, ready to use.
+#[derive(Clone, Debug)]
+pub struct Tide {
+    constituents: Vec<Constituent>,
+}
+
+impl TideSpec {
+    /// The current, checked.
+    ///
+    /// # Errors
+    /// Names the field: no constituent, or a minor axis longer than the major one.
+    pub fn build(&self, field: &str) -> Result<Tide, PlumeError> {
+        if self.constituents.is_empty() {
+            return Err(PlumeError::Invalid {
+                field: format!("{field}.constituents"),
+                problem: "needs one at least, got none".to_owned(),
+            });
+        }
+        let of = |(n, c): (usize, &ConstituentSpec)| {
+            let (a, b) = (c.major_m_s.get(), c.minor_m_s.get());
+            if b.abs() > a {
+                return Err(PlumeError::Invalid {
+                    field: format!("{field}.constituents[{n}].minor_m_s"),
+                    problem: format!("must be from -{a} to {a} (major_m_s), got {b}"),
+                });
+            }
+            let e = c.heading_deg.heading().unit();
+            Ok(Constituent {
+                major: e * a,
+                minor: Vector2::new(-e.y, e.x) * b,
+                omega_rad_s: std::f64::consts::TAU / (3600.0 * c.period_h.get()),
+                phase_rad: c.phase_deg.get().to_radians(),
+            })
+        };
+        let constituents = self.constituents.iter().enumerate().map(of);
+        Ok(Tide {
+            constituents: constituents.collect::<Result<_, _>>()?,
+        })
+    }
+}
+
+impl Tide {
+    /// (east, north) above the bed's boundary layer, m/s.
+    #[must_use]
+    pub fn velocity(&self, t_s: f64) -> Vector2<f64> {
+        let of = |c: &Constituent| {
+            let (sin, cos) = math::sin_cos(c.omega_rad_s * t_s - c.phase_rad);
+            c.major * cos + c.minor * sin
+        };
+        self.constituents.iter().map(of).sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn m2_ellipse(minor: f64) -> TideSpec {
+        TideSpec {
+            constituents: vec![ConstituentSpec {
+                period_h: m2(),
+                major_m_s: NonNegative::new(0.4),
+                minor_m_s: Finite::new(minor),
+                heading_deg: HeadingDeg::new(90.0),
+                phase_deg: Finite::new(60.0),
+            }],
+        }
+    }
+
+    #[test]
+    fn runs_through_its_ellipse_anticlockwise() {
+        let tide = m2_ellipse(0.1).build("water.currents[0]").unwrap();
+        let period_s = 3600.0 * m2().get();
+        // The greatest speed eastward a sixth of a period after zero, then northward, then back.
+        for (part, want) in [
+            (0.0, [0.4, 0.0]),
+            (0.25, [0.0, 0.1]),
+            (0.5, [-0.4, 0.0]),
+            (0.75, [0.0, -0.1]),
+        ] {
+            let u = tide.velocity((60.0 / 360.0 + part) * period_s);
+            assert!((u - Vector2::from(want)).norm() < 1e-12, "{part}: {u}");
+        }
+        let u = tide.velocity(1234.0);
+        assert!(((u.x / 0.4).powi(2) + (u.y / 0.1).powi(2) - 1.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn constituents_add_up() {
+        let mut spec = m2_ellipse(0.0);
+        let alone = spec.build("t").unwrap().velocity(500.0);
+        spec.constituents.push(ConstituentSpec {
+            period_h: Positive::new(12.0),
+            heading_deg: HeadingDeg::new(0.0),
+            ..spec.constituents[0].clone()
+        });
+        let both = spec.build("t").unwrap().velocity(500.0);
+        assert!((both.x - alone.x).abs() < 1e-15 && both.y > 0.1);
+    }
+
+    #[test]
+    fn impossible_ellipses_are_refused() {
+        let said = m2_ellipse(-0.5).build("water.currents[0]").unwrap_err();
+        assert_eq!(
+            said.to_string(),
+            "water.currents[0].constituents[0].minor_m_s: must be from -0.4 to 0.4 (major_m_s), got -0.5"
+        );
+        let said = TideSpec {
+            constituents: vec![],
+        }
+        .build("water.currents[0]")
+        .unwrap_err();
+        assert!(said.to_string().contains("needs one at least"));
+    }
+}
