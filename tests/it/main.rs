@@ -14,5 +14,6 @@ mod reproduce;
 mod scenarios;
 mod spin_up;
 mod structure;
+mod subregions;
 mod vehicle;
 mod vehicle_effects;
