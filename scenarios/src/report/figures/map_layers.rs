@@ -148,8 +148,13 @@ pub(super) fn region_line() -> Style<'static> {
 /// Outlines of subregions, with the number in the order of search and how the search ended.
 pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
     for (k, region) in t.regions.iter().enumerate() {
-        let corners = region.area.corners().map(|p| [p.x, p.y]);
-        c.polygon(panel.all(&corners), &region_line());
+        let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
+        for (i, a) in corners.iter().enumerate() {
+            // From left to right, so that the dashes of an edge that two regions share fall on each other.
+            let mut ends = [*a, corners[(i + 1) % corners.len()]];
+            ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            c.line(ends[0], ends[1], &region_line());
+        }
         // Towards the middle of the right edge, where tracks are rarer than in the middle.
         let at = Vector2::new(0.0, 0.32 * region.area.width_m);
         let p = region.area.world(at);
