@@ -15,5 +15,6 @@ pub use map_and_plan::{
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use spec::{Strategy, StrategySpec, VerticalSpec};
 pub use subregions::{
-    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions, SubregionsSpec,
+    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,
+    SubregionsSpec,
 };
