@@ -275,6 +275,7 @@ fn spawn(
                 declared: None,
                 lost_points: Vec::new(),
                 planned: std::sync::Arc::default(),
+                regions: Default::default(),
                 layers: Default::default(),
                 picture: false,
                 outcome: None,

@@ -5,6 +5,7 @@ use crate::gantry::GantryFrame;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
+    Regions,
 };
 use std::sync::Arc;
 use world::frames::Truth;
@@ -38,8 +39,13 @@ pub struct RobotFrame {
     pub planned: Arc<Vec<Vector3<f64>>>,
     /// Where it believes the source may be, if it keeps a map; renewed only when [`Belief::updates`] has grown.
     pub belief: Option<Belief>,
-    /// Its declaration, once made.
-    pub declaration: Option<Declaration>,
+    /// The subregions of its mission; none where the area is one.
+    pub regions: Regions,
+    /// Its declarations so far, by number.
+    pub declarations: Vec<Declaration>,
+    /// How far position fixes moved what it believes since the frame before, the farthest of them, m; `None` when
+    /// none came.
+    pub fix_m: Option<f64>,
 }
 
 /// The run at one instant.

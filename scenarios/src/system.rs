@@ -75,7 +75,8 @@ pub struct Helm(pub Autopilot);
 pub struct Log {
     chemical: Option<ChemicalReading>,
     detected: bool,
-    declaration: Option<Declaration>,
+    declarations: Vec<Declaration>,
+    fix_m: Option<f64>,
     over: bool,
 }
 
@@ -328,12 +329,18 @@ pub(crate) fn take_frame(
     gantries: Query<Pictured>,
 ) {
     let mut ends = false;
-    for (_, _, _, readings, decision, _, _, _, mut log) in &mut robots {
+    for (_, _, estimate, readings, decision, _, _, _, mut log) in &mut robots {
         if let Some(reading) = readings.chemical {
             log.chemical = Some(reading);
             log.detected |= reading.detected;
         }
-        log.declaration = decision.declared.or(log.declaration);
+        if let Some(declared) = decision.declared {
+            declared.join(&mut log.declarations);
+        }
+        if readings.lbl.is_some() {
+            let moved_m = estimate.fix_jump_m;
+            log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
+        }
         // The last state of a mission is shown even between two frames.
         ends |= decision.outcome.is_some() && !log.over;
         log.over = decision.outcome.is_some();
@@ -359,7 +366,9 @@ pub(crate) fn take_frame(
                     lost_points: decision.lost_points.clone(),
                     planned: decision.planned.clone(),
                     belief: belief.cloned(),
-                    declaration: log.declaration,
+                    regions: decision.regions.clone(),
+                    declarations: log.declarations.clone(),
+                    fix_m: log.fix_m.take(),
                 }
             },
         );

@@ -7,7 +7,7 @@ use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::spun_up::{Mismatch, Origin, SpunUp};
 use crate::system::{Dye, Outbox};
 use nalgebra::Vector3;
-use robots::handoff::{Declaration, Outcome};
+use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use world::clock::Clock;
 use world::record::Digest;
@@ -46,8 +46,8 @@ pub struct Ended {
     pub steps: u64,
     /// Mission time, s.
     pub t_s: f64,
-    /// Declarations by robot.
-    pub declarations: BTreeMap<String, Declaration>,
+    /// Declarations by robot or gantry.
+    pub declarations: BTreeMap<String, Vec<Declaration>>,
     /// Flow at each source, averaged over the mission at the times the plume was pictured, m/s.
     pub flow_at_sources: Vec<Vector3<f64>>,
 }
@@ -73,7 +73,7 @@ pub struct Trial {
     sources: Vec<Vector3<f64>>,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
-    declarations: BTreeMap<String, Declaration>,
+    declarations: BTreeMap<String, Vec<Declaration>>,
     /// Least horizontal distance between a robot and a source so far, m.
     closest_m: f64,
 }
@@ -217,13 +217,14 @@ impl Trial {
                     let away_m = (source - robot.truth.pose.p_WB).xy().norm();
                     self.closest_m = self.closest_m.min(away_m);
                 }
-                if let Some(declared) = robot.declaration {
-                    self.declarations.insert(robot.id.clone(), declared);
+                if !robot.declarations.is_empty() {
+                    self.declarations
+                        .insert(robot.id.clone(), robot.declarations.clone());
                 }
             }
             for gantry in &frame.gantries {
                 if let Some(declared) = gantry.declaration {
-                    self.declarations.insert(gantry.id.clone(), declared);
+                    self.declarations.insert(gantry.id.clone(), vec![declared]);
                 }
             }
             watch.frame(&frame);
@@ -245,13 +246,17 @@ impl Trial {
 
     fn outcome(&mut self) -> RunOutcome {
         let missions = self.simulation.outcomes();
+        // What the vehicle itself has rejected does not stand.
+        let stands = |d: &&Declaration| d.verdict != Verdict::Rejected;
+        let standing = || self.declarations.values().flatten().filter(stands);
+        let declared = |s: &Vector3<f64>, within_m: f64| {
+            standing().any(|d| (s.xy() - d.position).norm() <= within_m)
+        };
         if let SuccessSpec::Declared(wanted) = &self.success
             && !self.declarations.is_empty()
         {
-            let near = |d: &Declaration| {
-                (self.sources.iter()).any(|s| (s.xy() - d.position).norm() <= wanted.within_m.get())
-            };
-            return if self.declarations.values().any(near) {
+            let within_m = wanted.within_m.get();
+            return if self.sources.iter().any(|s| declared(s, within_m)) {
                 RunOutcome::Found
             } else {
                 RunOutcome::NotFound
@@ -266,10 +271,16 @@ impl Trial {
             RunOutcome::Aborted
         } else if missions.contains(&None) {
             RunOutcome::TimeOut
-        } else if self.success == SuccessSpec::Completed {
-            RunOutcome::Completed
         } else {
-            RunOutcome::NotFound
+            match &self.success {
+                SuccessSpec::Completed => RunOutcome::Completed,
+                SuccessSpec::AllDeclared(wanted)
+                    if (self.sources.iter()).all(|s| declared(s, wanted.within_m.get())) =>
+                {
+                    RunOutcome::Found
+                }
+                _ => RunOutcome::NotFound,
+            }
         }
     }
 }

@@ -43,6 +43,7 @@ fn assert_whole(seen: &BTreeMap<String, Sample>, last_step: u64) {
 /// A topic's key for the vehicle or the gantry of the run.
 fn key_of(key: &str) -> String {
     key.replace("auv/<id>", "auv/auv0")
+        .replace("<number>", "0")
         .replace("gantry/<id>", "gantry/crab0")
         .replace("map/<id>", "map/auv0")
 }

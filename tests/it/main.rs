@@ -16,5 +16,6 @@ mod scenarios;
 mod sea;
 mod spin_up;
 mod structure;
+mod subregions;
 mod vehicle;
 mod vehicle_effects;

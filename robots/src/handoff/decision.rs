@@ -1,6 +1,6 @@
 //! What a strategy decides in a tick.
 
-use super::{Goal, Layer};
+use super::{Goal, Layer, Regions};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
@@ -87,6 +87,18 @@ pub enum Verdict {
     Rejected,
 }
 
+impl Verdict {
+    /// Name as it stands in files and topics.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Verdict::Unchecked => "unchecked",
+            Verdict::Verified => "verified",
+            Verdict::Rejected => "rejected",
+        }
+    }
+}
+
 /// A declared source.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Declaration {
@@ -121,6 +133,14 @@ impl Declaration {
             surveyed: None,
         }
     }
+
+    /// Puts it among the earlier ones: in the place of one of its number, else at the end.
+    pub fn join(self, earlier: &mut Vec<Declaration>) {
+        match earlier.iter_mut().find(|d| d.number == self.number) {
+            Some(same) => *same = self,
+            None => earlier.push(self),
+        }
+    }
 }
 
 /// How a mission ended, as the strategy sees it.
@@ -146,10 +166,32 @@ pub struct Decision {
     pub lost_points: Vec<Vector2<f64>>,
     /// The path it means to take (ENU), m, the vehicle's place when it was planned first; empty without one.
     pub planned: Arc<Vec<Vector3<f64>>>,
+    /// The subregions of the mission; none where the area is one.
+    pub regions: Regions,
     /// The layers of a subsumption planner, lowest first; empty for other strategies.
     pub layers: Arc<[Layer]>,
     /// Ask the camera for a picture.
     pub picture: bool,
     /// Set when the mission is over.
     pub outcome: Option<Outcome>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_look_takes_the_first_ones_place() {
+        let mut list = Vec::new();
+        let first = Declaration::first(1.0, Vector2::zeros(), "a");
+        let second = Declaration { number: 1, ..first };
+        let looked_at = Declaration {
+            verdict: Verdict::Verified,
+            ..first
+        };
+        first.join(&mut list);
+        second.join(&mut list);
+        looked_at.join(&mut list);
+        assert_eq!(list, [looked_at, second]);
+    }
 }

@@ -12,6 +12,7 @@ mod lost_points;
 mod pictures;
 mod places;
 mod readings;
+mod regions;
 mod setting;
 
 pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
@@ -32,6 +33,7 @@ pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, DepthReading,
     DvlReading, LblFix, RangeScan, Readings,
 };
+pub use regions::{Region, RegionState, Regions};
 pub use setting::Setting;
 
 #[cfg(test)]

@@ -19,4 +19,9 @@ pub const CATALOGUE: &[Entry] = &[
         what: "rudder, stern plane and propeller from a time table",
         source: "open-loop vehicle trials (Prestero 2001, chapter 6)",
     },
+    Entry {
+        name: "Subregions",
+        what: "one subregion after the other, searched until declared in, traced to its up-flow edge or timed out",
+        source: "Pang 2009, section 6",
+    },
 ];

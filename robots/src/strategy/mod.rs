@@ -5,6 +5,7 @@ mod catalogue;
 mod map_and_plan;
 mod open_loop;
 mod spec;
+mod subregions;
 
 pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
@@ -13,3 +14,7 @@ pub use map_and_plan::{
 };
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use spec::{Strategy, StrategySpec, VerticalSpec};
+pub use subregions::{
+    EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,
+    SubregionsSpec,
+};

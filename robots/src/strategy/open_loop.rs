@@ -80,6 +80,7 @@ impl Strategy for OpenLoop {
             declared: None,
             lost_points: Vec::new(),
             planned: Arc::default(),
+            regions: Default::default(),
             layers: Default::default(),
             picture: false,
             outcome: self.over.then_some(Outcome::Completed),

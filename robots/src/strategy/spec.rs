@@ -3,6 +3,7 @@
 use super::amp::{Amp, AmpSpec};
 use super::map_and_plan::{MapAndPlan, MapAndPlanSpec};
 use super::open_loop::{OpenLoop, OpenLoopSpec};
+use super::subregions::{Subregions, SubregionsSpec};
 use crate::error::RobotError;
 use crate::handoff::{Decision, Observation, Setting, Vertical};
 use serde::{Deserialize, Serialize};
@@ -25,6 +26,8 @@ pub enum StrategySpec {
     MapAndPlan(MapAndPlanSpec),
     /// Actuators from a time table.
     OpenLoop(OpenLoopSpec),
+    /// One subregion after the other, each searched by another strategy.
+    Subregions(SubregionsSpec),
 }
 
 impl StrategySpec {
@@ -37,6 +40,7 @@ impl StrategySpec {
             StrategySpec::Amp(spec) => Box::new(Amp::new(spec)?),
             StrategySpec::MapAndPlan(spec) => Box::new(MapAndPlan::new(spec, setting)?),
             StrategySpec::OpenLoop(spec) => Box::new(OpenLoop::new(spec)?),
+            StrategySpec::Subregions(spec) => Box::new(Subregions::new(spec, setting)?),
         })
     }
 }

@@ -28,7 +28,7 @@ pub use one_run::{RunName, one_run};
 pub use overrides::put;
 pub use plan::{Campaign, Place};
 pub use read::{Merged, merge, read_row, read_rows};
-pub use row::RunRow;
+pub use row::{DeclaredAt, RunRow};
 pub use run::{BLOCK, Event, RunEnded, RunOptions, run};
 pub use shard::Shard;
 pub use spec::{Arm, CampaignSpec, Conditions, Draw, RandomConditions, Until};

@@ -4,16 +4,18 @@
     reason = "wall times are columns of the table; nothing of them enters the run"
 )]
 
-use super::row::RunRow;
+use super::row::{DeclaredAt, RunRow};
 use crate::frame::Frame;
 use crate::gantry::GantrySummary;
 use crate::report::{
-    RunEnd, RunInfo, RunOutcome, RunSummary, SourceTruth, Summary, SummaryBuilder, Totals,
+    DeclarationSummary, RunEnd, RunInfo, RunOutcome, RunSummary, SourceSummary, SourceTruth,
+    Summary, SummaryBuilder, Totals,
 };
 use crate::scenario::Loaded;
 use crate::spun_up::SpunUp;
 use crate::system::Dye;
 use crate::trial::{Ended, Trial, Unwatched, Watch};
+use robots::handoff::Verdict;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
@@ -87,10 +89,9 @@ fn attempt(
             ..Totals::default()
         },
     };
-    Ok(row(
-        name,
-        &gatherer.builder.finish(end, &sources(&trial, &ended)),
-    ))
+    let summary = gatherer.builder.finish(end, &sources(&trial, &ended));
+    let within_m = loaded.scenario.success.declared_within_m();
+    Ok(row(name, &summary, within_m))
 }
 
 /// Makes a row of `run`, or of the error it returns, or of its panic.
@@ -155,15 +156,27 @@ fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
         .collect()
 }
 
-fn row(name: &RunName, summary: &Summary) -> RunRow {
-    let by_robots =
-        (summary.robots.iter()).filter_map(|r| r.declaration.as_ref().map(|d| (d, r.traced_m)));
+fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
+    let by_robots = summary.robots.iter().flat_map(|r| {
+        let of_first = std::iter::once(r.traced_m).chain(std::iter::repeat(None));
+        r.declarations.iter().zip(of_first)
+    });
     let by_gantries =
         (summary.gantries.iter()).filter_map(|g| Some((g.declaration.as_ref()?, None)));
-    let first = by_robots
-        .chain(by_gantries)
-        .min_by(|a, b| a.0.t_s.total_cmp(&b.0.t_s));
+    let mut all: Vec<(&DeclarationSummary, Option<f64>)> = by_robots.chain(by_gantries).collect();
+    all.sort_by(|a, b| a.0.t_s.total_cmp(&b.0.t_s));
+    let first = all.first().copied();
     let declared = first.map(|(d, _)| d);
+    let declarations: Vec<DeclaredAt> = all.iter().map(|(d, _)| declared_at(d)).collect();
+    let near = |s: &&SourceSummary| {
+        within_m.is_some_and(|within_m| {
+            declarations.iter().any(|d| {
+                let (e, n) = (d.east_m - s.position.east_m, d.north_m - s.position.north_m);
+                d.verdict != Verdict::Rejected.name() && (e * e + n * n).sqrt() <= within_m
+            })
+        })
+    };
+    let sources_declared = summary.sources.iter().filter(near).count() as u64;
     // Several gantries share a row only where nobody asks for the path of one.
     let gantry = summary.gantries.first();
     let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
@@ -174,6 +187,8 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
     let error = declared.and_then(|d| d.error.as_ref());
     let RunSummary { totals, .. } = summary.run;
     RunRow {
+        declarations,
+        sources_declared,
         success: matches!(summary.outcome, RunOutcome::Found | RunOutcome::Completed),
         outcome: outcome_name(summary.outcome),
         digest: summary.digest.clone(),
@@ -205,6 +220,23 @@ fn row(name: &RunName, summary: &Summary) -> RunRow {
         mission_wall_s: totals.mission_wall_s,
         error: None,
         ..failed(name, String::new())
+    }
+}
+
+fn declared_at(d: &DeclarationSummary) -> DeclaredAt {
+    let error = d.error.as_ref();
+    DeclaredAt {
+        region: d.region,
+        rule: d.rule.clone(),
+        verdict: d.verdict.name().to_string(),
+        t_s: d.t_s,
+        east_m: d.position.east_m,
+        north_m: d.position.north_m,
+        error_m: error.map(|e| e.total_m),
+        error_along_m: error.and_then(|e| e.along_flow_m),
+        error_across_m: error.and_then(|e| e.across_flow_m),
+        traced_m: d.traced_m,
+        fix_m: d.fix_m,
     }
 }
 

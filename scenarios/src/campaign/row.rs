@@ -40,6 +40,10 @@ pub struct RunRow {
     pub error_across_m: Option<f64>,
     /// Straight way from the first detection to the declaration, m.
     pub traced_m: Option<f64>,
+    /// All declarations of all robots and gantries, in the order of time.
+    pub declarations: Vec<DeclaredAt>,
+    /// True sources declared within the distance at which the scenario's success counts; 0 where it asks for none.
+    pub sources_declared: u64,
     /// Way travelled by all robots, m.
     pub travelled_m: f64,
     /// Detections by all robots.
@@ -64,4 +68,104 @@ pub struct RunRow {
     pub spin_up_wall_s: f64,
     /// Wall time of the mission, s.
     pub mission_wall_s: f64,
+}
+
+/// A declaration in a row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeclaredAt {
+    /// Subregion in which it was made, from 0.
+    pub region: Option<u32>,
+    /// By which rule.
+    pub rule: String,
+    /// What a look at it said: `unchecked`, `verified` or `rejected`.
+    pub verdict: String,
+    /// When, s.
+    pub t_s: f64,
+    /// Where (east), m.
+    pub east_m: f64,
+    /// Where (north), m.
+    pub north_m: f64,
+    /// Its distance from the nearest true source, m.
+    pub error_m: Option<f64>,
+    /// Part of it along the flow, down-flow positive, m.
+    pub error_along_m: Option<f64>,
+    /// Part of it across the flow, right positive looking down-flow, m.
+    pub error_across_m: Option<f64>,
+    /// Straight way to it from the first detection in this area or subregion, m.
+    pub traced_m: Option<f64>,
+    /// How far a position fix moved what the robot believed in the minute before, the farthest, m.
+    pub fix_m: Option<f64>,
+}
+
+impl DeclaredAt {
+    /// Many as one field of a table: `; ` between them, a blank between their fields in the order above, `-` for
+    /// what there is none of. Numbers read back bit for bit.
+    #[must_use]
+    pub fn words(all: &[DeclaredAt]) -> String {
+        let maybe = |v: Option<f64>| v.map_or_else(|| "-".to_string(), |v| v.to_string());
+        let one = |d: &DeclaredAt| {
+            let region = d.region.map_or_else(|| "-".to_string(), |k| k.to_string());
+            let mut fields = vec![region, d.rule.replace(' ', "_"), d.verdict.clone()];
+            fields.extend([d.t_s, d.east_m, d.north_m].map(|v| v.to_string()));
+            let rest = [
+                d.error_m,
+                d.error_along_m,
+                d.error_across_m,
+                d.traced_m,
+                d.fix_m,
+            ];
+            fields.extend(rest.map(maybe));
+            fields.join(" ")
+        };
+        all.iter().map(one).collect::<Vec<_>>().join("; ")
+    }
+
+    /// The other way; `None` where it is not such a field.
+    #[must_use]
+    pub fn read(words: &str) -> Option<Vec<DeclaredAt>> {
+        if words.is_empty() {
+            return Some(Vec::new());
+        }
+        words.split("; ").map(Self::one).collect()
+    }
+
+    fn one(words: &str) -> Option<DeclaredAt> {
+        let fields: Vec<&str> = words.split(' ').collect();
+        let [
+            region,
+            rule,
+            verdict,
+            t,
+            e,
+            n,
+            error,
+            along,
+            across,
+            traced,
+            fix,
+        ] = fields[..]
+        else {
+            return None;
+        };
+        let maybe = |v: &str| match v {
+            "-" => Some(None),
+            v => v.parse().ok().map(Some),
+        };
+        Some(DeclaredAt {
+            region: match region {
+                "-" => None,
+                k => Some(k.parse().ok()?),
+            },
+            rule: rule.to_string(),
+            verdict: verdict.to_string(),
+            t_s: t.parse().ok()?,
+            east_m: e.parse().ok()?,
+            north_m: n.parse().ok()?,
+            error_m: maybe(error)?,
+            error_along_m: maybe(along)?,
+            error_across_m: maybe(across)?,
+            traced_m: maybe(traced)?,
+            fix_m: maybe(fix)?,
+        })
+    }
 }

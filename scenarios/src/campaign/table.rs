@@ -1,6 +1,6 @@
 //! Rows as Parquet and as CSV: one column for each field of [`RunRow`], under the field's name.
 
-use super::row::RunRow;
+use super::row::{DeclaredAt, RunRow};
 use parquet::basic::Compression;
 use parquet::basic::ZstdLevel;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -20,6 +20,7 @@ enum Column {
     Truth(fn(&RunRow) -> bool, fn(&mut RunRow, bool)),
     Text(fn(&RunRow) -> Option<&str>, fn(&mut RunRow, Option<String>)),
     Real(fn(&RunRow) -> Option<f64>, fn(&mut RunRow, Option<f64>)),
+    Declarations,
 }
 
 macro_rules! number {
@@ -60,7 +61,7 @@ macro_rules! maybe {
 }
 
 /// Name, whether it may be empty, and access.
-const COLUMNS: [(&str, bool, Column); 30] = [
+const COLUMNS: [(&str, bool, Column); 32] = [
     number!(run),
     text!(arm),
     text!(condition),
@@ -87,6 +88,8 @@ const COLUMNS: [(&str, bool, Column); 30] = [
     maybe!(error_along_m),
     maybe!(error_across_m),
     maybe!(traced_m),
+    ("declarations", false, Column::Declarations),
+    number!(sources_declared),
     real!(travelled_m),
     number!(detections),
     maybe!(sweep_s),
@@ -113,7 +116,7 @@ impl<W: Write + Send> TableWriter<W> {
             let (kind, logical) = match column {
                 Column::Number(..) => ("INT64", " (INTEGER(64,false))"),
                 Column::Truth(..) => ("BOOLEAN", ""),
-                Column::Text(..) => ("BYTE_ARRAY", " (STRING)"),
+                Column::Text(..) | Column::Declarations => ("BYTE_ARRAY", " (STRING)"),
                 Column::Real(..) => ("DOUBLE", ""),
             };
             schema.push_str(&format!("  {presence} {kind} {name}{logical};\n"));
@@ -184,6 +187,13 @@ fn write_column<W: Write + Send>(
                 .typed::<ByteArrayType>()
                 .write_batch(&values, levels.as_deref(), None)?;
         }
+        Column::Declarations => {
+            let words = |r: &RunRow| ByteArray::from(DeclaredAt::words(&r.declarations).as_str());
+            let values: Vec<ByteArray> = rows.iter().map(words).collect();
+            writer
+                .typed::<ByteArrayType>()
+                .write_batch(&values, None, None)?;
+        }
         Column::Real(get, _) => {
             let values: Vec<f64> = rows.iter().filter_map(get).collect();
             let levels = levels(rows.iter().map(|r| get(r).is_some()).collect());
@@ -224,6 +234,12 @@ fn row_of(fields: &Row) -> Result<RunRow> {
             (Column::Truth(_, set), Field::Bool(v)) => set(&mut row, *v),
             (Column::Text(_, set), Field::Str(v)) => set(&mut row, Some(v.clone())),
             (Column::Real(_, set), Field::Double(v)) => set(&mut row, Some(*v)),
+            (Column::Declarations, Field::Str(v)) => {
+                let read = DeclaredAt::read(v);
+                row.declarations = read.ok_or_else(|| {
+                    ParquetError::General(format!("{v:?} is no list of declarations"))
+                })?;
+            }
             (Column::Text(..) | Column::Real(..), Field::Null) => {}
             _ => {
                 return Err(ParquetError::General(format!(
@@ -249,6 +265,7 @@ pub(super) fn csv_line(row: &RunRow) -> String {
             Column::Truth(get, _) => get(row).to_string(),
             Column::Text(get, _) => get(row).map(quoted).unwrap_or_default(),
             Column::Real(get, _) => get(row).map(|v| v.to_string()).unwrap_or_default(),
+            Column::Declarations => quoted(&DeclaredAt::words(&row.declarations)),
         })
         .collect();
     cells.join(",")
@@ -278,6 +295,18 @@ mod tests {
             declared_s: Some(f64::MIN_POSITIVE),
             error_along_m: Some(-0.0),
             detections: 7,
+            declarations: vec![
+                DeclaredAt {
+                    rule: "up_flow_edge".to_string(),
+                    verdict: "unchecked".to_string(),
+                    region: Some(3),
+                    east_m: 0.1 + 0.2,
+                    error_along_m: Some(-1e-300),
+                    fix_m: Some(9.5),
+                    ..DeclaredAt::default()
+                };
+                2
+            ],
             ..RunRow::default()
         };
         let rows = vec![RunRow::default(), full.clone(), RunRow { run: 3, ..full }];

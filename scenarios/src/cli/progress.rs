@@ -3,10 +3,11 @@
 use super::args::RunArgs;
 use crate::frame::Frame;
 use crate::gantry::{GantryFrame, GantrySummary};
-use crate::report::Summary;
+use crate::report::{DeclarationSummary, Summary};
 use crate::scenario::Loaded;
 use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::Vector2;
+use robots::handoff::{RegionState, Verdict};
 use std::path::Path;
 
 /// Resolution of the spin-up's share.
@@ -20,6 +21,8 @@ pub(super) struct Progress {
     limit_s: f64,
     flying: bool,
     detections: u64,
+    /// Declarations shown last.
+    declared: usize,
     /// Where the sources truly are (east, north), m: the onlooker may know.
     sources: Vec<Vector2<f64>>,
 }
@@ -42,6 +45,7 @@ impl Progress {
             limit_s: scenario.time.limit_s.get(),
             flying: false,
             detections: 0,
+            declared: 0,
             sources: (scenario.sources.iter())
                 .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
                 .collect(),
@@ -76,14 +80,21 @@ impl Progress {
         }
         self.detections += frame.robots.iter().filter(|r| r.detected).count() as u64;
         self.bar.set_position(frame.t_s as u64);
-        let declared = frame.robots.iter().any(|r| r.declaration.is_some());
+        let declared = frame.robots.iter().map(|r| r.declarations.len()).sum();
         let stopped = frame.gantries.iter().any(|g| g.decision.stopped.is_some());
-        if frame.step.is_multiple_of(50) || declared || stopped {
+        if frame.step.is_multiple_of(50) || declared > self.declared || stopped {
+            self.declared = declared;
             let mut doing: Vec<String> = (frame.robots.iter())
-                .map(|r| r.behaviour.name().to_string())
+                .map(|r| match r.regions.now {
+                    Some(k) => format!("subregion {}: {}", k + 1, r.behaviour.name()),
+                    None => r.behaviour.name().to_string(),
+                })
                 .collect();
             if !frame.robots.is_empty() {
                 doing.push(format!("detections {}", self.detections));
+            }
+            if declared > 0 {
+                doing.push(format!("declared {declared}"));
             }
             doing.extend(frame.gantries.iter().map(|g| self.gantry(g)));
             self.bar.set_message(format!("| {}", doing.join(", ")));
@@ -130,31 +141,16 @@ impl Progress {
                     None => String::new(),
                 }
             );
-            let Some(declared) = &robot.declaration else {
+            if robot.declarations.is_empty() {
                 println!("  {}: declared nothing", robot.id);
-                continue;
-            };
-            let at = declared.position;
-            println!(
-                "  {}: declared a source at {:.0} m E, {:.0} m N after {:.0} s{}",
-                robot.id,
-                at.east_m,
-                at.north_m,
-                declared.t_s,
-                match robot.traced_m {
-                    Some(m) => format!(", {m:.0} m from the first detection"),
-                    None => String::new(),
+            }
+            for declared in &robot.declarations {
+                println!("  {}: {}", robot.id, declaration(declared));
+            }
+            for (k, region) in robot.regions.iter().enumerate() {
+                if region.state == RegionState::SourceFree {
+                    println!("  {}: subregion {} held no source", robot.id, k + 1);
                 }
-            );
-            if let Some(error) = &declared.error {
-                print!(
-                    "  {}: {:.1} m from {}",
-                    robot.id, error.total_m, error.source
-                );
-                if let (Some(along), Some(across)) = (error.along_flow_m, error.across_flow_m) {
-                    print!(" ({along:+.1} m along the flow, {across:+.1} m across)");
-                }
-                println!();
             }
         }
         for g in &summary.gantries {
@@ -165,6 +161,32 @@ impl Progress {
         println!("  digest {}", summary.digest);
         println!("  results in {}: open report.html", out.display());
     }
+}
+
+/// A declaration, for people.
+fn declaration(d: &DeclarationSummary) -> String {
+    let mut said = match d.region {
+        Some(k) => format!("subregion {}: ", k + 1),
+        None => String::new(),
+    };
+    let at = d.position;
+    said += &format!(
+        "declared a source at {:.0} m E, {:.0} m N after {:.0} s ({})",
+        at.east_m, at.north_m, d.t_s, d.rule
+    );
+    if let Some(m) = d.traced_m {
+        said += &format!(", {m:.0} m from the first detection");
+    }
+    if let Some(error) = &d.error {
+        said += &format!("; {:.1} m from {}", error.total_m, error.source);
+        if let (Some(along), Some(across)) = (error.along_flow_m, error.across_flow_m) {
+            said += &format!(" ({along:+.1} m along the flow, {across:+.1} m across)");
+        }
+    }
+    if d.verdict != Verdict::Unchecked {
+        said += &format!("; {}", d.verdict.name());
+    }
+    said
 }
 
 /// What a gantry came to, for people.

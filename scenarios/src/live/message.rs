@@ -4,7 +4,7 @@ use super::message_gantry::gantry;
 use super::options::chunk;
 use super::{LiveCounts, Topic, topics};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
-use robots::handoff::{Command, Goal, Manoeuvre, Vertical};
+use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical};
 use serde_json::{Map, Value, json};
 
 /// A message, by its key below `rheotaxis/<run>/`.
@@ -113,17 +113,31 @@ fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
         );
     }
     let lost: Vec<[f64; 2]> = r.lost_points.iter().map(|p| [p.x, p.y]).collect();
-    say(
-        "behaviour",
-        json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost}),
-    );
-    if let Some(d) = &r.declaration {
-        say(
-            "declaration",
-            json!({"t_s": d.t_s, "position_m": d.position.as_slice(), "rule": d.rule}),
-        );
+    let mut doing = json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost});
+    if let Some(k) = r.regions.now {
+        let corners = r.regions.all[k as usize].area.corners();
+        let corners = corners.map(|p| [p.x, p.y]);
+        doing = merged(doing, json!({"region": k, "region_m": corners}));
+    }
+    say("behaviour", doing);
+    for d in &r.declarations {
+        say(&format!("declaration/{}", d.number), declaration(d));
     }
     out
+}
+
+fn declaration(d: &Declaration) -> Value {
+    let mut said = json!({
+        "t_s": d.t_s, "number": d.number, "position_m": d.position.as_slice(), "rule": d.rule,
+        "verdict": d.verdict.name(),
+    });
+    if let Some(k) = d.region {
+        said = merged(said, json!({ "region": k }));
+    }
+    if let Some(p) = d.surveyed {
+        said = merged(said, json!({"surveyed_m": p.as_slice()}));
+    }
+    said
 }
 
 fn goal(t_s: f64, g: &Goal) -> Value {
@@ -273,7 +287,9 @@ pub(super) mod tests {
             lost_points: Vec::new(),
             planned: std::sync::Arc::default(),
             belief: None,
-            declaration: None,
+            regions: Default::default(),
+            declarations: Vec::new(),
+            fix_m: None,
         };
         Frame {
             t_s: 0.1,

@@ -118,11 +118,17 @@ pub(super) const TOPICS: &[Topic] = &[
         T,
         always("behaviour", Kind::Behaviour, "Its name."),
         always("lost_points_m", Kind::Points, "Where it lost the plume, as it believes (east, north), m."),
+        sometimes("region", Kind::Count, "Subregion it searches, from 0; absent in transits and where the area is one."),
+        sometimes("region_m", Kind::Points, "The corners of that subregion (east, north), m."),
     ]),
-    json("declaration", "auv/<id>/declaration", "with the state, once made", "The source the vehicle declared.", &[
+    json("declaration", "auv/<id>/declaration/<number>", "with the state, once made", "A source the vehicle declared; said again under the same number when it was looked at.", &[
         always("t_s", Kind::Number, "Simulated time of the declaration, s."),
+        always("number", Kind::Count, "Its number among the vehicle's declarations, from 0."),
         always("position_m", E_N, "Where, as the vehicle believes (east, north), m."),
         always("rule", Kind::Text, "By which rule."),
+        always("verdict", Kind::Word(&["unchecked", "verified", "rejected"]), "What a look at it said."),
+        sometimes("region", Kind::Count, "Subregion in which it was made, from 0; absent where the area is one."),
+        sometimes("surveyed_m", E_N, "Where the sidescan has the source, as the vehicle believes (east, north), m."),
     ]),
     json("joints", "gantry/<id>/joints", STATE_RATE, "Where a gantry's head is and what its drives do; names, positions, velocities and efforts as in a ROS JointState.", &[
         T,

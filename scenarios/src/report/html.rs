@@ -1,8 +1,9 @@
 //! `report.html`: one file that needs nothing beside it.
 
 use super::figures::escaped;
-use super::summary::Summary;
+use super::summary::{DeclarationSummary, Summary};
 use crate::gantry::GantrySummary;
+use robots::handoff::Verdict;
 use std::fmt::Write as _;
 
 /// Look of all pages.
@@ -48,37 +49,82 @@ pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_tex
     out
 }
 
-fn table(out: &mut String, title: &str, rows: &[(&str, String)]) {
+fn table<K: AsRef<str>>(out: &mut String, title: &str, rows: &[(K, String)]) {
     writeln!(out, "<h2>{}</h2>\n<table>", escaped(title)).expect(TEXT);
     for (k, v) in rows {
-        writeln!(out, "<tr><th>{k}</th><td>{}</td></tr>", escaped(v)).expect(TEXT);
+        let (k, v) = (k.as_ref(), escaped(v));
+        writeln!(out, "<tr><th>{k}</th><td>{v}</td></tr>").expect(TEXT);
     }
     out.push_str("</table>\n");
 }
 
-fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
+fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(String, String)>) {
     let place = |p: super::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
-    let mut rows = Vec::new();
-    match &r.declaration {
-        None => rows.push(("Declared", "nothing".to_owned())),
-        Some(d) => {
-            let what = format!("{} at {:.0} s ({})", place(d.position), d.t_s, d.rule);
-            rows.push(("Declared", what));
-            if let Some(e) = &d.error {
-                let source = format!("{} ({})", place(e.position), e.source);
-                rows.push(("Nearest true source", source));
-                let mut error = format!("{:.1} m", e.total_m);
-                if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
-                    write!(
-                        error,
-                        ": {a:+.1} m along the flow (down-flow positive), {b:+.1} m across"
-                    )
-                    .expect(TEXT);
-                }
-                rows.push(("Error", error));
-            }
-        }
+    let which = if several {
+        format!(" {}", d.number + 1)
+    } else {
+        String::new()
+    };
+    let region = d
+        .region
+        .map_or_else(String::new, |k| format!(", in subregion {}", k + 1));
+    let what = format!(
+        "{} at {:.0} s ({}){region}",
+        place(d.position),
+        d.t_s,
+        d.rule
+    );
+    rows.push((format!("Declared{which}"), what));
+    if d.verdict != Verdict::Unchecked || d.surveyed.is_some() {
+        let at = d
+            .surveyed
+            .map_or_else(String::new, |p| format!("; seen at {}", place(p)));
+        rows.push((
+            format!("Looked at{which}"),
+            format!("{}{at}", d.verdict.name()),
+        ));
     }
+    if let Some(e) = &d.error {
+        let source = format!("{} ({})", place(e.position), e.source);
+        rows.push(("Nearest true source".to_owned(), source));
+        let mut error = format!("{:.1} m", e.total_m);
+        if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
+            write!(
+                error,
+                ": {a:+.1} m along the flow (down-flow positive), {b:+.1} m across"
+            )
+            .expect(TEXT);
+        }
+        rows.push(("Error".to_owned(), error));
+    }
+    if let Some(m) = d.fix_m {
+        let what = format!("moved its own position by {m:.1} m in the minute before");
+        rows.push(("Position fixes".to_owned(), what));
+    }
+}
+
+fn robot_rows(r: &super::RobotSummary) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    let several = r.declarations.len() > 1;
+    if r.declarations.is_empty() {
+        rows.push(("Declared".to_owned(), "nothing".to_owned()));
+    }
+    for d in &r.declarations {
+        declaration_rows(d, several, &mut rows);
+    }
+    for (k, region) in r.regions.iter().enumerate() {
+        let mut what = region.state.name().replace('_', " ");
+        if let (Some(from), Some(until)) = (region.from_s, region.until_s) {
+            write!(what, ", searched from {from:.0} to {until:.0} s").expect(TEXT);
+        }
+        rows.push((format!("Subregion {}", k + 1), what));
+    }
+    rows.extend(way_rows(r).map(|(k, v)| (k.to_owned(), v)));
+    rows
+}
+
+fn way_rows(r: &super::RobotSummary) -> impl Iterator<Item = (&'static str, String)> {
+    let mut rows = Vec::new();
     if let Some(t) = r.first_detection_s {
         rows.push(("First detection", format!("{t:.1} s")));
     }
@@ -86,7 +132,7 @@ fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
     if let Some(m) = r.traced_m {
         rows.push((
             "Traced",
-            format!("{m:.0} m from the first detection to the declared source"),
+            format!("{m:.0} m from the first detection to the first declared source"),
         ));
     }
     rows.push(("Travelled", format!("{:.0} m", r.travelled_m)));
@@ -101,7 +147,7 @@ fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
         .map(|(b, s)| format!("{b} {s:.0} s"))
         .collect();
     rows.push(("Time in behaviours", times.join(", ")));
-    rows
+    rows.into_iter()
 }
 
 fn gantry_rows(g: &GantrySummary) -> Vec<(&'static str, String)> {

@@ -19,8 +19,8 @@ pub(crate) use files::{make_folder, write_whole};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{
-    DeclarationSummary, MassBalance, Position, RobotSummary, RunOutcome, RunSummary, SourceError,
-    SourceSummary, Summary, Totals,
+    DeclarationSummary, MassBalance, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary,
+    SourceError, SourceSummary, Summary, Totals,
 };
 pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
 pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

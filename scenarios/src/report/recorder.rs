@@ -5,7 +5,7 @@ use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Belief, Command, Estimate, Vertical};
+use robots::handoff::{Belief, Command, Declaration, Estimate, Vertical};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use world::record::{
@@ -34,7 +34,8 @@ pub(super) const WORLD: &str = "world";
 pub struct Recorder {
     file: McapFile,
     behaviours: Vec<&'static str>,
-    declared: Vec<bool>,
+    declared: Vec<Vec<Declaration>>,
+    regions: Vec<Option<u32>>,
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
     map_period_s: f64,
@@ -64,6 +65,7 @@ impl Recorder {
             file,
             behaviours: Vec::new(),
             declared: Vec::new(),
+            regions: Vec::new(),
             gantries: Vec::new(),
             maps: Vec::new(),
             map_period_s: MAP_PERIOD_S,
@@ -85,7 +87,8 @@ impl Recorder {
         let t = nanoseconds(frame.t_s);
         self.file.write("/clock", Kind::Clock, t, &clock(t))?;
         self.behaviours.resize(frame.robots.len(), "");
-        self.declared.resize(frame.robots.len(), false);
+        self.declared.resize(frame.robots.len(), Vec::new());
+        self.regions.resize(frame.robots.len(), None);
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
             self.map(frame.t_s, robot)?;
@@ -174,12 +177,21 @@ impl Recorder {
             self.behaviours[k] = r.behaviour.name();
             put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
         }
-        if let (Some(d), false) = (r.declaration, self.declared[k]) {
-            self.declared[k] = true;
+        for d in &r.declarations {
+            let known = &mut self.declared[k];
+            if known.contains(d) {
+                continue;
+            }
+            d.join(known);
             let at = nanoseconds(d.t_s);
             let p = on_plane(d.position, 0.0);
             let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
             put("declaration", Kind::PoseStamped, &pose)?;
+        }
+        if self.regions[k] != r.regions.now {
+            self.regions[k] = r.regions.now;
+            let name = r.regions.now.map_or_else(String::new, |k| k.to_string());
+            put("region", Kind::Text, &text(&name))?;
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
-    FlowEstimate, Setpoint, Vertical,
+    FlowEstimate, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid};
 use std::sync::Arc;
@@ -42,6 +42,7 @@ pub(super) fn robots() -> Vec<RobotInfo> {
         id: "auv0".into(),
         full_scale_ug_l: Some(10.0),
         threshold: Some(0.04),
+        regions: false,
     }]
 }
 
@@ -160,13 +161,18 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
                 planned: std::sync::Arc::default(),
                 belief: Some(belief(t_s.floor())),
-                declaration: (k >= declare_at).then(|| {
-                    Declaration::first(
-                        declare_at as f64 * 0.1,
-                        from + flow.unit() * 12.0 + side * 5.0,
-                        "along_flow",
-                    )
-                }),
+                regions: Regions::default(),
+                declarations: (k >= declare_at)
+                    .then(|| {
+                        Declaration::first(
+                            declare_at as f64 * 0.1,
+                            from + flow.unit() * 12.0 + side * 5.0,
+                            "along_flow",
+                        )
+                    })
+                    .into_iter()
+                    .collect(),
+                fix_m: (k % 300 == 0).then_some(7.0),
             };
             Frame {
                 t_s,

@@ -2,6 +2,7 @@
 
 use super::files::{ReportError, write_whole};
 use crate::gantry::GantrySummary;
+use robots::handoff::{RegionState, Verdict};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -85,6 +86,10 @@ pub struct SourceError {
 /// A declaration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DeclarationSummary {
+    /// Its number among the robot's, from 0.
+    pub number: u32,
+    /// Subregion in which it was made, from 0; none where the area is one.
+    pub region: Option<u32>,
     /// When, s of mission time.
     pub t_s: f64,
     /// By which rule.
@@ -93,6 +98,27 @@ pub struct DeclarationSummary {
     pub position: Position,
     /// How wrong; none in a scenario without a source.
     pub error: Option<SourceError>,
+    /// What a look at it said.
+    pub verdict: Verdict,
+    /// Where the sidescan had the source, as the vehicle believed.
+    pub surveyed: Option<Position>,
+    /// Straight distance from the first detection in this area, or subregion, to it, m.
+    pub traced_m: Option<f64>,
+    /// How far a position fix moved what the robot believed in the minute before, the farthest, m; none without one.
+    pub fix_m: Option<f64>,
+}
+
+/// A subregion at the end.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RegionSummary {
+    /// Its middle.
+    pub centre: Position,
+    /// How its search stood.
+    pub state: RegionState,
+    /// When its search began, s.
+    pub from_s: Option<f64>,
+    /// When its search ended, s.
+    pub until_s: Option<f64>,
 }
 
 /// What one robot did.
@@ -100,15 +126,17 @@ pub struct DeclarationSummary {
 pub struct RobotSummary {
     /// Its id in the scenario.
     pub id: String,
-    /// Its declaration, if it made one.
-    pub declaration: Option<DeclarationSummary>,
+    /// Its declarations, by number.
+    pub declarations: Vec<DeclarationSummary>,
+    /// The subregions of its mission, in the order of their search; none where the area is one.
+    pub regions: Vec<RegionSummary>,
     /// Time of the first detection, s.
     pub first_detection_s: Option<f64>,
     /// Where it truly was then.
     pub first_detection: Option<Position>,
     /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
     pub detections: u64,
-    /// Straight distance from the first detection to the declared source, m: how far it traced the plume.
+    /// Straight distance from the first detection to the first declared source, m: how far it traced the plume.
     pub traced_m: Option<f64>,
     /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
     pub correct_cell_s: Option<f64>,

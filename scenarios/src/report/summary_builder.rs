@@ -2,13 +2,14 @@
 
 use super::recorder::RunInfo;
 use super::summary::{
-    DeclarationSummary, Position, RobotSummary, RunOutcome, RunSummary, SourceError, SourceSummary,
-    Summary, Totals,
+    DeclarationSummary, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary, SourceError,
+    SourceSummary, Summary, Totals,
 };
 use crate::frame::{Frame, RobotFrame};
 use crate::gantry::GantryPath;
 use nalgebra::{Vector2, Vector3};
-use robots::handoff::{Behaviour, BeliefGrid, Declaration};
+use robots::handoff::{Behaviour, BeliefGrid, Declaration, Regions};
+use std::collections::VecDeque;
 use std::sync::Arc;
 use world::units::Heading;
 
@@ -52,6 +53,8 @@ impl DeclarationSummary {
     #[must_use]
     pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
         Self {
+            number: d.number,
+            region: d.region,
             t_s: d.t_s,
             rule: d.rule.to_owned(),
             position: d.position.into(),
@@ -59,6 +62,10 @@ impl DeclarationSummary {
                 .iter()
                 .map(|s| s.error_of(d.position))
                 .min_by(|a, b| a.total_m.total_cmp(&b.total_m)),
+            verdict: d.verdict,
+            surveyed: d.surveyed.map(Position::from),
+            traced_m: None,
+            fix_m: None,
         }
     }
 }
@@ -85,6 +92,17 @@ pub struct RunEnd {
     pub totals: Totals,
 }
 
+/// Fixes are remembered for so long, s: those that may have spoilt a declaration.
+const FIX_S: f64 = 60.0;
+
+/// A declaration, with what was known when it was made.
+#[derive(Clone, Copy, Debug)]
+struct Made {
+    said: Declaration,
+    traced_m: Option<f64>,
+    fix_m: Option<f64>,
+}
+
 #[derive(Debug)]
 struct Robot {
     id: String,
@@ -94,7 +112,12 @@ struct Robot {
     travelled_m: f64,
     first_detection: Option<(f64, Vector2<f64>)>,
     detections: u64,
-    declaration: Option<Declaration>,
+    declarations: Vec<Made>,
+    regions: Regions,
+    /// First detection in the subregion in hand, or in the one left last.
+    in_region: Option<Vector2<f64>>,
+    /// Fixes of the last minute: when, and how far they moved what it believed, m.
+    fixes: VecDeque<(f64, f64)>,
     error_m: f64,
     greatest_error_m: f64,
     behaviour_s: Vec<(Behaviour, f64)>,
@@ -112,7 +135,10 @@ impl Robot {
             travelled_m: 0.0,
             first_detection: None,
             detections: 0,
-            declaration: None,
+            declarations: Vec::new(),
+            regions: Regions::default(),
+            in_region: None,
+            fixes: VecDeque::new(),
             error_m: 0.0,
             greatest_error_m: 0.0,
             behaviour_s: Vec::new(),
@@ -139,6 +165,7 @@ impl Robot {
             self.detections += 1;
             self.first_detection.get_or_insert((t_s, p.xy()));
         }
+        self.declared(t_s, r);
         if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
             && self
                 .best
@@ -147,20 +174,59 @@ impl Robot {
         {
             self.best = Some((b.t_s, b.best, b.grid.clone()));
         }
-        self.declaration = self.declaration.or(r.declaration);
         self.error_m = (r.estimate.position - p.xy()).norm();
         self.greatest_error_m = self.greatest_error_m.max(self.error_m);
     }
 
+    /// What there is to say of a declaration only when it is made.
+    fn declared(&mut self, t_s: f64, r: &RobotFrame) {
+        self.fixes.extend(r.fix_m.map(|m| (t_s, m)));
+        self.fixes.retain(|(then, _)| t_s - then <= FIX_S);
+        if r.regions.now.is_some() && r.regions.now != self.regions.now {
+            self.in_region = None;
+        }
+        if r.detected && (r.regions.all.is_empty() || r.regions.now.is_some()) {
+            self.in_region.get_or_insert(r.truth.pose.p_WB.xy());
+        }
+        self.regions = r.regions.clone();
+        for d in &r.declarations {
+            match self
+                .declarations
+                .iter_mut()
+                .find(|m| m.said.number == d.number)
+            {
+                Some(made) => made.said = *d,
+                None => self.declarations.push(Made {
+                    said: *d,
+                    traced_m: self.in_region.map(|from| (d.position - from).norm()),
+                    fix_m: self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp),
+                }),
+            }
+        }
+    }
+
     fn summary(&self, sources: &[SourceTruth]) -> RobotSummary {
-        let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));
         let traced_m = self
             .first_detection
-            .zip(self.declaration)
-            .map(|((_, from), d)| (d.position - from).norm());
+            .zip(self.declarations.first())
+            .map(|((_, from), d)| (d.said.position - from).norm());
         RobotSummary {
             id: self.id.clone(),
-            declaration,
+            declarations: (self.declarations.iter())
+                .map(|made| DeclarationSummary {
+                    traced_m: made.traced_m,
+                    fix_m: made.fix_m,
+                    ..DeclarationSummary::of(&made.said, sources)
+                })
+                .collect(),
+            regions: (self.regions.all.iter())
+                .map(|region| RegionSummary {
+                    centre: region.area.centre.into(),
+                    state: region.state,
+                    from_s: region.from_s,
+                    until_s: region.until_s,
+                })
+                .collect(),
             first_detection_s: self.first_detection.map(|d| d.0),
             first_detection: self.first_detection.map(|d| d.1.into()),
             detections: self.detections,

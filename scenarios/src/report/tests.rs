@@ -7,7 +7,9 @@ use super::{
 };
 use crate::frame::{Frame, PlumeFrame};
 use nalgebra::Vector2;
+use robots::handoff::{Declaration, Region, RegionState, Regions, Verdict};
 use std::fs;
+use std::sync::Arc;
 use world::area::Area;
 use world::terrain::Terrain;
 use world::units::Heading;
@@ -46,7 +48,10 @@ fn told(frames: &[Frame]) -> (Summary, Track) {
 fn summary_measures_along_and_across_the_flow() {
     let (s, _) = told(&frames(400));
     let r = &s.robots[0];
-    let e = r.declaration.as_ref().unwrap().error.as_ref().unwrap();
+    let d = &r.declarations[0];
+    assert_eq!((r.declarations.len(), d.fix_m), (1, Some(7.0)));
+    assert_eq!(d.traced_m, r.traced_m);
+    let e = d.error.as_ref().unwrap();
     assert!((e.total_m - 13.0).abs() < 1e-9);
     assert!((e.along_flow_m.unwrap() - 12.0).abs() < 1e-9);
     assert!((e.across_flow_m.unwrap() - 5.0).abs() < 1e-9);
@@ -60,7 +65,7 @@ fn summary_measures_along_and_across_the_flow() {
     let json: serde_json::Value = serde_json::from_str(&s.json()).unwrap();
     assert_eq!(json["outcome"], "found");
     assert_eq!(json["run"]["mission_s"], 100.0);
-    assert_eq!(json["robots"][0]["declaration"]["rule"], "along_flow");
+    assert_eq!(json["robots"][0]["declarations"][0]["rule"], "along_flow");
 }
 
 #[test]
@@ -83,6 +88,62 @@ fn table_has_a_column_for_each_value_and_is_on_disk_at_once() {
     // Nose up in both, whatever the axes say: the believed pitch is 0.1 rad.
     assert_eq!(row[12], "5.730");
     assert_eq!(table.finish().robots[0].rows.len(), 100);
+}
+
+#[test]
+fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaration() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("track.csv");
+    let mut known = robots();
+    known[0].regions = true;
+    let mut table = TrackTable::create(&path, known).unwrap();
+    let mut run = frames(20);
+    let half = Area {
+        length_m: 500.0,
+        ..area()
+    };
+    let region = |state| Region {
+        area: half,
+        state,
+        from_s: Some(1.0),
+        until_s: None,
+    };
+    let all: Arc<[Region]> = Arc::new([
+        region(RegionState::SourceFree),
+        region(RegionState::Searching),
+    ]);
+    let mut builder = SummaryBuilder::new(&info());
+    for (k, f) in run.iter_mut().enumerate() {
+        let r = &mut f.robots[0];
+        r.regions = Regions {
+            all: all.clone(),
+            now: (k > 50).then_some(1),
+        };
+        if let Some(first) = r.declarations.first().copied() {
+            r.declarations.push(Declaration {
+                number: 1,
+                region: Some(1),
+                verdict: Verdict::Verified,
+                ..first
+            });
+        }
+        table.push(f).unwrap();
+        builder.observe(f);
+    }
+    let text = fs::read_to_string(&path).unwrap();
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines[0].ends_with(",behaviour,region"));
+    assert!(lines[1].ends_with(",go_to,") && lines[100].ends_with(",1"));
+    let summary = builder.finish(end(RunOutcome::Found), &[source()]);
+    let of = &summary.robots[0];
+    assert_eq!((of.declarations.len(), of.regions.len()), (2, 2));
+    assert_eq!(of.declarations[1].region, Some(1));
+    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
+    assert_eq!(json["robots"][0]["declarations"][1]["verdict"], "verified");
+    assert_eq!(json["robots"][0]["regions"][0]["state"], "source_free");
+    let track = table.finish();
+    let names = report_of(&summary, &track, &run, Some(&plume()), &area(), &terrain());
+    assert!(names.contains(&"map.svg".to_owned()));
 }
 
 #[test]

@@ -2,11 +2,12 @@
 
 use super::files::ReportError;
 use crate::frame::{Frame, RobotFrame};
-use robots::handoff::{Behaviour, Command, Vertical};
+use robots::handoff::{Behaviour, Command, Declaration, Region, RegionState, Vertical};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What tables and figures must know of a robot beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +18,8 @@ pub struct RobotInfo {
     pub full_scale_ug_l: Option<f64>,
     /// Detection threshold as a share of full scale.
     pub threshold: Option<f64>,
+    /// Its mission has subregions.
+    pub regions: bool,
 }
 
 /// One moment of one robot, as far as figures need it.
@@ -49,12 +52,14 @@ pub struct RobotTrack {
     pub rows: Vec<TrackRow>,
     /// True positions (east, north, m) at which something was detected; all of them, up to a bound.
     pub detections: Vec<[f64; 2]>,
-    /// Points where it lost the plume, as it believed at the end (east, north), m.
+    /// Points where it lost the plume, as it believed at the end, of a subregion or of the run (east, north), m.
     pub lost_points: Vec<[f64; 2]>,
-    /// Declared source (east, north), m.
-    pub declared: Option<[f64; 2]>,
-    /// When it declared, s.
-    pub declared_s: Option<f64>,
+    /// Its declarations so far.
+    pub declarations: Vec<Declaration>,
+    /// The subregions of its mission, as they stand.
+    pub regions: Arc<[Region]>,
+    region: Option<u32>,
+    lost_before: usize,
     stride: usize,
     skip: usize,
 }
@@ -76,11 +81,30 @@ impl RobotTrack {
             rows: Vec::new(),
             detections: Vec::new(),
             lost_points: Vec::new(),
-            declared: None,
-            declared_s: None,
+            declarations: Vec::new(),
+            regions: Arc::default(),
+            region: None,
+            lost_before: 0,
             stride: 1,
             skip: 0,
         }
+    }
+
+    /// Where it declared sources (east, north), m.
+    pub fn declared(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.declarations
+            .iter()
+            .map(|d| [d.position.x, d.position.y])
+    }
+
+    /// The same without those on an edge to which a plume was traced.
+    pub fn declared_inside(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let at_edge = |d: &Declaration| {
+            let region = d.region.and_then(|k| self.regions.get(k as usize));
+            region.is_some_and(|r| r.state == RegionState::UpFlowEdge)
+        };
+        let inside = self.declarations.iter().filter(move |d| !at_edge(d));
+        inside.map(|d| [d.position.x, d.position.y])
     }
 
     fn push(&mut self, t_s: f64, r: &RobotFrame) {
@@ -88,13 +112,20 @@ impl RobotTrack {
         if r.detected && self.detections.len() < KEPT {
             self.detections.push([p.x, p.y]);
         }
+        // Those of subregions searched before stay.
+        if r.regions.now.is_some() && r.regions.now != self.region {
+            self.region = r.regions.now;
+            self.lost_before = self.lost_points.len();
+        }
         if !r.lost_points.is_empty() {
-            self.lost_points = r.lost_points.iter().map(|q| [q.x, q.y]).collect();
+            self.lost_points.truncate(self.lost_before);
+            self.lost_points
+                .extend(r.lost_points.iter().map(|q| [q.x, q.y]));
         }
-        if let (None, Some(d)) = (self.declared, r.declaration) {
-            self.declared = Some([d.position.x, d.position.y]);
-            self.declared_s = Some(d.t_s);
+        if self.declarations != r.declarations {
+            self.declarations.clone_from(&r.declarations);
         }
+        self.regions = r.regions.all.clone();
         if self.skip > 0 {
             self.skip -= 1;
             return;
@@ -135,7 +166,10 @@ impl RobotTrack {
 /// Header of the table.
 const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,heading_deg,\
 est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
-speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour\n";
+speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
+
+/// A further column where a robot's mission has subregions: the one it searches, from 0; empty in transits.
+const REGION: &str = ",region";
 
 /// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
 #[derive(Debug)]
@@ -143,6 +177,8 @@ pub struct TrackTable {
     file: Option<(PathBuf, File)>,
     line: String,
     track: Track,
+    /// The table has the column of subregions.
+    regions: bool,
 }
 
 impl TrackTable {
@@ -156,8 +192,10 @@ impl TrackTable {
             source,
         };
         let mut file = File::create(path).map_err(failed)?;
-        file.write_all(HEADER.as_bytes()).map_err(failed)?;
         let mut table = Self::in_memory(robots);
+        let further = if table.regions { REGION } else { "" };
+        let header = format!("{HEADER}{further}\n");
+        file.write_all(header.as_bytes()).map_err(failed)?;
         table.file = Some((path.to_owned(), file));
         Ok(table)
     }
@@ -168,6 +206,7 @@ impl TrackTable {
         Self {
             file: None,
             line: String::new(),
+            regions: robots.iter().any(|r| r.regions),
             track: Track {
                 robots: robots.into_iter().map(RobotTrack::new).collect(),
             },
@@ -196,6 +235,12 @@ impl TrackTable {
             robot.push(frame.t_s, r);
             if self.file.is_some() {
                 row(&mut self.line, frame.t_s, r, &robot.info);
+                if self.regions {
+                    let now = r.regions.now.map_or_else(String::new, |k| k.to_string());
+                    self.line.push(',');
+                    self.line.push_str(&now);
+                }
+                self.line.push('\n');
             }
         }
         if let Some((path, file)) = &mut self.file {
@@ -222,7 +267,7 @@ fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
     let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
     let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
     let flow = e.flow.map(|f| f.velocity);
-    writeln!(
+    write!(
         line,
         "{t_s:.3},{id},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.4},{:.3},{},{},{},{},{},{}",
         p.p_WB.x,

@@ -1,7 +1,7 @@
 //! What a run has to say for itself: events and measures, by the names row files use.
 
-use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
+use crate::campaign::{DeclaredAt, RunRow};
 use serde::{Deserialize, Serialize};
 
 /// Something that happened in a run, or not.
@@ -16,6 +16,27 @@ pub enum Event {
     MostlyAlong,
     /// The belief's best cell came to be the source's, and stayed to the end.
     CorrectCell,
+    /// A source was declared in this subregion, counted from 0, or on its up-flow edge.
+    RegionDeclared(u32),
+    /// The declaration of this subregion is on its up-flow edge.
+    RegionAtEdge(u32),
+    /// Of the runs that declared in this subregion: a position fix moved what the vehicle believed by so many metres
+    /// or more in the minute before.
+    RegionFixOver(u32, u32),
+    /// The same, but none moved it so far.
+    RegionFixUnder(u32, u32),
+    /// Of the runs that declared in this subregion: the declaration is so many metres off, or more.
+    RegionErrorOver(u32, u32),
+    /// The same of the part of the error across the flow.
+    RegionAcrossOver(u32, u32),
+}
+
+/// Rule of declarations on a subregion's up-flow edge.
+const EDGE: &str = "up_flow_edge";
+
+/// The first declaration of a subregion that the vehicle did not reject.
+fn of_region(r: &RunRow, k: u32) -> Option<&DeclaredAt> {
+    (r.declarations.iter()).find(|d| d.region == Some(k) && d.verdict != "rejected")
 }
 
 impl Event {
@@ -29,6 +50,18 @@ impl Event {
                 (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs())
             }
             Event::CorrectCell => Some(r.correct_cell_s.is_some()),
+            Event::RegionDeclared(k) => Some(of_region(r, k).is_some()),
+            Event::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(|d| d.rule == EDGE)),
+            Event::RegionFixOver(k, m) => {
+                of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
+            }
+            Event::RegionFixUnder(k, m) => Event::RegionFixOver(k, m).of(r).map(|over| !over),
+            Event::RegionErrorOver(k, m) => of_region(r, k)?
+                .error_m
+                .map(|error_m| error_m >= f64::from(m)),
+            Event::RegionAcrossOver(k, m) => {
+                (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
+            }
         }
     }
 }
@@ -61,6 +94,22 @@ pub enum Measure {
     OffsetGainM,
     /// Time at which the belief's best cell came to be the source's for good, s.
     CorrectCellS,
+    /// Declarations of a run.
+    Declarations,
+    /// Declarations of a run that are so many metres or more from every true source and on no subregion's edge.
+    FarDeclarations(u32),
+    /// True sources declared within the distance at which the scenario's success counts.
+    SourcesDeclared,
+    /// Error of the declaration of this subregion, counted from 0, m.
+    RegionErrorM(u32),
+    /// Size of its part along the flow, m.
+    RegionAlongM(u32),
+    /// Size of its part across the flow, m.
+    RegionAcrossM(u32),
+    /// Way from the first detection in this subregion to its declaration, m.
+    RegionTracedM(u32),
+    /// How far a position fix moved what the vehicle believed in the minute before that declaration, m.
+    RegionFixM(u32),
 }
 
 impl Measure {
@@ -70,7 +119,10 @@ impl Measure {
         match self {
             Measure::DeclaredS | Measure::TrackedS | Measure::CorrectCellS => Unit::Seconds,
             Measure::SpeedMS | Measure::NearGainMS => Unit::Speed,
-            Measure::Ngdr => Unit::Number,
+            Measure::Ngdr
+            | Measure::Declarations
+            | Measure::FarDeclarations(_)
+            | Measure::SourcesDeclared => Unit::Number,
             _ => Unit::Metres,
         }
     }
@@ -78,6 +130,7 @@ impl Measure {
     /// Of a run; none where it has none.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<f64> {
+        let sound = |count: usize| r.error.is_none().then_some(count as f64);
         let less = |a: Option<f64>, b: Option<f64>| a.zip(b).map(|(a, b)| a - b);
         match self {
             Measure::ErrorM => r.error_m,
@@ -92,6 +145,81 @@ impl Measure {
             Measure::NearGainMS => less(r.near_speed_m_s, r.far_speed_m_s),
             Measure::OffsetGainM => less(r.far_offset_m, r.near_offset_m),
             Measure::CorrectCellS => r.correct_cell_s,
+            Measure::Declarations => sound(r.declarations.len()),
+            Measure::FarDeclarations(m) => sound(
+                (r.declarations.iter())
+                    .filter(|d| d.rule != EDGE && d.error_m.is_some_and(|e| e >= f64::from(m)))
+                    .count(),
+            ),
+            Measure::SourcesDeclared => sound(r.sources_declared as usize),
+            Measure::RegionErrorM(k) => of_region(r, k)?.error_m,
+            Measure::RegionAlongM(k) => of_region(r, k)?.error_along_m.map(f64::abs),
+            Measure::RegionAcrossM(k) => of_region(r, k)?.error_across_m.map(f64::abs),
+            Measure::RegionTracedM(k) => of_region(r, k)?.traced_m,
+            Measure::RegionFixM(k) => of_region(r, k)?.fix_m,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_subregions() {
+        let at = |region, rule: &str, along, across, fix_m| DeclaredAt {
+            region: Some(region),
+            rule: rule.to_string(),
+            verdict: "unchecked".to_string(),
+            error_m: Some(f64::sqrt(along * along + across * across)),
+            error_along_m: Some(along),
+            error_across_m: Some(across),
+            fix_m,
+            ..DeclaredAt::default()
+        };
+        let rejected = DeclaredAt {
+            verdict: "rejected".to_string(),
+            ..at(2, "AlongFlow", 300.0, 0.0, None)
+        };
+        let row = RunRow {
+            declarations: vec![
+                at(0, EDGE, 480.0, -4.0, None),
+                rejected,
+                at(2, "AlongFlow", 3.0, -31.0, Some(12.0)),
+            ],
+            sources_declared: 1,
+            ..RunRow::default()
+        };
+        let yes = |e: Event| e.of(&row);
+        assert_eq!(
+            [0, 1, 2].map(|k| yes(Event::RegionDeclared(k))),
+            [Some(true), Some(false), Some(true)]
+        );
+        assert_eq!(
+            [0, 1, 2].map(|k| yes(Event::RegionAtEdge(k))),
+            [Some(true), Some(false), Some(false)]
+        );
+        assert_eq!(yes(Event::RegionFixOver(2, 12)), Some(true));
+        assert_eq!(yes(Event::RegionFixUnder(2, 12)), Some(false));
+        assert_eq!(yes(Event::RegionFixOver(0, 1)), Some(false));
+        assert_eq!(yes(Event::RegionFixOver(1, 1)), None);
+        assert_eq!(yes(Event::RegionAcrossOver(2, 31)), Some(true));
+        assert_eq!(yes(Event::RegionAcrossOver(2, 32)), Some(false));
+        assert_eq!(yes(Event::RegionErrorOver(1, 1)), None);
+        let of = |m: Measure| m.of(&row);
+        assert_eq!(of(Measure::Declarations), Some(3.0));
+        assert_eq!(of(Measure::FarDeclarations(40)), Some(1.0));
+        assert_eq!(of(Measure::SourcesDeclared), Some(1.0));
+        assert_eq!(
+            (of(Measure::RegionAlongM(2)), of(Measure::RegionAcrossM(2))),
+            (Some(3.0), Some(31.0))
+        );
+        assert_eq!(of(Measure::RegionErrorM(1)), None);
+        // A failed run says nothing of its declarations.
+        let failed = RunRow {
+            error: Some("x".into()),
+            ..row.clone()
+        };
+        assert_eq!(Measure::Declarations.of(&failed), None);
     }
 }

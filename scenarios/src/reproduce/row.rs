@@ -148,6 +148,8 @@ const ROWS: &[(&str, &str)] = &[
     row!("crab_arms"),
     row!("duck_st"),
     row!("dalian_bay"),
+    row!("duck_mt"),
+    row!("san_clemente"),
     row!("wp_laminar"),
     row!("wp_turbulent"),
     row!("wp_dead_end"),

@@ -74,6 +74,8 @@ macro_rules! catalog {
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
     "dalian_bay",
+    "duck_mt",
+    "san_clemente",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

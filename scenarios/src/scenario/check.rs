@@ -2,7 +2,7 @@
 
 use super::check_obstacles;
 use super::fault::Found;
-use super::schema::{RobotSpec, Scenario, SuccessSpec, TerrainSpec};
+use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
@@ -280,7 +280,7 @@ fn times(scenario: &Scenario, found: &mut Vec<Found>) {
 /// Whether anything can come of it.
 fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
     let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
-    let declares = matches!(scenario.success, SuccessSpec::Declared(_));
+    let declares = scenario.success.declared_within_m().is_some();
     if scenario.sources.is_empty() {
         if let Some(i) = scenario.robots.iter().position(seeks) {
             found.push(Found::warning(

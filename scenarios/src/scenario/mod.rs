@@ -8,6 +8,7 @@ mod fault;
 mod load;
 mod outline;
 mod schema;
+mod success;
 
 pub use catalog::{CATALOG, Template, template};
 pub use check::check;
@@ -17,6 +18,7 @@ pub use fault::{Fault, Found, ScenarioError};
 pub use load::{Loaded, load, parse};
 pub(crate) use outline::Outline;
 pub use schema::{
-    AreaSpec, DeclaredSpec, Id, LevelSpec, ReachedSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec,
-    StartSpec, SuccessSpec, TerrainSpec, TimeSpec, VERSION, Version,
+    AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,
+    TimeSpec, VERSION, Version,
 };
+pub use success::{DeclaredSpec, ReachedSpec, SuccessSpec};

@@ -1,5 +1,6 @@
 //! What a scenario file says: the whole schema, each block owned by the part it configures.
 
+use super::success::SuccessSpec;
 use crate::gantry::GantryBlock;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
@@ -334,34 +335,6 @@ fn flow_period() -> NonNegative {
 
 fn spin_up_period() -> Positive {
     Positive::new(1.0)
-}
-
-/// When the mission counts as a success.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub enum SuccessSpec {
-    /// A robot declared a source, near enough to a real one.
-    Declared(DeclaredSpec),
-    /// A robot came near enough to a real source, whatever it declared.
-    Reached(ReachedSpec),
-    /// Every robot came to its planned end.
-    #[default]
-    Completed,
-}
-
-/// What counts as near enough.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct DeclaredSpec {
-    /// Greatest horizontal distance from a true source, m.
-    pub within_m: Positive,
-}
-
-/// What counts as having come near enough.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ReachedSpec {
-    /// Greatest horizontal distance between a robot and a true source, m.
-    pub within_m: Positive,
 }
 
 /// What is written down, and how often.

@@ -7,12 +7,14 @@ use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
     Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
-    MAX_PROBES, Manoeuvre, ProbeScan, Setpoint, TrackerState, Vertical,
+    MAX_PROBES, Manoeuvre, ProbeScan, Region, RegionState, Regions, Setpoint, TrackerState,
+    Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::Duration;
+use world::area::Area;
 use world::frames::{Pose, Truth};
 use world::physics::JointState;
 use world::units::Heading;
@@ -120,7 +122,26 @@ pub(super) fn frame(step: u64) -> Frame {
         lost_points: vec![Vector2::new(1.0, 2.0)],
         planned: Arc::default(),
         belief: Some(belief()),
-        declaration: Some(Declaration::first(1.0, Vector2::new(5.0, 6.0), "p09")),
+        regions: Regions {
+            all: Arc::new([Region {
+                area: Area {
+                    centre: Vector2::zeros(),
+                    length_m: 100.0,
+                    width_m: 50.0,
+                    axis: heading,
+                },
+                state: RegionState::Searching,
+                from_s: Some(0.0),
+                until_s: None,
+            }]),
+            now: Some(0),
+        },
+        declarations: vec![Declaration {
+            region: Some(0),
+            surveyed: Some(Vector2::new(5.5, 6.5)),
+            ..Declaration::first(1.0, Vector2::new(5.0, 6.0), "p09")
+        }],
+        fix_m: Some(3.0),
     };
     Frame {
         t_s: step as f64 / 10.0,

@@ -252,6 +252,7 @@ impl Strategy for Amp {
             declared,
             lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
             planned: Arc::default(),
+            regions: Default::default(),
             layers: Arc::default(),
             picture: false,
             outcome: self.outcome,

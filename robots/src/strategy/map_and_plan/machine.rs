@@ -342,6 +342,7 @@ impl Strategy for MapAndPlan {
                 Behaviour::Done => Arc::default(),
                 _ => self.pilot.planned(),
             },
+            regions: Default::default(),
             layers: Arc::default(),
             picture: false,
             outcome: self.outcome,

@@ -7,7 +7,8 @@ use super::map_legend::legend;
 use super::palette::{GREY, INK};
 use super::panel::{Panel, nice_step, range_of};
 use super::plume_load::PlumeLoad;
-use crate::report::RunReport;
+use crate::report::{RobotTrack, RunReport, SourceTruth};
+use nalgebra::Vector2;
 
 /// Largest and least size of the map's panel, px.
 const LARGEST: [f64; 2] = [660.0, 840.0];
@@ -136,6 +137,7 @@ fn draw(
         layers::believed(c, panel, t);
         layers::detections(c, panel, t);
         layers::track(c, panel, t, close);
+        layers::regions(c, panel, t, !close);
         layers::marks(c, panel, t, run.track.robots.len() > 1 && !close);
     }
     layers::sources(c, panel, run);
@@ -149,7 +151,7 @@ fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     points.extend(run.sources.iter().map(|s| [s.position.x, s.position.y]));
     for t in &run.track.robots {
         points.extend(t.rows.iter().map(|r| [r.p[0], r.p[1]]));
-        points.extend(t.declared);
+        points.extend(t.declared());
     }
     let along = |k: usize| range_of(points.iter().map(|p| p[k]), MARGIN).unwrap_or([-1.0, 1.0]);
     (along(0), along(1))
@@ -180,7 +182,17 @@ fn inset(run: &RunReport<'_>, [left, top]: [f64; 2], sheet: f64) -> Option<Panel
     if size < 120.0 {
         return None;
     }
-    let declared = run.track.robots.iter().find_map(|t| t.declared)?;
+    // The one that is nearest to a true source; what is declared on a subregion's edge has its source elsewhere.
+    let away = |d: &SourceAt| {
+        let of = |s: &SourceTruth| (s.position.xy() - Vector2::new(d[0], d[1])).norm();
+        run.sources.iter().map(of).fold(f64::INFINITY, f64::min)
+    };
+    let all = run
+        .track
+        .robots
+        .iter()
+        .flat_map(RobotTrack::declared_inside);
+    let declared = all.min_by(|a, b| away(a).total_cmp(&away(b)))?;
     let near = |p: &SourceAt| {
         let d = [p[0] - declared[0], p[1] - declared[1]];
         d[0] * d[0] + d[1] * d[1]

@@ -6,6 +6,7 @@ use super::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
 use super::panel::{Panel, decade, nice_step, number, power_of_ten};
 use super::plume_load::PlumeLoad;
 use crate::report::{RobotTrack, RunReport};
+use nalgebra::Vector2;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
@@ -128,8 +129,40 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) 
             c.rimmed([p[0] + 8.0, p[1] + 4.0], 10.0, Anchor::Start, &t.info.id);
         }
     }
-    if let Some(d) = t.declared {
-        declared(c, panel.at(d));
+    let several = t.declarations.len() > 1;
+    for (d, at) in t.declarations.iter().zip(t.declared()) {
+        let p = panel.at(at);
+        declared(c, p);
+        if several {
+            let number = (d.number + 1).to_string();
+            c.rimmed([p[0] - 9.0, p[1] - 7.0], 10.0, Anchor::End, &number);
+        }
+    }
+}
+
+/// Line of a subregion's edge.
+pub(super) fn region_line() -> Style<'static> {
+    Style::line(INK, 1.0).dashed("3 3")
+}
+
+/// Outlines of subregions, with the number in the order of search and how the search ended.
+pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
+    for (k, region) in t.regions.iter().enumerate() {
+        let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
+        for (i, a) in corners.iter().enumerate() {
+            // From left to right, so that the dashes of an edge that two regions share fall on each other.
+            let mut ends = [*a, corners[(i + 1) % corners.len()]];
+            ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            c.line(ends[0], ends[1], &region_line());
+        }
+        // Towards the middle of the right edge, where tracks are rarer than in the middle.
+        let at = Vector2::new(0.0, 0.32 * region.area.width_m);
+        let p = region.area.world(at);
+        if named {
+            let words = region.state.name().replace('_', " ");
+            let text = format!("{} {words}", k + 1);
+            c.rimmed(panel.at([p.x, p.y]), 9.5, Anchor::Middle, &text);
+        }
     }
 }
 

@@ -67,7 +67,7 @@ pub(super) fn legend(
             "plume lost (believed)",
         ),
         (
-            robots.iter().any(|t| t.declared.is_some()),
+            robots.iter().any(|t| !t.declarations.is_empty()),
             layers::declared,
             "declared source",
         ),
@@ -79,6 +79,10 @@ pub(super) fn legend(
     }
     c.line([x, y], [x + 24.0, y], &Style::line(INK, 1.6).dashed("7 4"));
     entry(c, x, &mut y, "operating area");
+    if robots.iter().any(|t| !t.regions.is_empty()) {
+        c.line([x, y], [x + 24.0, y], &layers::region_line());
+        entry(c, x, &mut y, "subregion");
+    }
     if !run.obstacles.is_empty() {
         c.rect(
             x + 4.0,

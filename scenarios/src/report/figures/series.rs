@@ -40,8 +40,8 @@ pub(in super::super) fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
         draw(&mut c, panel, t);
         panel.frame(&mut c, 1.0);
         panel.x_ticks(&mut c, k + 1 == kinds.len(), 11.0);
-        if let Some(s) = t.declared_s {
-            panels::event(&mut c, &panel, s, if k == 0 { "declared" } else { "" });
+        for d in &t.declarations {
+            panels::event(&mut c, &panel, d.t_s, if k == 0 { "declared" } else { "" });
         }
     }
     let below = c.height - 12.0;

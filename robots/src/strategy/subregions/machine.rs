@@ -1,0 +1,354 @@
+//! Searches one subregion after the other: declared in, traced to its up-flow edge, or timed out, then on to the next.
+//!
+//! *Source*: Pang 2009, section 6 (missions of several sources, "MT").
+//!
+//! *Parameters*: see [`SubregionsSpec`].
+//!
+//! *Deviations*: the paper prints neither the time-out nor where in a subregion its search begins. It names three ends
+//! of a search; a strategy that gives up by itself, going home without a declaration, is a fourth, counted as
+//! source-free like a time-out. A strategy that looks at what it declared (Survey) is let finish; one whose
+//! declaration was rejected and that searches on keeps the subregion until one of the ends. The strategy searching sees
+//! the subregion as its area; the cage that the guidance holds the vehicle in stays the whole area.
+
+use super::super::spec::Strategy;
+use super::edge::{Plume, crossing};
+use super::rectangles::areas;
+use super::spec::{EdgeSpec, Entry, SubregionsSpec};
+use crate::error::RobotError;
+use crate::handoff::{
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState,
+    Regions, Setting, Verdict, Vertical, detects, inside,
+};
+use crate::strategy::StrategySpec;
+use nalgebra::Vector2;
+use std::sync::Arc;
+use world::area::Area;
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// Name of the rule by which a source is declared on an edge.
+const RULE: &str = "up_flow_edge";
+
+/// A search begins so far inside, m: where an edge no longer turns a zig-zag about.
+const MARGIN_M: f64 = 20.0;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    Begin,
+    /// To the beginning of the search of a region; aimed with a known flow, or blindly.
+    Transit {
+        to: usize,
+        aimed: bool,
+    },
+    /// In a region.
+    Search(usize),
+    Home,
+    Over,
+}
+
+/// State of the mission.
+#[derive(Debug)]
+pub struct Subregions {
+    /// A strategy for each region, fresh until its turn comes.
+    searches: Vec<Box<dyn Strategy>>,
+    timeout_s: f64,
+    entry: Entry,
+    edge: EdgeSpec,
+    speed_m_s: f64,
+    vertical: Vertical,
+    phase: Phase,
+    regions: Arc<[Region]>,
+    up_flow: Option<Heading>,
+    plume: Plume,
+    /// The goal last given, whoever asked for it.
+    goal: Goal,
+    /// Goals of the search in hand are numbered from here.
+    goals_from: u32,
+    /// Declarations of the search in hand are numbered from here.
+    numbers_from: u32,
+    /// What the search in hand has declared.
+    declared: Vec<Declaration>,
+    outcome: Option<Outcome>,
+}
+
+impl Subregions {
+    /// # Errors
+    /// [`RobotError::Invalid`] when a region makes no sense, or what searches it cannot be built.
+    pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
+        let areas = areas(&spec.regions, &setting.area)?;
+        if matches!(*spec.search, StrategySpec::Subregions(_)) {
+            return Err(RobotError::Invalid {
+                field: "search".into(),
+                problem: "subregions cannot have subregions".into(),
+            });
+        }
+        let search = |area: &Area| {
+            let setting = Setting {
+                area: *area,
+                ..setting.clone()
+            };
+            spec.search.build(&setting).map_err(within_search)
+        };
+        let vertical = spec.vertical.into();
+        let speed_m_s = spec.speed_m_s.get();
+        let waiting = |area: &Area| Region {
+            area: *area,
+            state: RegionState::Waiting,
+            from_s: None,
+            until_s: None,
+        };
+        Ok(Self {
+            searches: areas.iter().map(search).collect::<Result<_, _>>()?,
+            timeout_s: spec.timeout_s.get(),
+            entry: spec.entry,
+            edge: spec.edge.clone(),
+            speed_m_s,
+            vertical,
+            phase: Phase::Begin,
+            regions: areas.iter().map(waiting).collect(),
+            up_flow: None,
+            plume: Plume::new(spec.edge.plume_s.get()),
+            goal: Goal {
+                id: 0,
+                manoeuvre: Manoeuvre::GoToPoint {
+                    point: Vector2::zeros(),
+                    radius_m: None,
+                },
+                vertical,
+                speed_m_s,
+            },
+            goals_from: 0,
+            numbers_from: 0,
+            declared: Vec::new(),
+            outcome: None,
+        })
+    }
+
+    fn go_to(&mut self, point: Vector2<f64>) {
+        self.goal = Goal {
+            id: self.goal.id + 1,
+            manoeuvre: Manoeuvre::GoToPoint {
+                point,
+                radius_m: None,
+            },
+            vertical: self.vertical,
+            speed_m_s: self.speed_m_s,
+        };
+    }
+
+    /// Sets out for a region, or for home after the last.
+    fn set_out(&mut self, to: usize, home: Vector2<f64>) {
+        let Some(region) = self.regions.get(to) else {
+            self.phase = Phase::Home;
+            self.go_to(home);
+            return;
+        };
+        let area = region.area;
+        let (point, aimed) = match (self.entry, self.up_flow) {
+            (Entry::Centre, _) => (area.centre, true),
+            (Entry::DownFlowCorner, Some(up)) => (down_flow_corner(&area, up), true),
+            (Entry::DownFlowCorner, None) => (area.centre, false),
+        };
+        self.phase = Phase::Transit { to, aimed };
+        self.go_to(point);
+    }
+
+    fn mark(&mut self, k: usize, change: impl Fn(&mut Region)) {
+        let mut all = self.regions.to_vec();
+        change(&mut all[k]);
+        self.regions = all.into();
+    }
+
+    fn begin_search(&mut self, k: usize, t_s: f64) {
+        self.phase = Phase::Search(k);
+        self.goals_from = self.goal.id + 1;
+        self.numbers_from += self.declared.len() as u32;
+        self.declared.clear();
+        self.plume.forget();
+        self.mark(k, |r| {
+            r.state = RegionState::Searching;
+            r.from_s = Some(t_s);
+        });
+    }
+
+    fn end_search(&mut self, k: usize, state: RegionState, seen: &Observation) {
+        self.mark(k, |r| {
+            r.state = state;
+            r.until_s = Some(seen.t_s);
+        });
+        self.set_out(k + 1, seen.home);
+    }
+
+    /// One tick of the search of region `k`.
+    fn search(&mut self, k: usize, seen: &Observation, rng: &mut Stream) -> Decision {
+        let region = self.regions[k];
+        let mut its = seen.clone();
+        its.area = region.area;
+        // Goals given before this search are none of its own.
+        let of_search = seen.guidance.goal_id.checked_sub(self.goals_from);
+        its.guidance.goal_id = of_search.unwrap_or(u32::MAX);
+        its.guidance.done &= of_search.is_some();
+        let mut decision = self.searches[k].step(&its, rng);
+        decision.goal.id += self.goals_from;
+        self.goal = decision.goal;
+        let behaviour = decision.behaviour;
+        let over = matches!(behaviour, Behaviour::GoHome | Behaviour::Done)
+            || decision.outcome.take().is_some();
+        if let Some(own) = decision.declared {
+            decision.declared = Some(self.declare(k, own));
+        }
+        let crossing = if over {
+            None
+        } else {
+            self.traced(region, behaviour, seen)
+        };
+        let timed_out = region
+            .from_s
+            .is_some_and(|from| seen.t_s - from >= self.timeout_s);
+        if let (Some(place), None) = (crossing, decision.declared) {
+            let number = self.declared.len() as u32;
+            let at_edge = Declaration {
+                number,
+                ..Declaration::first(seen.t_s, place, RULE)
+            };
+            decision.declared = Some(self.declare(k, at_edge));
+            self.end_search(k, RegionState::UpFlowEdge, seen);
+        } else if over || (timed_out && behaviour != Behaviour::Survey) {
+            let stands = self.declared.iter().any(|d| d.verdict != Verdict::Rejected);
+            let state = if stands {
+                RegionState::Declared
+            } else {
+                RegionState::SourceFree
+            };
+            self.end_search(k, state, seen);
+        }
+        decision
+    }
+
+    /// A declaration of the search of region `k` as one of the mission.
+    fn declare(&mut self, k: usize, own: Declaration) -> Declaration {
+        own.join(&mut self.declared);
+        Declaration {
+            number: own.number + self.numbers_from,
+            region: Some(k as u32),
+            ..own
+        }
+    }
+
+    /// Where the plume crosses the region's up-flow edge, if it is being traced there.
+    fn traced(
+        &mut self,
+        region: Region,
+        behaviour: Behaviour,
+        seen: &Observation,
+    ) -> Option<Vector2<f64>> {
+        let tracing = match behaviour {
+            Behaviour::Find
+            | Behaviour::TrackIn
+            | Behaviour::TrackOut
+            | Behaviour::Reacquire
+            | Behaviour::FollowPath
+            | Behaviour::Avoid => true,
+            Behaviour::Idle
+            | Behaviour::OpenLoop
+            | Behaviour::GoTo
+            | Behaviour::Survey
+            | Behaviour::GoHome
+            | Behaviour::Done => false,
+        };
+        if !(tracing && detects(seen)) {
+            return None;
+        }
+        let here = seen.estimate.position;
+        let plume = self.plume.note(seen.t_s, here);
+        let within_m = self.edge.within_m.get();
+        crossing(&region.area, self.up_flow?, here, plume, within_m)
+    }
+
+    /// What it does and asks for where no search is in hand.
+    fn under_way(&self) -> Decision {
+        Decision {
+            behaviour: match self.phase {
+                Phase::Begin | Phase::Transit { .. } | Phase::Search(_) => Behaviour::GoTo,
+                Phase::Home => Behaviour::GoHome,
+                Phase::Over => Behaviour::Done,
+            },
+            goal: self.goal,
+            declared: None,
+            lost_points: Vec::new(),
+            planned: Arc::default(),
+            regions: Regions::default(),
+            layers: Arc::default(),
+            picture: false,
+            outcome: None,
+        }
+    }
+}
+
+impl Strategy for Subregions {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        if let Some(flow) = seen.estimate.flow {
+            self.up_flow = Some(flow.up_flow());
+        }
+        if seen.guidance.aborted && self.outcome.is_none() {
+            self.outcome = Some(Outcome::Aborted);
+            self.phase = Phase::Over;
+        }
+        let arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
+        match self.phase {
+            Phase::Begin => self.set_out(0, seen.home),
+            Phase::Transit { to, aimed: false } if self.up_flow.is_some() => {
+                self.set_out(to, seen.home);
+            }
+            Phase::Transit { to, .. } if arrived => self.begin_search(to, seen.t_s),
+            Phase::Home if arrived => {
+                self.phase = Phase::Over;
+                self.outcome.get_or_insert(Outcome::Completed);
+            }
+            _ => {}
+        }
+        let mut decision = match self.phase {
+            Phase::Search(k) => {
+                let searched = self.search(k, seen, rng);
+                if self.phase == Phase::Search(k) {
+                    searched
+                } else {
+                    // The search is over: what it declared last stands, what it asked for does not.
+                    Decision {
+                        declared: searched.declared,
+                        lost_points: searched.lost_points,
+                        ..self.under_way()
+                    }
+                }
+            }
+            _ => self.under_way(),
+        };
+        decision.outcome = self.outcome;
+        decision.regions = Regions {
+            all: self.regions.clone(),
+            now: match self.phase {
+                Phase::Search(k) => Some(k as u32),
+                _ => None,
+            },
+        };
+        decision
+    }
+}
+
+/// The corner farthest down-flow, a little inside.
+fn down_flow_corner(area: &Area, up_flow: Heading) -> Vector2<f64> {
+    let down = up_flow.opposite().unit();
+    let corner = (area.corners().into_iter()).max_by(|a, b| a.dot(&down).total_cmp(&b.dot(&down)));
+    inside(area, corner.unwrap_or(area.centre), MARGIN_M)
+}
+
+/// A fault of the searching strategy as one of this.
+fn within_search(error: RobotError) -> RobotError {
+    match error {
+        RobotError::Invalid { field, problem } => RobotError::Invalid {
+            field: format!("search.{}", field.trim_start_matches("strategy.")),
+            problem,
+        },
+        other => other,
+    }
+}

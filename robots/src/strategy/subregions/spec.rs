@@ -1,0 +1,107 @@
+//! What a scenario says about a mission over subregions.
+
+use super::super::spec::{StrategySpec, VerticalSpec};
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroU32;
+use world::ranges::{Finite, NonNegative, Positive};
+
+/// The subregions, what searches them, and when the search of one is over.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SubregionsSpec {
+    /// Where they are, in the order in which they are searched.
+    pub regions: RegionsSpec,
+    /// What searches each of them, begun afresh in each.
+    pub search: Box<StrategySpec>,
+    /// A search that has declared nothing for so long is given up, s.
+    pub timeout_s: Positive,
+    /// Where a search begins.
+    #[serde(default)]
+    pub entry: Entry,
+    /// When a plume counts as traced to the up-flow edge.
+    #[serde(default)]
+    pub edge: EdgeSpec,
+    /// Speed over ground in transits and on the way home, m/s (section 6: 2).
+    #[serde(default = "speed")]
+    pub speed_m_s: Positive,
+    /// Altitude or depth there (section 6: 1.5 m above the bed in the mission of several sources).
+    #[serde(default = "vertical")]
+    pub vertical: VerticalSpec,
+}
+
+fn speed() -> Positive {
+    Positive::new(2.0)
+}
+
+fn vertical() -> VerticalSpec {
+    VerticalSpec::Altitude(Positive::new(1.5))
+}
+
+/// Where the subregions are.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum RegionsSpec {
+    /// The operating area divided evenly.
+    Grid(GridSpec),
+    /// Rectangles along the operating area's axes.
+    Rectangles(RectanglesSpec),
+}
+
+/// An even division of the operating area.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GridSpec {
+    /// Parts along the area's axis.
+    pub along: NonZeroU32,
+    /// Parts across it.
+    pub across: NonZeroU32,
+    /// (along, across) of each part to be searched, in this order, counted from 0 at the area's rear left corner,
+    /// looking along its axis. Parts that are left out are not searched.
+    pub order: Vec<(u32, u32)>,
+}
+
+/// A list of rectangles.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RectanglesSpec {
+    /// The rectangles, in the order in which they are searched.
+    pub list: Vec<RectangleSpec>,
+}
+
+/// A rectangle along the operating area's axes, within the area.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RectangleSpec {
+    /// From and to along the area's axis, m from the area's centre.
+    pub along_m: (Finite, Finite),
+    /// From and to across it, m from the centre, positive to the right, looking along the axis.
+    pub across_m: (Finite, Finite),
+}
+
+/// Where the search of a subregion begins.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Entry {
+    /// In its most down-flow corner (section 5.2).
+    #[default]
+    DownFlowCorner,
+    /// In its middle.
+    Centre,
+}
+
+/// When a plume counts as traced to the up-flow edge.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EdgeSpec {
+    /// A detection nearer to the edge than this, or beyond it, has reached it, m.
+    pub within_m: NonNegative,
+    /// The plume is where it was detected on average in the last of these, s.
+    pub plume_s: NonNegative,
+}
+
+impl Default for EdgeSpec {
+    fn default() -> Self {
+        Self {
+            within_m: NonNegative::new(20.0),
+            plume_s: NonNegative::new(10.0),
+        }
+    }
+}

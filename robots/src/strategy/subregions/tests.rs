@@ -1,0 +1,307 @@
+//! The switching between subregions, with observations written by hand.
+
+use super::{EdgeSpec, Entry, GridSpec, RegionsSpec, Subregions, SubregionsSpec};
+use crate::handoff::testing::{area, seen, smelling};
+use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Outcome, RegionState, Setting};
+use crate::strategy::{AmpSpec, OpenLoopSpec, Strategy, StrategySpec, VerticalSpec};
+use nalgebra::Vector2;
+use std::num::NonZeroU32;
+use world::obstacles::Obstacles;
+use world::ranges::{NonNegative, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+const TIMEOUT_S: f64 = 600.0;
+
+fn setting() -> Setting {
+    Setting {
+        area: area(),
+        bed: Terrain::Level { depth_m: 6.0 },
+        chart: Obstacles::default(),
+        maps: false,
+    }
+}
+
+/// The area's south half, then its north half.
+fn spec(entry: Entry) -> SubregionsSpec {
+    SubregionsSpec {
+        regions: RegionsSpec::Grid(GridSpec {
+            along: NonZeroU32::new(2).expect("2 > 0"),
+            across: NonZeroU32::MIN,
+            order: vec![(0, 0), (1, 0)],
+        }),
+        search: Box::new(StrategySpec::Amp(AmpSpec::default())),
+        timeout_s: Positive::new(TIMEOUT_S),
+        entry,
+        edge: EdgeSpec::default(),
+        speed_m_s: Positive::new(1.5),
+        vertical: VerticalSpec::Depth(NonNegative::new(3.0)),
+    }
+}
+
+/// A mission and the last goal it gave; flow to the south, a little westward.
+struct Desk {
+    mission: Subregions,
+    rng: Stream,
+    t_s: f64,
+    goal: Option<Goal>,
+    flow: Option<Vector2<f64>>,
+}
+
+impl Desk {
+    fn new(spec: &SubregionsSpec) -> Self {
+        Self {
+            mission: Subregions::new(spec, &setting()).expect("a legal spec"),
+            rng: Stream::new(1, "auv0", "strategy"),
+            t_s: 0.0,
+            goal: None,
+            flow: Some(Vector2::new(-0.02, -0.2)),
+        }
+    }
+
+    /// A mission whose search of the first region has just begun.
+    fn searching() -> Self {
+        let mut d = Self::new(&spec(Entry::Centre));
+        d.quiet(-200.0);
+        let begun = d.arrive(-150.0);
+        assert_eq!(begun.regions.now, Some(0));
+        d
+    }
+
+    fn tick(&mut self, north: f64, smells: bool, arrived: bool, aborted: bool) -> Decision {
+        self.t_s += 0.1;
+        let at = Vector2::new(0.0, north);
+        let mut o = smelling(seen(self.t_s, at, 350.0, self.flow), smells);
+        if let Some(goal) = self.goal {
+            o.guidance.goal_id = goal.id;
+            o.guidance.done = arrived;
+        }
+        o.guidance.aborted = aborted;
+        let decision = self.mission.step(&o, &mut self.rng);
+        self.goal = Some(decision.goal);
+        decision
+    }
+
+    fn quiet(&mut self, north: f64) -> Decision {
+        self.tick(north, false, false, false)
+    }
+
+    fn smell(&mut self, north: f64) -> Decision {
+        self.tick(north, true, false, false)
+    }
+
+    fn arrive(&mut self, north: f64) -> Decision {
+        self.tick(north, false, true, false)
+    }
+
+    /// Detects at `north` and loses the plume there.
+    fn point(&mut self, north: f64) -> Decision {
+        self.smell(north);
+        self.t_s += 5.0;
+        self.quiet(north + 1.0)
+    }
+
+    /// Three points close together and the end of Track-Out: the inner strategy declares.
+    fn declare(&mut self, north: f64) -> Decision {
+        for k in 0..3 {
+            let out = self.point(north + f64::from(k));
+            assert_eq!(out.behaviour, Behaviour::TrackOut);
+        }
+        self.arrive(north + 20.0)
+    }
+}
+
+fn point_of(d: &Decision) -> Vector2<f64> {
+    match d.goal.manoeuvre {
+        Manoeuvre::GoToPoint { point, .. } => point,
+        other => panic!("wanted a point, got {other:?}"),
+    }
+}
+
+fn states(d: &Decision) -> Vec<RegionState> {
+    d.regions.all.iter().map(|r| r.state).collect()
+}
+
+#[test]
+fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
+    let mut d = Desk::new(&spec(Entry::DownFlowCorner));
+    d.flow = None;
+    // Without a flow there is no down-flow: to the middle, until it is known.
+    assert_eq!(point_of(&d.quiet(-250.0)), Vector2::new(0.0, -150.0));
+    d.flow = Some(Vector2::new(-0.02, -0.2));
+    let first = d.quiet(-250.0);
+    // South-west corner (-200, -300), 20 m inside.
+    assert!((point_of(&first) - Vector2::new(-180.0, -280.0)).norm() < 1e-9);
+    assert_eq!(
+        (first.behaviour, first.regions.now),
+        (Behaviour::GoTo, None)
+    );
+    for _ in 0..20 {
+        let on_the_way = d.smell(-250.0);
+        assert_eq!(on_the_way.behaviour, Behaviour::GoTo);
+        assert_eq!((on_the_way.goal, on_the_way.declared), (first.goal, None));
+    }
+    assert_eq!(first.goal.speed_m_s, 1.5);
+    assert_eq!(d.arrive(-280.0).behaviour, Behaviour::Find);
+    assert_eq!(d.smell(-280.0).behaviour, Behaviour::TrackIn);
+}
+
+#[test]
+fn arrival_of_the_transit_is_none_of_the_search() {
+    let mut d = Desk::searching();
+    let find = d.goal.expect("a goal was given");
+    // The guidance still says that the transit is done: the search's own goal stands.
+    let mut o = seen(d.t_s + 0.1, Vector2::new(0.0, -150.0), 350.0, d.flow);
+    (o.guidance.goal_id, o.guidance.done) = (find.id - 1, true);
+    let next = d.mission.step(&o, &mut d.rng);
+    assert_eq!((next.behaviour, next.goal), (Behaviour::Find, find));
+    assert_eq!(
+        states(&next),
+        [RegionState::Searching, RegionState::Waiting]
+    );
+}
+
+#[test]
+fn a_time_out_leaves_the_region_source_free() {
+    let mut d = Desk::searching();
+    d.smell(-100.0);
+    let from = d.t_s;
+    d.t_s += TIMEOUT_S - 1.0;
+    let last = d.quiet(-100.0);
+    assert_eq!(last.regions.now, Some(0), "{:.1} s", d.t_s - from);
+    d.t_s += 1.0;
+    let over = d.quiet(-100.0);
+    assert_eq!((over.declared, over.behaviour), (None, Behaviour::GoTo));
+    assert_eq!(
+        states(&over),
+        [RegionState::SourceFree, RegionState::Waiting]
+    );
+    assert_eq!(point_of(&over), Vector2::new(0.0, 150.0));
+    assert_eq!(over.goal.id, last.goal.id + 1);
+    let [first, _] = over.regions.all[..] else {
+        panic!("two regions")
+    };
+    assert!((first.until_s.unwrap() - first.from_s.unwrap() - TIMEOUT_S).abs() < 0.5);
+}
+
+#[test]
+fn a_declaration_inside_ends_the_search_of_its_region() {
+    let mut d = Desk::searching();
+    let end = d.declare(-150.0);
+    let first = end.declared.expect("three points within 2 m");
+    assert_eq!((first.number, first.region), (0, Some(0)));
+    assert_eq!(
+        (first.rule, first.position),
+        ("AlongFlow", Vector2::new(0.0, -148.0))
+    );
+    assert_eq!((end.behaviour, end.regions.now), (Behaviour::GoTo, None));
+    assert_eq!(states(&end), [RegionState::Declared, RegionState::Waiting]);
+    // Not said twice, and no detection counts on the way.
+    let transit = d.smell(-100.0);
+    assert_eq!(
+        (transit.declared, transit.behaviour),
+        (None, Behaviour::GoTo)
+    );
+    // The next search begins afresh, its declarations are numbered on.
+    let begun = d.arrive(150.0);
+    assert_eq!(
+        (begun.behaviour, begun.regions.now),
+        (Behaviour::Find, Some(1))
+    );
+    assert!(begun.lost_points.is_empty());
+    let second = d.declare(150.0).declared.expect("three points within 2 m");
+    assert_eq!((second.number, second.region), (1, Some(1)));
+}
+
+#[test]
+fn a_plume_traced_to_the_up_flow_edge_is_declared_there() {
+    let mut d = Desk::searching();
+    // The edge is at 0 m N; 20 m before it no more is needed than to be there.
+    let near = d.smell(-21.0);
+    assert_eq!((near.declared, near.behaviour), (None, Behaviour::TrackIn));
+    let end = d.smell(-19.0);
+    let at = end.declared.expect("19 m from the edge");
+    assert_eq!(
+        (at.rule, at.region, at.number),
+        ("up_flow_edge", Some(0), 0)
+    );
+    // From the mean of the two detections (0, -20) up-flow: 0.1 m east for each metre north.
+    assert!(
+        (at.position - Vector2::new(2.0, 0.0)).norm() < 1e-9,
+        "{at:?}"
+    );
+    assert_eq!(end.behaviour, Behaviour::GoTo);
+    assert_eq!(
+        states(&end),
+        [RegionState::UpFlowEdge, RegionState::Waiting]
+    );
+}
+
+#[test]
+fn to_come_near_the_edge_without_a_detection_declares_nothing() {
+    let mut d = Desk::searching();
+    d.smell(-60.0);
+    for north in [-30, -10, 5] {
+        let now = d.quiet(f64::from(north));
+        assert_eq!((now.declared, now.regions.now), (None, Some(0)));
+    }
+}
+
+#[test]
+fn home_after_the_last_region_and_completed_there() {
+    let mut d = Desk::searching();
+    d.declare(-150.0);
+    d.arrive(150.0);
+    d.t_s += TIMEOUT_S;
+    let home = d.quiet(200.0);
+    assert_eq!((home.behaviour, home.outcome), (Behaviour::GoHome, None));
+    assert_eq!(point_of(&home), Vector2::new(10.0, -250.0));
+    assert_eq!(
+        states(&home),
+        [RegionState::Declared, RegionState::SourceFree]
+    );
+    assert_eq!(d.smell(0.0).behaviour, Behaviour::GoHome);
+    let done = d.arrive(-250.0);
+    assert_eq!(
+        (done.behaviour, done.outcome),
+        (Behaviour::Done, Some(Outcome::Completed))
+    );
+    assert_eq!(d.smell(-250.0).outcome, Some(Outcome::Completed));
+}
+
+#[test]
+fn a_cage_abort_ends_the_mission_wherever_it_is() {
+    for searching in [false, true] {
+        let mut d = if searching {
+            Desk::searching()
+        } else {
+            Desk::new(&spec(Entry::Centre))
+        };
+        let end = d.tick(0.0, true, false, true);
+        assert_eq!(
+            (end.behaviour, end.outcome),
+            (Behaviour::Done, Some(Outcome::Aborted))
+        );
+        assert_eq!(end.declared, None);
+        assert_eq!(d.smell(0.0).outcome, Some(Outcome::Aborted));
+    }
+}
+
+#[test]
+fn faults_of_the_searching_strategy_name_their_field() {
+    let with = |search| SubregionsSpec {
+        search: Box::new(search),
+        ..spec(Entry::Centre)
+    };
+    let said = |spec: &SubregionsSpec| {
+        let built = Subregions::new(spec, &setting());
+        built.map(drop).expect_err("illegal").to_string()
+    };
+    let table = StrategySpec::OpenLoop(OpenLoopSpec {
+        table: Vec::new(),
+        end_s: Positive::new(1.0),
+    });
+    assert!(said(&with(table)).contains("search."));
+    let nested = StrategySpec::Subregions(spec(Entry::Centre));
+    assert!(said(&with(nested)).contains("search"));
+}

@@ -1,0 +1,46 @@
+//! When a mission counts as a success.
+
+use serde::{Deserialize, Serialize};
+use world::ranges::Positive;
+
+/// When the mission counts as a success.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum SuccessSpec {
+    /// A robot declared a source, near enough to a real one.
+    Declared(DeclaredSpec),
+    /// Every real source was declared, near enough, and every robot ended its mission. Declarations elsewhere are
+    /// counted, and spoil nothing: a plume traced to a subregion's edge is declared there.
+    AllDeclared(DeclaredSpec),
+    /// A robot came near enough to a real source, whatever it declared.
+    Reached(ReachedSpec),
+    /// Every robot came to its planned end.
+    #[default]
+    Completed,
+}
+
+impl SuccessSpec {
+    /// Greatest distance at which a declaration counts as of a source, m; `None` where none is asked for.
+    #[must_use]
+    pub fn declared_within_m(&self) -> Option<f64> {
+        match self {
+            SuccessSpec::Declared(d) | SuccessSpec::AllDeclared(d) => Some(d.within_m.get()),
+            SuccessSpec::Reached(_) | SuccessSpec::Completed => None,
+        }
+    }
+}
+
+/// What counts as near enough.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct DeclaredSpec {
+    /// Greatest horizontal distance from a true source, m.
+    pub within_m: Positive,
+}
+
+/// What counts as having come near enough.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ReachedSpec {
+    /// Greatest horizontal distance between a robot and a true source, m.
+    pub within_m: Positive,
+}
