@@ -200,7 +200,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
     let likeliest = |k: usize| {
         let hops = last.hops(0, k);
         (hops.first..)
-            .zip(&hops.p)
+            .zip(hops.p.iter())
             .max_by(|a, b| a.1.total_cmp(b.1))
             .expect("some")
             .0
