@@ -8,7 +8,7 @@
 //! come back.
 
 use super::credible;
-use crate::handoff::{Belief, BeliefGrid};
+use crate::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
 use world::math;
 
@@ -40,6 +40,7 @@ impl LogBelief {
                 best: 0,
                 entropy_nat: 0.0,
                 credible_95: 0.0,
+                odour: None,
             },
             work: Vec::with_capacity(n),
         };
@@ -56,6 +57,11 @@ impl LogBelief {
     #[cfg(test)]
     pub(super) fn ln_p(&self) -> &[f64] {
         &self.ln_p
+    }
+
+    /// Says with the belief what else is known of the odour.
+    pub(super) fn say(&mut self, odour: Odour) {
+        self.belief.odour = Some(Arc::new(odour));
     }
 
     /// Takes in the likelihood of what was seen, a number of each cell (greater than zero; a common factor

@@ -7,6 +7,8 @@
 //! the trajectory has no part in it; `sheared`, off: in a map of the space, each level has the flow last measured
 //! there (levels not visited yet: that of the nearest visited), else the flow at the vehicle holds at all depths.
 //!
+//! `odour_every_s`, never, and `walk_steps`, 30: when the other products are shown, and how long the path is.
+//!
 //! *Deviations*: reconstructed (the paper's own equations were not at hand): with the vehicle in cell j, none
 //! detected: π_i ← π_i Π_l (1 − b Φ_ij(l, k)); detected: π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l, k)))], with
 //! Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see `adjoint`; cell to cell chances: see `transition`. Shear is
@@ -17,6 +19,7 @@ use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use crate::map::catalogue::Mapper;
 use crate::map::evidence::DoubtSpec;
+use crate::map::flow_history::SLACK_S;
 use crate::map::releases::Gatherer;
 use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
 use crate::map::terms::Terms;
@@ -26,6 +29,9 @@ use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use world::ranges::{Fraction, Positive};
+
+/// Most steps of the path most likely to detect.
+const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -41,6 +47,11 @@ pub struct HmmSpec {
     pub false_detection: Fraction,
     /// What the model is doubted for.
     pub doubt: DoubtSpec,
+    /// Say every so often, s, what else it knows: where odour is likely to be met, which way it came, and the path most
+    /// likely to meet it; not given: never.
+    pub odour_every_s: Option<Positive>,
+    /// Steps from cell to cell of that path; at most 500.
+    pub walk_steps: u32,
     /// In a map of the space, keep the flow of each level as last measured there.
     pub sheared: bool,
 }
@@ -53,6 +64,8 @@ impl Default for HmmSpec {
             step_s: Positive::new(1.0),
             false_detection: Fraction::new(1e-6),
             doubt: DoubtSpec::default(),
+            odour_every_s: None,
+            walk_steps: 30,
             sheared: false,
         }
     }
@@ -82,6 +95,9 @@ pub struct Hmm {
     /// Displacement a step at each level, m, as last measured there; empty without shear.
     levels: Vec<Option<[f64; 2]>>,
     level: usize,
+    /// Time between two sayings of what else is known (s), and the steps of the walk.
+    say: Option<(f64, usize)>,
+    said_s: f64,
 }
 
 impl Hmm {
@@ -96,6 +112,10 @@ impl Hmm {
                 "step_s",
                 &format!("must be at most trajectory.lookback_s, {h}, got {step_s}"),
             ));
+        }
+        if spec.walk_steps > MOST_WALK {
+            let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
+            return Err(invalid("walk_steps", &problem));
         }
         let trajectory = &spec.trajectory;
         // The chain's steps are independent: an error of the flow that lasts spreads as it does in the long run.
@@ -132,6 +152,8 @@ impl Hmm {
                 Vec::new()
             },
             level: 0,
+            say: (spec.odour_every_s).map(|s| (s.get(), spec.walk_steps as usize)),
+            said_s: f64::NEG_INFINITY,
             grid,
         })
     }
@@ -246,6 +268,14 @@ impl Mapper for Hmm {
         self.with.evidence.weigh(sighting.detected, &mut likelihood);
         self.with.likelihood = likelihood;
         self.with.update(sighting.t_s, sighting.detected);
+        if let Some((every_s, steps)) = self.say
+            && self.belief().informed
+            && sighting.t_s >= self.said_s + every_s - SLACK_S
+        {
+            self.said_s = sighting.t_s;
+            let odour = self.odour(sighting.t_s, sighting.cell, steps);
+            self.with.belief.say(odour);
+        }
     }
 
     fn belief(&self) -> &Belief {
