@@ -45,3 +45,10 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
     },
 ];
+
+/// What a scenario may say of the water beside its currents, by its field in `water`.
+pub const OPTIONS: &[Entry] = &[Entry {
+    name: "blockage",
+    what: "Obstacles and bed turn the currents aside: free of divergence, tangent to all that is solid; without it water passes through",
+    source: "Sherman 1978, J. Appl. Meteorol. 17, 312 (mass-consistent wind fields); Chorin 1968, Math. Comp. 22, 745",
+}];

@@ -19,6 +19,6 @@ pub mod uniform;
 pub mod water;
 
 pub use blockage::{BlockageSpec, Blocked, Solved};
-pub use catalogue::{CATALOGUE, CurrentSpec};
+pub use catalogue::{CATALOGUE, CurrentSpec, OPTIONS};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

@@ -1,4 +1,10 @@
 //! What every mapper over a grid is made of: a watch over what is seen, a belief, and how far what is seen is believed.
+//!
+//! *Source*: none of its own; see `watch`, `log_belief` and `evidence`.
+//!
+//! *Parameters*: [`CellsSpec`].
+//!
+//! *Deviations*: none.
 
 use super::evidence::{DoubtSpec, Evidence};
 use super::log_belief::LogBelief;
