@@ -116,6 +116,7 @@ mod tests {
     use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
     use super::*;
     use nalgebra::Vector2;
+    use world::terrain::Terrain;
     use world::units::Heading;
 
     fn altimeter(noise_m: f64) -> Altimeter {
@@ -146,11 +147,8 @@ mod tests {
     fn is_valid_within_its_range_only() {
         let deep = Terrain::Level { depth_m: 40.0 };
         assert!(read(at(0.0, 0.0, -9.95), &deep).valid && !read(at(0.0, 0.0, -9.85), &deep).valid);
-        assert!(
-            read(at(0.0, 0.0, -7.55), &bare(&BED)).valid
-                && !read(at(0.0, 0.0, -7.65), &bare(&BED)).valid
-        );
-        assert!(!read(nose_up(at(0.0, 0.0, -6.0), 70.0), &bare(&BED)).valid);
+        assert!(read(at(0.0, 0.0, -7.55), &BED).valid && !read(at(0.0, 0.0, -7.65), &BED).valid);
+        assert!(!read(nose_up(at(0.0, 0.0, -6.0), 70.0), &BED).valid);
     }
 
     /// Nose up over a bed rising northward the beam, looking forward and down, hits where the bed is higher.

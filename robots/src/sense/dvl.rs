@@ -116,6 +116,7 @@ impl Dvl {
 mod tests {
     use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
     use super::*;
+    use world::terrain::Terrain;
 
     fn dvl(spec: &DvlSpec, seed: u64) -> Dvl {
         Dvl::new(spec, Vector3::new(0.0, 0.0, -0.1), "auv0", seed, 0.02).unwrap()
@@ -157,11 +158,11 @@ mod tests {
         };
         // The mount hangs 0.1 m below the origin.
         assert!(valid(moving(-9.95), &deep) && !valid(moving(-9.85), &deep));
-        assert!(valid(moving(-7.35), &bare(&BED)) && !valid(moving(-7.45), &bare(&BED)));
+        assert!(valid(moving(-7.35), &BED) && !valid(moving(-7.45), &BED));
         // The beam is longer by 1/cos of the tilt: 26.9 m become 31.
         assert!(valid(moving(-13.0), &deep) && !valid(nose_up(moving(-13.0), 30.0), &deep));
-        assert!(!valid(nose_up(moving(-6.0), 70.0), &bare(&BED)));
-        assert!(!valid(nose_up(moving(-6.0), 180.0), &bare(&BED)));
+        assert!(!valid(nose_up(moving(-6.0), 70.0), &BED));
+        assert!(!valid(nose_up(moving(-6.0), 180.0), &BED));
     }
 
     #[test]
