@@ -5,8 +5,8 @@
 use divan::Bencher;
 use nalgebra::{Vector2, Vector3};
 use robots::map::{
-    BayesianSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper, ParticleFilterSpec,
-    PomdpSpec, TrajectorySpec,
+    CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper, ParticleFilterSpec,
+    TrajectorySpec,
 };
 use world::area::Area;
 use world::math;
@@ -90,10 +90,10 @@ fn trajectory(merge: f64) -> TrajectorySpec {
 }
 
 fn pomdp(n: [u32; 3], merge: f64) -> MapSpec {
-    MapSpec::Pomdp(PomdpSpec {
+    MapSpec::Pomdp(CellsSpec {
         grid: grid(n),
         trajectory: trajectory(merge),
-        ..PomdpSpec::default()
+        ..CellsSpec::default()
     })
 }
 
@@ -119,9 +119,9 @@ fn pomdp_plane_unmerged(bencher: Bencher) {
 
 #[divan::bench]
 fn bayesian_plane(bencher: Bencher) {
-    let spec = BayesianSpec {
+    let spec = CellsSpec {
         grid: grid(PLANE),
-        ..BayesianSpec::default()
+        ..CellsSpec::default()
     };
     run(bencher, &MapSpec::Bayesian(spec), ALONG, 1.0);
 }

@@ -61,3 +61,10 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Dean & Dalrymple 1991, Water Wave Mechanics; Hasselmann et al. 1973; Andrews & McIntyre 1978, J. Fluid Mech. 89, 609",
     },
 ];
+
+/// What a scenario may say of the water beside its currents, by its field in `water`.
+pub const OPTIONS: &[Entry] = &[Entry {
+    name: "blockage",
+    what: "Obstacles and bed turn the currents aside: free of divergence, tangent to all that is solid; without it water passes through",
+    source: "Sherman 1978, J. Appl. Meteorol. 17, 312 (mass-consistent wind fields); Chorin 1968, Math. Comp. 22, 745",
+}];

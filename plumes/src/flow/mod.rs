@@ -23,6 +23,6 @@ pub mod water;
 pub mod waves;
 
 pub use blockage::{BlockageSpec, Blocked, Solved};
-pub use catalogue::{CATALOGUE, CurrentSpec};
+pub use catalogue::{CATALOGUE, CurrentSpec, OPTIONS};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

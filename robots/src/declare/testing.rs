@@ -22,5 +22,6 @@ pub(crate) fn belief(best: usize, informed: bool, credible_95: f64) -> Belief {
         best,
         entropy_nat: 1.5,
         credible_95,
+        odour: None,
     }
 }

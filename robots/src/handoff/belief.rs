@@ -114,6 +114,21 @@ impl BeliefGrid {
     }
 }
 
+/// What a map that follows odour from cell to cell says beyond the source, at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Odour {
+    /// When, s.
+    pub t_s: f64,
+    /// The cells.
+    pub grid: Arc<BeliefGrid>,
+    /// Chance of detecting in each cell now.
+    pub detection: Vec<f64>,
+    /// Cells that odour most likely took to the vehicle's cell, source first; empty where none leads there.
+    pub came: Vec<usize>,
+    /// The vehicle's cell, then those of its path most likely to detect.
+    pub walk: Vec<usize>,
+}
+
 /// A belief at one instant; cheap to clone.
 #[derive(Component, Clone, Debug, PartialEq)]
 pub struct Belief {
@@ -133,4 +148,6 @@ pub struct Belief {
     pub entropy_nat: f64,
     /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in a map of the space).
     pub credible_95: f64,
+    /// What else it knows of the odour, by a map that follows it and was asked to say so.
+    pub odour: Option<Arc<Odour>>,
 }

@@ -16,7 +16,7 @@ mod regions;
 mod setting;
 
 pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
-pub use belief::{Belief, BeliefGrid};
+pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{ActuatorCommand, Command, Setpoint};
 pub use decision::{Behaviour, Decision, Declaration, Outcome, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};

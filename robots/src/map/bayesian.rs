@@ -12,48 +12,16 @@
 
 use super::catalogue::Mapper;
 use super::kernel::Kernel;
-use super::log_belief::LogBelief;
-use super::spec::{GridSpec, TrajectorySpec, some_false_detection};
-use super::watch::{MapObservation, Watch};
+use super::watch::MapObservation;
+use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
-use serde::{Deserialize, Serialize};
-use std::sync::Arc;
-use world::ranges::{Fraction, Positive};
-
-/// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct BayesianSpec {
-    /// The cells.
-    pub grid: GridSpec,
-    /// How dye is believed to travel.
-    pub trajectory: TrajectorySpec,
-    /// Time between two updates, s.
-    pub update_period_s: Positive,
-    /// Chance ε of a detection where no dye is; must be greater than 0.
-    pub false_detection: Fraction,
-}
-
-impl Default for BayesianSpec {
-    fn default() -> Self {
-        Self {
-            grid: GridSpec::default(),
-            trajectory: TrajectorySpec::default(),
-            update_period_s: Positive::new(1.0),
-            false_detection: Fraction::new(1e-6),
-        }
-    }
-}
 
 /// The mapper at work.
 #[derive(Clone, Debug)]
 pub struct Bayesian {
-    watch: Watch,
+    with: Workings,
     kernel: Kernel,
-    belief: LogBelief,
-    false_detection: f64,
-    likelihood: Vec<f64>,
 }
 
 impl Bayesian {
@@ -61,49 +29,43 @@ impl Bayesian {
     ///
     /// # Errors
     /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without releases.
-    pub fn new(spec: &BayesianSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
-        spec.trajectory.check()?;
-        let grid = Arc::new(grid);
-        let history = spec
-            .trajectory
-            .history(spec.trajectory.release_period_s.get());
+    pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
+        let with = Workings::over_cells(spec, grid)?;
         Ok(Self {
-            watch: Watch::new(&grid, history, spec.update_period_s.get()),
-            kernel: Kernel::new(&grid, &spec.trajectory),
-            belief: LogBelief::uniform(&grid),
-            false_detection: some_false_detection(spec.false_detection)?,
-            likelihood: vec![1.0; grid.len()],
+            kernel: Kernel::new(&with.grid, &spec.trajectory),
+            with,
         })
     }
 }
 
 impl Mapper for Bayesian {
     fn step(&mut self, seen: &MapObservation) {
-        let Some(sighting) = self.watch.step(seen) else {
+        let Some(sighting) = self.with.watch.step(seen) else {
             return;
         };
-        self.kernel.aim(&self.watch.history, sighting.cell);
+        self.kernel.aim(&self.with.watch.history, sighting.cell);
+        let (likelihood, evidence) = (&mut self.with.likelihood, self.with.evidence);
         if sighting.detected {
-            self.kernel.expected(&mut self.likelihood);
-            let total: f64 = self.likelihood.iter().sum();
-            let e = self.false_detection;
+            self.kernel.expected(likelihood);
+            let total: f64 = likelihood.iter().sum();
+            let e = evidence.epsilon;
             let (scale, floor) = if total > 0.0 {
-                ((1.0 - e) / total, e / self.likelihood.len() as f64)
+                ((1.0 - e) / total, e / likelihood.len() as f64)
             } else {
                 // No cell explains it: a false alarm, which says nothing.
                 (0.0, 1.0)
             };
-            for l in &mut self.likelihood {
+            for l in likelihood {
                 *l = *l * scale + floor;
             }
         } else {
-            self.kernel.not_detecting(&mut self.likelihood);
+            self.kernel.not_detecting(likelihood);
+            evidence.weigh(false, likelihood);
         }
-        self.belief
-            .update(sighting.t_s, sighting.detected, &self.likelihood);
+        self.with.update(sighting.t_s, sighting.detected);
     }
 
     fn belief(&self) -> &Belief {
-        self.belief.belief()
+        self.with.belief.belief()
     }
 }

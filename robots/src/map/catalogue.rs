@@ -1,10 +1,11 @@
 //! The mappers by name.
 
-use super::bayesian::{Bayesian, BayesianSpec};
+use super::bayesian::Bayesian;
 use super::hmm::{Hmm, HmmSpec};
 use super::particle_filter::{ParticleFilter, ParticleFilterSpec};
-use super::pomdp::{Pomdp, PomdpSpec};
+use super::pomdp::Pomdp;
 use super::watch::MapObservation;
+use super::workings::CellsSpec;
 use crate::error::RobotError;
 use crate::handoff::Belief;
 use serde::{Deserialize, Serialize};
@@ -25,9 +26,9 @@ pub trait Mapper: std::fmt::Debug + Send + Sync {
 #[serde(deny_unknown_fields)]
 pub enum MapSpec {
     /// Belief state of a partially observable Markov decision process.
-    Pomdp(PomdpSpec),
+    Pomdp(CellsSpec),
     /// Bayesian inference with the sum over releases.
-    Bayesian(BayesianSpec),
+    Bayesian(CellsSpec),
     /// Hidden Markov model of where odour goes from cell to cell.
     Hmm(HmmSpec),
     /// Particles of source positions.

@@ -2,7 +2,8 @@
 //!
 //! *Source*: Wang & Pang, eqs. 1–3, after Pang & Farrell 2006.
 //!
-//! *Parameters*: μ `mu`; σx, σy, σz, m/√s; look-back h, s; the cell's size Lx, Ly, Lz.
+//! *Parameters*: μ `mu`; σx, σy, σz, m/√s; look-back h, s; the cell's size Lx, Ly, Lz; u′, T, ours: see
+//! `TrajectorySpec::strayed_m2`.
 //!
 //! *Deviations*: the papers are plane; here there may be a third factor for the vertical, with mirror images
 //! in the map's upper and lower edge (surface and bed), and no vertical flow. A Gaussian ends seven standard
@@ -40,7 +41,7 @@ impl Kernel {
         Self {
             grid: grid.clone(),
             mu: spec.mu.get(),
-            gatherer: Gatherer::new(spec.sigmas(), horizontal, spec.merge.get()),
+            gatherer: Gatherer::new(spec, horizontal),
             terms: Terms::new(grid.n),
             image: vec![0.0; grid.n[2]],
             at: [0.0; 3],

@@ -8,7 +8,7 @@
 //! come back.
 
 use super::credible;
-use crate::handoff::{Belief, BeliefGrid};
+use crate::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
 use world::math;
 
@@ -40,6 +40,7 @@ impl LogBelief {
                 best: 0,
                 entropy_nat: 0.0,
                 credible_95: 0.0,
+                odour: None,
             },
             work: Vec::with_capacity(n),
         };
@@ -58,15 +59,20 @@ impl LogBelief {
         &self.ln_p
     }
 
+    /// Says with the belief what else is known of the odour.
+    pub(super) fn say(&mut self, odour: Odour) {
+        self.belief.odour = Some(Arc::new(odour));
+    }
+
     /// Takes in the likelihood of what was seen, a number of each cell (greater than zero; a common factor
-    /// does not matter).
-    pub(super) fn update(&mut self, t_s: f64, detected: bool, likelihood: &[f64]) {
+    /// does not matter), to the power of `share`.
+    pub(super) fn update(&mut self, t_s: f64, detected: bool, likelihood: &[f64], share: f64) {
         for (ln_p, l) in self.ln_p.iter_mut().zip(likelihood) {
             assert!(
                 *l > 0.0 && l.is_finite(),
                 "a cell's likelihood is {l} at {t_s} s; must be > 0: check the mapper's chance of false detection"
             );
-            *ln_p += math::ln(*l);
+            *ln_p += share * math::ln(*l);
         }
         self.belief.t_s = t_s;
         self.belief.updates += 1;

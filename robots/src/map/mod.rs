@@ -6,6 +6,7 @@
 mod bayesian;
 mod catalogue;
 mod credible;
+mod evidence;
 mod flow_history;
 mod hmm;
 mod kernel;
@@ -16,14 +17,17 @@ mod releases;
 mod spec;
 mod terms;
 mod watch;
+mod workings;
 
-pub use bayesian::{Bayesian, BayesianSpec};
+pub use bayesian::Bayesian;
 pub use catalogue::{CATALOGUE, MapSpec, Mapper};
+pub use evidence::DoubtSpec;
 pub use hmm::{Hmm, HmmSpec};
 pub use particle_filter::{ParticleFilter, ParticleFilterSpec};
-pub use pomdp::{Pomdp, PomdpSpec};
+pub use pomdp::Pomdp;
 pub use spec::{GridSpec, TrajectorySpec};
 pub use watch::MapObservation;
+pub use workings::CellsSpec;
 
 #[cfg(test)]
 mod testing;

@@ -15,14 +15,14 @@
 //! The belief on the grid is the weight of the particles in each cell, with the share ε spread over all.
 
 use super::catalogue::Mapper;
+use super::evidence::DoubtSpec;
 use super::kernel::Kernel;
-use super::log_belief::LogBelief;
-use super::spec::{GridSpec, TrajectorySpec, invalid, some_false_detection};
-use super::watch::{MapObservation, Watch};
+use super::spec::{GridSpec, TrajectorySpec, invalid};
+use super::watch::MapObservation;
+use super::workings::Workings;
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use serde::{Deserialize, Serialize};
-use std::sync::Arc;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::seeds::Stream;
@@ -42,6 +42,8 @@ pub struct ParticleFilterSpec {
     pub update_period_s: Positive,
     /// Chance ε of a detection where no dye is; must be greater than 0.
     pub false_detection: Fraction,
+    /// What the model is doubted for.
+    pub doubt: DoubtSpec,
     /// How many particles.
     pub particles: u32,
     /// Resample when the effective number is under this share of all.
@@ -59,6 +61,7 @@ impl Default for ParticleFilterSpec {
             trajectory: TrajectorySpec::default(),
             update_period_s: Positive::new(1.0),
             false_detection: Fraction::new(1e-6),
+            doubt: DoubtSpec::default(),
             particles: 1000,
             resample_below: Fraction::new(0.5),
             lost_below: Fraction::new(0.01),
@@ -70,17 +73,14 @@ impl Default for ParticleFilterSpec {
 /// The mapper at work.
 #[derive(Clone, Debug)]
 pub struct ParticleFilter {
-    watch: Watch,
+    with: Workings,
     kernel: Kernel,
-    belief: LogBelief,
     spec: ParticleFilterSpec,
-    false_detection: f64,
     rng: Stream,
     /// Places in the grid's own axes, m.
     places: Vec<[f64; 3]>,
     weights: Vec<f64>,
     extent_m: [f64; 3],
-    mass: Vec<f64>,
 }
 
 impl ParticleFilter {
@@ -93,7 +93,14 @@ impl ParticleFilter {
         grid: BeliefGrid,
         mut rng: Stream,
     ) -> Result<Self, RobotError> {
-        spec.trajectory.check()?;
+        let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
+        let with = Workings::new(
+            grid,
+            &spec.trajectory,
+            periods,
+            spec.false_detection,
+            &spec.doubt,
+        )?;
         if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
             return Err(invalid(
                 "particles",
@@ -103,38 +110,37 @@ impl ParticleFilter {
                 ),
             ));
         }
-        let grid = Arc::new(grid);
+        let grid = &with.grid;
         let extent_m = [0, 1, 2].map(|a| grid.cell_m[a] * grid.n[a] as f64);
         let count = spec.particles as usize;
         let places = (0..count)
             .map(|_| extent_m.map(|e| e * rng.uniform()))
             .collect();
-        let history = spec
-            .trajectory
-            .history(spec.trajectory.release_period_s.get());
         Ok(Self {
-            watch: Watch::new(&grid, history, spec.update_period_s.get()),
-            kernel: Kernel::new(&grid, &spec.trajectory),
-            belief: LogBelief::uniform(&grid),
+            kernel: Kernel::new(grid, &spec.trajectory),
             spec: spec.clone(),
-            false_detection: some_false_detection(spec.false_detection)?,
             rng,
             places,
             weights: vec![1.0 / count as f64; count],
             extent_m,
-            mass: vec![0.0; grid.len()],
+            with,
         })
     }
 
     /// Bayes' rule for each particle.
     fn weigh(&mut self, detected: bool) {
-        let e = self.false_detection;
+        let evidence = self.with.evidence;
         for (place, w) in self.places.iter().zip(&mut self.weights) {
             let gamma = self.kernel.not_detecting_from(*place);
-            *w *= if detected {
-                e + (1.0 - e) * (1.0 - gamma)
+            let likelihood = if detected {
+                evidence.some(gamma)
             } else {
-                gamma.max(e)
+                evidence.none(gamma).max(evidence.epsilon)
+            };
+            *w *= if evidence.share < 1.0 {
+                math::powf(likelihood, evidence.share)
+            } else {
+                likelihood
             };
         }
         let total: f64 = self.weights.iter().sum();
@@ -149,18 +155,17 @@ impl ParticleFilter {
 
     /// Draws every other particle anew from the releases that may have been met; all weigh alike then.
     fn send_back(&mut self) {
-        let releases: Vec<_> = self.watch.history.releases().collect();
-        let sigmas = self.spec.trajectory.sigmas();
-        let (at, plane) = (self.kernel.at(), self.belief.belief().grid.n[2] == 1);
+        let releases: Vec<_> = self.with.watch.history.releases().collect();
+        let (at, plane) = (self.kernel.at(), self.with.belief.belief().grid.n[2] == 1);
         for place in self.places.iter_mut().step_by(2) {
             // Releases from outside the area cannot be: another is drawn, a few times.
             for _ in 0..20 {
                 let pick = (self.rng.uniform() * releases.len() as f64) as usize;
                 let (age, s) = releases[pick.min(releases.len() - 1)];
-                let root = age.sqrt();
+                let spread = self.spec.trajectory.spread_m(age);
                 let mut drawn = [0, 1, 2].map(|a| {
                     let drift = s.get(a).copied().unwrap_or(0.0);
-                    at[a] - drift + sigmas[a] * root * self.rng.normal()
+                    at[a] - drift + spread[a] * self.rng.normal()
                 });
                 drawn[2] = if plane {
                     place[2]
@@ -205,7 +210,7 @@ impl ParticleFilter {
 
     /// Standard deviation of the roughening along each axis, m: K·E·N^(−1/d).
     fn scatter(&self) -> [f64; 3] {
-        let axes = if self.belief.belief().grid.n[2] == 1 {
+        let axes = if self.with.belief.belief().grid.n[2] == 1 {
             2
         } else {
             3
@@ -226,14 +231,15 @@ impl ParticleFilter {
     }
 
     fn onto_grid(&mut self, t_s: f64, detected: bool) {
-        let grid = self.belief.belief().grid.clone();
-        let e = self.false_detection;
-        self.mass.fill(e / grid.len() as f64);
+        let grid = self.with.belief.belief().grid.clone();
+        let e = self.with.evidence.epsilon;
+        let mass = &mut self.with.likelihood;
+        mass.fill(e / grid.len() as f64);
         for (place, w) in self.places.iter().zip(&self.weights) {
             let cell = [0, 1, 2].map(|a| ((place[a] / grid.cell_m[a]) as usize).min(grid.n[a] - 1));
-            self.mass[grid.index(cell)] += (1.0 - e) * w;
+            mass[grid.index(cell)] += (1.0 - e) * w;
         }
-        self.belief.replace(t_s, detected, &self.mass);
+        (self.with.belief).replace(t_s, detected, &self.with.likelihood);
     }
 }
 
@@ -245,17 +251,17 @@ fn within(x: f64, extent: f64) -> f64 {
 
 impl Mapper for ParticleFilter {
     fn step(&mut self, seen: &MapObservation) {
-        let Some(sighting) = self.watch.step(seen) else {
+        let Some(sighting) = self.with.watch.step(seen) else {
             return;
         };
-        self.kernel.gather(&self.watch.history, sighting.cell);
+        self.kernel.gather(&self.with.watch.history, sighting.cell);
         self.weigh(sighting.detected);
         self.onto_grid(sighting.t_s, sighting.detected);
         self.resample_if_worn();
     }
 
     fn belief(&self) -> &Belief {
-        self.belief.belief()
+        self.with.belief.belief()
     }
 }
 

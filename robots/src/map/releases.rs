@@ -13,6 +13,8 @@
 //! *Deviations*: with κ = 0 none. With κ = 0.3 the logarithm of the chance of not detecting, over the map, is
 //! off by at most 1 % of its largest value (`tests_kernel`: random flows; typical flows some 0.3 %).
 
+use super::spec::TrajectorySpec;
+
 /// Chance of detection above which (1 − p)^m no longer stands for a product of different factors.
 const MERGE_PEAK: f64 = 0.25;
 /// Largest set, as a power of two.
@@ -43,6 +45,7 @@ pub(super) struct Gatherer {
     /// σ², m²/s.
     var_rate: [f64; 3],
     merge: f64,
+    trajectory: TrajectorySpec,
     /// Chance of detection at age 1 s in the middle, before clamping.
     peak: f64,
     sums: Vec<Sums>,
@@ -52,13 +55,15 @@ pub(super) struct Gatherer {
 }
 
 impl Gatherer {
-    /// `sigmas` in m/√s; `cell_m` the cell's size along the two horizontal axes.
-    pub(super) fn new(sigmas: [f64; 3], cell_m: [f64; 2], merge: f64) -> Self {
+    /// `cell_m`: the cell's size along the two horizontal axes.
+    pub(super) fn new(trajectory: &TrajectorySpec, cell_m: [f64; 2]) -> Self {
+        let (sigmas, merge) = (trajectory.sigmas(), trajectory.merge.get());
         let peak = cell_m[0] * cell_m[1] / (std::f64::consts::TAU * sigmas[0] * sigmas[1]);
         Self {
             var_rate: sigmas.map(|s| s * s),
             merge,
             peak,
+            trajectory: trajectory.clone(),
             sums: Vec::new(),
             ages: Vec::new(),
             sets: Vec::new(),
@@ -131,12 +136,13 @@ impl Gatherer {
                 return None;
             }
         }
+        let strayed = self.trajectory.strayed_m2(age);
         Some(Set {
             log2,
             s_m: mean,
             var_m2: [
-                self.var_rate[0] * age + spread[0],
-                self.var_rate[1] * age + spread[1],
+                self.var_rate[0] * age + spread[0] + strayed,
+                self.var_rate[1] * age + spread[1] + strayed,
                 self.var_rate[2] * age,
             ],
         })
@@ -146,6 +152,39 @@ impl Gatherer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use world::ranges::{Fraction, NonNegative, Positive};
+
+    fn spec(sigmas: [f64; 3], merge: f64) -> TrajectorySpec {
+        let [x, y, z] = sigmas.map(Positive::new);
+        TrajectorySpec {
+            sigma_x_m_rts: x,
+            sigma_y_m_rts: y,
+            sigma_z_m_rts: z,
+            merge: Fraction::new(merge),
+            ..TrajectorySpec::default()
+        }
+    }
+
+    fn gatherer(sigmas: [f64; 3], cell_m: [f64; 2], merge: f64) -> Gatherer {
+        Gatherer::new(&spec(sigmas, merge), cell_m)
+    }
+
+    #[test]
+    fn an_error_of_the_flow_spreads_first_with_age_then_with_its_root() {
+        let with = TrajectorySpec {
+            flow_error_m_s: NonNegative::new(0.03),
+            flow_error_s: Positive::new(50.0),
+            ..spec([0.5, 0.5, 0.05], 0.0)
+        };
+        let mut g = Gatherer::new(&with, [2.5, 4.0]);
+        g.gather(releases(3000, [0.2, 0.0]));
+        // Young: (u' dt)^2 but for a share of dt/3T. Old: 2 u'^2 T (dt - T).
+        let strayed = |age: f64| g.sets[age as usize - 1].var_m2[0] - 0.25 * age;
+        assert!((strayed(2.0) / 0.0036 - 1.0).abs() < 0.02);
+        assert!((strayed(3000.0) - 0.09 * 2950.0).abs() < 1e-6);
+        // Up and down there is none.
+        assert!((g.sets[2999].var_m2[2] - 7.5).abs() < 1e-9);
+    }
 
     fn releases(n: u32, v: [f64; 2]) -> impl Iterator<Item = (f64, [f64; 2])> {
         (1..=n).map(move |l| (f64::from(l), v.map(|v| v * f64::from(l))))
@@ -159,7 +198,7 @@ mod tests {
             (0.3, [0.0, 0.0]),
             (1.0, [0.4, 0.3]),
         ] {
-            let mut g = Gatherer::new([0.5, 0.5, 0.05], [2.5, 4.0], merge);
+            let mut g = gatherer([0.5, 0.5, 0.05], [2.5, 4.0], merge);
             g.gather(releases(601, v));
             let count: usize = g.sets.iter().map(|s| 1 << s.log2).sum();
             assert_eq!(count, 601);
@@ -171,7 +210,7 @@ mod tests {
 
     #[test]
     fn slow_flow_needs_few_sets() {
-        let mut g = Gatherer::new([0.5, 0.5, 0.05], [2.5, 4.0], 0.3);
+        let mut g = gatherer([0.5, 0.5, 0.05], [2.5, 4.0], 0.3);
         g.gather(releases(600, [0.17, 0.0]));
         assert!(g.sets.len() <= 60, "{}", g.sets.len());
         g.gather(releases(600, [1.0, 0.0]));
@@ -180,7 +219,7 @@ mod tests {
 
     #[test]
     fn a_set_keeps_mean_and_variance() {
-        let mut g = Gatherer::new([1.0, 1.0, 0.1], [1.0, 1.0], 1.0);
+        let mut g = gatherer([1.0, 1.0, 0.1], [1.0, 1.0], 1.0);
         g.gather(releases(600, [0.1, 0.0]));
         let set = g.sets.iter().find(|s| s.log2 == 2).expect("a set of four");
         let first: usize = g

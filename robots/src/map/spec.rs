@@ -5,6 +5,7 @@ use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Most cells a map may have: a million are 8 MB a table.
@@ -95,6 +96,11 @@ pub struct TrajectorySpec {
     pub sigma_y_m_rts: Positive,
     /// The same in the vertical, σz, m/√s; not used in a map of the plane.
     pub sigma_z_m_rts: Positive,
+    /// Standard deviation of the flow on the way from the flow at the vehicle, each horizontal axis, u′, m/s; 0: the flow is
+    /// the same everywhere, as in the papers.
+    pub flow_error_m_s: NonNegative,
+    /// How long it lasts along a way, T, s.
+    pub flow_error_s: Positive,
     /// Releases older than this are not looked at, h, s.
     pub lookback_s: Positive,
     /// Time between two releases, the papers' time unit, s.
@@ -114,6 +120,8 @@ impl Default for TrajectorySpec {
             sigma_x_m_rts: Positive::new(0.5),
             sigma_y_m_rts: Positive::new(0.5),
             sigma_z_m_rts: Positive::new(0.05),
+            flow_error_m_s: NonNegative::new(0.0),
+            flow_error_s: Positive::new(100.0),
             lookback_s: Positive::new(600.0),
             release_period_s: Positive::new(1.0),
             merge: Fraction::new(0.3),
@@ -146,6 +154,27 @@ impl TrajectorySpec {
         FlowHistory::new(period_s, self.lookback_s.get(), self.steady_before)
     }
 
+    /// Variance along each horizontal axis by the flow's error alone, at an age: 2 u′² T (Δt − T (1 − e^(−Δt/T))), m²
+    /// (Taylor 1921, Proc. London Math. Soc. 20, 196: dispersion by a velocity that lasts T).
+    #[must_use]
+    pub fn strayed_m2(&self, age_s: f64) -> f64 {
+        let (u, t) = (self.flow_error_m_s.get(), self.flow_error_s.get());
+        if u == 0.0 {
+            return 0.0;
+        }
+        2.0 * u * u * t * (age_s - t * (1.0 - math::exp(-age_s / t)))
+    }
+
+    /// Standard deviation along each axis at an age, m.
+    pub(super) fn spread_m(&self, age_s: f64) -> [f64; 3] {
+        let (root, strayed) = (age_s.sqrt(), self.strayed_m2(age_s));
+        let [x, y, z] = self.sigmas().map(|s| s * root);
+        if strayed == 0.0 {
+            return [x, y, z];
+        }
+        [(x * x + strayed).sqrt(), (y * y + strayed).sqrt(), z]
+    }
+
     /// σx, σy, σz, m/√s.
     #[must_use]
     pub fn sigmas(&self) -> [f64; 3] {
@@ -158,18 +187,5 @@ pub(super) fn invalid(field: &str, problem: &str) -> RobotError {
     RobotError::Invalid {
         field: format!("map.{field}"),
         problem: problem.to_string(),
-    }
-}
-
-/// Refuses an ε that would let a belief vanish.
-pub(super) fn some_false_detection(epsilon: Fraction) -> Result<f64, RobotError> {
-    let e = epsilon.get();
-    if e > 0.0 && e < 1.0 {
-        Ok(e)
-    } else {
-        Err(invalid(
-            "false_detection",
-            &format!("must be greater than 0 and less than 1, got {e}"),
-        ))
     }
 }

@@ -6,11 +6,11 @@ use super::hmm::HmmSpec;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
 use super::particle_filter::ParticleFilterSpec;
-use super::pomdp::PomdpSpec;
 use super::spec::{GridSpec, TrajectorySpec};
 use super::testing::{grid, p_by_hand, paper_area};
 use super::watch::MapObservation;
-use crate::map::{BayesianSpec, Pomdp};
+use super::workings::CellsSpec;
+use crate::map::Pomdp;
 use nalgebra::{Rotation2, Vector2, Vector3};
 use std::sync::Arc;
 use world::area::Area;
@@ -21,15 +21,15 @@ use world::units::Heading;
 pub(super) fn all(grid: &GridSpec, trajectory: &TrajectorySpec, particles: u32) -> [MapSpec; 4] {
     let (grid, trajectory) = (grid.clone(), trajectory.clone());
     [
-        MapSpec::Pomdp(PomdpSpec {
+        MapSpec::Pomdp(CellsSpec {
             grid: grid.clone(),
             trajectory: trajectory.clone(),
-            ..PomdpSpec::default()
+            ..CellsSpec::default()
         }),
-        MapSpec::Bayesian(BayesianSpec {
+        MapSpec::Bayesian(CellsSpec {
             grid: grid.clone(),
             trajectory: trajectory.clone(),
-            ..BayesianSpec::default()
+            ..CellsSpec::default()
         }),
         MapSpec::Hmm(HmmSpec {
             grid: grid.clone(),
@@ -137,11 +137,11 @@ fn logarithms_lose_nothing_where_probabilities_underflow() {
     let grid = Arc::new(grid([2, 1, 1]));
     let mut b = LogBelief::uniform(&grid);
     for _ in 0..10_000 {
-        b.update(0.0, false, &[1.0, 0.5]);
+        b.update(0.0, false, &[1.0, 0.5], 1.0);
     }
     assert_eq!(b.belief().p[1], 0.0);
     for _ in 0..10_000 {
-        b.update(0.0, false, &[0.5, 1.0]);
+        b.update(0.0, false, &[0.5, 1.0], 1.0);
     }
     // 10 000 steps there and back: each rounding at most 7000·1.1e-16.
     assert!((b.belief().p[1] - 0.5).abs() < 1e-8, "{}", b.belief().p[1]);
@@ -154,7 +154,7 @@ fn numbers_of_a_map_by_hand() {
     let mut b = LogBelief::uniform(&grid);
     assert!((b.belief().entropy_nat - 2.0 * std::f64::consts::LN_2).abs() < 1e-12);
     assert_eq!(b.belief().best, 0);
-    b.update(1.0, true, &[1.0, 2.0, 4.0, 1.0]);
+    b.update(1.0, true, &[1.0, 2.0, 4.0, 1.0], 1.0);
     let belief = b.belief();
     assert_eq!(belief.best, 2);
     // 1/2 ln 2 + 1/4 ln 4 + 2/8 ln 8 = 1.75 ln 2; all four cells of 2500 m² are needed for 95 %.
@@ -166,14 +166,14 @@ fn numbers_of_a_map_by_hand() {
 #[test]
 fn the_pomdp_map_equals_a_brute_force_product() {
     let (grid_spec, trajectory) = small();
-    let spec = PomdpSpec {
+    let spec = CellsSpec {
         grid: grid_spec,
         trajectory: TrajectorySpec {
             merge: Fraction::new(0.0),
             ..trajectory.clone()
         },
         false_detection: Fraction::new(1e-3),
-        ..PomdpSpec::default()
+        ..CellsSpec::default()
     };
     let grid = Arc::new(spec.grid.build(&paper_area()).expect("grid"));
     let mut mapper = Pomdp::new(&spec, (*grid).clone()).expect("mapper");

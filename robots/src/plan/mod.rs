@@ -2,6 +2,7 @@
 
 mod a_star;
 mod catalogue;
+mod clearance;
 mod ends;
 mod follow;
 mod paper_cost;

@@ -12,6 +12,7 @@
 //! A cell with an echo counts as solid as a whole. The searcher's chart is what the scenario hands it beforehand; all
 //! else comes from its own ranging, placed by its own navigation.
 
+use super::clearance::{self, Cells};
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -50,7 +51,10 @@ pub struct Room {
     sensed: Vec<u32>,
     /// Steps to the cells within reach of a solid one, with their middles' distances from it, m.
     round: Vec<([i32; 3], f32)>,
-    stale: bool,
+    /// How many cells the reach spans along each axis.
+    span: [usize; 3],
+    /// Cells found free again, and the box of all that are to be made anew with them.
+    lifted: Vec<Cells>,
     revision: u64,
 }
 
@@ -63,8 +67,14 @@ impl Room {
         let half_diagonal_m = 0.5 * (c[0] * c[0] + c[1] * c[1] + z * z).sqrt();
         let cells = lattice.len();
         let reach_m = reach_m + hull_m + half_diagonal_m;
+        let span = [0, 1, 2].map(|a| {
+            let n = lattice.n[a];
+            let cells = (reach_m / c[a]).ceil().min(n as f64) as usize + 1;
+            if n == 1 { 0 } else { cells }
+        });
         Self {
-            round: round(&lattice, reach_m, half_diagonal_m),
+            round: round(&lattice, span, reach_m, half_diagonal_m),
+            span,
             lattice,
             hull_m,
             reach_m,
@@ -74,7 +84,7 @@ impl Room {
             clearance_m: vec![f32::INFINITY; cells],
             found: vec![false; cells],
             sensed: Vec::new(),
-            stale: false,
+            lifted: Vec::new(),
             revision: next_revision(),
         }
     }
@@ -107,7 +117,7 @@ impl Room {
             }
             self.charted_m[cell] = d.min(self.reach_m) as f32;
         }
-        self.stale = true;
+        self.lifted.push(self.lattice.n.map(|n| (0, n)));
         self.refresh();
     }
 
@@ -138,27 +148,54 @@ impl Room {
         if now >= SOLID && !self.found[cell] {
             self.found[cell] = true;
             self.sensed.push(cell as u32);
-            if !self.stale {
-                self.stamp(cell);
-                self.revision = next_revision();
-            }
+            self.stamp(cell);
+            self.revision = next_revision();
         } else if now <= FREE && self.found[cell] {
             self.found[cell] = false;
             self.sensed.retain(|c| *c as usize != cell);
-            self.stale = true;
+            let own = self.lattice.place(cell).map(|i| (i, i + 1));
+            (self.lifted).push(clearance::wider(own, self.span, self.lattice.n));
         }
     }
 
     /// Brings the clearances up to date after cells were found free again; cheap when none was.
     pub fn refresh(&mut self) {
-        if !std::mem::take(&mut self.stale) {
-            return;
-        }
-        self.clearance_m.copy_from_slice(&self.charted_m);
-        for k in 0..self.sensed.len() {
-            self.stamp(self.sensed[k] as usize);
+        let lifted = std::mem::take(&mut self.lifted);
+        let Some(first) = lifted.first() else { return };
+        // All at once, unless that is more work than one after the other.
+        let whole = lifted.iter().fold(*first, |w, b| {
+            [0, 1, 2].map(|a| (w[a].0.min(b[a].0), w[a].1.max(b[a].1)))
+        });
+        let work = |b: &Cells| clearance::count(clearance::wider(*b, self.span, self.lattice.n));
+        if work(&whole) <= lifted.iter().map(work).sum() {
+            self.clear(whole);
+        } else {
+            lifted.into_iter().for_each(|b| self.clear(b));
         }
         self.revision = next_revision();
+    }
+
+    /// Makes the clearances of a box of cells anew.
+    fn clear(&mut self, b: Cells) {
+        for k in b[2].0..b[2].1 {
+            for j in b[1].0..b[1].1 {
+                let row =
+                    self.lattice.index([b[0].0, j, k])..=self.lattice.index([b[0].1 - 1, j, k]);
+                self.clearance_m[row.clone()].copy_from_slice(&self.charted_m[row]);
+            }
+        }
+        let limits = (self.reach_m, self.half_diagonal_m);
+        let clearance_m = &mut self.clearance_m;
+        clearance::for_each(
+            &self.lattice,
+            b,
+            self.span,
+            limits,
+            &self.found,
+            |cell, d| {
+                clearance_m[cell] = clearance_m[cell].min(d as f32);
+            },
+        );
     }
 
     /// Takes a solid cell into the clearances of those round it.
@@ -319,13 +356,14 @@ impl Room {
 }
 
 /// The cells within reach of a solid one, which counts as solid as a whole.
-fn round(lattice: &BeliefGrid, reach_m: f64, half_diagonal_m: f64) -> Vec<([i32; 3], f32)> {
-    let c = lattice.cell_m;
-    let span = [0, 1, 2].map(|a| {
-        let cells = (reach_m / c[a]).ceil().min(lattice.n[a] as f64) as i32 + 1;
-        if lattice.n[a] == 1 { 0 } else { cells }
-    });
-    let gap = |a: usize, i: i32| (f64::from(i.abs()) - 0.5).max(0.0) * c[a];
+fn round(
+    lattice: &BeliefGrid,
+    span: [usize; 3],
+    reach_m: f64,
+    half_diagonal_m: f64,
+) -> Vec<([i32; 3], f32)> {
+    let span = span.map(|s| s as i32);
+    let gap = |a: usize, i: i32| clearance::gap_m(lattice.cell_m[a], i.unsigned_abs() as usize);
     let mut round = Vec::new();
     for k in -span[2]..=span[2] {
         for j in -span[1]..=span[1] {

@@ -65,6 +65,36 @@ fn nearest_cell_takes_points_from_outside_in() {
 proptest! {
     #![proptest_config(fixed(256))]
 
+    /// Cells found and lifted again in any order leave the clearances that those still solid give.
+    #[test]
+    fn lifting_a_cell_leaves_what_the_others_give(
+        deep in 1_usize..5, reach in 0.5..4.0, cells in proptest::collection::vec((0_usize..12, 0_usize..9, 0_usize..4), 1..30),
+        lift in proptest::collection::vec(0_usize..30, 1..8),
+    ) {
+        let solid = Obstacles(vec![block("b", 4.0, 4.0, [2.0, 3.0, 8.0])]);
+        let make = || {
+            let mut r = Room::new(lattice([12, 9, deep], [1.0, 1.5, 0.7]), 0.5, reach);
+            r.chart(&solid, &Terrain::Level { depth_m: 8.0 }, |_, _| -4.0);
+            r
+        };
+        let mut lifted = make();
+        let cells: Vec<usize> = cells.into_iter().map(|(i, j, k)| lifted.lattice().index([i, j, k % deep])).collect();
+        cells.iter().for_each(|c| lifted.weigh(*c, 2));
+        let mut left = cells.clone();
+        for l in lift {
+            let Some(c) = cells.get(l) else { continue };
+            // As much evidence against as there can be for.
+            lifted.weigh(*c, -100);
+            left.retain(|k| k != c);
+        }
+        lifted.refresh();
+        let mut plain = make();
+        left.iter().for_each(|c| plain.weigh(*c, 2));
+        for cell in 0..plain.lattice().len() {
+            prop_assert_eq!(lifted.clearance_m(cell), plain.clearance_m(cell));
+        }
+    }
+
     #[test]
     fn a_line_meets_every_cell_it_samples(
         ax in 0.0..20.0, ay in 0.0..20.0, az in 0.0..5.0, bx in 0.0..20.0, by in 0.0..20.0, bz in 0.0..5.0,

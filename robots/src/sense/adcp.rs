@@ -11,6 +11,7 @@
 //! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
 //! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
 
+use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AdcpReading;
 use nalgebra::Vector3;
@@ -21,7 +22,6 @@ use world::frames::Truth;
 use world::math;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// Which way the instrument looks along the body's z axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -119,7 +119,7 @@ impl Adcp {
         clock: &Clock,
         truth: &Truth,
         flow: &dyn Flow,
-        terrain: &Terrain,
+        below: &Below,
     ) -> Option<AdcpReading> {
         if !self.every.due(clock) {
             return None;
@@ -130,7 +130,7 @@ impl Adcp {
         let axis = truth.pose.R_WB * self.axis_B;
         let middle_m = self.dead_zone_m + self.cell_m / 2.0;
         let end_m = self.dead_zone_m + self.cell_m;
-        let valid = water_along(terrain, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
+        let valid = water_along(below, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
         let v_body_m_s = if valid {
             // The cell weighs ranges by a triangle a cell length to either side of its middle:
             // 1 : 2 : 1 at the half cells has the same mean and all but the same spread.
@@ -159,20 +159,20 @@ impl Adcp {
 
 /// Way through the water along a beam axis to the surface or the bed, m; `None` out of the water or
 /// when the vehicle lies on its side.
-fn water_along(terrain: &Terrain, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
+fn water_along(below: &Below, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
     const LEAST_COS: f64 = 0.5;
     if p.z >= 0.0 {
         None
     } else if axis.z >= LEAST_COS {
         Some(-p.z / axis.z)
     } else {
-        super::tools::range_to_bed(terrain, p, axis)
+        super::tools::range_down(below, p, axis)
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{BED, assert_normal, at, nose_up, run};
+    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
     use super::*;
 
     /// Northward above an interface 3 m down, southward below it.
@@ -195,7 +195,7 @@ mod tests {
 
     fn read(truth: Truth, look: Look) -> AdcpReading {
         let mut a = Adcp::new(&spec(look, 0.0), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
-        run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &BED))[0]
+        run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &bare(&BED)))[0]
     }
 
     /// The water it finds: relative velocity and own velocity, in world axes.
@@ -246,7 +246,7 @@ mod tests {
     fn reads_once_a_second_with_its_noise() {
         let mut a = Adcp::new(&spec(Look::Up, 0.02), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
         let t = sailing(-5.0);
-        let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &BED));
+        let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &bare(&BED)));
         assert_eq!(v.len(), 2000);
         let want = t.pose.R_WB.inverse() * LOWER - t.v_WB_B;
         for axis in 0..3 {

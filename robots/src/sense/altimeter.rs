@@ -6,9 +6,10 @@
 //! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to
 //! `max_range_m` 30 m.
 //!
-//! *Deviations:* a beam without width, which sees the bed and no obstacle. The slant range is turned
+//! *Deviations:* a beam without width, which meets the bed or an obstacle before it. The slant range is turned
 //! into height with the vehicle's tilt, here without the tilt's small noise.
 
+use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AltimeterReading;
 use nalgebra::Vector3;
@@ -17,7 +18,6 @@ use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// What a scenario may say of the altimeter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -87,7 +87,7 @@ impl Altimeter {
         &mut self,
         clock: &Clock,
         truth: &Truth,
-        terrain: &Terrain,
+        below: &Below,
     ) -> Option<AltimeterReading> {
         if !self.every.due(clock) {
             return None;
@@ -96,8 +96,8 @@ impl Altimeter {
         let noise = self.noise_m * self.rng.normal();
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
-        let echo = super::tools::range_to_bed(terrain, &p, &down)
-            .filter(|range| self.range_m.contains(range));
+        let echo =
+            super::tools::range_down(below, &p, &down).filter(|range| self.range_m.contains(range));
         Some(match echo {
             Some(range) => AltimeterReading {
                 altitude_m: (range + noise) * -down.z,
@@ -113,9 +113,10 @@ impl Altimeter {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{BED, assert_normal, at, nose_up, run};
+    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
     use super::*;
     use nalgebra::Vector2;
+    use world::terrain::Terrain;
     use world::units::Heading;
 
     fn altimeter(noise_m: f64) -> Altimeter {
@@ -127,14 +128,16 @@ mod tests {
     }
 
     fn read(t: Truth, bed: &Terrain) -> AltimeterReading {
-        altimeter(0.0).read(&Clock::new(0.02), &t, bed).unwrap()
+        altimeter(0.0)
+            .read(&Clock::new(0.02), &t, &bare(bed))
+            .unwrap()
     }
 
     #[test]
     fn reads_height_with_its_noise() {
         let mut a = altimeter(0.02);
         let t = at(0.0, 0.0, -6.0);
-        let v = run(50_000, 0.02, |c| a.read(c, &t, &BED));
+        let v = run(50_000, 0.02, |c| a.read(c, &t, &bare(&BED)));
         assert_eq!(v.len(), 5_000);
         let got: Vec<f64> = v.iter().map(|r| r.altitude_m).collect();
         assert_normal(&got, 1.9, 0.02);
@@ -165,5 +168,27 @@ mod tests {
         let end = p + down * (got.altitude_m / -down.z);
         assert!((end.z - slope.bed_z(end.x, end.y)).abs() < 1e-6, "{end:?}");
         assert!(end.y > 0.5, "the beam leads forward: {end:?}");
+    }
+
+    #[test]
+    fn over_a_block_it_reads_the_block() {
+        use crate::plan::testing::block;
+        use world::obstacles::Obstacles;
+        let t = at(10.0, 10.0, -2.0);
+        // On a bed 8 m down, 4 m high: two metres of water less the hull's tenth.
+        let bed = Terrain::Level { depth_m: 8.0 };
+        let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 4.0])]);
+        let read = |obstacles: &Obstacles| {
+            let below = Below {
+                terrain: &bed,
+                obstacles,
+            };
+            altimeter(0.0)
+                .read(&Clock::new(0.02), &t, &below)
+                .unwrap()
+                .altitude_m
+        };
+        assert!((read(&solids) - 1.9).abs() < 1e-9, "{}", read(&solids));
+        assert!((read(&Obstacles::default()) - 5.9).abs() < 1e-9);
     }
 }

@@ -12,6 +12,7 @@
 //! beyond 60° of tilt). The velocity is that of the body's origin: the instrument's own turns with the
 //! vehicle are taken out with the gyros, as vehicles do, here without the gyros' small noise.
 
+use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::DvlReading;
 use nalgebra::Vector3;
@@ -20,7 +21,6 @@ use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
-use world::terrain::Terrain;
 
 /// What a scenario may say of the Doppler log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -93,7 +93,7 @@ impl Dvl {
     }
 
     /// The reading of this step, if one is due.
-    pub fn read(&mut self, clock: &Clock, truth: &Truth, terrain: &Terrain) -> Option<DvlReading> {
+    pub fn read(&mut self, clock: &Clock, truth: &Truth, below: &Below) -> Option<DvlReading> {
         if !self.every.due(clock) {
             return None;
         }
@@ -101,7 +101,7 @@ impl Dvl {
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
-        let valid = super::tools::range_to_bed(terrain, &p, &down)
+        let valid = super::tools::range_down(below, &p, &down)
             .is_some_and(|range| self.lock_m.contains(&range));
         let v_body_m_s = if valid {
             truth.v_WB_B * self.scale + noise
@@ -114,8 +114,9 @@ impl Dvl {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{BED, assert_normal, at, nose_up, run};
+    use super::super::testing::{BED, assert_normal, at, bare, nose_up, run};
     use super::*;
+    use world::terrain::Terrain;
 
     fn dvl(spec: &DvlSpec, seed: u64) -> Dvl {
         Dvl::new(spec, Vector3::new(0.0, 0.0, -0.1), "auv0", seed, 0.02).unwrap()
@@ -131,7 +132,7 @@ mod tests {
     #[test]
     fn noise_is_as_specified_on_each_axis_and_the_scale_constant() {
         let mut d = dvl(&DvlSpec::default(), 5);
-        let v = run(50_000, 0.02, |c| d.read(c, &moving(-6.0), &BED));
+        let v = run(50_000, 0.02, |c| d.read(c, &moving(-6.0), &bare(&BED)));
         assert_eq!(v.len(), 5_000);
         assert!(v.iter().all(|r| r.valid));
         for axis in 0..3 {
@@ -153,7 +154,7 @@ mod tests {
         let deep = Terrain::Level { depth_m: 40.0 };
         let valid = |t: Truth, bed: &Terrain| {
             let mut d = dvl(&DvlSpec::default(), 1);
-            run(1, 0.02, |c| d.read(c, &t, bed))[0].valid
+            run(1, 0.02, |c| d.read(c, &t, &bare(bed)))[0].valid
         };
         // The mount hangs 0.1 m below the origin.
         assert!(valid(moving(-9.95), &deep) && !valid(moving(-9.85), &deep));
@@ -169,10 +170,10 @@ mod tests {
         let spec = DvlSpec::default();
         let (mut a, mut b) = (dvl(&spec, 1), dvl(&spec, 1));
         let bad = moving(-7.9);
-        let clear = run(50, 0.02, |c| a.read(c, &moving(-6.0), &BED));
+        let clear = run(50, 0.02, |c| a.read(c, &moving(-6.0), &bare(&BED)));
         let gapped = run(50, 0.02, |c| {
             let t = if c.step == 10 { bad } else { moving(-6.0) };
-            b.read(c, &t, &BED)
+            b.read(c, &t, &bare(&BED))
         });
         assert!(!gapped[1].valid && clear[1].valid);
         assert_eq!(clear[2..], gapped[2..]);

@@ -1,5 +1,6 @@
 //! All instruments of a robot, read in one go.
 
+use super::tools::Below;
 use super::{
     Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Depth, DepthSpec, Dvl, DvlSpec,
     Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec,
@@ -109,13 +110,14 @@ impl SensorSuite {
         terrain: &Terrain,
         obstacles: &Obstacles,
     ) -> Readings {
+        let below = &Below { terrain, obstacles };
         Readings {
             chemical: (self.fluorometer.as_mut()).and_then(|s| s.read(clock, truth, dye)),
-            dvl: (self.dvl.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
-            adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, terrain)),
+            dvl: (self.dvl.as_mut()).and_then(|s| s.read(clock, truth, below)),
+            adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, below)),
             attitude: (self.compass.as_mut()).and_then(|s| s.read(clock, truth)),
             depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth, flow)),
-            altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, terrain)),
+            altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, below)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
             ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
             sidescan: None,

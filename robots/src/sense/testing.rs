@@ -1,9 +1,11 @@
 //! What the instruments' tests share: a vehicle, a clock that runs, and the statistics of noise.
 
+use super::tools::Below;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
 use world::math;
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -51,4 +53,13 @@ pub(super) fn assert_normal(values: &[f64], mean: f64, std: f64) {
         (s - std).abs() < 5.0 * std / (2.0 * n).sqrt(),
         "deviation {s}, not {std}"
     );
+}
+
+/// A bed without anything on it.
+pub(super) fn bare(terrain: &Terrain) -> Below<'_> {
+    static NONE: Obstacles = Obstacles(Vec::new());
+    Below {
+        terrain,
+        obstacles: &NONE,
+    }
 }

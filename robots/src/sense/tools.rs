@@ -3,6 +3,7 @@
 use crate::error::RobotError;
 use nalgebra::Vector3;
 use world::clock::Every;
+use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
@@ -30,13 +31,19 @@ pub(super) fn normal3(rng: &mut Stream, std: f64) -> Vector3<f64> {
     Vector3::new(x, y, z) * std
 }
 
-/// Way from `from` (ENU, m) along the unit vector `dir` to the bed, m; `None` when the beam does
+/// What an echo sounder may hear.
+#[derive(Clone, Copy, Debug)]
+pub struct Below<'a> {
+    /// The bed.
+    pub terrain: &'a Terrain,
+    /// What stands on it or hangs above.
+    pub obstacles: &'a Obstacles,
+}
+
+/// Way from `from` (ENU, m) along the unit vector `dir` to the bed or an obstacle before it, m; `None` when the beam does
 /// not point down steeply enough (less than 60° from the vertical) to count on an echo.
-pub(super) fn range_to_bed(
-    terrain: &Terrain,
-    from: &Vector3<f64>,
-    dir: &Vector3<f64>,
-) -> Option<f64> {
+pub(super) fn range_down(below: &Below, from: &Vector3<f64>, dir: &Vector3<f64>) -> Option<f64> {
+    let terrain = below.terrain;
     const STEEPEST_TILT_COS: f64 = 0.5;
     if -dir.z < STEEPEST_TILT_COS {
         return None;
@@ -49,5 +56,5 @@ pub(super) fn range_to_bed(
         let end = from + dir * range;
         range = ((from.z - terrain.bed_z(end.x, end.y)) / -dir.z).max(0.0);
     }
-    Some(range)
+    Some(below.obstacles.ray(from, dir, range).unwrap_or(range))
 }

@@ -53,6 +53,11 @@ const SECTIONS: &[Section] = &[
         robots::track::UNITS,
     ),
     section(ListKind::Flows, "Flows", plumes::flow::CATALOGUE),
+    section(
+        ListKind::Flows,
+        "What turns the flows (water: …)",
+        plumes::flow::OPTIONS,
+    ),
     section(ListKind::Sensors, "Sensors", robots::sense::CATALOGUE),
     section(
         ListKind::Vehicles,

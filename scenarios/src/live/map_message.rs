@@ -120,6 +120,7 @@ mod tests {
             best: grid.len() - 1,
             entropy_nat: 1.0,
             credible_95: 100.0,
+            odour: None,
             grid: Arc::new(grid),
         }
     }

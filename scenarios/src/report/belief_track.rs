@@ -3,7 +3,7 @@
 use super::SourceTruth;
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::Vector3;
-use robots::handoff::Belief;
+use robots::handoff::{Belief, Odour};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -57,9 +57,11 @@ pub struct RobotBelief {
     pub first: Option<BeliefSnapshot>,
     /// Maps in between, evenly.
     pub between: Vec<BeliefSnapshot>,
+    /// What else the map said of the odour, evenly.
+    pub odour: Vec<Arc<Odour>>,
     /// The last map.
     pub last: BeliefSnapshot,
-    thinning: [(usize, usize); 2],
+    thinning: [(usize, usize); 3],
 }
 
 /// The maps of all robots that keep one.
@@ -105,8 +107,9 @@ impl RobotBelief {
             before: None,
             first: first.belief.informed.then(|| first.clone()),
             between: Vec::new(),
+            odour: first.belief.odour.iter().cloned().collect(),
             last: first,
-            thinning: [(1, 0); 2],
+            thinning: [(1, 0); 3],
         }
     }
 
@@ -123,6 +126,11 @@ impl RobotBelief {
         }
         let row = row(&self.last.belief);
         let most = (NUMBERS / old.belief.p.len().max(1)).clamp(4, MAPS);
+        if let Some(odour) = &self.last.belief.odour
+            && old.belief.odour.as_ref().is_none_or(|o| o.t_s != odour.t_s)
+        {
+            thin(&mut self.odour, odour.clone(), MAPS, &mut self.thinning[2]);
+        }
         thin(&mut self.rows, row, ROWS, &mut self.thinning[0]);
         thin(&mut self.between, old, most, &mut self.thinning[1]);
     }

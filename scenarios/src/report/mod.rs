@@ -5,6 +5,7 @@ pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
 mod map_record;
+mod odour;
 mod probes;
 mod recorder;
 mod recorder_gantry;

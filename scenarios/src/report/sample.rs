@@ -7,7 +7,7 @@ use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
     FlowEstimate, Regions, Setpoint, Vertical,
 };
-use robots::handoff::{Belief, BeliefGrid};
+use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
 use world::area::Area;
 use world::frames::{Pose, Truth};
@@ -54,6 +54,20 @@ pub(super) fn source() -> SourceTruth {
     }
 }
 
+/// Odour down-flow of a believed source, and ways to and from it.
+pub(super) fn odour(t_s: f64) -> Odour {
+    let b = belief(t_s);
+    let [nx, ..] = b.grid.n;
+    let row = b.best - b.best % nx;
+    Odour {
+        t_s,
+        detection: b.p.iter().map(|p| 0.5 * p).collect(),
+        came: (row..row + nx / 2).collect(),
+        walk: (row..row + nx / 3).rev().collect(),
+        grid: b.grid,
+    }
+}
+
 /// A belief that draws together round the source.
 pub(super) fn belief(t_s: f64) -> Belief {
     let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 15, 1]);
@@ -73,6 +87,7 @@ pub(super) fn belief(t_s: f64) -> Belief {
         best: (0..p.len()).fold(0, |m, i| if p[i] > p[m] { i } else { m }),
         entropy_nat: p.iter().map(|p| -p * math::ln(*p)).sum(),
         credible_95: 7.0 * wide * wide,
+        odour: None,
         p: Arc::new(p),
         grid: Arc::new(grid),
     }
@@ -160,7 +175,10 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 behaviour,
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
                 planned: std::sync::Arc::default(),
-                belief: Some(belief(t_s.floor())),
+                belief: Some(Belief {
+                    odour: (away < 60.0).then(|| std::sync::Arc::new(odour(t_s.floor()))),
+                    ..belief(t_s.floor())
+                }),
                 regions: Regions::default(),
                 declarations: (k >= declare_at)
                     .then(|| {

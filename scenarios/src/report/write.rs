@@ -2,7 +2,9 @@
 
 use super::files::{ReportError, make_folder, write_whole};
 use super::probes::file_name;
-use super::{BeliefTrack, GantryTrack, SourceTruth, Summary, Track, belief_track, figures, html};
+use super::{
+    BeliefTrack, GantryTrack, SourceTruth, Summary, Track, belief_track, figures, html, odour,
+};
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -49,7 +51,8 @@ pub struct RunReport<'a> {
 /// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder, making it if need be; the paths of what
 /// was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
 /// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
-/// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`.
+/// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`; for those whose map says more
+/// of the odour `odour-<robot>`, with a table.
 ///
 /// # Errors
 /// If the folder or a file cannot be written.
@@ -64,6 +67,10 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
         let path = out_dir.join(format!("belief-{}.csv", file_name(&robot.id)));
         let csv = belief_track::csv(robot, run.sources);
         written.push(write_whole(&path, csv.as_bytes())?);
+        if !robot.odour.is_empty() {
+            let path = out_dir.join(format!("odour-{}.csv", file_name(&robot.id)));
+            written.push(write_whole(&path, odour::csv(&robot.odour).as_bytes())?);
+        }
     }
     let mut shown = Vec::new();
     for (name, title, svg) in figures_of(run) {
@@ -105,6 +112,13 @@ fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
             format!("Where {} believed the source", robot.id),
             figures::belief(run, robot),
         ));
+        if !robot.odour.is_empty() {
+            figures.push((
+                format!("odour-{}", file_name(&robot.id)),
+                format!("Where {} believed the odour", robot.id),
+                figures::odour(run, robot),
+            ));
+        }
     }
     if !run.beliefs.robots.is_empty() {
         let title = "Convergence of the maps".to_owned();

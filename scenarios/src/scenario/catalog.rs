@@ -88,6 +88,7 @@ pub const CATALOG: &[Template] = catalog![
     "four_maps",
     "harbour_3d",
     "reef_mesh" with "meshes/reef.obj",
+    "mound" with "meshes/mound.asc",
 ];
 
 /// The one of that name.

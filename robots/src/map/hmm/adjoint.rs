@@ -48,7 +48,7 @@ impl Hmm {
         let mut earlier = g.clone();
         let place = self.grid.place(cell);
         let mut support = place.map(|i| (i, i + 1));
-        self.gatherer.gather(self.watch.history.releases());
+        self.gatherer.gather(self.with.watch.history.releases());
         let mut terms = std::mem::replace(&mut self.terms, Terms::new(self.grid.n));
         terms.clear();
         let chain = self.chain();

@@ -7,24 +7,31 @@
 //! the trajectory has no part in it; `sheared`, off: in a map of the space, each level has the flow last measured
 //! there (levels not visited yet: that of the nearest visited), else the flow at the vehicle holds at all depths.
 //!
+//! `odour_every_s`, never, and `walk_steps`, 30: when the other products are shown, and how long the path is.
+//!
 //! *Deviations*: reconstructed (the paper's own equations were not at hand): with the vehicle in cell j, none
 //! detected: π_i ← π_i Π_l (1 − b Φ_ij(l, k)); detected: π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l, k)))], with
 //! Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see `adjoint`; cell to cell chances: see `transition`. Shear is
 //! ours.
 
-use super::transition::{Hops, Transition};
+use super::transition::{Drift, Hops, Transition, spread};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use crate::map::catalogue::Mapper;
-use crate::map::log_belief::LogBelief;
+use crate::map::evidence::DoubtSpec;
+use crate::map::flow_history::SLACK_S;
 use crate::map::releases::Gatherer;
-use crate::map::spec::{GridSpec, TrajectorySpec, invalid, some_false_detection};
+use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
 use crate::map::terms::Terms;
-use crate::map::watch::{MapObservation, Watch};
+use crate::map::watch::MapObservation;
+use crate::map::workings::Workings;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use world::ranges::{Fraction, Positive};
+
+/// Most steps of the path most likely to detect.
+const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -38,6 +45,13 @@ pub struct HmmSpec {
     pub step_s: Positive,
     /// Chance ε of a detection where no dye is; must be greater than 0.
     pub false_detection: Fraction,
+    /// What the model is doubted for.
+    pub doubt: DoubtSpec,
+    /// Say every so often, s, what else it knows: where odour is likely to be met, which way it came, and the path most
+    /// likely to meet it; not given: never.
+    pub odour_every_s: Option<Positive>,
+    /// Steps from cell to cell of that path; at most 500.
+    pub walk_steps: u32,
     /// In a map of the space, keep the flow of each level as last measured there.
     pub sheared: bool,
 }
@@ -49,6 +63,9 @@ impl Default for HmmSpec {
             trajectory: TrajectorySpec::default(),
             step_s: Positive::new(1.0),
             false_detection: Fraction::new(1e-6),
+            doubt: DoubtSpec::default(),
+            odour_every_s: None,
+            walk_steps: 30,
             sheared: false,
         }
     }
@@ -57,27 +74,30 @@ impl Default for HmmSpec {
 /// The mapper at work.
 #[derive(Clone, Debug)]
 pub struct Hmm {
-    pub(super) watch: Watch,
+    pub(super) with: Workings,
     pub(super) grid: Arc<BeliefGrid>,
     /// Steps of the look-back, oldest first.
     pub(super) steps: VecDeque<Transition>,
     most_steps: usize,
-    /// The steps of the look-back before the first measurement.
-    pub(super) assumed: Option<Transition>,
+    /// The steps of the look-back before the first measurement, oldest first.
+    pub(super) assumed: Vec<Transition>,
     steady_before: bool,
-    sigmas: [f64; 3],
+    /// Chances of the hops to both sides in a step, along each axis.
+    aside: [Arc<[f64]>; 3],
+    /// What the steps so far left over, one for all levels or one a level.
+    drifts: Vec<Drift>,
     step_s: f64,
     /// Chance of detecting odour that is there.
     pub(super) b: f64,
-    belief: LogBelief,
-    false_detection: f64,
     pub(super) gatherer: Gatherer,
     pub(super) terms: Terms,
-    likelihood: Vec<f64>,
     seen_marks: u64,
     /// Displacement a step at each level, m, as last measured there; empty without shear.
     levels: Vec<Option<[f64; 2]>>,
     level: usize,
+    /// Time between two sayings of what else is known (s), and the steps of the walk.
+    say: Option<(f64, usize)>,
+    said_s: f64,
 }
 
 impl Hmm {
@@ -86,7 +106,6 @@ impl Hmm {
     /// # Errors
     /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without steps.
     pub fn new(spec: &HmmSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
-        spec.trajectory.check()?;
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
         if h < step_s {
             return Err(invalid(
@@ -94,25 +113,38 @@ impl Hmm {
                 &format!("must be at most trajectory.lookback_s, {h}, got {step_s}"),
             ));
         }
-        let grid = Arc::new(grid);
+        if spec.walk_steps > MOST_WALK {
+            let problem = format!("must be at most {MOST_WALK}, got {}", spec.walk_steps);
+            return Err(invalid("walk_steps", &problem));
+        }
+        let trajectory = &spec.trajectory;
+        // The chain's steps are independent: an error of the flow that lasts spreads as it does in the long run.
+        let strayed = 2.0
+            * trajectory.flow_error_m_s.get()
+            * trajectory.flow_error_m_s.get()
+            * trajectory.flow_error_s.get();
+        let [x, y, z] = trajectory.sigmas();
+        let sigmas = [(x * x + strayed).sqrt(), (y * y + strayed).sqrt(), z];
+        let with = Workings::new(
+            grid,
+            trajectory,
+            [step_s; 2],
+            spec.false_detection,
+            &spec.doubt,
+        )?;
+        let grid = with.grid.clone();
         Ok(Self {
-            watch: Watch::new(&grid, spec.trajectory.history(step_s), step_s),
+            with,
             steps: VecDeque::new(),
             most_steps: (h / step_s) as usize,
-            assumed: None,
-            steady_before: spec.trajectory.steady_before,
-            sigmas: spec.trajectory.sigmas(),
+            assumed: Vec::new(),
+            steady_before: trajectory.steady_before,
+            aside: [0, 1, 2].map(|a| spread(sigmas[a] * step_s.sqrt(), grid.cell_m[a])),
+            drifts: vec![Drift::default(); grid.n[2]],
             step_s,
-            b: spec.trajectory.mu.get(),
-            belief: LogBelief::uniform(&grid),
-            false_detection: some_false_detection(spec.false_detection)?,
-            gatherer: Gatherer::new(
-                spec.trajectory.sigmas(),
-                [grid.cell_m[0], grid.cell_m[1]],
-                spec.trajectory.merge.get(),
-            ),
+            b: trajectory.mu.get(),
+            gatherer: Gatherer::new(trajectory, [grid.cell_m[0], grid.cell_m[1]]),
             terms: Terms::new(grid.n),
-            likelihood: vec![1.0; grid.len()],
             seen_marks: 0,
             levels: if spec.sheared {
                 vec![None; grid.n[2]]
@@ -120,6 +152,8 @@ impl Hmm {
                 Vec::new()
             },
             level: 0,
+            say: (spec.odour_every_s).map(|s| (s.get(), spec.walk_steps as usize)),
+            said_s: f64::NEG_INFINITY,
             grid,
         })
     }
@@ -127,26 +161,31 @@ impl Hmm {
     /// Takes the newest step of the measured flow into the chain.
     fn extend(&mut self, marks: u64) {
         let fresh = (marks.min(self.most_steps as u64 + 1)) as usize;
-        let places: Vec<[f64; 2]> = (self.watch.history.newest(fresh + 1))
+        let places: Vec<[f64; 2]> = (self.with.watch.history.newest(fresh + 1))
             .map(|m| m.s_m)
             .collect();
         for pair in places.windows(2) {
             let u = [0, 1].map(|a| pair[1][a] - pair[0][a]);
             self.measure(u);
         }
-        self.assumed = None;
+        self.assumed.clear();
         if self.steady_before && self.steps.len() < self.most_steps {
             // Before the first measurement: the mean flow since, or with shear that of each level as it is now.
-            let mean = self.watch.history.mean();
-            self.assumed = mean.map(|v| self.transition(&self.flows(v.map(|v| v * self.step_s))));
+            let Some(mean) = self.with.watch.history.mean() else {
+                return;
+            };
+            let flows = self.flows(mean.map(|v| v * self.step_s));
+            let mut drifts = vec![Drift::default(); self.grid.n[2]];
+            let before = 0..self.most_steps - self.steps.len();
+            self.assumed = before
+                .map(|_| self.transition(&flows, &mut drifts))
+                .collect();
         }
     }
 
     /// All steps of the look-back, oldest first.
     pub(super) fn chain(&self) -> Vec<&Transition> {
-        let before = self.most_steps - self.steps.len();
-        let assumed = self.assumed.iter().cycle().take(before);
-        assumed.chain(&self.steps).collect()
+        self.assumed.iter().chain(&self.steps).collect()
     }
 
     /// A step in which the flow at the vehicle moved odour by `u` (the grid's axes, m).
@@ -172,27 +211,33 @@ impl Hmm {
 
     /// Adds a step with a displacement for all levels, or one a level (the grid's axes, m).
     pub(super) fn push_step(&mut self, flows: &[[f64; 2]]) {
-        self.steps.push_back(self.transition(flows));
+        let mut drifts = std::mem::take(&mut self.drifts);
+        (self.steps).push_back(self.transition(flows, &mut drifts));
+        self.drifts = drifts;
         while self.steps.len() > self.most_steps {
             self.steps.pop_front();
         }
     }
 
-    fn transition(&self, flows: &[[f64; 2]]) -> Transition {
-        let root = self.step_s.sqrt();
-        let hops =
-            |a: usize, u: f64| Hops::new(u, self.sigmas[a] * root, self.grid.cell_m[a], a == 2);
-        let alike = flows.iter().all(|u| *u == flows[0]);
-        let shown = if alike { &flows[..1] } else { flows };
+    fn transition(&self, flows: &[[f64; 2]], drifts: &mut [Drift]) -> Transition {
+        let cell_m = self.grid.cell_m;
+        let mut level = |k: usize| {
+            let by = drifts[k].cells(flows[k.min(flows.len() - 1)], cell_m);
+            [0, 1].map(|a| Hops::new(by[a], &self.aside[a], false))
+        };
+        // While all levels are alike, so is what they left over.
+        let mut levels: Vec<_> = (0..self.levels.len().max(flows.len()))
+            .map(&mut level)
+            .collect();
+        if levels.iter().all(|l| *l == levels[0]) {
+            levels.truncate(1);
+        }
         Transition {
-            levels: shown
-                .iter()
-                .map(|u| [hops(0, u[0]), hops(1, u[1])])
-                .collect(),
+            levels,
             vertical: if self.grid.n[2] == 1 {
                 Hops::still()
             } else {
-                hops(2, 0.0)
+                Hops::new(0, &self.aside[2], true)
             },
         }
     }
@@ -200,38 +245,40 @@ impl Hmm {
     /// Takes probabilities as given.
     #[cfg(test)]
     pub(super) fn believe(&mut self, p: &[f64]) {
-        self.belief.replace(0.0, false, p);
+        self.with.belief.replace(0.0, false, p);
     }
 }
 
 impl Mapper for Hmm {
     fn step(&mut self, seen: &MapObservation) {
-        self.watch.see(seen);
+        self.with.watch.see(seen);
         let up = self.grid.local(&seen.p_W)[2] / self.grid.cell_m[2];
         self.level = (up.max(0.0) as usize).min(self.grid.n[2] - 1);
-        let marks = self.watch.history.pushed();
+        let marks = self.with.watch.history.pushed();
         if marks == self.seen_marks {
             return;
         }
         self.extend(marks - self.seen_marks);
         self.seen_marks = marks;
-        let Some(sighting) = self.watch.take(seen.t_s) else {
+        let Some(sighting) = self.with.watch.take(seen.t_s) else {
             return;
         };
-        let mut likelihood = std::mem::take(&mut self.likelihood);
+        let mut likelihood = std::mem::take(&mut self.with.likelihood);
         self.not_detecting(sighting.cell, &mut likelihood);
-        if sighting.detected {
-            let e = self.false_detection;
-            for l in &mut likelihood {
-                *l = e + (1.0 - e) * (1.0 - *l);
-            }
+        self.with.evidence.weigh(sighting.detected, &mut likelihood);
+        self.with.likelihood = likelihood;
+        self.with.update(sighting.t_s, sighting.detected);
+        if let Some((every_s, steps)) = self.say
+            && self.belief().informed
+            && sighting.t_s >= self.said_s + every_s - SLACK_S
+        {
+            self.said_s = sighting.t_s;
+            let odour = self.odour(sighting.t_s, sighting.cell, steps);
+            self.with.belief.say(odour);
         }
-        self.belief
-            .update(sighting.t_s, sighting.detected, &likelihood);
-        self.likelihood = likelihood;
     }
 
     fn belief(&self) -> &Belief {
-        self.belief.belief()
+        self.with.belief.belief()
     }
 }

@@ -12,6 +12,7 @@
 //! is visited.
 
 use super::mapper::Hmm;
+use crate::handoff::Odour;
 use crate::map::catalogue::Mapper;
 use world::math;
 
@@ -33,6 +34,20 @@ impl Hmm {
             }
         }
         alpha.iter().map(|a| 1.0 - math::exp(-self.b * a)).collect()
+    }
+
+    /// All but the source map, for a vehicle in `cell`; the path most likely to detect has `steps` steps.
+    pub(super) fn odour(&self, t_s: f64, cell: usize, steps: usize) -> Odour {
+        let detection = self.detection_map();
+        let mut walk = vec![cell];
+        walk.extend(best_walk(self.grid.n, &detection, cell, steps));
+        Odour {
+            t_s,
+            grid: self.grid.clone(),
+            came: self.likely_odour_path(cell).unwrap_or_default(),
+            detection,
+            walk,
+        }
     }
 
     /// Cells of the vehicle's path of `steps` steps from `start` most likely to detect, the start not counted.

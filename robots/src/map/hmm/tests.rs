@@ -200,7 +200,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
     let likeliest = |k: usize| {
         let hops = last.hops(0, k);
         (hops.first..)
-            .zip(&hops.p)
+            .zip(hops.p.iter())
             .max_by(|a, b| a.1.total_cmp(b.1))
             .expect("some")
             .0
@@ -212,4 +212,44 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
 fn the_chain_is_as_long_as_the_look_back() {
     let hmm = hmm([4, 4, 1], 5.0, &[[1.0, 0.0]; 50]);
     assert_eq!(hmm.steps.len(), 20);
+}
+
+#[test]
+fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
+    let spec = HmmSpec {
+        odour_every_s: Some(Positive::new(10.0)),
+        walk_steps: 6,
+        ..HmmSpec::default()
+    };
+    let build = |spec: &HmmSpec| {
+        Hmm::new(spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper")
+    };
+    let (mut asked, mut silent) = (build(&spec), build(&HmmSpec::default()));
+    let mut times = Vec::new();
+    for t in 0..60 {
+        let seen = MapObservation {
+            t_s: f64::from(t),
+            p_W: Vector3::new(80.0, 50.0, -2.0),
+            detected: Some((20..25).contains(&t)),
+            flow: Some(Vector2::new(1.0, 0.0)),
+        };
+        asked.step(&seen);
+        silent.step(&seen);
+        assert_eq!(asked.belief().p, silent.belief().p);
+        let odour = asked.belief().odour.as_ref();
+        times.extend(odour.map(|o| o.t_s).filter(|t| times.last() != Some(t)));
+    }
+    assert!(silent.belief().odour.is_none());
+    assert_eq!(times, [20.0, 30.0, 40.0, 50.0]);
+    let odour = asked.belief().odour.clone().expect("said");
+    let here = odour
+        .grid
+        .cell(&Vector3::new(80.0, 50.0, 0.0))
+        .expect("inside");
+    assert_eq!((odour.walk[0], odour.walk.len()), (here, 7));
+    assert_eq!(odour.came.last(), Some(&here));
+    // It came down the flow, from the west.
+    let east = |c: usize| odour.grid.centre(c).x;
+    assert!(odour.came.len() > 1 && east(odour.came[0]) < 80.0);
+    assert!(odour.detection.iter().all(|p| (0.0..=1.0).contains(p)));
 }

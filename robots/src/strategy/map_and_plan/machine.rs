@@ -174,7 +174,9 @@ impl MapAndPlan {
             }
             return;
         }
-        let leg = Manoeuvre::Course { course };
+        let leg = Manoeuvre::Course {
+            course: self.pilot.clear(&seen.estimate, course),
+        };
         if self.goal.manoeuvre != leg {
             self.steer_by(leg, None, true);
         }
@@ -317,7 +319,14 @@ impl Strategy for MapAndPlan {
                 );
             }
         }
+        let back = match self.now {
+            Behaviour::Done => None,
+            _ => self.pilot.back(seen),
+        };
         match (self.now, &informed) {
+            _ if let Some(astern) = back => {
+                self.steer_by(astern, None, astern != self.goal.manoeuvre);
+            }
             (Behaviour::Find, _) => self.search(seen, rng),
             (Behaviour::FollowPath, Some(belief)) => self.trace(seen, belief),
             (Behaviour::GoHome, _) => {
@@ -334,7 +343,10 @@ impl Strategy for MapAndPlan {
             _ => {}
         }
         Decision {
-            behaviour: self.now,
+            behaviour: match back {
+                Some(_) => Behaviour::Avoid,
+                None => self.now,
+            },
             goal: self.goal,
             declared,
             lost_points: Vec::new(),

@@ -8,9 +8,10 @@
 //! and when its end was reached and the target is not there. An echo counts for an obstacle unless the chart
 //! has the bed there; in a room of the plane only nearly level beams say anything about its cells.
 
+use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
 use crate::error::RobotError;
-use crate::handoff::{BeliefGrid, Estimate, Observation, RangeScan, Setting, Vertical};
+use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
 use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Room};
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
@@ -55,6 +56,7 @@ pub(super) struct Pilot {
     wish: Vector3<f64>,
     revision: u64,
     planned_s: f64,
+    evade: Option<Evade>,
 }
 
 impl Pilot {
@@ -94,6 +96,7 @@ impl Pilot {
             reach: None,
             wish: Vector3::zeros(),
             planned_s: f64::NEG_INFINITY,
+            evade: spec.evade.map(|e| Evade::new(e, spec.hull_m.get())),
         })
     }
 
@@ -212,12 +215,31 @@ impl Pilot {
             self.revision = self.room.revision();
         }
         let steer = steer.expect("a path was just made where there was none");
+        let course = self.clear(&seen.estimate, steer.course);
+        // What lies within the turning circle and cannot be made for without running aground is not reached any better.
+        let near = (wish - at).xy().norm() < self.evade.as_ref().map_or(0.0, Evade::turn_radius_m);
+        let turned_away = near && course != steer.course;
         Steering {
-            course: steer.course,
+            course,
             z_m: (!self.room.plane()).then_some(steer.z_m),
-            ended: ended && !moved,
+            ended: (ended && !moved) || turned_away,
             replanned: again,
         }
+    }
+
+    /// The course nearest to `wish` that runs into nothing.
+    pub(super) fn clear(&self, est: &Estimate, wish: Heading) -> Heading {
+        let evade = self.evade.as_ref();
+        evade.map_or(wish, |e| {
+            e.course(&self.room, &place(est), moving(est), wish)
+        })
+    }
+
+    /// Backing off, where something holds the vehicle.
+    pub(super) fn back(&mut self, seen: &Observation) -> Option<Manoeuvre> {
+        let back = self.evade.as_mut()?.back(seen)?;
+        self.follow = None;
+        Some(back)
     }
 
     /// What was sensed since the plan closes the path ahead.

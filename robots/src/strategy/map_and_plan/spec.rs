@@ -2,6 +2,7 @@
 
 use super::super::amp::AfterDeclaration;
 use super::super::spec::VerticalSpec;
+use super::evade::EvadeSpec;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
 use crate::error::RobotError;
@@ -46,6 +47,9 @@ pub struct MapAndPlanSpec {
     pub replan_off_m: Positive,
     /// Least time between two plans, s.
     pub replan_s: NonNegative,
+    /// Keeps off solids that the path leads too near to for the vehicle's turning circle, and backs off from one that holds
+    /// the vehicle; without it the path is followed whatever lies beside it.
+    pub evade: Option<EvadeSpec>,
 }
 
 impl Default for MapAndPlanSpec {
@@ -65,6 +69,7 @@ impl Default for MapAndPlanSpec {
             arrive_m: Positive::new(5.0),
             replan_off_m: Positive::new(8.0),
             replan_s: NonNegative::new(1.0),
+            evade: None,
         }
     }
 }

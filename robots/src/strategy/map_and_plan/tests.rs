@@ -62,6 +62,7 @@ fn belief(at: Vector3<f64>, updates: u64) -> Belief {
         best,
         entropy_nat: 4.0,
         credible_95: 9000.0,
+        odour: None,
     }
 }
 

@@ -6,7 +6,7 @@ use super::palette::{self, DETECTION, INK};
 use super::panel::{Panel, range_of};
 use crate::report::belief_track::{BeliefSnapshot, RobotBelief};
 use crate::report::{RobotTrack, RunReport, TrackRow};
-use robots::handoff::Belief;
+use robots::handoff::{Belief, BeliefGrid};
 use world::math;
 
 /// Largest panel, px.
@@ -163,15 +163,19 @@ fn best_cell(c: &mut Canvas, [x, y]: [f64; 2]) {
     }
 }
 
-/// The cells in shades of their probability, summed over the depth; neighbours of one shade as one shape.
+/// The cells in shades of their probability, summed over the depth.
 fn cells(c: &mut Canvas, panel: &Panel, b: &Belief) {
-    let grid = &b.grid;
-    let [nx, ny, _] = grid.n;
-    let layer = nx * ny;
+    let layer = b.grid.n[0] * b.grid.n[1];
     let mut plan = vec![0.0; layer];
     for (i, p) in b.p.iter().enumerate() {
         plan[i % layer] += p;
     }
+    shades(c, panel, &b.grid, &plan);
+}
+
+/// A layer of cells in shades of a value's share of the largest; neighbours of one shade as one shape.
+pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f64]) {
+    let [nx, ny, _] = grid.n;
     let most = plan.iter().fold(0.0, |m: f64, v| m.max(*v));
     let shade = |p: f64| {
         let share = 1.0 + math::ln((p / most).max(1e-30)) / (DECADES * std::f64::consts::LN_10);
@@ -207,16 +211,10 @@ fn cells(c: &mut Canvas, panel: &Panel, b: &Belief) {
     }
 }
 
-/// Shades, and what the signs mean.
-fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
+/// The scale of shades after `words`, `from` on.
+pub(super) fn scale(c: &mut Canvas, [x, y]: [f64; 2], words: &str, from: f64) {
     const CELL: f64 = 14.0;
-    let words = if space {
-        "Probability (summed over the depth), share of the largest:"
-    } else {
-        "Probability, share of the largest:"
-    };
     c.text([x, y], 10.0, Anchor::Start, words);
-    let from = x + if space { 330.0 } else { 195.0 };
     for s in 1..=SHADES {
         let colour = palette::likelihood(s as f64 / SHADES as f64);
         let at = from + (s - 1) as f64 * CELL;
@@ -226,6 +224,16 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
     c.text([from, y + 14.0], 9.0, Anchor::Middle, "0.0001");
     c.text([0.5 * (from + end), y + 14.0], 9.0, Anchor::Middle, "0.01");
     c.text([end, y + 14.0], 9.0, Anchor::Middle, "1");
+}
+
+/// Shades, and what the signs mean.
+fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
+    let words = if space {
+        "Probability (summed over the depth), share of the largest:"
+    } else {
+        "Probability, share of the largest:"
+    };
+    scale(c, [x, y], words, x + if space { 330.0 } else { 195.0 });
     let y = y + 28.0;
     layers::true_source(c, [x + 6.0, y - 4.0]);
     c.text([x + 17.0, y], 10.0, Anchor::Start, "source");
@@ -246,7 +254,7 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
 }
 
 /// East and north ranges that hold the area.
-fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
+pub(super) fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     let corners = run.area.corners();
     let along = |k: usize| range_of(corners.iter().map(|p| p[k]), 0.02).unwrap_or([-1.0, 1.0]);
     (along(0), along(1))

@@ -1,0 +1,101 @@
+//! What every mapper over a grid is made of: a watch over what is seen, a belief, and how far what is seen is believed.
+//!
+//! *Source*: none of its own; see `watch`, `log_belief` and `evidence`.
+//!
+//! *Parameters*: [`CellsSpec`].
+//!
+//! *Deviations*: none.
+
+use super::evidence::{DoubtSpec, Evidence};
+use super::log_belief::LogBelief;
+use super::spec::{GridSpec, TrajectorySpec};
+use super::watch::Watch;
+use crate::error::RobotError;
+use crate::handoff::BeliefGrid;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use world::ranges::{Fraction, Positive};
+
+/// Parameters of a mapper that weighs cells by the back-trajectory kernel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CellsSpec {
+    /// The cells.
+    pub grid: GridSpec,
+    /// How dye is believed to travel.
+    pub trajectory: TrajectorySpec,
+    /// Time between two updates, s.
+    pub update_period_s: Positive,
+    /// Chance ε of a detection where no dye is; must be greater than 0.
+    pub false_detection: Fraction,
+    /// What the model is doubted for.
+    pub doubt: DoubtSpec,
+}
+
+impl Default for CellsSpec {
+    fn default() -> Self {
+        Self {
+            grid: GridSpec::default(),
+            trajectory: TrajectorySpec::default(),
+            update_period_s: Positive::new(1.0),
+            false_detection: Fraction::new(1e-6),
+            doubt: DoubtSpec::default(),
+        }
+    }
+}
+
+/// The parts.
+#[derive(Clone, Debug)]
+pub(super) struct Workings {
+    pub grid: Arc<BeliefGrid>,
+    pub watch: Watch,
+    pub belief: LogBelief,
+    pub evidence: Evidence,
+    /// A number of each cell, for an update.
+    pub likelihood: Vec<f64>,
+}
+
+impl Workings {
+    /// With a release every `release_s` and an update every `update_s`; all cells alike.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] for chances out of range, or a look-back without releases.
+    pub(super) fn new(
+        grid: BeliefGrid,
+        trajectory: &TrajectorySpec,
+        [release_s, update_s]: [f64; 2],
+        false_detection: Fraction,
+        doubt: &DoubtSpec,
+    ) -> Result<Self, RobotError> {
+        trajectory.check()?;
+        let grid = Arc::new(grid);
+        Ok(Self {
+            watch: Watch::new(&grid, trajectory.history(release_s), update_s),
+            belief: LogBelief::uniform(&grid),
+            evidence: Evidence::new(false_detection, doubt, update_s)?,
+            likelihood: vec![1.0; grid.len()],
+            grid,
+        })
+    }
+
+    /// The same from the parameters that mappers by the kernel share.
+    ///
+    /// # Errors
+    /// As [`Workings::new`].
+    pub(super) fn over_cells(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
+        let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
+        Self::new(
+            grid,
+            &spec.trajectory,
+            periods,
+            spec.false_detection,
+            &spec.doubt,
+        )
+    }
+
+    /// Takes `likelihood` into the belief.
+    pub(super) fn update(&mut self, t_s: f64, detected: bool) {
+        self.belief
+            .update(t_s, detected, &self.likelihood, self.evidence.share);
+    }
+}

@@ -1,0 +1,224 @@
+//! What keeps the vehicle off solids that its path takes it too near to, and frees it from one it ran into.
+//!
+//! *Source*: dynamic window, Fox, Burgard & Thrun 1997, IEEE Robot. Autom. Mag. 4, 23: of the motions that the vehicle can
+//! make, those that end in a collision are not allowed, and of the others the one nearest to what was wished is taken.
+//!
+//! *Parameters*: turning radius, m; distance looked ahead, m; time for which it backs off, s, and propeller speed, rpm.
+//!
+//! *Deviations*: the motions are turns on the turning circle to a course, then straight on; speed is not chosen. A
+//! vehicle that does not move though it is asked to backs off: a torpedo's propeller astern, rudder amidships.
+
+use crate::handoff::{Manoeuvre, Observation};
+use crate::plan::Room;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+use world::units::Heading;
+
+/// Courses are tried in steps of this, on both sides of the one wished for, rad.
+const STEP_RAD: f64 = std::f64::consts::PI / 12.0;
+/// Slower than this over ground, m/s, for this long, s, it is held fast.
+const HELD: (f64, f64) = (0.25, 3.0);
+
+/// Parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EvadeSpec {
+    /// Turning radius, m.
+    pub turn_radius_m: Positive,
+    /// Distance looked ahead, m.
+    pub look_m: Positive,
+    /// How long it backs off when held fast, s.
+    pub back_s: NonNegative,
+    /// Speed of the propeller then, astern, rpm.
+    pub back_rpm: Positive,
+}
+
+impl Default for EvadeSpec {
+    fn default() -> Self {
+        Self {
+            turn_radius_m: Positive::new(12.0),
+            look_m: Positive::new(20.0),
+            back_s: NonNegative::new(10.0),
+            back_rpm: Positive::new(1000.0),
+        }
+    }
+}
+
+/// State.
+#[derive(Clone, Debug)]
+pub(super) struct Evade {
+    spec: EvadeSpec,
+    hull_m: f64,
+    slow_since_s: Option<f64>,
+    back_until_s: f64,
+}
+
+impl Evade {
+    pub(super) fn new(spec: EvadeSpec, hull_m: f64) -> Self {
+        Self {
+            spec,
+            hull_m,
+            slow_since_s: None,
+            back_until_s: f64::NEG_INFINITY,
+        }
+    }
+
+    /// Turning radius, m.
+    pub(super) fn turn_radius_m(&self) -> f64 {
+        self.spec.turn_radius_m.get()
+    }
+
+    /// The course nearest to `wish` that runs into nothing for as far as it looks, from `at` (ENU, m) moving along `heading`;
+    /// where all do, the one that does so last.
+    pub(super) fn course(
+        &self,
+        room: &Room,
+        at: &Vector3<f64>,
+        heading: Heading,
+        wish: Heading,
+    ) -> Heading {
+        let look_m = self.spec.look_m.get();
+        let mut best = (0.0, wish);
+        for k in 0..=12 {
+            for side in [1.0, -1.0] {
+                let course = wish.turned(side * f64::from(k) * STEP_RAD);
+                let far_m = self.free_m(room, at, heading, course);
+                if far_m >= look_m {
+                    return course;
+                }
+                if far_m > best.0 {
+                    best = (far_m, course);
+                }
+            }
+        }
+        best.1
+    }
+
+    /// How far it comes, turning to a course and then straight on, at most as far as it looks, m.
+    fn free_m(&self, room: &Room, at: &Vector3<f64>, heading: Heading, course: Heading) -> f64 {
+        let clear_m = |p: &Vector3<f64>| room.clearance_m(room.nearest_cell(p));
+        // Where it is too near already it may come no nearer.
+        let least_m = self.hull_m.min(clear_m(at));
+        let step_m = 0.5 * room.narrowest_m();
+        let most = step_m / self.spec.turn_radius_m.get();
+        let (mut p, mut now, mut far_m) = (*at, heading, 0.0);
+        while far_m < self.spec.look_m.get() {
+            let turn = now.turn_to(course).clamp(-most, most);
+            now = now.turned(turn);
+            let d = now.unit() * step_m;
+            p += Vector3::new(d.x, d.y, 0.0);
+            if clear_m(&p) < least_m {
+                break;
+            }
+            far_m += step_m;
+        }
+        far_m
+    }
+
+    /// Backing off, where it is held fast.
+    pub(super) fn back(&mut self, seen: &Observation) -> Option<Manoeuvre> {
+        let (slowest_m_s, for_s) = HELD;
+        let t_s = seen.t_s;
+        if t_s >= self.back_until_s {
+            let moves = seen.estimate.v_ground().norm() >= slowest_m_s;
+            let since_s = *self.slow_since_s.get_or_insert(t_s);
+            if moves {
+                self.slow_since_s = None;
+            } else if t_s - since_s >= for_s {
+                self.slow_since_s = None;
+                self.back_until_s = t_s + self.spec.back_s.get();
+            }
+        }
+        (t_s < self.back_until_s).then(|| Manoeuvre::Direct {
+            rudder_rad: 0.0,
+            stern_rad: 0.0,
+            rpm: -self.spec.back_rpm.get(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::testing::seen;
+    use crate::plan::testing::{block, room};
+    use nalgebra::Vector2;
+
+    fn evade() -> Evade {
+        Evade::new(EvadeSpec::default(), 0.8)
+    }
+
+    fn at(x: f64, y: f64) -> Vector3<f64> {
+        Vector3::new(x, y, -4.0)
+    }
+
+    #[test]
+    fn a_free_course_is_kept_and_a_pile_ahead_is_passed_clear() {
+        let north = Heading::from_deg(0.0);
+        let open = room([80, 80, 1], [1.0; 3], vec![]);
+        assert_eq!(evade().course(&open, &at(40.0, 10.0), north, north), north);
+        let pile = vec![block("p", 40.5, 40.0, [3.0, 3.0, 8.0])];
+        let r = room([80, 80, 1], [1.0; 3], pile);
+        let (mut p, mut h, mut nearest) = (at(40.0, 15.0), north, f64::INFINITY);
+        // A vehicle that turns no tighter than its circle, and wants straight on.
+        for _ in 0..400 {
+            let course = evade().course(&r, &p, h, north);
+            let most = 0.1 / 12.0;
+            h = h.turned(h.turn_to(course).clamp(-most, most));
+            let d = h.unit() * 0.1;
+            p += Vector3::new(d.x, d.y, 0.0);
+            nearest = f64::min(nearest, r.clearance_m(r.nearest_cell(&p)));
+        }
+        // No nearer than the hull, but for the half of a cell by which a middle is not where the vehicle is.
+        assert!(
+            nearest >= 0.8 - r.half_diagonal_m() && p.y > 48.0,
+            "{nearest} {p}"
+        );
+    }
+
+    #[test]
+    fn before_a_wall_it_turns_to_the_side_where_there_is_room() {
+        let north = Heading::from_deg(0.0);
+        // A corner: a wall ahead and one on the left.
+        let walls = vec![
+            block("n", 40.0, 60.0, [80.0, 4.0, 8.0]),
+            block("w", 30.0, 40.0, [4.0, 40.0, 8.0]),
+        ];
+        let r = room([80, 80, 1], [1.0; 3], walls);
+        let course = evade().course(&r, &at(38.0, 42.0), north, Heading::from_deg(-10.0));
+        assert!((60.0..180.0).contains(&course.deg()), "{course:?}");
+    }
+
+    #[test]
+    fn held_fast_it_backs_off_for_a_while() {
+        let mut e = evade();
+        let still = |t: f64| {
+            let mut o = seen(t, Vector2::zeros(), 0.0, None);
+            o.estimate.v_ground_body *= 0.0;
+            o
+        };
+        let moving = |t: f64| {
+            let mut o = still(t);
+            o.estimate.v_ground_body.x = 1.5;
+            o
+        };
+        assert!(moving(0.0).estimate.v_ground().norm() > 1.0);
+        for k in 0..100 {
+            assert!(e.back(&moving(f64::from(k) * 0.1)).is_none());
+        }
+        let backs: Vec<f64> = (0..300)
+            .map(|k| 10.0 + f64::from(k) * 0.1)
+            .filter(|t| {
+                let o = if *t < 16.0 { still(*t) } else { moving(*t) };
+                e.back(&o).is_some()
+            })
+            .collect();
+        // Three seconds at rest, ten astern.
+        let (first, last) = (backs[0], backs[backs.len() - 1]);
+        assert!(
+            (first - 13.0).abs() < 0.15 && (last - 23.0).abs() < 0.15,
+            "{first} {last}"
+        );
+    }
+}
