@@ -66,6 +66,7 @@ fn belief() -> Belief {
         best: 0,
         entropy_nat: 0.562,
         credible_95: 12.0,
+        odour: None,
     }
 }
 
