@@ -350,6 +350,7 @@ pub(crate) fn take_frame(
                     chemical: log.chemical,
                     detected: std::mem::take(&mut log.detected),
                     behaviour: decision.behaviour,
+                    layers: decision.layers.clone(),
                     lost_points: decision.lost_points.clone(),
                     planned: decision.planned.clone(),
                     belief: belief.cloned(),

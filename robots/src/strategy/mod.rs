@@ -5,6 +5,7 @@ mod catalogue;
 mod map_and_plan;
 mod open_loop;
 mod spec;
+mod subsumption;
 
 pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
@@ -13,3 +14,6 @@ pub use map_and_plan::{
 };
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use spec::{Strategy, StrategySpec, VerticalSpec};
+pub use subsumption::{
+    GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
+};

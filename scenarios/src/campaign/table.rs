@@ -60,7 +60,7 @@ macro_rules! maybe {
 }
 
 /// Name, whether it may be empty, and access.
-const COLUMNS: [(&str, bool, Column); 30] = [
+const COLUMNS: [(&str, bool, Column); 32] = [
     number!(run),
     text!(arm),
     text!(condition),
@@ -86,6 +86,8 @@ const COLUMNS: [(&str, bool, Column); 30] = [
     maybe!(error_m),
     maybe!(error_along_m),
     maybe!(error_across_m),
+    maybe!(zone_points),
+    maybe!(zone_since_s),
     maybe!(traced_m),
     real!(travelled_m),
     number!(detections),

@@ -18,6 +18,7 @@ use crate::report::{
 use crate::scenario::Loaded;
 use crate::system::Dye;
 use crate::trial::{Ended, Trial, Watch};
+use robots::strategy::StrategySpec;
 use robots::vehicles::Gantry;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -75,6 +76,7 @@ impl<'a> Onlooker<'a> {
                 id: spec.id.as_str().to_string(),
                 full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
                 threshold: dye.map(|f| f.threshold.get()),
+                layered: matches!(spec.strategy, StrategySpec::Subsumption(_)),
             }
         });
         let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;

@@ -119,6 +119,12 @@ pub(super) const TOPICS: &[Topic] = &[
         always("behaviour", Kind::Behaviour, "Its name."),
         always("lost_points_m", Kind::Points, "Where it lost the plume, as it believes (east, north), m."),
     ]),
+    json("layers", "auv/<id>/layers", STATE_RATE, "Who holds the vehicle among the layers of its planner; absent for a strategy without layers.", &[
+        T,
+        always("layers", Kind::Words, "Their names, lowest first."),
+        always("states", Kind::Words, "How each stands: silent, holds (the vehicle), suppressed (its command is replaced by a higher layer's) or inhibited (its input is taken away)."),
+        sometimes("holds", Kind::Text, "Name of the one that holds."),
+    ]),
     json("declaration", "auv/<id>/declaration", "with the state, once made", "The source the vehicle declared.", &[
         always("t_s", Kind::Number, "Simulated time of the declaration, s."),
         always("position_m", E_N, "Where, as the vehicle believes (east, north), m."),

@@ -5,9 +5,10 @@ use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Belief, Command, Estimate, Vertical};
+use robots::handoff::{Belief, Command, Estimate, Layer, Vertical};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use world::record::{
     Kind, McapFile, Odometry, RecordError, clock, float64, nanoseconds, point_cloud, pose_stamped,
     text, transforms, vector3_stamped,
@@ -34,6 +35,7 @@ pub(super) const WORLD: &str = "world";
 pub struct Recorder {
     file: McapFile,
     behaviours: Vec<&'static str>,
+    layers: Vec<Arc<[Layer]>>,
     declared: Vec<bool>,
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
@@ -63,6 +65,7 @@ impl Recorder {
         Ok(Self {
             file,
             behaviours: Vec::new(),
+            layers: Vec::new(),
             declared: Vec::new(),
             gantries: Vec::new(),
             maps: Vec::new(),
@@ -77,7 +80,7 @@ impl Recorder {
         self
     }
 
-    /// Records one frame. Behaviours and declarations are written when they change.
+    /// Records one frame. Behaviours, layers and declarations are written when they change.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -85,6 +88,7 @@ impl Recorder {
         let t = nanoseconds(frame.t_s);
         self.file.write("/clock", Kind::Clock, t, &clock(t))?;
         self.behaviours.resize(frame.robots.len(), "");
+        self.layers.resize_with(frame.robots.len(), Arc::default);
         self.declared.resize(frame.robots.len(), false);
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
@@ -174,6 +178,12 @@ impl Recorder {
             self.behaviours[k] = r.behaviour.name();
             put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
         }
+        if self.layers[k] != r.layers {
+            self.layers[k] = r.layers.clone();
+            put("layers", Kind::Text, &text(&layers_line(&r.layers)))?;
+            let holds = r.holding_layer().unwrap_or("");
+            put("layer", Kind::Text, &text(holds))?;
+        }
         if let (Some(d), false) = (r.declaration, self.declared[k]) {
             self.declared[k] = true;
             let at = nanoseconds(d.t_s);
@@ -249,6 +259,14 @@ impl Recorder {
 
 fn believed_frame(id: &str) -> String {
     format!("{id}/estimate")
+}
+
+/// `find suppressed, maintain holds, ...`, lowest first.
+fn layers_line(layers: &[Layer]) -> String {
+    let words: Vec<String> = (layers.iter())
+        .map(|l| format!("{} {}", l.name, l.state.name()))
+        .collect();
+    words.join(", ")
 }
 
 pub(super) fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {

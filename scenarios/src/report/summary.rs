@@ -2,6 +2,7 @@
 
 use super::files::{ReportError, write_whole};
 use crate::gantry::GantrySummary;
+use robots::handoff::Evidence;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -93,6 +94,8 @@ pub struct DeclarationSummary {
     pub position: Position,
     /// How wrong; none in a scenario without a source.
     pub error: Option<SourceError>,
+    /// The last detection points it rests on, where the rule is one on them.
+    pub evidence: Option<Evidence>,
 }
 
 /// What one robot did.

@@ -59,6 +59,7 @@ impl DeclarationSummary {
                 .iter()
                 .map(|s| s.error_of(d.position))
                 .min_by(|a, b| a.total_m.total_cmp(&b.total_m)),
+            evidence: d.evidence,
         }
     }
 }

@@ -2,11 +2,12 @@
 
 use super::files::ReportError;
 use crate::frame::{Frame, RobotFrame};
-use robots::handoff::{Behaviour, Command, Vertical};
+use robots::handoff::{Behaviour, Command, Layer, Vertical};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// What tables and figures must know of a robot beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -17,6 +18,8 @@ pub struct RobotInfo {
     pub full_scale_ug_l: Option<f64>,
     /// Detection threshold as a share of full scale.
     pub threshold: Option<f64>,
+    /// Its planner has layers.
+    pub layered: bool,
 }
 
 /// One moment of one robot, as far as figures need it.
@@ -55,6 +58,8 @@ pub struct RobotTrack {
     pub declared: Option<[f64; 2]>,
     /// When it declared, s.
     pub declared_s: Option<f64>,
+    /// How the layers of its planner stood, from each time on (s) until the next, up to a bound.
+    pub layers: Vec<(f64, Arc<[Layer]>)>,
     stride: usize,
     skip: usize,
 }
@@ -78,6 +83,7 @@ impl RobotTrack {
             lost_points: Vec::new(),
             declared: None,
             declared_s: None,
+            layers: Vec::new(),
             stride: 1,
             skip: 0,
         }
@@ -94,6 +100,10 @@ impl RobotTrack {
         if let (None, Some(d)) = (self.declared, r.declaration) {
             self.declared = Some([d.position.x, d.position.y]);
             self.declared_s = Some(d.t_s);
+        }
+        let new = self.layers.last().is_none_or(|l| l.1 != r.layers);
+        if new && !r.layers.is_empty() && self.layers.len() < KEPT {
+            self.layers.push((t_s, r.layers.clone()));
         }
         if self.skip > 0 {
             self.skip -= 1;
@@ -135,12 +145,13 @@ impl RobotTrack {
 /// Header of the table.
 const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,heading_deg,\
 est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
-speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour\n";
+speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
 
 /// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
 #[derive(Debug)]
 pub struct TrackTable {
     file: Option<(PathBuf, File)>,
+    layered: bool,
     line: String,
     track: Track,
 }
@@ -156,8 +167,13 @@ impl TrackTable {
             source,
         };
         let mut file = File::create(path).map_err(failed)?;
-        file.write_all(HEADER.as_bytes()).map_err(failed)?;
+        // Only where a robot's planner has layers is there a column for them.
+        let layered = robots.iter().any(|r| r.layered);
+        let more = if layered { ",layer\n" } else { "\n" };
+        file.write_all((HEADER.to_owned() + more).as_bytes())
+            .map_err(failed)?;
         let mut table = Self::in_memory(robots);
+        table.layered = layered;
         table.file = Some((path.to_owned(), file));
         Ok(table)
     }
@@ -167,6 +183,7 @@ impl TrackTable {
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
         Self {
             file: None,
+            layered: false,
             line: String::new(),
             track: Track {
                 robots: robots.into_iter().map(RobotTrack::new).collect(),
@@ -196,6 +213,11 @@ impl TrackTable {
             robot.push(frame.t_s, r);
             if self.file.is_some() {
                 row(&mut self.line, frame.t_s, r, &robot.info);
+                if self.layered {
+                    self.line.push(',');
+                    self.line.push_str(r.holding_layer().unwrap_or(""));
+                }
+                self.line.push('\n');
             }
         }
         if let Some((path, file)) = &mut self.file {
@@ -222,7 +244,7 @@ fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
     let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
     let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
     let flow = e.flow.map(|f| f.velocity);
-    writeln!(
+    write!(
         line,
         "{t_s:.3},{id},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.4},{:.3},{},{},{},{},{},{}",
         p.p_WB.x,

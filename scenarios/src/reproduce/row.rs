@@ -147,6 +147,8 @@ const ROWS: &[(&str, &str)] = &[
     row!("crab"),
     row!("crab_arms"),
     row!("duck_st"),
+    row!("t13_siz_t"),
+    row!("t13_siz_f"),
     row!("wp_laminar"),
     row!("wp_turbulent"),
     row!("wp_dead_end"),

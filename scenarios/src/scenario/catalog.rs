@@ -73,6 +73,7 @@ macro_rules! catalog {
 /// All of them, in the order of lists.
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
+    "moth_plus",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",
@@ -85,6 +86,7 @@ pub const CATALOG: &[Template] = catalog![
     "four_maps",
     "harbour_3d",
     "reef_mesh" with "meshes/reef.obj",
+    "t13_siz",
 ];
 
 /// The one of that name.
