@@ -5,7 +5,7 @@ use crate::gantry::GantryFrame;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
-    Regions,
+    Layer, LayerState, Regions,
 };
 use std::sync::Arc;
 use world::frames::Truth;
@@ -33,6 +33,8 @@ pub struct RobotFrame {
     pub detected: bool,
     /// What it is doing.
     pub behaviour: Behaviour,
+    /// Layers of its planner, lowest first; empty for a strategy without.
+    pub layers: Arc<[Layer]>,
     /// Points where it lost the plume, as it believes (east, north), m.
     pub lost_points: Vec<Vector2<f64>>,
     /// The path it means to take (ENU), m; empty without one.
@@ -46,6 +48,15 @@ pub struct RobotFrame {
     /// How far position fixes moved what it believes since the frame before, the farthest of them, m; `None` when
     /// none came.
     pub fix_m: Option<f64>,
+}
+
+impl RobotFrame {
+    /// Name of the layer that holds the vehicle.
+    #[must_use]
+    pub fn holding_layer(&self) -> Option<&'static str> {
+        let holds = |l: &&Layer| l.state == LayerState::Holds;
+        self.layers.iter().find(holds).map(|l| l.name)
+    }
 }
 
 /// The run at one instant.

@@ -338,7 +338,7 @@ pub(crate) fn take_frame(
             declared.join(&mut log.declarations);
         }
         if readings.lbl.is_some() {
-            let moved_m = estimate.fix_jump_m;
+            let moved_m = estimate.fix_jump_m();
             log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
         }
         // The last state of a mission is shown even between two frames.
@@ -363,6 +363,7 @@ pub(crate) fn take_frame(
                     chemical: log.chemical,
                     detected: std::mem::take(&mut log.detected),
                     behaviour: decision.behaviour,
+                    layers: decision.layers.clone(),
                     lost_points: decision.lost_points.clone(),
                     planned: decision.planned.clone(),
                     belief: belief.cloned(),

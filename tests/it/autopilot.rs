@@ -74,7 +74,7 @@ impl Run {
                 velocity: self.current.xy(),
                 age_s: 0.0,
             }),
-            fix_jump_m: 0.0,
+            fix_jump: Vector2::zeros(),
         }
     }
 

@@ -171,7 +171,7 @@ mod tests {
                 velocity,
                 age_s: 0.0,
             }),
-            fix_jump_m: 0.0,
+            fix_jump: Vector2::zeros(),
         }
     }
 

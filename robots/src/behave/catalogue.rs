@@ -1,6 +1,6 @@
 //! The behaviours by name; each place in a strategy has an enum of those that can fill it.
 
-use super::{find, reacquire, track_in, track_out};
+use super::{cloverleaf, find, reacquire, track_in, track_out};
 use crate::error::RobotError;
 use crate::handoff::Behave;
 use serde::{Deserialize, Serialize};
@@ -47,7 +47,7 @@ place! {
 }
 place! {
     /// Ways to look round where it was lost.
-    ReacquireSpec { Bowtie, Bowtie => reacquire::Bowtie }
+    ReacquireSpec { Bowtie, Bowtie => reacquire::Bowtie, Cloverleaf => cloverleaf::Cloverleaf }
 }
 
 /// Behaviours.
@@ -76,6 +76,16 @@ pub const CATALOGUE: &[Entry] = &[
         name: "Bowtie",
         what: "reacquire: two crossing lines round the lost points, one point after the other",
         source: "Pang 2009, section 5.5, Table 3, Fig. 6",
+    },
+    Entry {
+        name: "Cloverleaf",
+        what: "reacquire: leaves round the newest last detection point, one of them down-flow",
+        source: "Tian et al. 2013, section 3, Fig. 4b",
+    },
+    Entry {
+        name: "SoftAvoid",
+        what: "avoid: turns off the course asked for, the more the nearer the ranging's echoes in the way are",
+        source: "Tian et al. 2013, section 2; Khatib 1986, Int. J. Robotics Research 5(1), 90",
     },
     Entry {
         name: "GoHome",

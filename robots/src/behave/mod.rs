@@ -1,6 +1,8 @@
 //! Behaviours: one file each.
 
+mod avoid;
 mod catalogue;
+mod cloverleaf;
 mod find;
 mod go_home;
 mod go_to;
@@ -9,7 +11,9 @@ mod reacquire;
 mod track_in;
 mod track_out;
 
+pub use avoid::{Params as AvoidParams, SoftAvoid};
 pub use catalogue::{CATALOGUE, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
+pub use cloverleaf::Cloverleaf;
 pub use find::ZigZag;
 pub use go_home::GoHome;
 pub use go_to::GoTo;

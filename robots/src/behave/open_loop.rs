@@ -121,7 +121,6 @@ impl Behave for TimeTable {
 mod tests {
     use super::*;
     use crate::handoff::testing::seen;
-    use crate::handoff::{LostPoints, Side};
     use nalgebra::Vector2;
 
     fn row(t_s: f64, rudder_deg: f64, rpm: f64) -> TimeTableRow {
@@ -140,12 +139,7 @@ mod tests {
             end_s: Positive::new(5.0),
         };
         let mut table = TimeTable::new(&params).expect("legal");
-        let mut memory = PlumeMemory {
-            up_flow: None,
-            last_detection: None,
-            leaves: Side::Left,
-            lost: LostPoints::new(std::num::NonZeroUsize::MIN),
-        };
+        let mut memory = PlumeMemory::default();
         let mut rng = Stream::new(1, "t", "t");
         // The first tick comes at 100 s: the table counts from there.
         let at = |t: f64| seen(100.0 + t, Vector2::zeros(), 0.0, None);

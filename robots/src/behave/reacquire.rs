@@ -178,20 +178,19 @@ impl Behave for Bowtie {
 mod tests {
     use super::*;
     use crate::handoff::testing::seen;
-    use crate::handoff::{LostPoint, LostPoints};
+    use crate::handoff::{Lcdp, LostPoints};
 
     fn memory(norths: &[f64]) -> PlumeMemory {
         let up = Heading::from_deg(0.0);
         let mut list = LostPoints::new(std::num::NonZeroUsize::new(6).expect("6 > 0"));
         for north in norths {
             let position = Vector2::new(0.0, *north);
-            list.add(LostPoint { t_s: 0.0, position }, up);
+            list.add(Lcdp::at(0.0, position), up);
         }
         PlumeMemory {
             up_flow: Some(up),
-            last_detection: None,
-            leaves: Side::Left,
             lost: list,
+            ..PlumeMemory::default()
         }
     }
 

@@ -11,9 +11,7 @@
 //! flow measured yet the vehicle's heading stands for up-flow.
 
 use crate::error::RobotError;
-use crate::handoff::{
-    Behave, LostPoint, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects,
-};
+use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
@@ -44,7 +42,7 @@ pub struct CounterTurn {
     lambda_s: f64,
     beta_rad: f64,
     begun: bool,
-    last: LostPoint,
+    last: Lcdp,
 }
 
 impl CounterTurn {
@@ -61,10 +59,7 @@ impl CounterTurn {
             lambda_s: params.lambda_s.get(),
             beta_rad: params.beta_deg.get().to_radians(),
             begun: false,
-            last: LostPoint {
-                t_s: 0.0,
-                position: nalgebra::Vector2::zeros(),
-            },
+            last: Lcdp::at(0.0, nalgebra::Vector2::zeros()),
         })
     }
 
@@ -80,10 +75,7 @@ impl CounterTurn {
 impl Behave for CounterTurn {
     fn enter(&mut self, seen: &Observation, memory: &PlumeMemory) {
         self.begun = false;
-        self.last = memory.last_detection.unwrap_or(LostPoint {
-            t_s: seen.t_s,
-            position: seen.estimate.position,
-        });
+        self.last = memory.last_detection.unwrap_or(Lcdp::here(seen));
     }
 
     fn step(
@@ -95,12 +87,11 @@ impl Behave for CounterTurn {
     ) -> Stride {
         let up_flow = memory.up_flow_or_nose(seen);
         if detects(seen) {
-            self.last = LostPoint {
-                t_s: seen.t_s,
-                position: seen.estimate.position,
-            };
+            self.last = Lcdp::here(seen);
         } else if seen.t_s - self.last.t_s > self.lambda_s {
-            memory.lost.add(self.last, up_flow);
+            // The memory's own copy, where there is one: a navigation fix may have moved it since.
+            let same = memory.last_detection.filter(|d| d.t_s == self.last.t_s);
+            memory.lose(same.unwrap_or(self.last), up_flow);
             return Stride::Over;
         } else if self.begun {
             return Stride::Keep;
@@ -118,17 +109,13 @@ impl Behave for CounterTurn {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::handoff::LostPoints;
     use crate::handoff::testing::{seen, smelling};
     use nalgebra::Vector2;
-    use std::num::NonZeroUsize;
 
     fn memory(up_deg: Option<f64>) -> PlumeMemory {
         PlumeMemory {
             up_flow: up_deg.map(Heading::from_deg),
-            last_detection: None,
-            leaves: Side::Left,
-            lost: LostPoints::new(NonZeroUsize::MIN),
+            ..PlumeMemory::default()
         }
     }
 

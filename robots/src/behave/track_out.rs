@@ -1,19 +1,27 @@
 //! Just out of the plume: up-flow and across it, to the plume's other side.
 //!
-//! *Source*: Pang 2009, section 5.4, Table 2.
+//! *Source*: Pang 2009, section 5.4, Table 2; that L_u and L_c might shrink near the source, section 6.
 //!
-//! *Parameters*: L_u, `up_m`, m, 18; L_c, `across_m`, m, 18; arrival radius R is the guidance's.
+//! *Parameters*: L_u, `up_m`, m, 18; L_c, `across_m`, m, 18; arrival radius R is the guidance's. `near`, none in the paper:
+//! newest points looked at, `points`, 3; their extent along the flow at which L_u and L_c are whole, `far_m`, 36 m (two
+//! steps of L_u); least share of them, `least`, 0.6 (11 m: no less than R, so that there is a way to go).
 //!
 //! *Deviations*: Table 2 is not legible in print; the text is followed: from the most up-flow lost point
 //! L_u up-flow and L_c to the side opposite to the one on which the plume was left. The point is fixed on
-//! entry and held 10 m inside the area, where the cage lets the vehicle arrive.
+//! entry and held 10 m inside the area, where the cage lets the vehicle arrive. The paper says that the distance to the
+//! source cannot be told from the plume's width nor from concentrations, and gives no rule for `near`; ours goes by
+//! headway: as long as the vehicle gets on, each point lies about L_u up-flow of the one before it; near the source they
+//! gather. L_u and L_c are multiplied by the extent along the flow of the newest points over `far_m`, between `least` and 1;
+//! with fewer points they are whole.
 
 use crate::error::RobotError;
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride, inside};
+use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Stride, inside};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
-use world::ranges::NonNegative;
+use std::num::NonZeroUsize;
+use world::ranges::{Fraction, NonNegative, Positive};
 use world::seeds::Stream;
+use world::units::Heading;
 
 /// Points are held this far inside the area, m: the cage's 5 m and as much again.
 const MARGIN_M: f64 = 10.0;
@@ -26,6 +34,44 @@ pub struct Params {
     pub up_m: NonNegative,
     /// L_c: across the flow from it, m.
     pub across_m: NonNegative,
+    /// How both shrink near the source; they do not where it is not given.
+    pub near: Option<Near>,
+}
+
+/// Shrinking near the source.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Near {
+    /// How many of the newest last detection points are looked at, at least 2.
+    pub points: NonZeroUsize,
+    /// Their extent along the flow from which on nothing shrinks, m.
+    pub far_m: Positive,
+    /// Least share of L_u and L_c.
+    pub least: Fraction,
+}
+
+impl Default for Near {
+    fn default() -> Self {
+        Self {
+            points: NonZeroUsize::new(3).expect("3 is not zero"),
+            far_m: Positive::new(36.0),
+            least: Fraction::new(0.6),
+        }
+    }
+}
+
+impl Near {
+    /// Share of L_u and L_c, by last detection points in order of time.
+    fn share(&self, points: &[Lcdp], up_flow: Heading) -> f64 {
+        let Some(first) = points.len().checked_sub(self.points.get()) else {
+            return 1.0;
+        };
+        let along = points[first..].iter().map(|p| p.in_flow(up_flow).x);
+        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
+            (l.min(x), h.max(x))
+        });
+        ((high - low) / self.far_m.get()).clamp(self.least.get(), 1.0)
+    }
 }
 
 impl Default for Params {
@@ -33,6 +79,7 @@ impl Default for Params {
         Self {
             up_m: NonNegative::new(18.0),
             across_m: NonNegative::new(18.0),
+            near: None,
         }
     }
 }
@@ -42,16 +89,24 @@ impl Default for Params {
 pub struct UpAcross {
     up_m: f64,
     across_m: f64,
+    near: Option<Near>,
     begun: bool,
 }
 
 impl UpAcross {
     /// # Errors
-    /// Never; every parameter has a meaning.
+    /// [`RobotError::Invalid`] when one point is to have an extent.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
+        if params.near.as_ref().is_some_and(|n| n.points.get() < 2) {
+            return Err(RobotError::Invalid {
+                field: "track_out.UpAcross.near.points".into(),
+                problem: "must be at least 2, got 1".into(),
+            });
+        }
         Ok(Self {
             up_m: params.up_m.get(),
             across_m: params.across_m.get(),
+            near: params.near.clone(),
             begun: false,
         })
     }
@@ -79,8 +134,10 @@ impl Behave for UpAcross {
             return Stride::Over;
         };
         let right = up_flow.turned(FRAC_PI_2).unit();
-        let across = memory.leaves.other().sign() * self.across_m;
-        let point = from.position + up_flow.unit() * self.up_m + right * across;
+        let near = self.near.as_ref();
+        let share = near.map_or(1.0, |n| n.share(memory.lcdps.all(), up_flow));
+        let across = memory.leaves.other().sign() * self.across_m * share;
+        let point = from.position + up_flow.unit() * (self.up_m * share) + right * across;
         Stride::Start(Manoeuvre::GoToPoint {
             point: inside(&seen.area, point, MARGIN_M),
             radius_m: None,
@@ -92,23 +149,21 @@ impl Behave for UpAcross {
 mod tests {
     use super::*;
     use crate::handoff::testing::seen;
-    use crate::handoff::{LostPoint, LostPoints, Side};
+    use crate::handoff::{LostPoints, Side};
     use nalgebra::Vector2;
-    use std::num::NonZeroUsize;
-    use world::units::Heading;
 
     fn memory(leaves: Side, lost: &[(f64, f64)]) -> PlumeMemory {
         let up = Heading::from_deg(90.0);
         let mut list = LostPoints::new(NonZeroUsize::new(6).expect("6 > 0"));
         for (east, north) in lost {
             let position = Vector2::new(*east, *north);
-            list.add(LostPoint { t_s: 0.0, position }, up);
+            list.add(Lcdp::at(0.0, position), up);
         }
         PlumeMemory {
             up_flow: Some(up),
-            last_detection: None,
             leaves,
             lost: list,
+            ..PlumeMemory::default()
         }
     }
 
@@ -129,6 +184,46 @@ mod tests {
         assert!((p - Vector2::new(68.0, -18.0)).norm() < 1e-9);
         let p = point(&mut memory(Side::Right, &lost));
         assert!((p - Vector2::new(68.0, 18.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn shrinks_as_the_newest_points_gather() {
+        let share = |easts: &[f64]| {
+            let points: Vec<_> = (easts.iter().enumerate())
+                .map(|(k, e)| Lcdp::at(k as f64, Vector2::new(*e, 40.0 * k as f64)))
+                .collect();
+            Near::default().share(&points, Heading::from_deg(90.0))
+        };
+        // Too few; on the way, 40 m in three; gathering, 27 m; gathered; in either direction of the flow.
+        assert_eq!(share(&[0.0, 5.0]), 1.0);
+        assert_eq!(share(&[-60.0, 0.0, 20.0, 40.0]), 1.0);
+        assert!((share(&[-60.0, 0.0, 27.0, 9.0]) - 0.75).abs() < 1e-12);
+        assert_eq!(share(&[-60.0, 0.0, 3.0, -2.0]), 0.6);
+        // Up-flow is east: L_u and L_c of 18 m become 10.8 m.
+        let near = Params {
+            near: Some(Near::default()),
+            ..Params::default()
+        };
+        let mut m = memory(Side::Left, &[(50.0, 0.0)]);
+        for k in 0..3 {
+            m.lcdps.add(Lcdp::at(f64::from(k), Vector2::new(50.0, 0.0)));
+        }
+        let o = seen(0.0, Vector2::zeros(), 0.0, None);
+        let mut b = UpAcross::new(&near).expect("legal");
+        match b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t")) {
+            Stride::Start(Manoeuvre::GoToPoint { point, .. }) => {
+                assert!((point - Vector2::new(60.8, -10.8)).norm() < 1e-9);
+            }
+            other => panic!("wanted a point, got {other:?}"),
+        }
+        let one = Params {
+            near: Some(Near {
+                points: NonZeroUsize::MIN,
+                ..Near::default()
+            }),
+            ..Params::default()
+        };
+        assert!(UpAcross::new(&one).is_err());
     }
 
     #[test]

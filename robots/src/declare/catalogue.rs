@@ -2,8 +2,11 @@
 
 use super::along_flow::AlongFlow;
 use super::credible_area::{self, CredibleArea};
+use super::siz_f::SizF;
+use super::siz_t::SizT;
 use super::unchanged::{self, Unchanged};
-use crate::handoff::Belief;
+use crate::error::RobotError;
+use crate::handoff::{Belief, Declaration, Evidence, PlumeMemory};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
@@ -15,6 +18,10 @@ use world::units::Heading;
 pub enum DeclareSpec {
     /// The most up-flow lost points lie close together along the flow.
     AlongFlow(AlongFlow),
+    /// The newest last detection points lie close together.
+    SizT(SizT),
+    /// Enough of all last detection points lie close together.
+    SizF(SizF),
 }
 
 impl Default for DeclareSpec {
@@ -24,11 +31,46 @@ impl Default for DeclareSpec {
 }
 
 impl DeclareSpec {
-    /// The source's place (east, north), m, if the lost points say so.
+    /// The source's place (east, north), m, if the places where the plume was lost say so: the short list for
+    /// `AlongFlow`, all last detection points for the others.
     #[must_use]
-    pub fn declare(&self, points: &[Vector2<f64>], up_flow: Heading) -> Option<Vector2<f64>> {
+    pub fn declare(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<Vector2<f64>> {
+        self.identify(memory, up_flow).map(|(place, _)| place)
+    }
+
+    /// The same as a declaration made at `t_s`, with the points it rests on.
+    #[must_use]
+    pub fn declaration(
+        &self,
+        t_s: f64,
+        memory: &PlumeMemory,
+        up_flow: Heading,
+    ) -> Option<Declaration> {
+        let (place, evidence) = self.identify(memory, up_flow)?;
+        Some(Declaration {
+            evidence: Some(evidence),
+            ..Declaration::first(t_s, place, self.name())
+        })
+    }
+
+    fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
+        let fix_m = memory.fixes.scale_m();
         match self {
-            DeclareSpec::AlongFlow(rule) => rule.declare(points, up_flow),
+            DeclareSpec::AlongFlow(rule) => rule.declare(memory.lost.all(), up_flow),
+            DeclareSpec::SizT(rule) => rule.declare(memory.lcdps.all(), up_flow, fix_m),
+            DeclareSpec::SizF(rule) => rule.declare(memory.lcdps.all(), up_flow, fix_m),
+        }
+    }
+
+    /// Whether the parameters make sense.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when bounds contradict each other.
+    pub fn check(&self) -> Result<(), RobotError> {
+        match self {
+            DeclareSpec::AlongFlow(_) => Ok(()),
+            DeclareSpec::SizT(rule) => rule.size.check("declare.SizT.size"),
+            DeclareSpec::SizF(rule) => rule.size.check("declare.SizF.size"),
         }
     }
 
@@ -37,6 +79,8 @@ impl DeclareSpec {
     pub fn name(&self) -> &'static str {
         match self {
             DeclareSpec::AlongFlow(_) => "AlongFlow",
+            DeclareSpec::SizT(_) => "SizT",
+            DeclareSpec::SizF(_) => "SizF",
         }
     }
 }
@@ -100,6 +144,16 @@ pub const CATALOGUE: &[Entry] = &[
         name: "AlongFlow",
         what: "the most up-flow lost point, when the first three differ by under 4 m along the flow",
         source: "Pang 2009, section 5.6",
+    },
+    Entry {
+        name: "SizT",
+        what: "the mean of the six newest last detection points, when they lie within 4 m",
+        source: "Tian et al. 2013, section 3, algorithm 1",
+    },
+    Entry {
+        name: "SizF",
+        what: "the most up-flow of six or more last detection points within 6 m of their mean, the others left aside",
+        source: "Tian et al. 2013, section 3, algorithm 2",
     },
     Entry {
         name: "Unchanged",

@@ -2,12 +2,20 @@
 
 mod along_flow;
 mod catalogue;
+#[cfg(test)]
+mod cluster_tests;
 mod credible_area;
+mod siz_f;
+mod siz_t;
 #[cfg(test)]
 mod testing;
 mod unchanged;
+mod zone_size;
 
 pub use along_flow::AlongFlow;
 pub use catalogue::{BeliefRule, BeliefRuleSpec, CATALOGUE, DeclareSpec};
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
+pub use siz_f::SizF;
+pub use siz_t::SizT;
 pub use unchanged::{Params as UnchangedParams, Unchanged};
+pub use zone_size::{AdaptiveSize, ZoneSize};

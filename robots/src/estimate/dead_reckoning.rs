@@ -4,7 +4,8 @@
 //! from the long baseline are its navigation fixes) and section 6 (flow from the profiler).
 //!
 //! *Parameters:* share of a fix taken over `fix_gain` 1 (a fix replaces the position, as it jumps in
-//! the paper); time constant of the flow's low-pass `flow_filter_s` 10 s (not published).
+//! the paper); time constant of the flow's low-pass `flow_filter_s` 10 s (not published); `layer_aware`, none in the
+//! paper: an ADCP cell that lies in another water layer than the vehicle is not used (`layers.rs`).
 //!
 //! *Deviations:* none known; the vehicle's own filter is not published. Between two readings each
 //! quantity is held; the position is integrated by the trapezium rule. Flow =
@@ -12,6 +13,7 @@
 //! error turns the flow, it does not add the vehicle's speed to it.
 
 use super::Start;
+use super::layers::{LayerAwareSpec, LayerWatch};
 use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -27,6 +29,8 @@ pub struct DeadReckoningSpec {
     pub fix_gain: Fraction,
     /// Time constant of the flow's low-pass, s.
     pub flow_filter_s: NonNegative,
+    /// Flow is taken from the vehicle's own water layer only, told by a CTD.
+    pub layer_aware: Option<LayerAwareSpec>,
 }
 
 impl Default for DeadReckoningSpec {
@@ -34,6 +38,7 @@ impl Default for DeadReckoningSpec {
         Self {
             fix_gain: Fraction::new(1.0),
             flow_filter_s: NonNegative::new(10.0),
+            layer_aware: None,
         }
     }
 }
@@ -55,6 +60,7 @@ pub struct DeadReckoning {
     v_before: Option<Vector2<f64>>,
     /// Flow (east, north), m/s, and when it was last measured, s.
     flow: Option<(Vector2<f64>, f64)>,
+    layers: Option<LayerWatch>,
 }
 
 impl DeadReckoning {
@@ -78,6 +84,7 @@ impl DeadReckoning {
             locked: false,
             v_before: None,
             flow: None,
+            layers: spec.layer_aware.as_ref().map(LayerWatch::new),
         }
     }
 
@@ -88,6 +95,13 @@ impl DeadReckoning {
         let v_now = (R_WB * self.v_ground_body).xy();
         if let Some(v_before) = self.v_before.replace(v_now) {
             self.position += (v_before + v_now) * (0.5 * self.dt_s);
+        }
+        if let (Some(layers), Some(ctd)) = (&mut self.layers, readings.ctd) {
+            let depth_m = self.depth_m + ctd.below_m;
+            layers.take_in(clock.t_s(), depth_m, ctd.density_kg_m3);
+            if layers.left_layer() {
+                self.flow = None;
+            }
         }
         let before = self.position;
         if let Some(fix) = readings.lbl {
@@ -109,7 +123,7 @@ impl DeadReckoning {
                 velocity,
                 age_s: clock.t_s() - measured_s,
             }),
-            fix_jump_m: (self.position - before).norm(),
+            fix_jump: self.position - before,
         }
     }
 
@@ -141,6 +155,10 @@ impl DeadReckoning {
         let Some(adcp) = readings.adcp.filter(|a| a.valid && self.locked) else {
             return;
         };
+        let cell_m = self.depth_m - (R_WB * Vector3::new(0.0, 0.0, adcp.above_m)).z;
+        if self.layers.as_ref().is_some_and(|l| l.is_other(cell_m)) {
+            return;
+        }
         let measured = (R_WB * (self.v_ground_body + adcp.v_body_m_s)).xy();
         let believed = match self.flow {
             Some((before, since_s)) if self.flow_filter_s > 0.0 => {
@@ -150,6 +168,7 @@ impl DeadReckoning {
             _ => measured,
         };
         self.flow = Some((believed, t_s));
+        self.layers.iter_mut().for_each(LayerWatch::measured);
     }
 }
 
@@ -243,7 +262,7 @@ mod tests {
             // Trapezium rule on a circle: chords are short by (turn · dt)²/12 of 2 × its radius 10.4 m.
             let bound = (turn_rad_s * dt_s).powi(2) / 12.0 * 25.0;
             assert!((e.position - want).norm() < bound, "{} s", e.t_s);
-            assert_eq!(e.fix_jump_m, 0.0);
+            assert_eq!(e.fix_jump_m(), 0.0);
         }
     }
 
@@ -326,11 +345,11 @@ mod tests {
                 lbl: (c.step == 1).then_some(fix),
                 ..Default::default()
             });
-            assert!((e[1].fix_jump_m - 10.0 * gain).abs() < 1e-9);
+            assert!((e[1].fix_jump_m() - 10.0 * gain).abs() < 1e-9);
             assert!(
                 (e[1].position - start().position - Vector2::new(6.0, 8.0) * gain).norm() < 1e-9
             );
-            assert_eq!((e[0].fix_jump_m, e[2].fix_jump_m), (0.0, 0.0));
+            assert_eq!((e[0].fix_jump_m(), e[2].fix_jump_m()), (0.0, 0.0));
         }
     }
 

@@ -21,6 +21,16 @@ impl Default for EstimatorSpec {
     }
 }
 
+impl EstimatorSpec {
+    /// It needs a CTD on board.
+    #[must_use]
+    pub fn needs_ctd(&self) -> bool {
+        match self {
+            Self::DeadReckoning(s) => s.layer_aware.is_some(),
+        }
+    }
+}
+
 /// What the vehicle was told of itself when it was launched.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
@@ -66,6 +76,7 @@ mod tests {
         for (file, text) in [
             ("dead_reckoning.rs", include_str!("dead_reckoning.rs")),
             ("estimator.rs", include_str!("estimator.rs")),
+            ("layers.rs", include_str!("layers.rs")),
             ("readings.rs", include_str!("../handoff/readings.rs")),
             ("estimate.rs", include_str!("../handoff/estimate.rs")),
         ] {

@@ -3,9 +3,11 @@
 mod catalogue;
 mod dead_reckoning;
 mod estimator;
+mod layers;
 #[cfg(test)]
 mod with_instruments;
 
 pub use catalogue::CATALOGUE;
 pub use dead_reckoning::{DeadReckoning, DeadReckoningSpec};
 pub use estimator::{Estimator, EstimatorSpec, Start};
+pub use layers::LayerAwareSpec;

@@ -2,9 +2,11 @@
 
 #[cfg(test)]
 mod tests {
-    use super::super::{DeadReckoning, DeadReckoningSpec, Start};
+    use super::super::{DeadReckoning, DeadReckoningSpec, LayerAwareSpec, Start};
     use crate::handoff::Estimate;
-    use crate::sense::{AdcpSpec, CompassSpec, DvlSpec, LblSpec, SensorSuite, SensorsSpec};
+    use crate::sense::{
+        AdcpSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, SensorSuite, SensorsSpec,
+    };
     use nalgebra::{Vector2, Vector3};
     use world::clock::Clock;
     use world::fields::{Clean, Flow};
@@ -20,6 +22,66 @@ mod tests {
         fn velocity(&self, p: &Vector3<f64>, _t_s: f64) -> Vector3<f64> {
             Vector3::new(0.0, if p.z > -3.0 { 0.22 } else { -0.11 }, 0.0)
         }
+    }
+
+    /// The same water with a density of its own in each layer.
+    struct Stratified;
+    impl Flow for Stratified {
+        fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+            TwoLayers.velocity(p, t_s)
+        }
+        fn density(&self, p: &Vector3<f64>, _t_s: f64) -> f64 {
+            if p.z > -3.0 { 1020.0 } else { 1024.0 }
+        }
+    }
+
+    #[test]
+    fn with_a_ctd_it_takes_no_flow_from_the_other_layer() {
+        let spec = SensorsSpec {
+            dvl: Some(DvlSpec::default()),
+            adcp: Some(AdcpSpec::default()),
+            compass: Some(CompassSpec::default()),
+            depth: Some(DepthSpec::default()),
+            ctd: Some(CtdSpec::default()),
+            ..Default::default()
+        };
+        let east = Heading::from_deg(90.0);
+        let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
+        let dt_s = 0.04;
+        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let start = Start {
+            position: START,
+            heading: east,
+            depth_m: 0.5,
+        };
+        let aware = DeadReckoningSpec {
+            layer_aware: Some(LayerAwareSpec::default()),
+            ..Default::default()
+        };
+        let mut e = DeadReckoning::new(&aware, start, dt_s);
+        let mut clock = Clock::new(dt_s);
+        // A dive to 3.6 m in 31 s, where the cell lies in the layer above; at 100 s on to 5 m.
+        let mut believed = Vec::new();
+        for _ in 0..5000 {
+            let t = clock.t_s();
+            let depth_m = (0.5 + 0.1 * t).min(3.6 + (0.1 * (t - 100.0)).clamp(0.0, 1.4));
+            let p = START + Vector2::new(2.0 * t, 0.0);
+            let truth = Truth {
+                v_WB_B: Vector3::new(2.0, 0.0, 0.0),
+                ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, -depth_m), east))
+            };
+            let bed = Terrain::Level { depth_m: 8.0 };
+            let obstacles = Default::default();
+            let said = suite.read(&clock, &truth, &Stratified, &Clean, &bed, &obstacles);
+            believed.push(e.step(&clock, &said).flow.map(|f| f.velocity.y));
+            clock.advance();
+        }
+        // In the upper layer its flow, near the interface none, in the lower layer that one's; five times the low-passed
+        // noise, as below.
+        let at = |t_s: f64| believed[(t_s / dt_s) as usize];
+        assert!((at(24.0).expect("measured") - 0.22).abs() < 0.0225 * 2.0);
+        assert_eq!(at(90.0), None);
+        assert!((at(190.0).expect("measured") + 0.11).abs() < 0.0225);
     }
 
     /// An hour eastward at 2 m/s and 5 m depth or another, seen through real instruments.
@@ -76,7 +138,7 @@ mod tests {
         );
         let fixed = an_hour(Some(LblSpec::default()), 5.0);
         let after_fixes: Vec<f64> = (fixed.iter())
-            .filter(|(_, e)| e.fix_jump_m > 0.0)
+            .filter(|(_, e)| e.fix_jump_m() > 0.0)
             .map(|x| error(x).powi(2))
             .collect();
         // Just after a fix the error is the fix's: 2 · 5² m² in the mean, five standard errors.

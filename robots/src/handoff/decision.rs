@@ -1,6 +1,6 @@
 //! What a strategy decides in a tick.
 
-use super::{Goal, Layer, Regions};
+use super::{Goal, Layer, Lcdp, Regions};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
@@ -99,6 +99,35 @@ impl Verdict {
     }
 }
 
+/// The last detection points that a declaration rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Evidence {
+    /// How many.
+    pub points: u32,
+    /// Time of the oldest of them, s.
+    pub since_s: f64,
+}
+
+impl Evidence {
+    /// Of these points; there must be one at least.
+    #[must_use]
+    pub fn of<'a>(points: impl IntoIterator<Item = &'a Lcdp>) -> Self {
+        let none = Self {
+            points: 0,
+            since_s: f64::INFINITY,
+        };
+        let all = points.into_iter().fold(none, |e, p| Self {
+            points: e.points + 1,
+            since_s: e.since_s.min(p.t_s),
+        });
+        assert!(
+            all.points > 0,
+            "a declaration that rests on no point: its rule must ask for one at least"
+        );
+        all
+    }
+}
+
 /// A declared source.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Declaration {
@@ -117,6 +146,8 @@ pub struct Declaration {
     pub verdict: Verdict,
     /// Where the sidescan has the source, as the vehicle believes (east, north), m.
     pub surveyed: Option<Vector2<f64>>,
+    /// The points it rests on, where the rule is one on last detection points.
+    pub evidence: Option<Evidence>,
 }
 
 impl Declaration {
@@ -131,6 +162,7 @@ impl Declaration {
             region: None,
             verdict: Verdict::Unchecked,
             surveyed: None,
+            evidence: None,
         }
     }
 

@@ -60,11 +60,17 @@ pub struct Estimate {
     pub v_ground_body: Vector3<f64>,
     /// Flow at the vehicle; `None` until first measured.
     pub flow: Option<FlowEstimate>,
-    /// How far the newest position fix moved the estimate, m, in the tick in which it came; else zero.
-    pub fix_jump_m: f64,
+    /// How far a position fix moved the estimate (east, north), m, in the tick in which it came; else zero.
+    pub fix_jump: Vector2<f64>,
 }
 
 impl Estimate {
+    /// Length of the jump, m.
+    #[must_use]
+    pub fn fix_jump_m(&self) -> f64 {
+        self.fix_jump.norm()
+    }
+
     /// Believed velocity over ground (east, north), m/s.
     #[must_use]
     pub fn v_ground(&self) -> Vector2<f64> {

@@ -17,6 +17,19 @@ pub enum LayerState {
     Inhibited,
 }
 
+impl LayerState {
+    /// Name as it stands in files and topics.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            LayerState::Silent => "silent",
+            LayerState::Holds => "holds",
+            LayerState::Suppressed => "suppressed",
+            LayerState::Inhibited => "inhibited",
+        }
+    }
+}
+
 /// A layer in a tick.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Layer {

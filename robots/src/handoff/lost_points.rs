@@ -1,22 +1,13 @@
 //! Where the plume was lost: the list that Track-In writes and Track-Out, Reacquire and the declaration read.
 
-use nalgebra::Vector2;
+use super::{FixMove, Lcdp, NavigationFix};
 use std::num::NonZeroUsize;
 use world::units::Heading;
-
-/// A last detection point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LostPoint {
-    /// When chemical was last detected there, s.
-    pub t_s: f64,
-    /// Where, as the vehicle believed (east, north), m.
-    pub position: Vector2<f64>,
-}
 
 /// The lost points, most up-flow first; a full list drops its most down-flow point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LostPoints {
-    points: Vec<LostPoint>,
+    points: Vec<Lcdp>,
     most: usize,
 }
 
@@ -31,7 +22,7 @@ impl LostPoints {
     }
 
     /// Adds a point, in the order along the present flow.
-    pub fn add(&mut self, point: LostPoint, up_flow: Heading) {
+    pub fn add(&mut self, point: Lcdp, up_flow: Heading) {
         self.points.push(point);
         self.sort(up_flow);
         self.points.truncate(self.most);
@@ -55,14 +46,21 @@ impl LostPoints {
 
     /// The most up-flow point, by the flow of the last sorting.
     #[must_use]
-    pub fn first(&self) -> Option<LostPoint> {
+    pub fn first(&self) -> Option<Lcdp> {
         self.points.first().copied()
     }
 
     /// All points, most up-flow first.
     #[must_use]
-    pub fn all(&self) -> &[LostPoint] {
+    pub fn all(&self) -> &[Lcdp] {
         &self.points
+    }
+
+    /// A fix has moved the believed position: moves the points by the rule.
+    pub fn take_fix(&mut self, fix: &NavigationFix, rule: FixMove) {
+        for point in &mut self.points {
+            point.position += fix.shift_of(point.t_s, rule);
+        }
     }
 
     /// Forgets all points.
@@ -74,12 +72,10 @@ impl LostPoints {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Vector2;
 
-    fn at(t_s: f64, north: f64) -> LostPoint {
-        LostPoint {
-            t_s,
-            position: Vector2::new(0.0, north),
-        }
+    fn at(t_s: f64, north: f64) -> Lcdp {
+        Lcdp::at(t_s, Vector2::new(0.0, north))
     }
 
     #[test]

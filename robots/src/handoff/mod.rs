@@ -5,9 +5,11 @@ mod belief;
 mod command;
 mod decision;
 mod estimate;
+mod fixes;
 mod gantry;
 mod goal;
 mod layers;
+mod lcdp;
 mod lost_points;
 mod pictures;
 mod places;
@@ -15,23 +17,25 @@ mod readings;
 mod regions;
 mod setting;
 
-pub use behaviour::{Behave, PlumeMemory, Side, Stride, detects};
+pub use behaviour::{Behave, LCDPS, PlumeMemory, Side, Stride, detects};
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{ActuatorCommand, Command, Setpoint};
-pub use decision::{Behaviour, Decision, Declaration, Outcome, Verdict};
+pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};
+pub use fixes::{FixMove, FixWatch, NavigationFix};
 pub use gantry::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings,
     JointReadings, MAX_PROBES, ProbeMount, ProbeScan, TrackerState,
 };
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
-pub use lost_points::{LostPoint, LostPoints};
+pub use lcdp::{Lcdp, LcdpQueue, most_up_flow_first};
+pub use lost_points::LostPoints;
 pub use pictures::{Picture, SidescanPing};
 pub use places::{edges, inside};
 pub use readings::{
-    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, DepthReading,
-    DvlReading, LblFix, RangeScan, Readings,
+    AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,
+    DepthReading, DvlReading, LblFix, RangeScan, Readings,
 };
 pub use regions::{Region, RegionState, Regions};
 pub use setting::Setting;

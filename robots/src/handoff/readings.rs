@@ -57,6 +57,15 @@ pub struct DepthReading {
     pub depth_m: f64,
 }
 
+/// Conductivity, temperature and depth, as far as they make the density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CtdReading {
+    /// Density of the water, kg/m³.
+    pub density_kg_m3: f64,
+    /// How far the instrument sits below the body's origin, m.
+    pub below_m: f64,
+}
+
 /// Echo sounder looking down.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AltimeterReading {
@@ -106,6 +115,8 @@ pub struct Readings {
     pub attitude: Option<AttitudeReading>,
     /// Depth.
     pub depth: Option<DepthReading>,
+    /// Density at the vehicle.
+    pub ctd: Option<CtdReading>,
     /// Altitude.
     pub altimeter: Option<AltimeterReading>,
     /// Position fix.

@@ -40,7 +40,7 @@ pub(crate) fn seen(
                 velocity,
                 age_s: 0.0,
             }),
-            fix_jump_m: 0.0,
+            fix_jump: Vector2::zeros(),
         },
         chemical: None,
         guidance: GuidanceStatus::default(),

@@ -30,6 +30,11 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Strain-gauge pressure sensors, 0.01 % of full scale",
     },
     Entry {
+        name: "ctd",
+        what: "Density of the water at the vehicle: response, noise, rate.",
+        source: "Sea-Bird SBE 49 FastCAT data sheet; Pang 2009, section 7",
+    },
+    Entry {
         name: "altimeter",
         what: "Height above the bed by an echo along the body's down axis.",
         source: "500 kHz echo sounder class; Pang 2009, section 6",

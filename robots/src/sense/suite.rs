@@ -2,8 +2,8 @@
 
 use super::tools::Below;
 use super::{
-    Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Depth, DepthSpec, Dvl, DvlSpec,
-    Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec,
+    Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Ctd, CtdSpec, Depth, DepthSpec,
+    Dvl, DvlSpec, Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec,
 };
 use crate::error::RobotError;
 use crate::handoff::Readings;
@@ -30,6 +30,8 @@ pub struct SensorsSpec {
     pub compass: Option<CompassSpec>,
     /// Depth.
     pub depth: Option<DepthSpec>,
+    /// Density of the water.
+    pub ctd: Option<CtdSpec>,
     /// Altitude.
     pub altimeter: Option<AltimeterSpec>,
     /// Position fixes.
@@ -46,6 +48,7 @@ pub struct SensorSuite {
     adcp: Option<Adcp>,
     compass: Option<Compass>,
     depth: Option<Depth>,
+    ctd: Option<Ctd>,
     altimeter: Option<Altimeter>,
     lbl: Option<Lbl>,
     ranging: Option<Ranging>,
@@ -53,7 +56,7 @@ pub struct SensorSuite {
 
 impl SensorSuite {
     /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `altimeter`, `ranging`; compass and baseline need none).
+    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `ctd`, `altimeter`, `ranging`; compass and baseline need none).
     ///
     /// # Errors
     /// When a mount is missing or an instrument cannot be as described.
@@ -88,6 +91,9 @@ impl SensorSuite {
             depth: (spec.depth.as_ref())
                 .map(|s| Depth::new(s, place("depth")?, robot_id, seed, dt_s))
                 .transpose()?,
+            ctd: (spec.ctd.as_ref())
+                .map(|s| Ctd::new(s, place("ctd")?, robot_id, seed, dt_s))
+                .transpose()?,
             altimeter: (spec.altimeter.as_ref())
                 .map(|s| Altimeter::new(s, place("altimeter")?, robot_id, seed, dt_s))
                 .transpose()?,
@@ -117,6 +123,7 @@ impl SensorSuite {
             adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, below)),
             attitude: (self.compass.as_mut()).and_then(|s| s.read(clock, truth)),
             depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth, flow)),
+            ctd: (self.ctd.as_mut()).and_then(|s| s.read(clock, truth, flow)),
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, below)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
             ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
@@ -139,6 +146,7 @@ mod tests {
             adcp: Some(AdcpSpec::default()),
             compass: Some(CompassSpec::default()),
             depth: Some(DepthSpec::default()),
+            ctd: Some(CtdSpec::default()),
             altimeter: Some(AltimeterSpec::default()),
             lbl: Some(LblSpec::default()),
             ranging: Some(RangingSpec::default()),
@@ -169,6 +177,7 @@ mod tests {
             "adcp",
             "compass",
             "depth",
+            "ctd",
             "altimeter",
             "lbl",
             "ranging",
@@ -180,6 +189,7 @@ mod tests {
                 "adcp" => spec.adcp = None,
                 "compass" => spec.compass = None,
                 "depth" => spec.depth = None,
+                "ctd" => spec.ctd = None,
                 "altimeter" => spec.altimeter = None,
                 "lbl" => spec.lbl = None,
                 _ => spec.ranging = None,
@@ -192,6 +202,7 @@ mod tests {
                     "adcp" => r.adcp = None,
                     "compass" => r.attitude = None,
                     "depth" => r.depth = None,
+                    "ctd" => r.ctd = None,
                     "altimeter" => r.altimeter = None,
                     "lbl" => r.lbl = None,
                     _ => r.ranging = None,
@@ -200,9 +211,12 @@ mod tests {
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25, 5 and 2 Hz, and what came through of 3 fixes.
+        // 100 s at 10, 5, 1, 25, 25, 10, 5 and 2 Hz, and what came through of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
-        assert_eq!(lost, 1000 + 500 + 100 + 2500 + 2500 + 500 + 200 + fixes);
+        assert_eq!(
+            lost,
+            1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + fixes
+        );
     }
 
     #[test]

@@ -15,6 +15,11 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Wang & Pang, section II",
     },
     Entry {
+        name: "Subsumption",
+        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest that asks holds the vehicle",
+        source: "Tian et al. 2013, section 2, Fig. 3; Brooks 1986, IEEE J. Robotics and Automation RA-2, 14",
+    },
+    Entry {
         name: "OpenLoop",
         what: "rudder, stern plane and propeller from a time table",
         source: "open-loop vehicle trials (Prestero 2001, chapter 6)",

@@ -6,6 +6,7 @@ mod map_and_plan;
 mod open_loop;
 mod spec;
 mod subregions;
+mod subsumption;
 
 pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
@@ -17,4 +18,7 @@ pub use spec::{Strategy, StrategySpec, VerticalSpec};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,
     SubregionsSpec,
+};
+pub use subsumption::{
+    GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
 };

@@ -10,10 +10,9 @@ use super::spec::Strategy;
 use crate::behave::TimeTable;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Goal, LostPoints, Manoeuvre, Observation, Outcome, PlumeMemory,
-    Side, Stride, Vertical,
+    Behave, Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, PlumeMemory, Stride,
+    Vertical,
 };
-use std::num::NonZeroUsize;
 use std::sync::Arc;
 use world::seeds::Stream;
 
@@ -35,12 +34,7 @@ impl OpenLoop {
     pub fn new(spec: &OpenLoopSpec) -> Result<Self, RobotError> {
         Ok(Self {
             table: TimeTable::new(spec)?,
-            memory: PlumeMemory {
-                up_flow: None,
-                last_detection: None,
-                leaves: Side::Left,
-                lost: LostPoints::new(NonZeroUsize::MIN),
-            },
+            memory: PlumeMemory::default(),
             goal: None,
             over: false,
         })

@@ -4,6 +4,7 @@ use super::amp::{Amp, AmpSpec};
 use super::map_and_plan::{MapAndPlan, MapAndPlanSpec};
 use super::open_loop::{OpenLoop, OpenLoopSpec};
 use super::subregions::{Subregions, SubregionsSpec};
+use super::subsumption::{Subsumption, SubsumptionSpec};
 use crate::error::RobotError;
 use crate::handoff::{Decision, Observation, Setting, Vertical};
 use serde::{Deserialize, Serialize};
@@ -24,6 +25,8 @@ pub enum StrategySpec {
     Amp(AmpSpec),
     /// A map of the source, and planned paths to its likeliest cell.
     MapAndPlan(MapAndPlanSpec),
+    /// Tian's subsumption planner: the same behaviours as layers that suppress and inhibit each other.
+    Subsumption(SubsumptionSpec),
     /// Actuators from a time table.
     OpenLoop(OpenLoopSpec),
     /// One subregion after the other, each searched by another strategy.
@@ -31,6 +34,16 @@ pub enum StrategySpec {
 }
 
 impl StrategySpec {
+    /// It needs a forward ranging on board.
+    #[must_use]
+    pub fn needs_ranging(&self) -> bool {
+        match self {
+            StrategySpec::Subsumption(spec) => spec.needs_ranging(),
+            StrategySpec::Subregions(spec) => spec.search.needs_ranging(),
+            StrategySpec::Amp(_) | StrategySpec::MapAndPlan(_) | StrategySpec::OpenLoop(_) => false,
+        }
+    }
+
     /// The strategy, ready for its first tick.
     ///
     /// # Errors
@@ -39,6 +52,7 @@ impl StrategySpec {
         Ok(match self {
             StrategySpec::Amp(spec) => Box::new(Amp::new(spec)?),
             StrategySpec::MapAndPlan(spec) => Box::new(MapAndPlan::new(spec, setting)?),
+            StrategySpec::Subsumption(spec) => Box::new(Subsumption::new(spec, setting)?),
             StrategySpec::OpenLoop(spec) => Box::new(OpenLoop::new(spec)?),
             StrategySpec::Subregions(spec) => Box::new(Subregions::new(spec, setting)?),
         })

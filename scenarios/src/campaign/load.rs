@@ -18,7 +18,13 @@ macro_rules! catalog {
 }
 
 /// The campaigns that come with the program.
-pub const CAMPAIGNS: &[Template] = catalog!["duck_beta", "uniform_beta", "crab_units", "wp_maps"];
+pub const CAMPAIGNS: &[Template] = catalog![
+    "duck_beta",
+    "uniform_beta",
+    "crab_units",
+    "wp_maps",
+    "moth_plus"
+];
 
 /// Reads a campaign: a file or, where there is none, the one of that name that comes with the program.
 ///

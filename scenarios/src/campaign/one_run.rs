@@ -185,6 +185,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         paired(|g| g.offset_far_near_m),
     );
     let error = declared.and_then(|d| d.error.as_ref());
+    let evidence = declared.and_then(|d| d.evidence);
     let RunSummary { totals, .. } = summary.run;
     RunRow {
         declarations,
@@ -202,6 +203,8 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         error_m: error.map(|e| e.total_m),
         error_along_m: error.and_then(|e| e.along_flow_m),
         error_across_m: error.and_then(|e| e.across_flow_m),
+        zone_points: evidence.map(|e| f64::from(e.points)),
+        zone_since_s: evidence.map(|e| e.since_s),
         traced_m: first.and_then(|(_, traced_m)| traced_m),
         travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum::<f64>()
             + summary.gantries.iter().map(|g| g.travelled_m).sum::<f64>(),

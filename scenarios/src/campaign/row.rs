@@ -38,6 +38,10 @@ pub struct RunRow {
     pub error_along_m: Option<f64>,
     /// Part of it across the flow, right positive looking down-flow, m.
     pub error_across_m: Option<f64>,
+    /// Last detection points it rests on, where its rule is one on them.
+    pub zone_points: Option<f64>,
+    /// Time of the oldest of them, s.
+    pub zone_since_s: Option<f64>,
     /// Straight way from the first detection to the declaration, m.
     pub traced_m: Option<f64>,
     /// All declarations of all robots and gantries, in the order of time.

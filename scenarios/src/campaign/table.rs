@@ -61,7 +61,7 @@ macro_rules! maybe {
 }
 
 /// Name, whether it may be empty, and access.
-const COLUMNS: [(&str, bool, Column); 32] = [
+const COLUMNS: [(&str, bool, Column); 34] = [
     number!(run),
     text!(arm),
     text!(condition),
@@ -87,6 +87,8 @@ const COLUMNS: [(&str, bool, Column); 32] = [
     maybe!(error_m),
     maybe!(error_along_m),
     maybe!(error_across_m),
+    maybe!(zone_points),
+    maybe!(zone_since_s),
     maybe!(traced_m),
     ("declarations", false, Column::Declarations),
     number!(sources_declared),

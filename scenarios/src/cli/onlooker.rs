@@ -77,6 +77,7 @@ impl<'a> Onlooker<'a> {
                 full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
                 threshold: dye.map(|f| f.threshold.get()),
                 regions: matches!(spec.strategy, StrategySpec::Subregions(_)),
+                layered: matches!(spec.strategy, StrategySpec::Subsumption(_)),
             }
         });
         let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;

@@ -77,7 +77,7 @@ fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
                 "roll_rad": e.attitude.roll_rad,
                 "pitch_rad": e.attitude.pitch_rad,
                 "velocity_m_s": e.v_ground().as_slice(),
-                "fix_jump_m": e.fix_jump_m,
+                "fix_jump_m": e.fix_jump_m(),
             }),
             "altitude_m",
             e.altitude_m,
@@ -120,6 +120,15 @@ fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
         doing = merged(doing, json!({"region": k, "region_m": corners}));
     }
     say("behaviour", doing);
+    if !r.layers.is_empty() {
+        let names: Vec<&str> = r.layers.iter().map(|l| l.name).collect();
+        let states: Vec<_> = r.layers.iter().map(|l| l.state).collect();
+        let mut said = json!({"t_s": t_s, "layers": names, "states": states});
+        if let Some(holds) = r.holding_layer() {
+            said["holds"] = holds.into();
+        }
+        say("layers", said);
+    }
     for d in &r.declarations {
         say(&format!("declaration/{}", d.number), declaration(d));
     }
@@ -271,7 +280,7 @@ pub(super) mod tests {
             },
             v_ground_body: Vector3::x(),
             flow: None,
-            fix_jump_m: 0.0,
+            fix_jump: Vector2::zeros(),
         };
         let robot = RobotFrame {
             id: "auv0".to_owned(),
@@ -284,6 +293,7 @@ pub(super) mod tests {
             chemical: None,
             detected: false,
             behaviour: Behaviour::Find,
+            layers: std::sync::Arc::default(),
             lost_points: Vec::new(),
             planned: std::sync::Arc::default(),
             belief: None,

@@ -121,6 +121,12 @@ pub(super) const TOPICS: &[Topic] = &[
         sometimes("region", Kind::Count, "Subregion it searches, from 0; absent in transits and where the area is one."),
         sometimes("region_m", Kind::Points, "The corners of that subregion (east, north), m."),
     ]),
+    json("layers", "auv/<id>/layers", STATE_RATE, "Who holds the vehicle among the layers of its planner; absent for a strategy without layers.", &[
+        T,
+        always("layers", Kind::Words, "Their names, lowest first."),
+        always("states", Kind::Words, "How each stands: silent, holds (the vehicle), suppressed (its command is replaced by a higher layer's) or inhibited (its input is taken away)."),
+        sometimes("holds", Kind::Text, "Name of the one that holds."),
+    ]),
     json("declaration", "auv/<id>/declaration/<number>", "with the state, once made", "A source the vehicle declared; said again under the same number when it was looked at.", &[
         always("t_s", Kind::Number, "Simulated time of the declaration, s."),
         always("number", Kind::Count, "Its number among the vehicle's declarations, from 0."),

@@ -5,9 +5,10 @@ use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Belief, Command, Declaration, Estimate, Vertical};
+use robots::handoff::{Belief, Command, Declaration, Estimate, Layer, Vertical};
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use world::record::{
     Kind, McapFile, Odometry, RecordError, clock, float64, nanoseconds, point_cloud, pose_stamped,
     text, transforms, vector3_stamped,
@@ -36,6 +37,7 @@ pub struct Recorder {
     behaviours: Vec<&'static str>,
     declared: Vec<Vec<Declaration>>,
     regions: Vec<Option<u32>>,
+    layers: Vec<Arc<[Layer]>>,
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
     map_period_s: f64,
@@ -64,6 +66,7 @@ impl Recorder {
         Ok(Self {
             file,
             behaviours: Vec::new(),
+            layers: Vec::new(),
             declared: Vec::new(),
             regions: Vec::new(),
             gantries: Vec::new(),
@@ -79,7 +82,7 @@ impl Recorder {
         self
     }
 
-    /// Records one frame. Behaviours and declarations are written when they change.
+    /// Records one frame. Behaviours, layers and declarations are written when they change.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -89,6 +92,7 @@ impl Recorder {
         self.behaviours.resize(frame.robots.len(), "");
         self.declared.resize(frame.robots.len(), Vec::new());
         self.regions.resize(frame.robots.len(), None);
+        self.layers.resize_with(frame.robots.len(), Arc::default);
         for (k, robot) in frame.robots.iter().enumerate() {
             self.robot(t, k, robot)?;
             self.map(frame.t_s, robot)?;
@@ -177,6 +181,12 @@ impl Recorder {
             self.behaviours[k] = r.behaviour.name();
             put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
         }
+        if self.layers[k] != r.layers {
+            self.layers[k] = r.layers.clone();
+            put("layers", Kind::Text, &text(&layers_line(&r.layers)))?;
+            let holds = r.holding_layer().unwrap_or("");
+            put("layer", Kind::Text, &text(holds))?;
+        }
         for d in &r.declarations {
             let known = &mut self.declared[k];
             if known.contains(d) {
@@ -261,6 +271,14 @@ impl Recorder {
 
 fn believed_frame(id: &str) -> String {
     format!("{id}/estimate")
+}
+
+/// `find suppressed, maintain holds, ...`, lowest first.
+fn layers_line(layers: &[Layer]) -> String {
+    let words: Vec<String> = (layers.iter())
+        .map(|l| format!("{} {}", l.name, l.state.name()))
+        .collect();
+    words.join(", ")
 }
 
 pub(super) fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {

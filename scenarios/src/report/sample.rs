@@ -5,7 +5,7 @@ use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
-    FlowEstimate, Regions, Setpoint, Vertical,
+    FlowEstimate, Layer, LayerState, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::sync::Arc;
@@ -43,6 +43,7 @@ pub(super) fn robots() -> Vec<RobotInfo> {
         full_scale_ug_l: Some(10.0),
         threshold: Some(0.04),
         regions: false,
+        layered: true,
     }]
 }
 
@@ -91,6 +92,29 @@ pub(super) fn belief(t_s: f64) -> Belief {
         p: Arc::new(p),
         grid: Arc::new(grid),
     }
+}
+
+/// Layers of a planner that does this.
+fn layers(b: Behaviour) -> Arc<[Layer]> {
+    let names = ["find", "maintain", "reacquire", "go_home"];
+    let holds = match b {
+        Behaviour::TrackIn | Behaviour::TrackOut => 1,
+        Behaviour::Reacquire => 2,
+        Behaviour::GoHome => 3,
+        _ => 0,
+    };
+    let state = |k: usize| match k {
+        _ if k == holds => LayerState::Holds,
+        _ if holds == 3 => LayerState::Inhibited,
+        0 => LayerState::Suppressed,
+        _ => LayerState::Silent,
+    };
+    (names.iter().enumerate())
+        .map(|(k, name)| Layer {
+            name,
+            state: state(k),
+        })
+        .collect()
 }
 
 /// Frames 10 a second for `seconds`.
@@ -157,7 +181,7 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                         velocity: flow.unit() * 0.1,
                         age_s: 0.0,
                     }),
-                    fix_jump_m: 0.0,
+                    fix_jump: Vector2::zeros(),
                 },
                 goal: None,
                 command: Some(Command::Steer(Setpoint {
@@ -173,6 +197,7 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 }),
                 detected: in_plume,
                 behaviour,
+                layers: layers(behaviour),
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
                 planned: std::sync::Arc::default(),
                 belief: Some(Belief {

@@ -2,7 +2,7 @@
 
 use super::files::{ReportError, write_whole};
 use crate::gantry::GantrySummary;
-use robots::handoff::{RegionState, Verdict};
+use robots::handoff::{Evidence, RegionState, Verdict};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -98,6 +98,8 @@ pub struct DeclarationSummary {
     pub position: Position,
     /// How wrong; none in a scenario without a source.
     pub error: Option<SourceError>,
+    /// The last detection points it rests on, where the rule is one on them.
+    pub evidence: Option<Evidence>,
     /// What a look at it said.
     pub verdict: Verdict,
     /// Where the sidescan had the source, as the vehicle believed.

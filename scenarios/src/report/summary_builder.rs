@@ -66,6 +66,7 @@ impl DeclarationSummary {
             surveyed: d.surveyed.map(Position::from),
             traced_m: None,
             fix_m: None,
+            evidence: d.evidence,
         }
     }
 }

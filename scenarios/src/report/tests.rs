@@ -84,7 +84,7 @@ fn table_has_a_column_for_each_value_and_is_on_disk_at_once() {
     assert!(text.lines().all(|l| l.split(',').count() == columns));
     let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(row[..2], ["0.000", "auv0"]);
-    assert_eq!(row[columns - 1], "go_to");
+    assert_eq!(row[columns - 2..], ["go_to", "find"]);
     // Nose up in both, whatever the axes say: the believed pitch is 0.1 rad.
     assert_eq!(row[12], "5.730");
     assert_eq!(table.finish().robots[0].rows.len(), 100);
@@ -180,6 +180,7 @@ fn recording_holds_every_topic() {
         "result",
         "scenario.ron",
         "/auv0/declaration",
+        "/auv0/layers",
         "/auv0/map",
         "/plume",
     ] {

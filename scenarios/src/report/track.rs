@@ -2,7 +2,7 @@
 
 use super::files::ReportError;
 use crate::frame::{Frame, RobotFrame};
-use robots::handoff::{Behaviour, Command, Declaration, Region, RegionState, Vertical};
+use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, RegionState, Vertical};
 use std::fmt::Write as _;
 use std::fs::File;
 use std::io::Write as _;
@@ -20,6 +20,8 @@ pub struct RobotInfo {
     pub threshold: Option<f64>,
     /// Its mission has subregions.
     pub regions: bool,
+    /// Its planner has layers.
+    pub layered: bool,
 }
 
 /// One moment of one robot, as far as figures need it.
@@ -60,6 +62,8 @@ pub struct RobotTrack {
     pub regions: Arc<[Region]>,
     region: Option<u32>,
     lost_before: usize,
+    /// How the layers of its planner stood, from each time on (s) until the next, up to a bound.
+    pub layers: Vec<(f64, Arc<[Layer]>)>,
     stride: usize,
     skip: usize,
 }
@@ -85,6 +89,7 @@ impl RobotTrack {
             regions: Arc::default(),
             region: None,
             lost_before: 0,
+            layers: Vec::new(),
             stride: 1,
             skip: 0,
         }
@@ -126,6 +131,10 @@ impl RobotTrack {
             self.declarations.clone_from(&r.declarations);
         }
         self.regions = r.regions.all.clone();
+        let new = self.layers.last().is_none_or(|l| l.1 != r.layers);
+        if new && !r.layers.is_empty() && self.layers.len() < KEPT {
+            self.layers.push((t_s, r.layers.clone()));
+        }
         if self.skip > 0 {
             self.skip -= 1;
             return;
@@ -171,10 +180,14 @@ speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_
 /// A further column where a robot's mission has subregions: the one it searches, from 0; empty in transits.
 const REGION: &str = ",region";
 
+/// And one where its planner has layers: the one that holds the vehicle.
+const LAYER: &str = ",layer";
+
 /// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
 #[derive(Debug)]
 pub struct TrackTable {
     file: Option<(PathBuf, File)>,
+    layered: bool,
     line: String,
     track: Track,
     /// The table has the column of subregions.
@@ -192,9 +205,11 @@ impl TrackTable {
             source,
         };
         let mut file = File::create(path).map_err(failed)?;
+        // Only where a robot's planner has layers, or its mission subregions, is there a column for them.
         let mut table = Self::in_memory(robots);
-        let further = if table.regions { REGION } else { "" };
-        let header = format!("{HEADER}{further}\n");
+        let region = if table.regions { REGION } else { "" };
+        let layer = if table.layered { LAYER } else { "" };
+        let header = format!("{HEADER}{region}{layer}\n");
         file.write_all(header.as_bytes()).map_err(failed)?;
         table.file = Some((path.to_owned(), file));
         Ok(table)
@@ -205,6 +220,7 @@ impl TrackTable {
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
         Self {
             file: None,
+            layered: robots.iter().any(|r| r.layered),
             line: String::new(),
             regions: robots.iter().any(|r| r.regions),
             track: Track {
@@ -239,6 +255,10 @@ impl TrackTable {
                     let now = r.regions.now.map_or_else(String::new, |k| k.to_string());
                     self.line.push(',');
                     self.line.push_str(&now);
+                }
+                if self.layered {
+                    self.line.push(',');
+                    self.line.push_str(r.holding_layer().unwrap_or(""));
                 }
                 self.line.push('\n');
             }

@@ -80,6 +80,10 @@ pub enum Measure {
     TracedM,
     /// Time of the declaration, s.
     DeclaredS,
+    /// Time from the oldest last detection point that a declaration rests on to the declaration, s.
+    IdentificationS,
+    /// That time over the intervals between those points, s.
+    LcdpIntervalS,
     /// Way travelled, m, in runs that did not fail.
     TravelledM,
     /// Time from the end of a gantry's sweep to its stop, s.
@@ -117,7 +121,11 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> Unit {
         match self {
-            Measure::DeclaredS | Measure::TrackedS | Measure::CorrectCellS => Unit::Seconds,
+            Measure::DeclaredS
+            | Measure::IdentificationS
+            | Measure::LcdpIntervalS
+            | Measure::TrackedS
+            | Measure::CorrectCellS => Unit::Seconds,
             Measure::SpeedMS | Measure::NearGainMS => Unit::Speed,
             Measure::Ngdr
             | Measure::Declarations
@@ -138,6 +146,9 @@ impl Measure {
             Measure::ErrorAcrossM => r.error_across_m.map(f64::abs),
             Measure::TracedM => r.traced_m,
             Measure::DeclaredS => r.declared_s,
+            Measure::IdentificationS => less(r.declared_s, r.zone_since_s),
+            Measure::LcdpIntervalS => (less(r.declared_s, r.zone_since_s).zip(r.zone_points))
+                .and_then(|(s, n)| (n > 1.0).then(|| s / (n - 1.0))),
             Measure::TravelledM => r.error.is_none().then_some(r.travelled_m),
             Measure::TrackedS => less(r.declared_s, r.sweep_s),
             Measure::SpeedMS => r.speed_m_s,
@@ -164,6 +175,7 @@ impl Measure {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::campaign::report::sample::row;
 
     #[test]
     fn of_subregions() {
@@ -221,5 +233,28 @@ mod tests {
             ..row.clone()
         };
         assert_eq!(Measure::Declarations.of(&failed), None);
+    }
+
+    #[test]
+    fn identification_counts_from_the_zones_oldest_point() {
+        let found = RunRow {
+            declared_s: Some(900.0),
+            zone_points: Some(6.0),
+            zone_since_s: Some(400.0),
+            ..row(0, Some((1.0, 1.0)))
+        };
+        assert_eq!(Measure::IdentificationS.of(&found), Some(500.0));
+        // Six points, five intervals.
+        assert_eq!(Measure::LcdpIntervalS.of(&found), Some(100.0));
+        // One point has none; a rule on other things has no points; nothing declared, nothing measured.
+        let one = RunRow {
+            zone_points: Some(1.0),
+            ..found
+        };
+        assert_eq!(Measure::LcdpIntervalS.of(&one), None);
+        for other in [row(0, Some((1.0, 1.0))), row(1, None)] {
+            assert_eq!(Measure::IdentificationS.of(&other), None);
+            assert_eq!(Measure::LcdpIntervalS.of(&other), None);
+        }
     }
 }

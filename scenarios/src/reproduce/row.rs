@@ -150,6 +150,8 @@ const ROWS: &[(&str, &str)] = &[
     row!("dalian_bay"),
     row!("duck_mt"),
     row!("san_clemente"),
+    row!("t13_siz_t"),
+    row!("t13_siz_f"),
     row!("wp_laminar"),
     row!("wp_turbulent"),
     row!("wp_dead_end"),

@@ -76,6 +76,7 @@ pub const CATALOG: &[Template] = catalog![
     "dalian_bay",
     "duck_mt",
     "san_clemente",
+    "moth_plus",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",
@@ -89,6 +90,7 @@ pub const CATALOG: &[Template] = catalog![
     "harbour_3d",
     "reef_mesh" with "meshes/reef.obj",
     "mound" with "meshes/mound.asc",
+    "t13_siz",
 ];
 
 /// The one of that name.

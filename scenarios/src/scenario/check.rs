@@ -1,8 +1,8 @@
 //! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
 
-use super::check_obstacles;
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
+use super::{check_fitted, check_obstacles};
 use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
@@ -51,6 +51,7 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
         parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
         let setting = robot.setting(&area, &terrain, &obstacles);
         mind(i, robot, &setting, &scenario.obstacles, &mut found);
+        check_fitted::fitted(i, robot, &mut found);
     }
     let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
     twins("gantries", &gantry_ids, &mut found);

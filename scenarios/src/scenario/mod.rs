@@ -2,6 +2,7 @@
 
 mod catalog;
 mod check;
+mod check_fitted;
 mod check_obstacles;
 mod explain;
 mod fault;

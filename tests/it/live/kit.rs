@@ -7,8 +7,8 @@ use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
     Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
-    MAX_PROBES, Manoeuvre, ProbeScan, Region, RegionState, Regions, Setpoint, TrackerState,
-    Vertical,
+    Layer, LayerState, MAX_PROBES, Manoeuvre, ProbeScan, Region, RegionState, Regions, Setpoint,
+    TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -90,7 +90,7 @@ pub(super) fn frame(step: u64) -> Frame {
             velocity: Vector2::new(0.1, -0.2),
             age_s: 0.5,
         }),
-        fix_jump_m: 0.0,
+        fix_jump: Vector2::zeros(),
     };
     let vertical = Vertical::Altitude(2.0);
     let robot = RobotFrame {
@@ -120,6 +120,16 @@ pub(super) fn frame(step: u64) -> Frame {
         }),
         detected: true,
         behaviour: Behaviour::TrackIn,
+        layers: Arc::new([
+            Layer {
+                name: "find",
+                state: LayerState::Suppressed,
+            },
+            Layer {
+                name: "maintain",
+                state: LayerState::Holds,
+            },
+        ]),
         lost_points: vec![Vector2::new(1.0, 2.0)],
         planned: Arc::default(),
         belief: Some(belief()),

@@ -1,15 +1,11 @@
 use super::*;
 use crate::handoff::testing::{area, seen};
-use crate::handoff::{LostPoints, Side};
 use proptest::prelude::*;
-use std::num::NonZeroUsize;
 
 fn memory(up_deg: Option<f64>) -> PlumeMemory {
     PlumeMemory {
         up_flow: up_deg.map(Heading::from_deg),
-        last_detection: None,
-        leaves: Side::Left,
-        lost: LostPoints::new(NonZeroUsize::MIN),
+        ..PlumeMemory::default()
     }
 }
 

@@ -14,8 +14,8 @@ use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Declaration, Goal, LostPoint, LostPoints, Manoeuvre, Observation,
-    Outcome, PlumeMemory, Side, Stride, Vertical, detects,
+    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Lcdp, Manoeuvre, Observation, Outcome,
+    PlumeMemory, Stride, Vertical, detects,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -61,6 +61,7 @@ pub struct Amp {
     heeds_on_the_way: bool,
     behaviours: Behaviours,
     memory: PlumeMemory,
+    fixes: FixMove,
     now: Behaviour,
     goal: Goal,
     outcome: Option<Outcome>,
@@ -70,6 +71,7 @@ impl Amp {
     /// # Errors
     /// [`RobotError::Invalid`] when a behaviour's parameters make no sense.
     pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
+        spec.declare.check()?;
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
         Ok(Self {
             speed_m_s,
@@ -91,12 +93,8 @@ impl Amp {
                 reacquire: spec.reacquire.build()?,
                 go_home: GoHome::default(),
             },
-            memory: PlumeMemory {
-                up_flow: None,
-                last_detection: None,
-                leaves: Side::Left,
-                lost: LostPoints::new(spec.lost_points),
-            },
+            memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
+            fixes: spec.fixes,
             now: Behaviour::Idle,
             goal: Goal {
                 id: 0,
@@ -171,11 +169,8 @@ impl Amp {
 
     /// The declaration test at the end of Track-Out (section 5.6).
     fn test(&self, seen: &Observation) -> Option<Declaration> {
-        let points: Vec<_> = self.memory.lost.all().iter().map(|l| l.position).collect();
-        let position = self
-            .rule
-            .declare(&points, self.memory.up_flow_or_nose(seen))?;
-        Some(Declaration::first(seen.t_s, position, self.rule.name()))
+        let up_flow = self.memory.up_flow_or_nose(seen);
+        self.rule.declaration(seen.t_s, &self.memory, up_flow)
     }
 
     fn after_declaration(&self) -> Behaviour {
@@ -189,6 +184,7 @@ impl Amp {
         if let Some(flow) = seen.estimate.flow {
             self.memory.up_flow = Some(flow.up_flow());
         }
+        self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
             Behaviour::GoHome | Behaviour::Done => false,
             Behaviour::Idle | Behaviour::GoTo => {
@@ -198,10 +194,7 @@ impl Amp {
         };
         let detected = heeded && detects(seen);
         if detected {
-            self.memory.last_detection = Some(LostPoint {
-                t_s: seen.t_s,
-                position: seen.estimate.position,
-            });
+            self.memory.last_detection = Some(Lcdp::here(seen));
         }
         detected
     }

@@ -3,6 +3,7 @@
 use super::super::spec::VerticalSpec;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
+use crate::handoff::{FixMove, LCDPS};
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::{Finite, Positive};
@@ -29,6 +30,10 @@ pub struct AmpSpec {
     pub declare: DeclareSpec,
     /// Length of the lost-points list (section 5.3: 6).
     pub lost_points: NonZeroUsize,
+    /// Most last detection points that the SIZ rules look at; the oldest are forgotten (Tian et al. 2013 keep all: 1000).
+    pub lcdps: NonZeroUsize,
+    /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
+    pub fixes: FixMove,
     /// What follows the declaration.
     pub after_declaration: AfterDeclaration,
 }
@@ -45,6 +50,8 @@ impl Default for AmpSpec {
             reacquire: ReacquireSpec::default(),
             declare: DeclareSpec::default(),
             lost_points: NonZeroUsize::new(6).expect("6 is not zero"),
+            lcdps: LCDPS,
+            fixes: FixMove::default(),
             after_declaration: AfterDeclaration::default(),
         }
     }

@@ -15,11 +15,10 @@ use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::declare::BeliefRule;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Belief, Decision, Declaration, Goal, LostPoints, Manoeuvre, Observation,
-    Outcome, PlumeMemory, Setting, Side, Stride, Vertical,
+    Behave, Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome,
+    PlumeMemory, Setting, Stride, Vertical,
 };
 use nalgebra::{Vector2, Vector3};
-use std::num::NonZeroUsize;
 use std::sync::Arc;
 use world::seeds::Stream;
 use world::units::Heading;
@@ -79,12 +78,7 @@ impl MapAndPlan {
             find: spec.find.build()?,
             rule: BeliefRule::new(&spec.declare),
             pilot: Pilot::new(spec, setting)?,
-            memory: PlumeMemory {
-                up_flow: None,
-                last_detection: None,
-                leaves: Side::Left,
-                lost: LostPoints::new(NonZeroUsize::MIN),
-            },
+            memory: PlumeMemory::default(),
             now: Behaviour::Idle,
             goal: Goal {
                 id: 0,

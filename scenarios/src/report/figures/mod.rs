@@ -7,6 +7,7 @@ pub(crate) mod canvas;
 mod contours;
 mod convergence;
 mod flume;
+mod layers_panel;
 mod map;
 mod map_layers;
 mod map_legend;

@@ -1,6 +1,7 @@
 //! Time series of one robot: depth over the bed, altitude, reading, behaviour, position error.
 
 use super::canvas::{Anchor, Canvas};
+use super::layers_panel::layers;
 use super::panel::Panel;
 use super::series_panels as panels;
 use crate::report::{RobotTrack, RunReport};
@@ -12,14 +13,18 @@ const HEIGHT: f64 = 128.0;
 
 /// The series of one robot as SVG.
 pub(in super::super) fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
-    let kinds: [panels::Draw; 5] = [
+    let mut kinds: Vec<panels::Draw> = vec![
         panels::depth,
         panels::altitude,
         panels::reading,
         panels::behaviour,
         panels::position_error,
     ];
-    let mut c = Canvas::new(LEFT + WIDTH + 24.0, 40.0 + 5.0 * (HEIGHT + GAP) + 44.0);
+    if !t.layers.is_empty() {
+        kinds.insert(4, layers);
+    }
+    let high = 40.0 + kinds.len() as f64 * (HEIGHT + GAP) + 44.0;
+    let mut c = Canvas::new(LEFT + WIDTH + 24.0, high);
     let title = format!(
         "{} · seed {} · {}",
         run.summary.scenario, run.summary.seed, t.info.id

@@ -1,0 +1,331 @@
+//! Looks round the newest last detection point in leaves, one of them down-flow.
+//!
+//! *Source*: Tian et al. 2013, section 3, Fig. 4b (after Li, Farrell, Pang & Arrieta 2006).
+//!
+//! *Parameters*: N_re, `repetitions`, 2 (2 or 3 in the field); length of a leaf, `leaf_m`, m, larger than the turning
+//! radius `turn_radius_m`, about 15: 16 here; number of leaves, `leaves`, not given: 4;
+//! arrival at a leaf's corners within `arrive_m`, m, not given: 5.
+//!
+//! *Deviations*: Fig. 4b does not stand in the text and the leaves are not counted there. n straight ways through the
+//! point, 360°/n apart, joined by turns outside, make n leaves; each is as wide as 180° - 360°/n and its sides are
+//! `leaf_m` long. With four the turns close in circles when `leaf_m` is the turning radius, which is the paper's bound; the
+//! bound for n leaves is turn_radius / tan(90° - 180°/n). The corners are flown to by Go To Point, "the most robust mode" (Pang
+//! 2009, section 4.1): lines to be entered with their heading lead a vehicle of 2 m/s far astray in a flow of 1 m/s. The first
+//! way starts up-flow of the point on the vehicle's side and leads into the down-flow leaf; a last one back to the
+//! point closes the last leaf. Centre and flow are taken anew at each repetition. Corners are held 10 m inside the
+//! area. At its end the list of lost points is emptied, as the bowties leave it, so that the next search round begins
+//! at a new one; the queue of last detection points stays.
+
+use crate::error::RobotError;
+use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::num::NonZeroU32;
+use world::math;
+use world::ranges::Positive;
+use world::seeds::Stream;
+use world::units::Heading;
+
+/// Points are held this far inside the area, m: the cage's 5 m and as much again.
+const MARGIN_M: f64 = 10.0;
+
+/// Parameters of the behaviour.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Params {
+    /// N_re: how often all leaves are flown.
+    pub repetitions: NonZeroU32,
+    /// Leaves, 3 to 8.
+    pub leaves: NonZeroU32,
+    /// Length of a leaf's sides, m.
+    pub leaf_m: Positive,
+    /// Turning radius that the leaves must have room for, m.
+    pub turn_radius_m: Positive,
+    /// A leaf's corner is reached within this distance, m.
+    pub arrive_m: Positive,
+}
+
+impl Default for Params {
+    fn default() -> Self {
+        Self {
+            repetitions: NonZeroU32::new(2).expect("2 is not zero"),
+            leaves: NonZeroU32::new(4).expect("4 is not zero"),
+            leaf_m: Positive::new(16.0),
+            turn_radius_m: Positive::new(15.0),
+            arrive_m: Positive::new(5.0),
+        }
+    }
+}
+
+/// State of the behaviour.
+#[derive(Clone, Debug)]
+pub struct Cloverleaf {
+    repetitions: u32,
+    leaves: u32,
+    leaf_m: f64,
+    arrive_m: f64,
+    /// Corners begun since it was entered.
+    begun: u32,
+    /// Where the first way leads: down-flow turned by half a leaf; and the way round.
+    first: Heading,
+    turn: Side,
+    centre: Vector2<f64>,
+}
+
+impl Cloverleaf {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the leaves are too few, too many or too short to be flown.
+    pub fn new(params: &Params) -> Result<Self, RobotError> {
+        let invalid = |field: &str, problem: String| RobotError::Invalid {
+            field: format!("reacquire.Cloverleaf.{field}"),
+            problem,
+        };
+        let leaves = params.leaves.get();
+        if !(3..=8).contains(&leaves) {
+            return Err(invalid("leaves", format!("must be 3 to 8, got {leaves}")));
+        }
+        let least_m = params.turn_radius_m.get() / math::tan(half_leaf(leaves));
+        if params.leaf_m.get() < least_m {
+            return Err(invalid(
+                "leaf_m",
+                format!(
+                    "{leaves} leaves must be {least_m:.1} m or longer to close in turns of {} m, got {}",
+                    params.turn_radius_m.get(),
+                    params.leaf_m.get()
+                ),
+            ));
+        }
+        Ok(Self {
+            repetitions: params.repetitions.get(),
+            leaves,
+            leaf_m: params.leaf_m.get(),
+            arrive_m: params.arrive_m.get(),
+            begun: 0,
+            first: Heading::from_deg(0.0),
+            turn: Side::Right,
+            centre: Vector2::zeros(),
+        })
+    }
+
+    /// The corner of the given number: of each way its start and its end, and after the last of them the centre.
+    fn corner(&self, number: u32, seen: &Observation) -> Vector2<f64> {
+        if number == self.corners() {
+            return self.centre;
+        }
+        let way = (number / 2) % self.leaves;
+        let round = TAU * f64::from(way) / f64::from(self.leaves);
+        let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m;
+        let from_centre = if number.is_multiple_of(2) {
+            -along
+        } else {
+            along
+        };
+        inside(&seen.area, self.centre + from_centre, MARGIN_M)
+    }
+
+    /// Corners of all repetitions, and one that leads back into the last leaf's second side.
+    fn corners(&self) -> u32 {
+        2 * self.leaves * self.repetitions + 1
+    }
+}
+
+/// Angle between a leaf's middle and its sides, rad.
+fn half_leaf(leaves: u32) -> f64 {
+    FRAC_PI_2 - PI / f64::from(leaves)
+}
+
+impl Behave for Cloverleaf {
+    fn enter(&mut self, _: &Observation, _: &PlumeMemory) {
+        self.begun = 0;
+    }
+
+    fn step(
+        &mut self,
+        seen: &Observation,
+        arrived: bool,
+        memory: &mut PlumeMemory,
+        _: &mut Stream,
+    ) -> Stride {
+        if self.begun > 0 && !arrived {
+            return Stride::Keep;
+        }
+        let number = self.begun;
+        if number.is_multiple_of(2 * self.leaves) && number + 1 < self.corners() {
+            let Some(point) = memory.lcdps.newest() else {
+                return Stride::Over;
+            };
+            self.centre = inside(&seen.area, point.position, MARGIN_M);
+            let up_flow = memory.up_flow_or_nose(seen);
+            if number == 0 {
+                let right = up_flow.turned(FRAC_PI_2).unit();
+                // From the vehicle's side across to the other; then the way round that closes this leaf.
+                self.turn = Side::of((seen.estimate.position - self.centre).dot(&right));
+            }
+            let half = half_leaf(self.leaves);
+            self.first = up_flow.opposite().turned(self.turn.sign() * half);
+        }
+        if number > self.corners() {
+            memory.lost.clear();
+            return Stride::Over;
+        }
+        self.begun += 1;
+        Stride::Start(Manoeuvre::GoToPoint {
+            point: self.corner(number, seen),
+            radius_m: Some(self.arrive_m),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::Lcdp;
+    use crate::handoff::testing::seen;
+
+    fn v(east: f64, north: f64) -> Vector2<f64> {
+        Vector2::new(east, north)
+    }
+
+    fn memory(at: Vector2<f64>, up_deg: f64) -> PlumeMemory {
+        let mut m = PlumeMemory {
+            up_flow: Some(Heading::from_deg(up_deg)),
+            ..PlumeMemory::default()
+        };
+        m.lose(Lcdp::at(0.0, v(500.0, 0.0)), Heading::from_deg(up_deg));
+        m.lose(Lcdp::at(1.0, at), Heading::from_deg(up_deg));
+        m
+    }
+
+    /// All corners asked for until the end, the vehicle staying at `here`.
+    fn corners(params: &Params, m: &mut PlumeMemory, here: Vector2<f64>) -> Vec<Vector2<f64>> {
+        let mut b = Cloverleaf::new(params).expect("legal");
+        let mut rng = Stream::new(1, "t", "t");
+        let o = seen(0.0, here, 0.0, None);
+        b.enter(&o, m);
+        let mut found = Vec::new();
+        loop {
+            match b.step(&o, !found.is_empty(), m, &mut rng) {
+                Stride::Start(Manoeuvre::GoToPoint { point, radius_m }) => {
+                    assert_eq!(radius_m, Some(params.arrive_m.get()));
+                    found.push(point);
+                }
+                Stride::Over => return found,
+                other => panic!("a corner or the end, got {other:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn four_leaves_by_hand() {
+        let params = Params {
+            leaf_m: Positive::new(20.0),
+            ..Params::default()
+        };
+        // Up-flow is north; the vehicle is up-flow of the point and to its right.
+        let mut m = memory(v(10.0, 20.0), 0.0);
+        let found = corners(&params, &mut m, v(12.0, 40.0));
+        let d = 20.0 / 2f64.sqrt();
+        // Through the point to the south-west, north-west, north-east, south-east: always turning right. The first two
+        // make the southern leaf.
+        let ends = [(-d, -d), (-d, d), (d, d), (d, -d)];
+        assert_eq!(found.len(), 18, "two rounds of four ways, and back");
+        for k in 0..8 {
+            let end = v(ends[k % 4].0, ends[k % 4].1);
+            assert!((found[2 * k] - v(10.0, 20.0) + end).norm() < 1e-9, "{k}");
+            assert!(
+                (found[2 * k + 1] - v(10.0, 20.0) - end).norm() < 1e-9,
+                "{k}"
+            );
+        }
+        // The last leaf's second side, and home to the point.
+        assert!((found[16] - found[0]).norm() < 1e-9);
+        assert_eq!(found[17], v(10.0, 20.0));
+        assert_eq!(m.lost.all().len(), 0);
+        assert_eq!(m.lcdps.all().len(), 2);
+        // From the left it is the mirror image.
+        let found = corners(&params, &mut memory(v(10.0, 20.0), 0.0), v(8.0, 40.0));
+        assert!((found[1] - v(10.0 + d, 20.0 - d)).norm() < 1e-9);
+        assert!((found[3] - v(10.0 + d, 20.0 + d)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn one_leaf_lies_down_flow_for_any_number_and_any_flow() {
+        for leaves in 3..=8 {
+            for up_deg in [0.0, 77.0, 180.0, 333.0] {
+                let params = Params {
+                    leaves: NonZeroU32::new(leaves).expect("not zero"),
+                    leaf_m: Positive::new(30.0),
+                    ..Params::default()
+                };
+                let found = corners(&params, &mut memory(v(0.0, 0.0), up_deg), v(0.0, 5.0));
+                // Out to the end of the first way, back from the start of the second: the leaf's middle is down-flow.
+                let down = Heading::from_deg(up_deg).opposite();
+                assert!(Heading::of(found[1] + found[2]).turn_to(down).abs() < 1e-9);
+                // The ways turn all to the same side, 360/n degrees each.
+                let ways: Vec<Heading> = (found.chunks_exact(2).take(leaves as usize))
+                    .map(|w| Heading::of(w[1] - w[0]))
+                    .collect();
+                for w in ways.windows(2) {
+                    let turn = w[0].turn_to(w[1]).abs();
+                    assert!((turn - TAU / f64::from(leaves)).abs() < 1e-9);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn held_inside_the_area_even_in_its_corner() {
+        // North-east corner at (200, 300).
+        let mut m = memory(v(230.0, 330.0), 0.0);
+        for p in corners(&Params::default(), &mut m, v(190.0, 290.0)) {
+            assert!(p.x <= 190.0 && p.y <= 290.0);
+        }
+    }
+
+    #[test]
+    fn over_without_a_point() {
+        let nothing = &mut PlumeMemory::default();
+        assert!(corners(&Params::default(), nothing, v(0.0, 0.0)).is_empty());
+    }
+
+    #[test]
+    fn keeps_its_corner_until_it_arrives() {
+        let mut b = Cloverleaf::new(&Params::default()).expect("legal");
+        let (mut m, mut rng) = (memory(v(0.0, 0.0), 0.0), Stream::new(1, "t", "t"));
+        let o = seen(0.0, v(1.0, 9.0), 0.0, None);
+        b.enter(&o, &m);
+        assert!(matches!(
+            b.step(&o, false, &mut m, &mut rng),
+            Stride::Start(_)
+        ));
+        assert_eq!(b.step(&o, false, &mut m, &mut rng), Stride::Keep);
+        assert!(matches!(
+            b.step(&o, true, &mut m, &mut rng),
+            Stride::Start(_)
+        ));
+        // Entered again it begins again.
+        b.enter(&o, &m);
+        assert!(matches!(
+            b.step(&o, false, &mut m, &mut rng),
+            Stride::Start(_)
+        ));
+    }
+
+    #[test]
+    fn leaves_that_cannot_be_flown_are_refused() {
+        let with = |leaves, leaf_m| {
+            Cloverleaf::new(&Params {
+                leaves: NonZeroU32::new(leaves).expect("not zero"),
+                leaf_m: Positive::new(leaf_m),
+                ..Params::default()
+            })
+        };
+        assert!(with(2, 100.0).is_err());
+        // Four close at 15 m, three at 15 sqrt(3) = 26 m.
+        assert!(with(4, 14.9).is_err());
+        assert!(with(4, 15.1).is_ok());
+        assert!(with(3, 25.9).is_err());
+        assert!(with(3, 26.0).is_ok());
+    }
+}

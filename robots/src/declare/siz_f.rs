@@ -1,0 +1,243 @@
+//! Declares the most up-flow of enough last detection points that lie near their mean, the others left aside.
+//!
+//! *Source*: Tian et al. 2013, section 3, eq. 5, algorithm 2.
+//!
+//! *Parameters*: ε_F, `size: Fixed`, m, 6; N_min, `points`, 6; N_ini, `initial`, not given.
+//!
+//! *Deviations*: algorithm 2 as printed tests for the result inside the loop and would give up after its first removal;
+//! here the loop goes on until it finds or too few are left, as the text says. At least N_min must be left (the
+//! algorithm), not more than N_min (the text). Of equally far points the most down-flow one goes first. N_ini is 1,
+//! which does nothing: the paper says that it matters only for very small N_min.
+
+use super::zone_size::ZoneSize;
+use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::Positive;
+use world::units::Heading;
+
+/// The rule's parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SizF {
+    /// Greatest distance from the mean, m.
+    pub size: ZoneSize,
+    /// N_min: so many must be left.
+    pub points: NonZeroUsize,
+    /// N_ini: so many there must be before anything is declared.
+    pub initial: NonZeroUsize,
+}
+
+impl Default for SizF {
+    fn default() -> Self {
+        Self {
+            size: ZoneSize::Fixed(Positive::new(6.0)),
+            points: NonZeroUsize::new(6).expect("6 is not zero"),
+            initial: NonZeroUsize::MIN,
+        }
+    }
+}
+
+impl SizF {
+    /// The most up-flow (east, north), m, of those of `points` (in order of time) that remain near their mean, if they
+    /// are enough, and what it rests on. `fix_m`, what a navigation fix errs along an axis, m, matters to an adaptive size only.
+    #[must_use]
+    pub fn declare(
+        &self,
+        points: &[Lcdp],
+        up_flow: Heading,
+        fix_m: f64,
+    ) -> Option<(Vector2<f64>, Evidence)> {
+        if points.len() < self.initial.get() {
+            return None;
+        }
+        let eps_m = self.size.radius_m(points, up_flow, fix_m);
+        let mut left = most_up_flow_first(points, up_flow);
+        while left.len() >= self.points.get() {
+            let sum: Vector2<f64> = left.iter().map(|p| p.position).sum();
+            let mean = sum / left.len() as f64;
+            let far = |p: &Lcdp| (p.position - mean).norm();
+            // The last of equals: the most down-flow one.
+            let (k, most) =
+                (left.iter().enumerate()).max_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
+            if far(most) <= eps_m {
+                return Some((left.first()?.position, Evidence::of(&left)));
+            }
+            left.remove(k);
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::AdaptiveSize;
+    use crate::handoff::testing::fixed;
+    use proptest::prelude::*;
+
+    fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
+        let point = |(k, (east, north)): (usize, &(f64, f64))| {
+            Lcdp::at(k as f64, Vector2::new(*east, *north))
+        };
+        places.iter().enumerate().map(point).collect()
+    }
+
+    fn rule(eps_m: f64, points: usize) -> SizF {
+        SizF {
+            size: ZoneSize::Fixed(Positive::new(eps_m)),
+            points: NonZeroUsize::new(points).expect("some points"),
+            initial: NonZeroUsize::MIN,
+        }
+    }
+
+    fn found(rule: &SizF, up_deg: f64, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
+        rule.declare(&list(places), Heading::from_deg(up_deg), 0.0)
+            .map(|(place, _)| place)
+    }
+
+    #[test]
+    fn by_hand() {
+        // Three near (0, 100), two left behind on the way up-flow.
+        let places = [
+            (0.0, 20.0),
+            (0.0, 60.0),
+            (1.0, 99.0),
+            (-1.0, 100.0),
+            (0.0, 101.0),
+        ];
+        // Mean 76: 20 is 56 m off and goes; mean 90: 60 goes; then mean 100, farthest sqrt(2) m at most.
+        assert_eq!(
+            found(&rule(1.5, 3), 0.0, &places),
+            Some(Vector2::new(0.0, 101.0))
+        );
+        // Four are not left within 1.5 m.
+        assert_eq!(found(&rule(1.5, 4), 0.0, &places), None);
+        // 60, 99, 100, 101 within 30 m of their mean, 90: found with four.
+        assert_eq!(
+            found(&rule(30.0, 4), 0.0, &places),
+            Some(Vector2::new(0.0, 101.0))
+        );
+        // Just as far as the size will do.
+        assert_eq!(
+            found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]),
+            Some(Vector2::new(0.0, 4.0))
+        );
+    }
+
+    #[test]
+    fn flow_turned_about_declares_the_other_end() {
+        let places = [(0.0, 1.0), (0.0, 0.0), (0.0, -1.0)];
+        for (up_deg, north) in [(0.0, 1.0), (180.0, -1.0)] {
+            assert_eq!(
+                found(&rule(6.0, 3), up_deg, &places),
+                Some(Vector2::new(0.0, north))
+            );
+        }
+        // Each point carries the flow of its time; only the present one counts.
+        let mut points = list(&places);
+        for (k, p) in points.iter_mut().enumerate() {
+            let turned = if k % 2 == 0 { 1.0 } else { -1.0 };
+            p.flow = Some(Vector2::new(0.0, turned));
+        }
+        let (place, evidence) = rule(6.0, 3)
+            .declare(&points, Heading::from_deg(0.0), 0.0)
+            .expect("near");
+        assert_eq!(place, Vector2::new(0.0, 1.0));
+        assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
+    }
+
+    #[test]
+    fn degenerate_clusters() {
+        assert_eq!(found(&rule(6.0, 1), 0.0, &[]), None);
+        assert_eq!(found(&rule(6.0, 3), 0.0, &[(1.0, 1.0); 2]), None);
+        let one = Some(Vector2::new(1.0, 1.0));
+        assert_eq!(found(&rule(1e-9, 3), 77.0, &[(1.0, 1.0); 3]), one);
+        // In a line across the flow all are equally up-flow: the rightmost, for good.
+        let line = [(0.0, 5.0), (4.0, 5.0), (2.0, 5.0)];
+        assert_eq!(
+            found(&rule(6.0, 3), 0.0, &line),
+            Some(Vector2::new(0.0, 5.0))
+        );
+        // Two pairs equally far: the down-flow pair goes first, whatever came first.
+        for places in [
+            [(0.0, 0.0), (0.0, 0.0), (0.0, 80.0), (0.0, 80.0)],
+            [(0.0, 80.0), (0.0, 0.0), (0.0, 80.0), (0.0, 0.0)],
+        ] {
+            assert_eq!(
+                found(&rule(6.0, 2), 0.0, &places),
+                Some(Vector2::new(0.0, 80.0))
+            );
+        }
+    }
+
+    #[test]
+    fn waits_for_n_ini() {
+        let late = SizF {
+            initial: NonZeroUsize::new(5).expect("5 > 0"),
+            ..rule(6.0, 3)
+        };
+        assert_eq!(found(&late, 0.0, &[(1.0, 1.0); 4]), None);
+        assert!(found(&late, 0.0, &[(1.0, 1.0); 5]).is_some());
+    }
+
+    #[test]
+    fn an_adaptive_size_waits_for_headway_to_end() {
+        let adaptive = SizF {
+            size: ZoneSize::Adaptive(AdaptiveSize::default()),
+            ..rule(6.0, 6)
+        };
+        let up = Heading::from_deg(0.0);
+        // Headway of 2 m a point, 0.1 m across: the fixed zone declares on the way, the adaptive one does not.
+        let way: Vec<_> = (0..6)
+            .map(|k| (0.1 * f64::from(k % 2), 2.0 * f64::from(k)))
+            .collect();
+        assert!(rule(6.0, 6).declare(&list(&way), up, 0.0).is_some());
+        assert!(adaptive.declare(&list(&way), up, 0.0).is_none());
+        // No headway, 8 m either side across the flow: the fixed zone is too small for it.
+        let wide: Vec<_> = (0..6)
+            .map(|k| (16.0 * f64::from(k % 2), f64::from(k)))
+            .collect();
+        assert!(rule(6.0, 6).declare(&list(&wide), up, 0.0).is_none());
+        let (place, _) = adaptive.declare(&list(&wide), up, 0.0).expect("no headway");
+        assert_eq!(place, Vector2::new(16.0, 5.0));
+    }
+
+    proptest! {
+        #![proptest_config(fixed(256))]
+
+        // The order in time does not matter to a fixed size; what is declared is a point with enough others near it.
+        #[test]
+        fn order_does_not_matter_and_the_answer_has_company(
+            places in proptest::collection::vec((-15.0..15.0f64, -15.0..15.0f64), 0..20),
+            deg in 0.0..360.0f64, turn in 0usize..20,
+        ) {
+            let r = rule(6.0, 6);
+            let answer = found(&r, deg, &places);
+            let mut mixed = places.clone();
+            mixed.reverse();
+            if !mixed.is_empty() {
+                let by = turn % mixed.len();
+                mixed.rotate_left(by);
+            }
+            prop_assert_eq!(answer, found(&r, deg, &mixed));
+            if let Some(a) = answer {
+                let near = places.iter().filter(|(e, n)| (Vector2::new(*e, *n) - a).norm() <= 12.0);
+                prop_assert!(near.count() >= 6);
+            }
+        }
+
+        // Six points within 6 m of each other and none else within reach of their company are always found.
+        #[test]
+        fn a_lone_cluster_is_found(
+            cluster in proptest::collection::vec((-2.0..2.0f64, -2.0..2.0f64), 6..9),
+            far in proptest::collection::vec((100.0..200.0f64, 100.0..200.0f64), 0..2),
+        ) {
+            let all: Vec<_> = cluster.iter().chain(&far).copied().collect();
+            let a = found(&rule(6.0, 6), 0.0, &all).expect("a cluster of six");
+            let most = cluster.iter().map(|p| p.1).fold(f64::NEG_INFINITY, f64::max);
+            prop_assert_eq!(a.y, most);
+        }
+    }
+}

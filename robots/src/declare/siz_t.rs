@@ -1,0 +1,196 @@
+//! Declares when the newest last detection points lie in a small box.
+//!
+//! *Source*: Tian et al. 2013, section 3, eq. 2-4, algorithm 1.
+//!
+//! *Parameters*: ε_T, `size: Fixed`, m, 4; N_dec, `points`, 6; N_ini, `initial`, not given. Before the missions of 2002
+//! ε_T = 3 m and N_dec = 3, with which nothing was declared.
+//!
+//! *Deviations*: none by default. N_ini is 1, which does nothing: the paper says that it matters only for very small
+//! N_dec. `size: Adaptive` takes twice the adaptive radius for the diagonal.
+
+use super::zone_size::ZoneSize;
+use crate::handoff::{Evidence, Lcdp};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::Positive;
+use world::units::Heading;
+
+/// The rule's parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SizT {
+    /// Greatest diagonal of the points' bounding box (axes east and north), m.
+    pub size: ZoneSize,
+    /// N_dec: how many of the newest points are looked at.
+    pub points: NonZeroUsize,
+    /// N_ini: so many there must be before anything is declared.
+    pub initial: NonZeroUsize,
+}
+
+impl Default for SizT {
+    fn default() -> Self {
+        Self {
+            size: ZoneSize::Fixed(Positive::new(4.0)),
+            points: NonZeroUsize::new(6).expect("6 is not zero"),
+            initial: NonZeroUsize::MIN,
+        }
+    }
+}
+
+impl SizT {
+    /// The mean (east, north), m, of the newest of `points` (in order of time), if they lie close enough together, and
+    /// what it rests on.
+    /// `up_flow` and `fix_m`, what a navigation fix errs along an axis, m, matter to an adaptive size only.
+    #[must_use]
+    pub fn declare(
+        &self,
+        points: &[Lcdp],
+        up_flow: Heading,
+        fix_m: f64,
+    ) -> Option<(Vector2<f64>, Evidence)> {
+        let n = self.points.get();
+        if points.len() < n.max(self.initial.get()) {
+            return None;
+        }
+        let newest = &points[points.len() - n..];
+        let first = newest[0].position;
+        let (low, high) = newest.iter().fold((first, first), |(l, h), p| {
+            (l.inf(&p.position), h.sup(&p.position))
+        });
+        let mean = newest.iter().map(|p| p.position).sum::<Vector2<f64>>() / n as f64;
+        let near = (high - low).norm() <= self.size.diagonal_m(points, up_flow, fix_m);
+        near.then(|| (mean, Evidence::of(newest)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::AdaptiveSize;
+    use crate::handoff::testing::fixed;
+    use proptest::prelude::*;
+
+    const NORTH: f64 = 0.0;
+
+    fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
+        let point = |(k, (east, north)): (usize, &(f64, f64))| {
+            Lcdp::at(k as f64, Vector2::new(*east, *north))
+        };
+        places.iter().enumerate().map(point).collect()
+    }
+
+    fn rule(eps_m: f64, points: usize) -> SizT {
+        SizT {
+            size: ZoneSize::Fixed(Positive::new(eps_m)),
+            points: NonZeroUsize::new(points).expect("some points"),
+            initial: NonZeroUsize::MIN,
+        }
+    }
+
+    fn found(rule: &SizT, places: &[(f64, f64)]) -> Option<Vector2<f64>> {
+        rule.declare(&list(places), Heading::from_deg(NORTH), 0.0)
+            .map(|(place, _)| place)
+    }
+
+    #[test]
+    fn by_hand() {
+        // A box of 3 by 4 m: its diagonal is 5 m; the mean of the three newest is (11, 21).
+        let places = [(90.0, 90.0), (10.0, 20.0), (13.0, 19.0), (10.0, 24.0)];
+        assert_eq!(
+            found(&rule(5.9, 3), &places),
+            Some(Vector2::new(11.0, 21.0))
+        );
+        // 3 by 5 m: sqrt(34) = 5.83.
+        assert_eq!(found(&rule(5.8, 3), &places), None);
+        // The fourth is 80 m off.
+        assert_eq!(found(&rule(5.9, 4), &places), None);
+        // A diagonal just as long as the size will do: 3, 4, 5.
+        let just = [(0.0, 0.0), (3.0, 4.0)];
+        assert_eq!(found(&rule(5.0, 2), &just), Some(Vector2::new(1.5, 2.0)));
+    }
+
+    #[test]
+    fn degenerate_clusters() {
+        assert_eq!(found(&rule(4.0, 3), &[]), None);
+        assert_eq!(found(&rule(4.0, 3), &[(1.0, 1.0), (1.0, 1.0)]), None);
+        // All in one place; all in a line.
+        assert_eq!(
+            found(&rule(1e-9, 3), &[(1.0, 1.0); 3]),
+            Some(Vector2::new(1.0, 1.0))
+        );
+        let line = [(0.0, 0.0), (2.0, 0.0), (4.0, 0.0)];
+        assert_eq!(found(&rule(4.0, 3), &line), Some(Vector2::new(2.0, 0.0)));
+        assert_eq!(found(&rule(3.9, 3), &line), None);
+    }
+
+    #[test]
+    fn rests_on_the_newest() {
+        let places = [(90.0, 90.0), (10.0, 20.0), (13.0, 19.0), (10.0, 24.0)];
+        let up = Heading::from_deg(NORTH);
+        let (_, evidence) = rule(5.9, 3).declare(&list(&places), up, 0.0).expect("near");
+        assert_eq!((evidence.points, evidence.since_s), (3, 1.0));
+    }
+
+    #[test]
+    fn waits_for_n_ini() {
+        let late = SizT {
+            initial: NonZeroUsize::new(5).expect("5 > 0"),
+            ..rule(4.0, 3)
+        };
+        assert_eq!(found(&late, &[(1.0, 1.0); 4]), None);
+        assert!(found(&late, &[(1.0, 1.0); 5]).is_some());
+    }
+
+    #[test]
+    fn the_flow_does_not_matter_unless_the_size_adapts() {
+        let points = list(&[(0.0, 0.0), (3.0, 0.0), (0.0, 1.0), (3.0, 1.0)]);
+        for deg in [0.0, 90.0, 180.0] {
+            let up = Heading::from_deg(deg);
+            assert!(rule(4.0, 4).declare(&points, up, 0.0).is_some());
+        }
+        let adaptive = SizT {
+            size: ZoneSize::Adaptive(AdaptiveSize {
+                least_m: Positive::new(0.5),
+                ..AdaptiveSize::default()
+            }),
+            ..rule(4.0, 4)
+        };
+        // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them too.
+        assert!(
+            adaptive
+                .declare(&points, Heading::from_deg(0.0), 0.0)
+                .is_some()
+        );
+        // Stretched to 6 m along an eastward flow it holds them no more, but a fix that errs by 3 m explains them.
+        let longer = list(&[(0.0, 0.0), (6.0, 0.0), (0.0, 1.0), (6.0, 1.0)]);
+        let east = Heading::from_deg(270.0);
+        assert!(adaptive.declare(&longer, east, 0.0).is_none());
+        assert!(adaptive.declare(&longer, east, 3.0).is_some());
+    }
+
+    proptest! {
+        #![proptest_config(fixed(256))]
+
+        // Older points than N_dec and the order among the newest do not matter; a shift moves the answer.
+        #[test]
+        fn only_the_newest_count_in_any_order(
+            places in proptest::collection::vec((-4.0..4.0f64, -4.0..4.0f64), 6..12), eps in 3.0..12.0f64,
+            shift in -1000.0..1000.0f64,
+        ) {
+            let r = rule(eps, 6);
+            let whole = found(&r, &places);
+            let mut newest = places[places.len() - 6..].to_vec();
+            newest.reverse();
+            let turned = found(&r, &newest);
+            prop_assert_eq!(whole.is_some(), turned.is_some());
+            if let (Some(a), Some(b)) = (whole, turned) {
+                prop_assert!((a - b).norm() < 1e-12);
+                let moved: Vec<_> = places.iter().map(|(e, n)| (e + shift, *n)).collect();
+                // Rounding may push a diagonal over the limit: a hair's breadth more is allowed.
+                let c = found(&rule(eps + 1e-9, 6), &moved).expect("the same box elsewhere");
+                prop_assert!((c - a - Vector2::new(shift, 0.0)).norm() < 1e-9);
+            }
+        }
+    }
+}

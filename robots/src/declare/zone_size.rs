@@ -1,0 +1,203 @@
+//! How large a source identification zone is: fixed, or growing with the scatter of the points across the flow.
+//!
+//! *Source*: Tian et al. 2013, section 3: fixed sizes ε_T, ε_F, with sizes that adapt named as future work in section 6;
+//! the robust scale is the median absolute deviation (Hampel 1974, J. Am. Stat. Assoc. 69, 383).
+//!
+//! *Parameters*: of `Adaptive`: share of the scatter to be held, `coverage`, 0.95; newest points looked at, `look_back`,
+//! 12; bounds of the radius, `least_m`, 2 (half of ε_T = 4 m) and `most_m`, 15 (the vehicle's turning radius: places
+//! farther apart than that are told apart by its own leaves).
+//!
+//! *Deviations*: the papers give no rule for adapting; ours: on the way to the source the last detection points move on
+//! along the flow but scatter across it, by the plume's width and by navigation. Once they scatter no more along the flow
+//! than across it, there is no headway any more. So the zone is a circle that would hold `coverage` of points scattered
+//! normally in both directions as they are across the flow: r = σ √(-2 ln(1 - coverage)), with
+//! σ = 1.4826 times the median absolute deviation of y_flow, and never less than a navigation fix errs along an axis.
+
+use crate::error::RobotError;
+use crate::handoff::Lcdp;
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::math;
+use world::ranges::{Fraction, Positive};
+use world::units::Heading;
+
+/// Median absolute deviation of a normal distribution of scale 1, inverted.
+const MAD_TO_SCALE: f64 = 1.482_602_218_505_602;
+
+/// The size of a zone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum ZoneSize {
+    /// ε, m, in the meaning of the rule: a diagonal for `SizT`, a radius for `SizF`.
+    Fixed(Positive),
+    /// By the scatter of the points.
+    Adaptive(AdaptiveSize),
+}
+
+/// Parameters of a size by the scatter of the points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AdaptiveSize {
+    /// Share of the points scattered round the source that the zone is to hold, 0 < coverage < 1.
+    pub coverage: Fraction,
+    /// How many of the newest points the scatter is taken from.
+    pub look_back: NonZeroUsize,
+    /// Least radius, m.
+    pub least_m: Positive,
+    /// Greatest radius, m.
+    pub most_m: Positive,
+}
+
+impl Default for AdaptiveSize {
+    fn default() -> Self {
+        Self {
+            coverage: Fraction::new(0.95),
+            look_back: NonZeroUsize::new(12).expect("12 is not zero"),
+            least_m: Positive::new(2.0),
+            most_m: Positive::new(15.0),
+        }
+    }
+}
+
+impl AdaptiveSize {
+    /// Radius of the zone, m, from points in order of time; `fix_m`: what a navigation fix errs along an axis, m.
+    #[must_use]
+    pub fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
+        let newest = points.len().saturating_sub(self.look_back.get());
+        let across: Vec<f64> = (points[newest..].iter())
+            .map(|p| p.in_flow(up_flow).y)
+            .collect();
+        let scale_m = robust_scale(across).max(fix_m);
+        let radius_m = scale_m * (-2.0 * math::ln(1.0 - self.coverage.get())).sqrt();
+        radius_m.clamp(self.least_m.get(), self.most_m.get())
+    }
+}
+
+impl ZoneSize {
+    /// The radius a rule compares with, m: `Fixed` as it stands, or the adaptive one.
+    pub(super) fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
+        match self {
+            Self::Fixed(eps_m) => eps_m.get(),
+            Self::Adaptive(a) => a.radius_m(points, up_flow, fix_m),
+        }
+    }
+
+    /// The diagonal a rule compares with, m: `Fixed` as it stands, or twice the adaptive radius.
+    pub(super) fn diagonal_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
+        match self {
+            Self::Fixed(eps_m) => eps_m.get(),
+            Self::Adaptive(a) => 2.0 * a.radius_m(points, up_flow, fix_m),
+        }
+    }
+
+    /// # Errors
+    /// [`RobotError::Invalid`] when the bounds contradict each other.
+    pub(super) fn check(&self, field: &str) -> Result<(), RobotError> {
+        let Self::Adaptive(a) = self else {
+            return Ok(());
+        };
+        let invalid = |name: &str, problem: String| {
+            Err(RobotError::Invalid {
+                field: format!("{field}.Adaptive.{name}"),
+                problem,
+            })
+        };
+        let coverage = a.coverage.get();
+        if coverage <= 0.0 || coverage >= 1.0 {
+            return invalid(
+                "coverage",
+                format!("must be > 0 and < 1, got {coverage}: no circle holds nothing, or all"),
+            );
+        }
+        if a.most_m.get() < a.least_m.get() {
+            return invalid(
+                "most_m",
+                format!(
+                    "must be >= least_m = {}, got {}",
+                    a.least_m.get(),
+                    a.most_m.get()
+                ),
+            );
+        }
+        Ok(())
+    }
+}
+
+/// 1.4826 times the median absolute deviation from the median; zero of nothing.
+fn robust_scale(values: Vec<f64>) -> f64 {
+    let Some(middle) = median(values.clone()) else {
+        return 0.0;
+    };
+    let off = values.into_iter().map(|v| (v - middle).abs()).collect();
+    median(off).map_or(0.0, |m| m * MAD_TO_SCALE)
+}
+
+fn median(mut values: Vec<f64>) -> Option<f64> {
+    values.sort_by(f64::total_cmp);
+    let n = values.len();
+    (n > 0).then(|| (values[(n - 1) / 2] + values[n / 2]) / 2.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::Vector2;
+
+    fn across(easts: &[f64]) -> Vec<Lcdp> {
+        let point = |(k, east): (usize, &f64)| {
+            // Far apart along the flow: that does not count.
+            Lcdp::at(k as f64, Vector2::new(*east, 40.0 * k as f64))
+        };
+        easts.iter().enumerate().map(point).collect()
+    }
+
+    #[test]
+    fn by_hand() {
+        let a = AdaptiveSize::default();
+        let north = Heading::from_deg(0.0);
+        // Median 2, deviations 2 1 0 1 98: median 1, so sigma = 1.4826; times sqrt(-2 ln 0.05) = 2.4477.
+        let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 0.0);
+        assert!((r - 1.482_602_2 * 2.447_746_8).abs() < 1e-6, "{r}");
+        // A fix that errs by 5 m is the greater.
+        let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 5.0);
+        assert!((r - 5.0 * 2.447_746_8).abs() < 1e-6, "{r}");
+        // Bounds: nothing scattered, everything scattered; no point at all.
+        assert_eq!(a.radius_m(&across(&[7.0; 6]), north, 0.0), 2.0);
+        assert_eq!(a.radius_m(&across(&[0.0, 50.0, 100.0]), north, 0.0), 15.0);
+        assert_eq!(a.radius_m(&[], north, 0.0), 2.0);
+    }
+
+    #[test]
+    fn looks_at_the_newest_points_only() {
+        let a = AdaptiveSize {
+            look_back: NonZeroUsize::new(3).expect("3 > 0"),
+            ..AdaptiveSize::default()
+        };
+        let north = Heading::from_deg(0.0);
+        let old = a.radius_m(&across(&[-30.0, 60.0, 0.0, 1.0, 2.0]), north, 0.0);
+        let new = a.radius_m(&across(&[0.0, 1.0, 2.0]), north, 0.0);
+        assert_eq!(old, new);
+        // Turned by a quarter the scatter across is the 40 m steps.
+        assert_eq!(
+            a.radius_m(&across(&[0.0, 1.0, 2.0]), Heading::from_deg(90.0), 0.0),
+            15.0
+        );
+    }
+
+    #[test]
+    fn bounds_that_contradict_each_other_are_refused() {
+        let with = |change: fn(&mut AdaptiveSize)| {
+            let mut a = AdaptiveSize::default();
+            change(&mut a);
+            ZoneSize::Adaptive(a).check("declare.SizF.size")
+        };
+        assert!(with(|_| ()).is_ok());
+        assert!(with(|a| a.coverage = Fraction::new(1.0)).is_err());
+        assert!(with(|a| a.coverage = Fraction::new(0.0)).is_err());
+        let e = with(|a| a.most_m = Positive::new(1.0)).expect_err("1 < 2");
+        assert!(
+            e.to_string().contains("declare.SizF.size.Adaptive.most_m"),
+            "{e}"
+        );
+    }
+}

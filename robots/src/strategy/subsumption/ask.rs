@@ -1,0 +1,85 @@
+//! What a layer asks for, and the layers' names.
+
+use crate::handoff::{Behaviour, Manoeuvre, Stride};
+
+/// The kinds of layers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Find,
+    Maintain,
+    Reacquire,
+    Declare,
+    Avoid,
+    PlumeMap,
+    GoHome,
+}
+
+impl Kind {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Kind::Find => "find",
+            Kind::Maintain => "maintain",
+            Kind::Reacquire => "reacquire",
+            Kind::Declare => "declare",
+            Kind::Avoid => "avoid",
+            Kind::PlumeMap => "plume_map",
+            Kind::GoHome => "go_home",
+        }
+    }
+
+    /// Its name in the scenario.
+    pub(super) fn variant(self) -> &'static str {
+        match self {
+            Kind::Find => "Find",
+            Kind::Maintain => "Maintain",
+            Kind::Reacquire => "Reacquire",
+            Kind::Declare => "Declare",
+            Kind::Avoid => "Avoid",
+            Kind::PlumeMap => "PlumeMap",
+            Kind::GoHome => "GoHome",
+        }
+    }
+}
+
+/// What a layer asks for.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ask {
+    pub(super) kind: Kind,
+    /// What it does, in the field's words.
+    pub(super) behaviour: Behaviour,
+    pub(super) manoeuvre: Manoeuvre,
+    /// A goal of its own, not the last one changed.
+    pub(super) anew: bool,
+}
+
+impl Ask {
+    /// An ask, if there is a manoeuvre.
+    pub(super) fn of(
+        kind: Kind,
+        behaviour: Behaviour,
+        manoeuvre: Option<Manoeuvre>,
+        anew: bool,
+    ) -> Option<Self> {
+        manoeuvre.map(|manoeuvre| Self {
+            kind,
+            behaviour,
+            manoeuvre,
+            anew,
+        })
+    }
+}
+
+/// Keeps what a behaviour asks for; true when that is a new goal.
+pub(super) fn keep(command: &mut Option<Manoeuvre>, stride: Stride) -> bool {
+    match stride {
+        Stride::Start(manoeuvre) => {
+            *command = Some(manoeuvre);
+            true
+        }
+        Stride::Adjust(manoeuvre) => {
+            *command = Some(manoeuvre);
+            false
+        }
+        Stride::Keep | Stride::Over => false,
+    }
+}

@@ -1,0 +1,213 @@
+//! From the layers of a scenario to layers that can work together: which may be missing, and which order makes sense.
+
+use super::ask::Kind;
+use super::maintain::Maintain;
+use super::plume::PlumeLayers;
+use super::plume_map::PlumeMap;
+use super::spec::{LayerSpec, SubsumptionSpec};
+use crate::behave::{GoHome, SoftAvoid};
+use crate::declare::DeclareSpec;
+use crate::error::RobotError;
+use crate::handoff::Setting;
+
+fn kind(layer: &LayerSpec) -> Kind {
+    match layer {
+        LayerSpec::Find(_) => Kind::Find,
+        LayerSpec::Maintain(_) => Kind::Maintain,
+        LayerSpec::Reacquire(_) => Kind::Reacquire,
+        LayerSpec::Declare(_) => Kind::Declare,
+        LayerSpec::Avoid(_) => Kind::Avoid,
+        LayerSpec::PlumeMap(_) => Kind::PlumeMap,
+        LayerSpec::GoHome(_) => Kind::GoHome,
+    }
+}
+
+/// The layers at work.
+#[derive(Debug)]
+pub(super) struct Layers {
+    /// Their order, lowest first.
+    pub(super) order: Vec<Kind>,
+    pub(super) plume: PlumeLayers,
+    pub(super) declare: Option<DeclareSpec>,
+    pub(super) avoid: Option<SoftAvoid>,
+    pub(super) go_home: Option<GoHome>,
+}
+
+/// Which layer must stand above which, and why.
+const ABOVE: &[(Kind, Kind, &str)] = &[
+    (
+        Kind::Maintain,
+        Kind::Find,
+        "Find always asks for the vehicle: a layer below it would never hold it",
+    ),
+    (
+        Kind::Reacquire,
+        Kind::Find,
+        "Find always asks for the vehicle: a layer below it would never hold it",
+    ),
+    (
+        Kind::PlumeMap,
+        Kind::Find,
+        "PlumeMap takes the place of Find's command",
+    ),
+    (
+        Kind::Avoid,
+        Kind::Find,
+        "Avoid turns the commands of the layers below it, and there is none below it",
+    ),
+    (
+        Kind::Reacquire,
+        Kind::Maintain,
+        "Reacquire looks for what Maintain has lost",
+    ),
+    (
+        Kind::Declare,
+        Kind::Find,
+        "a declaration must not wait for a layer that always asks",
+    ),
+    (
+        Kind::Declare,
+        Kind::Maintain,
+        "a declaration must not wait for the end of the tracing",
+    ),
+    (
+        Kind::Declare,
+        Kind::Reacquire,
+        "a declaration must not wait for the end of the search round a lost point",
+    ),
+    (
+        Kind::GoHome,
+        Kind::Find,
+        "Go-Home takes their input from the layers below it",
+    ),
+    (
+        Kind::GoHome,
+        Kind::Maintain,
+        "Go-Home takes their input from the layers below it",
+    ),
+    (
+        Kind::GoHome,
+        Kind::Reacquire,
+        "Go-Home takes their input from the layers below it",
+    ),
+    (
+        Kind::GoHome,
+        Kind::Declare,
+        "Go-Home takes their input from the layers below it",
+    ),
+    (
+        Kind::GoHome,
+        Kind::PlumeMap,
+        "Go-Home takes their input from the layers below it",
+    ),
+];
+
+fn wrong(field: &str, problem: String) -> RobotError {
+    RobotError::Invalid {
+        field: format!("strategy.Subsumption.{field}"),
+        problem,
+    }
+}
+
+/// The order, if it makes sense.
+fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
+    let order: Vec<Kind> = spec.layers.iter().map(kind).collect();
+    let place = |kind: Kind| order.iter().position(|k| *k == kind);
+    for (i, kind) in order.iter().enumerate() {
+        let first = place(*kind).unwrap_or(i);
+        if first < i {
+            let name = kind.variant();
+            let problem =
+                format!("{name} is there already, as layers[{first}]; each layer stands once");
+            return Err(wrong(&format!("layers[{i}]"), problem));
+        }
+    }
+    for (kind, why) in [
+        (
+            Kind::Find,
+            "nothing would move the vehicle before the first detection",
+        ),
+        (Kind::Maintain, "detections would count for nothing"),
+    ] {
+        if place(kind).is_none() {
+            let name = kind.variant();
+            return Err(wrong(
+                "layers",
+                format!("there is no {name}: {why}; add {name}(...)"),
+            ));
+        }
+    }
+    if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
+        let problem =
+            "GoHome waits for a declaration, and there is no Declare; add one, or leave GoHome out";
+        return Err(wrong(&format!("layers[{i}]"), problem.into()));
+    }
+    for (upper, lower, why) in ABOVE {
+        if let (Some(i), Some(j)) = (place(*upper), place(*lower))
+            && i < j
+        {
+            let (u, l) = (upper.variant(), lower.variant());
+            let problem = format!("{u} must stand above (after) {l}, layers[{j}]: {why}");
+            return Err(wrong(&format!("layers[{i}]"), problem));
+        }
+    }
+    Ok(order)
+}
+
+impl Layers {
+    pub(super) fn new(spec: &SubsumptionSpec, setting: &Setting) -> Result<Self, RobotError> {
+        let order = order(spec)?;
+        let mut find = None;
+        let mut maintain = None;
+        let (mut reacquire, mut declare, mut go_home) = (None, None, None);
+        let (mut avoid, mut plume_map) = (None, None);
+        for (i, layer) in spec.layers.iter().enumerate() {
+            let here = |e: RobotError| within(i, e);
+            match layer {
+                LayerSpec::Find(f) => find = Some(f.build().map_err(here)?),
+                LayerSpec::Maintain(m) => maintain = Some(Maintain::new(m).map_err(here)?),
+                LayerSpec::Reacquire(r) => reacquire = Some(r.build().map_err(here)?),
+                LayerSpec::Declare(rule) => {
+                    rule.check().map_err(here)?;
+                    declare = Some(rule.clone());
+                }
+                LayerSpec::Avoid(p) => {
+                    avoid = Some(SoftAvoid::new(p, setting.bed.clone()).map_err(here)?);
+                }
+                LayerSpec::PlumeMap(p) if setting.maps => plume_map = Some(PlumeMap::new(p)),
+                LayerSpec::PlumeMap(_) => {
+                    let problem = "goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Hmm()";
+                    return Err(wrong(&format!("layers[{i}]"), problem.into()));
+                }
+                LayerSpec::GoHome(_) => go_home = Some(GoHome::default()),
+            }
+        }
+        Ok(Self {
+            order,
+            plume: PlumeLayers::new(
+                find.expect("the order has a Find"),
+                maintain.expect("the order has a Maintain"),
+                reacquire,
+                plume_map,
+            ),
+            declare,
+            avoid,
+            go_home,
+        })
+    }
+}
+
+/// A part's error with the layer it is in: `reacquire.Bowtie.angle_deg` becomes `layers[2].angle_deg`.
+fn within(layer: usize, error: RobotError) -> RobotError {
+    match error {
+        RobotError::Invalid { field, problem } => {
+            // What a layer consists of one part only is not named in its path; Maintain's two parts are.
+            let inner = ["find.", "reacquire.", "declare.", "avoid."]
+                .iter()
+                .find_map(|part| field.strip_prefix(part))
+                .unwrap_or(&field);
+            wrong(&format!("layers[{layer}].{inner}"), problem)
+        }
+        file @ RobotError::File { .. } => file,
+    }
+}

@@ -1,0 +1,108 @@
+//! Which compositions are refused, and how the map comes in.
+
+use super::testing::{
+    Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said, setting,
+};
+use super::{LayerSpec, Subsumption, SubsumptionSpec};
+use crate::behave::AvoidParams;
+use crate::handoff::{Behaviour, Manoeuvre};
+use nalgebra::Vector2;
+
+#[test]
+fn the_map_leads_the_search_once_and_nothing_but_the_search() {
+    let mut d = Desk::new(all());
+    d.map = Some(Vector2::new(50.0, 100.0));
+    let led = d.quiet(0.0);
+    assert_eq!(
+        (said(&led).as_str(), led.behaviour),
+        ("s....H.", Behaviour::FollowPath)
+    );
+    let Manoeuvre::GoToPoint { point, .. } = led.goal.manoeuvre else {
+        panic!("it goes to a place");
+    };
+    // 30 m down-flow, to the south, of the middle of a cell of 10 m.
+    assert!(
+        (point - Vector2::new(50.0, 70.0)).norm() < 10.0,
+        "{point:?}"
+    );
+    // The obstacle comes before the map, although the layer stands below it.
+    d.obstacle = true;
+    assert_eq!(said(&d.quiet(0.0)), "s...Hs.");
+    d.obstacle = false;
+    d.t_s += 20.0;
+    assert_eq!(said(&d.quiet(0.0)), "s....H.");
+    let there = d.arrive(70.0);
+    assert_eq!(
+        (said(&there).as_str(), there.behaviour),
+        ("H......", Behaviour::Find)
+    );
+    // The same place again is no news, another one is, and so is the same after a detection.
+    assert_eq!(said(&d.quiet(71.0)), "H......");
+    d.map = Some(Vector2::new(50.0, 200.0));
+    assert_eq!(said(&d.quiet(72.0)), "s....H.");
+    assert_eq!(said(&d.smell(73.0)), "sH.....");
+    d.t_s += 5.0;
+    assert_eq!(said(&d.quiet(80.0)), "sH.....");
+    assert_eq!(said(&d.arrive(90.0)), "s.H....");
+    for _ in 0..3 {
+        assert_eq!(said(&d.arrive(90.0)), "s.H....");
+    }
+    assert_eq!(said(&d.arrive(90.0)), "s....H.");
+}
+
+#[test]
+fn compositions_that_make_no_sense_are_refused() {
+    let refused = |layers: Vec<LayerSpec>, maps| {
+        Subsumption::new(&SubsumptionSpec::of(layers), &setting(maps))
+            .expect_err("makes no sense")
+            .to_string()
+    };
+    for (layers, says) in [
+        (vec![], "layers: there is no Find"),
+        (vec![find()], "layers: there is no Maintain"),
+        (
+            vec![find(), maintain(), find()],
+            "layers[2]: Find is there already, as layers[0]",
+        ),
+        (
+            vec![maintain(), find()],
+            "layers[0]: Maintain must stand above (after) Find, layers[1]",
+        ),
+        (
+            vec![find(), reacquire(), maintain()],
+            "layers[1]: Reacquire must stand above",
+        ),
+        (
+            vec![find(), maintain(), declare(), reacquire()],
+            "layers[2]: Declare must stand above",
+        ),
+        (
+            vec![find(), maintain(), go_home()],
+            "layers[2]: GoHome waits for a declaration",
+        ),
+        (
+            vec![find(), maintain(), go_home(), declare()],
+            "layers[2]: GoHome must stand above",
+        ),
+    ] {
+        let got = refused(layers, true);
+        assert!(
+            got.starts_with(&format!("strategy.Subsumption.{says}")),
+            "{got}"
+        );
+    }
+    let got = refused(vec![find(), maintain(), plume_map()], false);
+    assert!(
+        got.starts_with("strategy.Subsumption.layers[2]: goes where the robot's map"),
+        "{got}"
+    );
+    let wrong = AvoidParams {
+        near_m: world::ranges::Positive::new(40.0),
+        ..AvoidParams::default()
+    };
+    let got = refused(vec![find(), maintain(), LayerSpec::Avoid(wrong)], false);
+    assert_eq!(
+        got,
+        "strategy.Subsumption.layers[2].near_m: must be less than heed_m, 35, got 40"
+    );
+}

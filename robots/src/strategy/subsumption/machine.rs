@@ -1,0 +1,273 @@
+//! The subsumption planner: each tick the layers ask from the lowest up, and the highest that asks holds the vehicle.
+//!
+//! *Source*: Tian et al. 2013, section 2, Fig. 3: Find-Plume, Maintain-Plume, Reacquire-Plume, Declare-Source,
+//! Avoid-Obstacle, Construct-Plume-Map, and Go-Home; suppression and inhibition: Brooks 1986, IEEE J. Robotics and
+//! Automation RA-2, 14.
+//!
+//! *Parameters*: see [`SubsumptionSpec`].
+//!
+//! *Deviations*: the paper names the mechanisms, not which wire carries which. Here a layer that asks while a higher one
+//! holds the vehicle is suppressed: its command is replaced. A layer whose input is taken away is inhibited: it does not
+//! look, and asks for nothing; that is what Go-Home does to all layers below it once a source is declared. Find asks
+//! always. Maintain asks from a detection until it loses the plume, Reacquire from then until a detection or its end: they
+//! never ask together. A search that was suppressed begins afresh when it gets the vehicle back, as in Pang 2009, Fig. 5.
+//! Declare asks when its rule is met at the end of Track-Out (Pang 2009, section 5.6) and holds the vehicle for
+//! the one tick of the declaration; suppressed by Avoid it asks on, and declares afterwards. Avoid replaces
+//! the command of the layer that would hold the vehicle by one turned away from what is in its way. Layers suppressed by
+//! Avoid go on watching but do not arrive, unless Avoid gives up. Where Construct-Plume-Map goes in: `plume_map.rs`. Without a Go-Home layer the
+//! mission is over with the declaration. A cage abort ends it at once.
+
+use super::super::spec::Strategy;
+use super::ask::{Ask, Kind, keep};
+use super::compose::Layers;
+use super::plume::Asked;
+use super::spec::SubsumptionSpec;
+use crate::declare::DeclareSpec;
+use crate::error::RobotError;
+use crate::handoff::{
+    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Layer, LayerState, Lcdp, Manoeuvre,
+    Observation, Outcome, PlumeMemory, Setting, Stride, Vertical, detects,
+};
+use nalgebra::Vector2;
+use std::sync::Arc;
+use world::seeds::Stream;
+
+/// State of the planner.
+#[derive(Debug)]
+pub struct Subsumption {
+    fixes: FixMove,
+    layers: Layers,
+    memory: PlumeMemory,
+    /// What the rule says: Declare asks.
+    declaring: Option<Declaration>,
+    /// The way home has begun, and what was asked for on it.
+    homing: bool,
+    home: Option<Manoeuvre>,
+    holder: Option<Kind>,
+    /// Whose command Avoid turns away.
+    under_avoid: Option<Kind>,
+    states: Arc<[Layer]>,
+    behaviour: Behaviour,
+    goal: Goal,
+    outcome: Option<Outcome>,
+}
+
+impl Subsumption {
+    /// # Errors
+    /// [`RobotError::Invalid`] when the layers make no sense together, or a layer's parameters none.
+    pub fn new(spec: &SubsumptionSpec, setting: &Setting) -> Result<Self, RobotError> {
+        let layers = Layers::new(spec, setting)?;
+        let silent = |k: &Kind| Layer {
+            name: k.name(),
+            state: LayerState::Silent,
+        };
+        Ok(Self {
+            fixes: spec.fixes,
+            states: layers.order.iter().map(silent).collect(),
+            layers,
+            memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
+            declaring: None,
+            homing: false,
+            home: None,
+            holder: None,
+            under_avoid: None,
+            behaviour: Behaviour::Idle,
+            goal: Goal {
+                id: 0,
+                manoeuvre: Manoeuvre::GoToPoint {
+                    point: Vector2::zeros(),
+                    radius_m: None,
+                },
+                vertical: Vertical::from(spec.vertical),
+                speed_m_s: spec.speed_m_s.get(),
+            },
+            outcome: None,
+        })
+    }
+
+    /// Takes in what is new; true on a detection that reaches the plume's layers.
+    fn observe(&mut self, seen: &Observation) -> bool {
+        if let Some(flow) = seen.estimate.flow {
+            self.memory.up_flow = Some(flow.up_flow());
+        }
+        self.memory.take_fixes(seen, self.fixes);
+        let detected = !self.homing && detects(seen);
+        if detected {
+            self.memory.last_detection = Some(Lcdp::here(seen));
+        }
+        detected
+    }
+
+    /// What the rule says now.
+    fn test(&self, seen: &Observation) -> Option<Declaration> {
+        let up_flow = self.memory.up_flow_or_nose(seen);
+        let rule = self.layers.declare.as_ref()?;
+        rule.declaration(seen.t_s, &self.memory, up_flow)
+    }
+
+    /// The way home; `None` at its end.
+    fn go_home(
+        &mut self,
+        seen: &Observation,
+        arrived: Option<Kind>,
+        rng: &mut Stream,
+    ) -> Option<Ask> {
+        let home = self.layers.go_home.as_mut()?;
+        let stride = home.step(seen, arrived == Some(Kind::GoHome), &mut self.memory, rng);
+        let anew = keep(&mut self.home, stride);
+        let way = self.home.filter(|_| stride != Stride::Over);
+        Ask::of(Kind::GoHome, Behaviour::GoHome, way, anew)
+    }
+
+    /// From the lowest layer up: who asks, who is suppressed or inhibited, who holds.
+    fn arbitrate(&mut self, seen: &Observation, asked: &Asked, home: Option<Ask>) -> Option<Ask> {
+        let (homing, declaring) = (self.homing, self.declaring.is_some());
+        let Layers { order, avoid, .. } = &mut self.layers;
+        let place = |kind| order.iter().position(|k| *k == kind);
+        let from = place(Kind::GoHome).filter(|_| homing).unwrap_or(0);
+        let mut states = vec![LayerState::Silent; order.len()];
+        states[..from].fill(LayerState::Inhibited);
+        let mut holder: Option<Ask> = None;
+        for (k, kind) in order.iter().enumerate().skip(from) {
+            let of = |behaviour, manoeuvre| Ask {
+                kind: *kind,
+                behaviour,
+                manoeuvre,
+                anew: false,
+            };
+            let ask = match kind {
+                Kind::Find => asked.find,
+                Kind::Maintain => asked.maintain,
+                Kind::Reacquire => asked.reacquire,
+                Kind::Declare => {
+                    (holder.filter(|_| declaring)).map(|h| of(h.behaviour, h.manoeuvre))
+                }
+                Kind::Avoid => holder.and_then(|h| {
+                    self.under_avoid = Some(h.kind);
+                    let away = avoid.as_mut()?.step(seen, &h.manoeuvre)?;
+                    Some(of(Behaviour::Avoid, away))
+                }),
+                Kind::GoHome => home,
+                // Its command stands in Find's place, below.
+                Kind::PlumeMap => None,
+            };
+            let Some(ask) = ask else { continue };
+            if let Some(below) = holder.and_then(|h| place(h.kind)) {
+                states[below] = LayerState::Suppressed;
+            }
+            (states[k], holder) = (LayerState::Holds, Some(ask));
+            if *kind == Kind::Find
+                && let (Some(map), Some(i)) = (asked.plume_map, place(Kind::PlumeMap))
+            {
+                (states[k], states[i]) = (LayerState::Suppressed, LayerState::Holds);
+                holder = Some(map);
+            }
+        }
+        self.publish(&states);
+        holder
+    }
+
+    fn publish(&mut self, states: &[LayerState]) {
+        let same = self.states.iter().zip(states).all(|(l, s)| l.state == *s);
+        if !same {
+            let now = self.states.iter().zip(states);
+            self.states = now
+                .map(|(l, state)| Layer {
+                    state: *state,
+                    ..*l
+                })
+                .collect();
+        }
+    }
+
+    fn command(&mut self, ask: &Ask) {
+        if ask.anew || self.holder != Some(ask.kind) {
+            self.goal.id += 1;
+        }
+        self.goal.manoeuvre = ask.manoeuvre;
+        self.behaviour = ask.behaviour;
+        self.holder = Some(ask.kind);
+    }
+
+    /// Declares; the goal stands for this one tick.
+    fn declare(&mut self, seen: &Observation) -> Option<Declaration> {
+        let declared = self.declaring.take()?;
+        self.holder = Some(Kind::Declare);
+        match &mut self.layers.go_home {
+            Some(home) => {
+                home.enter(seen, &self.memory);
+                self.homing = true;
+            }
+            None => self.end(Outcome::Completed),
+        }
+        Some(Declaration {
+            t_s: seen.t_s,
+            ..declared
+        })
+    }
+
+    fn end(&mut self, outcome: Outcome) {
+        self.outcome = Some(outcome);
+        self.behaviour = Behaviour::Done;
+        self.publish(&vec![LayerState::Silent; self.states.len()]);
+    }
+
+    fn run(&mut self, seen: &Observation, rng: &mut Stream) -> Option<Declaration> {
+        let detected = self.observe(seen);
+        let reached = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
+        let mut arrived = self.holder.filter(|_| reached);
+        if let (Some(Kind::Avoid), Some(avoid)) = (self.holder, &mut self.layers.avoid)
+            && avoid.gives_up(seen.t_s)
+        {
+            arrived = self.under_avoid;
+        }
+        let (mut asked, mut home) = (Asked::default(), None);
+        if self.homing {
+            home = self.go_home(seen, arrived, rng);
+            if home.is_none() {
+                self.end(Outcome::Completed);
+                return None;
+            }
+        } else {
+            let plume = &mut self.layers.plume;
+            asked = plume.step(seen, detected, arrived, &mut self.memory, rng);
+            if asked.out_ended && self.declaring.is_none() {
+                self.declaring = self.test(seen);
+            }
+        }
+        let holder = self.arbitrate(seen, &asked, home)?;
+        if holder.kind == Kind::Declare {
+            return self.declare(seen);
+        }
+        self.command(&holder);
+        None
+    }
+}
+
+impl Strategy for Subsumption {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        let mut declared = None;
+        if self.outcome.is_none() {
+            if seen.guidance.aborted {
+                self.end(Outcome::Aborted);
+            } else {
+                declared = self.run(seen, rng);
+            }
+        }
+        let points = match &self.layers.declare {
+            Some(DeclareSpec::SizT(_) | DeclareSpec::SizF(_)) => self.memory.lcdps.all(),
+            _ => self.memory.lost.all(),
+        };
+        Decision {
+            behaviour: self.behaviour,
+            goal: self.goal,
+            declared,
+            lost_points: points.iter().map(|l| l.position).collect(),
+            planned: Arc::default(),
+            layers: self.states.clone(),
+            picture: false,
+            regions: Default::default(),
+            outcome: self.outcome,
+        }
+    }
+}

@@ -1,0 +1,114 @@
+//! Maintain-Plume: Track-In from a detection on, Track-Out after a silence.
+//!
+//! *Source*: Tian et al. 2013, section 3, Fig. 4a; Pang 2009, sections 5.3, 5.4 and 5.6.
+//!
+//! *Parameters*: those of the behaviours it is made of.
+//!
+//! *Deviations*: the papers mean different things by Track-Out. In Pang 2009 it is a way of its own that begins after λ s
+//! without a detection; in Tian et al. 2013 it is the silence itself, and after λ s of it Reacquire begins. Both are here:
+//! with a Track-Out behaviour the first, without one the second, where the course of the last detection is kept.
+
+use super::spec::MaintainSpec;
+use crate::error::RobotError;
+use crate::handoff::{Behave, Behaviour, Observation, PlumeMemory, Stride};
+use world::seeds::Stream;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Phase {
+    Off,
+    In,
+    Out,
+}
+
+/// What became of the contact with the plume in a tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Contact {
+    /// Track-Out has ended, by a detection or without: the declaration is to be tested.
+    pub(super) out_ended: bool,
+    /// Contact is lost.
+    pub(super) lost: bool,
+}
+
+/// State of the layer.
+#[derive(Debug)]
+pub(super) struct Maintain {
+    track_in: Box<dyn Behave>,
+    track_out: Option<Box<dyn Behave>>,
+    phase: Phase,
+    /// The newest chemical reading was a detection.
+    smells: bool,
+}
+
+impl Maintain {
+    pub(super) fn new(spec: &MaintainSpec) -> Result<Self, RobotError> {
+        Ok(Self {
+            track_in: spec.track_in.build()?,
+            track_out: spec.track_out.as_ref().map(|t| t.build()).transpose()?,
+            phase: Phase::Off,
+            smells: false,
+        })
+    }
+
+    /// It asks for the vehicle.
+    pub(super) fn active(&self) -> bool {
+        self.phase != Phase::Off
+    }
+
+    /// What it does, in the field's words.
+    pub(super) fn behaviour(&self) -> Behaviour {
+        let silent = self.track_out.is_none() && !self.smells;
+        match self.phase {
+            Phase::Out => Behaviour::TrackOut,
+            Phase::In if silent => Behaviour::TrackOut,
+            Phase::In | Phase::Off => Behaviour::TrackIn,
+        }
+    }
+
+    /// One tick; `arrived`: the goal last given for it has been reached. The stride is the last behaviour's to act.
+    pub(super) fn step(
+        &mut self,
+        seen: &Observation,
+        detected: bool,
+        arrived: bool,
+        memory: &mut PlumeMemory,
+        rng: &mut Stream,
+    ) -> (Stride, Contact) {
+        let mut contact = Contact::default();
+        if seen.chemical.is_some() {
+            self.smells = detected;
+        }
+        if detected && self.phase != Phase::In {
+            contact.out_ended = self.phase == Phase::Out;
+            self.phase = Phase::In;
+            self.track_in.enter(seen, memory);
+        }
+        let mut arrived = arrived && !contact.out_ended;
+        if self.phase == Phase::In {
+            let stride = self.track_in.step(seen, arrived, memory, rng);
+            if stride != Stride::Over {
+                return (stride, contact);
+            }
+            let Some(track_out) = &mut self.track_out else {
+                return (Stride::Over, self.lose());
+            };
+            self.phase = Phase::Out;
+            track_out.enter(seen, memory);
+            arrived = false;
+        }
+        match (self.phase, &mut self.track_out) {
+            (Phase::Out, Some(track_out)) => match track_out.step(seen, arrived, memory, rng) {
+                Stride::Over => (Stride::Over, self.lose()),
+                stride => (stride, contact),
+            },
+            _ => (Stride::Keep, contact),
+        }
+    }
+
+    fn lose(&mut self) -> Contact {
+        self.phase = Phase::Off;
+        Contact {
+            out_ended: true,
+            lost: true,
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Construct-Plume-Map: where the robot's map has the source, as a place to search from.
+//!
+//! *Source*: Tian et al. 2013, section 2, Construct-Plume-Map, with Farrell, Pang & Li 2003, IEEE Trans. SMC-B 33(6), 850 (the
+//! hidden Markov map). Both say how the map is made (the robot's own, `map: Hmm()`), not what the layer commands.
+//!
+//! *Parameters*: the map is heeded once 95 % of its probability lie in at most `most_share` of it, 0.25; the place gone to
+//! lies `down_m` down-flow of the likeliest cell, 30 m (the way a bottom plume takes to rise to the vehicle is not
+//! known; two leaves of a reacquisition); a place nearer than `again_m` to the one last gone to is not gone to again, 40 m.
+//!
+//! *Deviations*: what follows is ours. The layer feeds Find: when nothing but Find asks for the vehicle, a detection has
+//! gone into the map, and the map is sharp enough, its command takes the place of Find's and leads to the likeliest place,
+//! once; from there Find goes on. It does not command against Maintain or Reacquire, and although Tian lists it above
+//! Avoid-Obstacle its command passes through that layer as Find's would.
+
+use crate::handoff::{Manoeuvre, Observation, PlumeMemory, inside};
+use nalgebra::Vector2;
+use serde::{Deserialize, Serialize};
+use world::ranges::{Fraction, NonNegative, Positive};
+
+/// Places are held this far inside the area, m: the cage's 5 m and as much again.
+const MARGIN_M: f64 = 10.0;
+
+/// Parameters of the layer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct PlumeMapSpec {
+    /// The map counts once 95 % of its probability lie in this share of its cells.
+    pub most_share: Fraction,
+    /// Down-flow of the likeliest cell, m.
+    pub down_m: NonNegative,
+    /// Places nearer to the one last gone to than this are not gone to again, m.
+    pub again_m: Positive,
+}
+
+impl Default for PlumeMapSpec {
+    fn default() -> Self {
+        Self {
+            most_share: Fraction::new(0.25),
+            down_m: NonNegative::new(30.0),
+            again_m: Positive::new(40.0),
+        }
+    }
+}
+
+/// State of the layer.
+#[derive(Clone, Debug)]
+pub(super) struct PlumeMap {
+    params: PlumeMapSpec,
+    /// The likeliest place, and the point gone to for it, as long as it is gone to.
+    target: Option<(Vector2<f64>, Vector2<f64>)>,
+    visited: Option<Vector2<f64>>,
+}
+
+impl PlumeMap {
+    pub(super) fn new(spec: &PlumeMapSpec) -> Self {
+        Self {
+            params: spec.clone(),
+            target: None,
+            visited: None,
+        }
+    }
+
+    /// There was a detection: what the map knows is new.
+    pub(super) fn renew(&mut self) {
+        self.visited = None;
+    }
+
+    /// Where to go instead of searching from here; with whether that is a new goal.
+    pub(super) fn step(
+        &mut self,
+        seen: &Observation,
+        arrived: bool,
+        memory: &PlumeMemory,
+    ) -> Option<(Manoeuvre, bool)> {
+        let again_m = self.params.again_m.get();
+        let apart =
+            |a: Option<Vector2<f64>>, b: Vector2<f64>| a.is_none_or(|a| (a - b).norm() >= again_m);
+        if arrived && let Some((place, _)) = self.target.take() {
+            self.visited = Some(place);
+        }
+        let best = self.likeliest(seen).filter(|b| apart(self.visited, *b));
+        let Some(best) = best else {
+            self.target = None;
+            return None;
+        };
+        let known = self.target.filter(|(place, _)| !apart(Some(*place), best));
+        let (place, point) = known.unwrap_or_else(|| {
+            let down = memory.up_flow_or_nose(seen).opposite().unit();
+            let aim = best + down * self.params.down_m.get();
+            (best, inside(&seen.area, aim, MARGIN_M))
+        });
+        self.target = Some((place, point));
+        let radius_m = None;
+        Some((Manoeuvre::GoToPoint { point, radius_m }, known.is_none()))
+    }
+
+    /// The search is interrupted: what was aimed at will be aimed at anew.
+    pub(super) fn drop_target(&mut self) {
+        self.target = None;
+    }
+
+    /// The likeliest place (east, north), m, of a map that says something.
+    fn likeliest(&self, seen: &Observation) -> Option<Vector2<f64>> {
+        let belief = seen.belief.as_ref().filter(|b| b.informed)?;
+        let cell: f64 = if belief.grid.n[2] == 1 {
+            belief.grid.cell_m[..2].iter().product()
+        } else {
+            belief.grid.cell_m.iter().product()
+        };
+        let share = belief.credible_95 / (cell * belief.grid.len() as f64);
+        (share <= self.params.most_share.get()).then(|| belief.grid.centre(belief.best).xy())
+    }
+}

@@ -1,0 +1,114 @@
+//! What a scenario says about the subsumption planner.
+
+use super::super::spec::VerticalSpec;
+use super::plume_map::PlumeMapSpec;
+use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
+use crate::declare::DeclareSpec;
+use crate::handoff::{FixMove, LCDPS};
+use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
+use world::ranges::Positive;
+
+/// Composition and parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SubsumptionSpec {
+    /// Speed over ground, m/s.
+    #[serde(default = "two")]
+    pub speed_m_s: Positive,
+    /// Altitude or depth.
+    #[serde(default = "altitude")]
+    pub vertical: VerticalSpec,
+    /// The layers, lowest first.
+    pub layers: Vec<LayerSpec>,
+    /// Length of the list of lost points that Reacquire works off (Pang 2009, section 5.3: 6).
+    #[serde(default = "six")]
+    pub lost_points: NonZeroUsize,
+    /// Most last detection points that the SIZ rules look at; the oldest are forgotten (all are kept in the paper: 1000).
+    #[serde(default = "all")]
+    pub lcdps: NonZeroUsize,
+    /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
+    #[serde(default)]
+    pub fixes: FixMove,
+}
+
+fn two() -> Positive {
+    Positive::new(2.0)
+}
+
+fn altitude() -> VerticalSpec {
+    VerticalSpec::Altitude(two())
+}
+
+fn six() -> NonZeroUsize {
+    NonZeroUsize::new(6).expect("6 is not zero")
+}
+
+fn all() -> NonZeroUsize {
+    LCDPS
+}
+
+impl SubsumptionSpec {
+    /// These layers with all else left to its default.
+    #[must_use]
+    pub fn of(layers: Vec<LayerSpec>) -> Self {
+        Self {
+            speed_m_s: two(),
+            vertical: altitude(),
+            layers,
+            lost_points: six(),
+            lcdps: all(),
+            fixes: FixMove::default(),
+        }
+    }
+
+    /// It turns away from what a forward ranging shows.
+    #[must_use]
+    pub fn needs_ranging(&self) -> bool {
+        self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_)))
+    }
+}
+
+/// A layer.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum LayerSpec {
+    /// Looks for the plume; always asks for the vehicle.
+    Find(FindSpec),
+    /// Keeps in contact with the plume from a detection on.
+    Maintain(MaintainSpec),
+    /// Looks round where contact was lost.
+    Reacquire(ReacquireSpec),
+    /// Declares the source when the places where contact was lost say so.
+    Declare(DeclareSpec),
+    /// Turns the course asked for by lower layers away from obstacles.
+    Avoid(AvoidParams),
+    /// Sends a search without contact to where the robot's map has the source.
+    PlumeMap(PlumeMapSpec),
+    /// After a declaration: back to the launch point.
+    GoHome(GoHomeSpec),
+}
+
+/// Maintain-Plume.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MaintainSpec {
+    /// In the plume.
+    pub track_in: TrackInSpec,
+    /// After λ s without a detection (Pang 2009); `None`: Track-Out is what remains of λ, as Tian et al. 2013 have it.
+    pub track_out: Option<TrackOutSpec>,
+}
+
+impl Default for MaintainSpec {
+    fn default() -> Self {
+        Self {
+            track_in: TrackInSpec::default(),
+            track_out: Some(TrackOutSpec::default()),
+        }
+    }
+}
+
+/// Go-Home; it has no parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct GoHomeSpec {}

@@ -1,0 +1,54 @@
+//! Whether a robot has on board what its estimator and its strategy live on.
+
+use super::fault::Found;
+use super::schema::RobotSpec;
+
+/// Instruments that are asked for and missing.
+pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
+    let path = format!("robots[{i}]");
+    if robot.estimator.needs_ctd() && robot.sensors.ctd.is_none() {
+        let problem = "it tells water layers apart by their density, and the robot measures none";
+        found.push(
+            Found::error(format!("{path}.estimator.layer_aware"), problem)
+                .hint("fit a CTD, as in `sensors: (ctd: ())`, or leave layer_aware out"),
+        );
+    }
+    if robot.strategy.needs_ranging() && robot.sensors.ranging.is_none() {
+        let problem =
+            "its Avoid layer turns away from what a forward ranging shows, and the robot has none";
+        found.push(
+            Found::error(format!("{path}.strategy.layers"), problem)
+                .hint("fit one, as in `sensors: (ranging: ())`, or leave Avoid out"),
+        );
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::scenario::{check, parse, template};
+    use std::path::Path;
+
+    fn problems(text: &str) -> Vec<String> {
+        let scenario = parse("changed", text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
+        let found = check(&scenario, Path::new(""));
+        found.into_iter().map(|f| f.path).collect()
+    }
+
+    #[test]
+    fn what_is_asked_for_must_be_on_board() {
+        let text = template("moth_plus").expect("in the catalogue").text;
+        assert_eq!(problems(text), Vec::<String>::new());
+        let without = |what: &str| {
+            let line = text.lines().find(|l| l.trim_start().starts_with(what));
+            text.replace(line.expect("it is fitted"), "")
+        };
+        assert_eq!(
+            problems(&without("ctd: (")),
+            ["robots[0].estimator.layer_aware"]
+        );
+        assert_eq!(
+            problems(&without("ranging: (")),
+            ["robots[0].strategy.layers"]
+        );
+    }
+}
