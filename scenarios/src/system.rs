@@ -1,6 +1,6 @@
 //! The systems of the tick: each hands the parts of a robot, and the world, to plain state machines.
 
-use crate::frame::{Frame, PlumeFrame, RobotFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use crate::gantry::system::{Pictured, picture};
 use bevy_ecs::prelude::{Component, DetectChanges, Query, Ref, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
@@ -13,7 +13,8 @@ use robots::handoff::{
     GuidanceStatus, Observation, Readings,
 };
 use robots::map::{MapObservation, Mapper};
-use robots::sense::SensorSuite;
+use robots::sense::camera::{Optics, Scene};
+use robots::sense::{Asked, SensorSuite};
 use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
 use world::area::Area;
@@ -131,6 +132,10 @@ pub struct Outbox {
     pub frame: Option<Frame>,
     /// Newest picture of the plume.
     pub plume: Option<PlumeFrame>,
+    /// Pictures taken by cameras since the trial last looked.
+    pub pictures: Vec<PictureFrame>,
+    /// Pings of sidescan sonars since the trial last looked.
+    pub pings: Vec<PingFrame>,
     /// Steps between two frames.
     pub frame_every: Every,
     /// Steps between two pictures of the plume.
@@ -145,11 +150,19 @@ pub(crate) fn read_instruments(
     dye: Res<Dye>,
     terrain: Res<Terrain>,
     obstacles: Res<Obstacles>,
-    mut robots: Query<(&Truth, &mut Instruments, &mut Readings)>,
+    optics: Res<Optics>,
+    mut robots: Query<(&Truth, &Decision, &mut Instruments, &mut Readings)>,
 ) {
-    for (truth, mut suite, mut readings) in &mut robots {
-        let plume = &dye.plume;
-        *readings = (suite.0).read(&clock, truth, &*water, plume, &terrain, &obstacles);
+    for (truth, decision, mut suite, mut readings) in &mut robots {
+        let (plume, asked) = (&dye.plume, Asked::from(decision));
+        *readings = (suite.0).read(&clock, truth, &*water, plume, &terrain, &obstacles, asked);
+        let scene = Scene {
+            terrain: &terrain,
+            obstacles: &obstacles,
+            dye: plume,
+            optics: &optics,
+        };
+        readings.picture = (suite.0).look(&clock, truth, &scene, asked);
     }
 }
 
@@ -322,7 +335,12 @@ pub(crate) fn take_frame(
     gantries: Query<Pictured>,
 ) {
     let mut ends = false;
-    for (_, _, _, readings, decision, _, _, _, mut log) in &mut robots {
+    for (id, truth, estimate, readings, decision, _, _, _, mut log) in &mut robots {
+        let (t_s, id) = (clock.t_s(), &id.0);
+        let picture = readings.picture.as_ref();
+        (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, id, p, truth, estimate)));
+        let ping = readings.sidescan.as_ref();
+        (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, id, p, estimate)));
         if let Some(reading) = readings.chemical {
             log.chemical = Some(reading);
             log.detected |= reading.detected;

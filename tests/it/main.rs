@@ -12,6 +12,7 @@ mod live;
 mod planning;
 mod reproduce;
 mod scenarios;
+mod segment;
 mod spin_up;
 mod structure;
 mod vehicle;

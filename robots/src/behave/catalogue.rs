@@ -78,6 +78,11 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Pang 2009, section 5.5, Table 3, Fig. 6",
     },
     Entry {
+        name: "Passes",
+        what: "survey: parallel lines over a place, for sidescan and camera",
+        source: "Pang 2009, sections 4.2 and 6",
+    },
+    Entry {
         name: "GoHome",
         what: "goes back to the launch point",
         source: "Pang 2009, section 4.1",

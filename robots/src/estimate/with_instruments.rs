@@ -57,6 +57,7 @@ mod tests {
                 &Clean,
                 &bed,
                 &Default::default(),
+                Default::default(),
             );
             all.push((p, e.step(&clock, &readings)));
             clock.advance();

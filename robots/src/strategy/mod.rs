@@ -5,11 +5,15 @@ mod catalogue;
 mod map_and_plan;
 mod open_loop;
 mod spec;
+mod survey;
 
-pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
+pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
 pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
 };
 pub use open_loop::{OpenLoop, OpenLoopSpec};
 pub use spec::{Strategy, StrategySpec, VerticalSpec};
+pub use survey::{
+    AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify,
+};

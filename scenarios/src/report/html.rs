@@ -3,6 +3,7 @@
 use super::figures::escaped;
 use super::summary::Summary;
 use crate::gantry::GantrySummary;
+use robots::handoff::Verdict;
 use std::fmt::Write as _;
 
 /// Look of all pages.
@@ -14,7 +15,7 @@ th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f
 
 const TEXT: &str = "writing to a String succeeds";
 
-/// The page: summary, figures (SVG), scenario.
+/// The page: summary, figures (SVG or whatever else stands in a page), scenario.
 pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_text: &str) -> String {
     let name = escaped(&summary.scenario);
     let mut out = format!(
@@ -76,6 +77,15 @@ fn robot_rows(r: &super::RobotSummary) -> Vec<(&'static str, String)> {
                     .expect(TEXT);
                 }
                 rows.push(("Error", error));
+            }
+            if d.verdict != Verdict::Unchecked {
+                rows.push(("Looked at", format!("{:?}", d.verdict).to_lowercase()));
+            }
+            if let Some(p) = d.surveyed {
+                let error = (d.surveyed_error.as_ref())
+                    .map(|e| format!("; {:.1} m from {}", e.total_m, e.source));
+                let what = format!("{}{}", place(p), error.unwrap_or_default());
+                rows.push(("By the sidescan", what));
             }
         }
     }

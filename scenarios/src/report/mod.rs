@@ -1,10 +1,12 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
 
 mod belief_track;
+mod echoes;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
 mod map_record;
+mod pictures;
 mod probes;
 mod recorder;
 mod recorder_gantry;
@@ -14,8 +16,10 @@ mod track;
 mod write;
 
 pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
+pub use echoes::{Echoes, RobotEchoes};
 pub use files::ReportError;
 pub(crate) use files::{make_folder, write_whole};
+pub use pictures::{Pictures, ShownPicture};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{

@@ -2,6 +2,7 @@
 
 use super::files::{ReportError, write_whole};
 use crate::gantry::GantrySummary;
+use robots::handoff::Verdict;
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -93,6 +94,12 @@ pub struct DeclarationSummary {
     pub position: Position,
     /// How wrong; none in a scenario without a source.
     pub error: Option<SourceError>,
+    /// What a look at it said.
+    pub verdict: Verdict,
+    /// Where the sidescan had the source, as the vehicle believed.
+    pub surveyed: Option<Position>,
+    /// How wrong that was.
+    pub surveyed_error: Option<SourceError>,
 }
 
 /// What one robot did.

@@ -91,7 +91,7 @@ impl RobotTrack {
         if !r.lost_points.is_empty() {
             self.lost_points = r.lost_points.iter().map(|q| [q.x, q.y]).collect();
         }
-        if let (None, Some(d)) = (self.declared, r.declaration) {
+        if let Some(d) = r.declaration {
             self.declared = Some([d.position.x, d.position.y]);
             self.declared_s = Some(d.t_s);
         }

@@ -73,6 +73,8 @@ macro_rules! catalog {
 /// All of them, in the order of lists.
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
+    "duck_survey",
+    "eyes_over_source",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

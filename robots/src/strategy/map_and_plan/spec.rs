@@ -1,6 +1,6 @@
 //! What a scenario says about map and plan.
 
-use super::super::amp::AfterDeclaration;
+use super::super::survey::AfterDeclaration;
 use super::super::spec::VerticalSpec;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
