@@ -13,5 +13,7 @@ pub mod map;
 pub mod plan;
 pub mod sense;
 pub mod strategy;
+pub mod survey;
 pub mod track;
 pub mod vehicles;
+pub mod vision;

@@ -1,11 +1,11 @@
 //! From a scenario to a world that ticks: everything that lives in it, put in its place.
 
+use crate::frame::system::{Log, Outbox};
 use crate::gantry::assemble as gantry;
 use crate::gantry::system::outcome;
 use crate::scenario::{RobotSpec, Scenario};
 use crate::system::{
-    Cartographer, Dye, Helm, Hull, Instruments, Log, Mind, Navigator, Outbox, Pilotage, RobotId,
-    Water,
+    Cartographer, Dye, Helm, Hull, Instruments, Mind, Navigator, Pilotage, RobotId, Water,
 };
 use crate::tick::tick;
 use bevy_ecs::prelude::{Schedule, World};
@@ -22,6 +22,7 @@ use robots::handoff::{
     Outcome, Readings, Setting, Vertical,
 };
 use robots::sense::SensorSuite;
+use robots::sense::camera::Optics;
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::clock::{Clock, Every};
@@ -42,6 +43,9 @@ pub enum AssembleError {
     /// Water or sources.
     #[error(transparent)]
     Plume(#[from] PlumeError),
+    /// Light in the water.
+    #[error(transparent)]
+    Optics(RobotError),
     /// A robot.
     #[error("robot {id}: {source}")]
     Robot {
@@ -92,6 +96,7 @@ impl Simulation {
             },
         )?
         .with_obstacles(solids)?;
+        let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);
         for obstacle in &obstacles {
@@ -139,10 +144,13 @@ impl Simulation {
         world.insert_resource(Outbox {
             frame: None,
             plume: None,
+            pictures: Vec::new(),
+            pings: Vec::new(),
             frame_every: every(scenario.record.frame_period_s.get()),
             plume_every: every(scenario.record.plume_period_s.get()),
             plume_points: scenario.record.plume_points as usize,
         });
+        world.insert_resource(optics);
         world.insert_resource(terrain);
         world.insert_resource(physics);
         world.insert_resource(Digest::default());

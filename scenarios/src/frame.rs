@@ -1,14 +1,16 @@
 //! A picture of the whole run at one instant, as plain data: what recording, live state, files and
 //! figures are made from. Made in the Report stage; nobody who reads it can reach back.
 
+pub mod system;
+
 use crate::gantry::GantryFrame;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
-    Layer, LayerState, Regions,
+    Layer, LayerState, Picture, Regions, SidescanPing,
 };
 use std::sync::Arc;
-use world::frames::Truth;
+use world::frames::{Pose, Truth};
 
 /// One robot at one instant.
 #[derive(Clone, Debug, PartialEq)]
@@ -70,6 +72,61 @@ pub struct Frame {
     pub robots: Vec<RobotFrame>,
     /// All gantries, in the scenario's order.
     pub gantries: Vec<GantryFrame>,
+}
+
+/// A picture that a robot's camera took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureFrame {
+    /// Simulated time, s.
+    pub t_s: f64,
+    /// Id of the robot in the scenario.
+    pub robot: String,
+    /// The picture, with the camera's place on the robot.
+    pub picture: Picture,
+    /// Where the robot was.
+    pub truth: Pose,
+    /// Where it believed it was.
+    pub estimate: Estimate,
+}
+
+impl PictureFrame {
+    /// One just taken.
+    #[must_use]
+    pub fn new(t_s: f64, id: &str, picture: &Picture, truth: &Truth, estimate: &Estimate) -> Self {
+        Self {
+            t_s,
+            robot: id.to_owned(),
+            picture: picture.clone(),
+            truth: truth.pose,
+            estimate: *estimate,
+        }
+    }
+}
+
+/// A ping of a robot's sidescan sonar.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PingFrame {
+    /// Simulated time, s.
+    pub t_s: f64,
+    /// Id of the robot in the scenario.
+    pub robot: String,
+    /// What it heard.
+    pub ping: SidescanPing,
+    /// Where it believed it was.
+    pub estimate: Estimate,
+}
+
+impl PingFrame {
+    /// One just heard.
+    #[must_use]
+    pub fn new(t_s: f64, id: &str, ping: &SidescanPing, estimate: &Estimate) -> Self {
+        Self {
+            t_s,
+            robot: id.to_owned(),
+            ping: ping.clone(),
+            estimate: *estimate,
+        }
+    }
 }
 
 /// Some of the plume's filaments at one instant.

@@ -9,6 +9,8 @@ pub mod live;
 pub mod report;
 pub mod reproduce;
 pub mod scenario;
+pub mod score_vision;
+pub mod segment;
 pub mod spun_up;
 pub mod statistics;
 pub mod system;

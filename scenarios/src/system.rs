@@ -1,7 +1,5 @@
 //! The systems of the tick: each hands the parts of a robot, and the world, to plain state machines.
 
-use crate::frame::{Frame, PlumeFrame, RobotFrame};
-use crate::gantry::system::{Pictured, picture};
 use bevy_ecs::prelude::{Component, DetectChanges, Query, Ref, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
@@ -9,11 +7,11 @@ use robots::actuate::Autopilot;
 use robots::estimate::Estimator;
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Belief, ChemicalReading, Command, Decision, Declaration, Estimate,
-    GuidanceStatus, Observation, Readings,
+    ActuatorCommand, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
 };
 use robots::map::{MapObservation, Mapper};
-use robots::sense::SensorSuite;
+use robots::sense::camera::{Optics, Scene};
+use robots::sense::{Asked, SensorSuite};
 use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
 use world::area::Area;
@@ -70,16 +68,6 @@ pub struct Pilotage(pub Guidance);
 #[derive(Component)]
 pub struct Helm(pub Autopilot);
 
-/// What a robot's log keeps between two frames.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Log {
-    chemical: Option<ChemicalReading>,
-    detected: bool,
-    declarations: Vec<Declaration>,
-    fix_m: Option<f64>,
-    over: bool,
-}
-
 /// The water with the time at which the mission starts in it.
 #[derive(Resource)]
 pub struct Water {
@@ -131,32 +119,26 @@ pub struct Dye {
     pub every: Every,
 }
 
-/// Frames waiting for those who record and publish; and how often they are made.
-#[derive(Resource)]
-pub struct Outbox {
-    /// Newest frame, taken by the trial after the tick.
-    pub frame: Option<Frame>,
-    /// Newest picture of the plume.
-    pub plume: Option<PlumeFrame>,
-    /// Steps between two frames.
-    pub frame_every: Every,
-    /// Steps between two pictures of the plume.
-    pub plume_every: Every,
-    /// Filaments shown in a picture, at most.
-    pub plume_points: usize,
-}
-
 pub(crate) fn read_instruments(
     clock: Res<Clock>,
     water: Res<Water>,
     dye: Res<Dye>,
     terrain: Res<Terrain>,
     obstacles: Res<Obstacles>,
-    mut robots: Query<(&Truth, &mut Instruments, &mut Readings)>,
+    optics: Res<Optics>,
+    mut robots: Query<(&Truth, &Decision, &mut Instruments, &mut Readings)>,
 ) {
-    for (truth, mut suite, mut readings) in &mut robots {
+    for (truth, decision, mut suite, mut readings) in &mut robots {
+        let asked = Asked::from(decision);
         let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
-        *readings = (suite.0).read(&clock, truth, &*water, &plume, &terrain, &obstacles);
+        *readings = (suite.0).read(&clock, truth, &*water, &plume, &terrain, &obstacles, asked);
+        let scene = Scene {
+            terrain: &terrain,
+            obstacles: &obstacles,
+            dye: &plume,
+            optics: &optics,
+        };
+        readings.picture = (suite.0).look(&clock, truth, &scene, asked);
     }
 }
 
@@ -304,88 +286,6 @@ pub(crate) fn digest_state(
     }
     if (clock.step + 1).is_multiple_of(dye.every.steps) {
         dye.plume.digest_into(&mut digest);
-    }
-}
-
-type Whole<'a> = (
-    &'a RobotId,
-    &'a Truth,
-    &'a Estimate,
-    &'a Readings,
-    &'a Decision,
-    &'a Command,
-    &'a ActuatorCommand,
-    Option<&'a Belief>,
-    &'a mut Log,
-);
-
-pub(crate) fn take_frame(
-    clock: Res<Clock>,
-    terrain: Res<Terrain>,
-    dye: Res<Dye>,
-    mut outbox: ResMut<Outbox>,
-    physics: Res<Physics>,
-    mut robots: Query<Whole>,
-    gantries: Query<Pictured>,
-) {
-    let mut ends = false;
-    for (_, _, estimate, readings, decision, _, _, _, mut log) in &mut robots {
-        if let Some(reading) = readings.chemical {
-            log.chemical = Some(reading);
-            log.detected |= reading.detected;
-        }
-        if let Some(declared) = decision.declared {
-            declared.join(&mut log.declarations);
-        }
-        if readings.lbl.is_some() {
-            let moved_m = estimate.fix_jump_m();
-            log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
-        }
-        // The last state of a mission is shown even between two frames.
-        ends |= decision.outcome.is_some() && !log.over;
-        log.over = decision.outcome.is_some();
-    }
-    ends |= gantries
-        .iter()
-        .any(|(.., searcher)| searcher.stopped_s == Some(clock.t_s()));
-    if ends || outbox.frame_every.due(&clock) {
-        let robots = robots.iter_mut().map(
-            |(id, truth, estimate, _, decision, command, set, belief, mut log)| {
-                let p = truth.pose.p_WB;
-                RobotFrame {
-                    id: id.0.clone(),
-                    truth: *truth,
-                    altitude_m: p.z - terrain.bed_z(p.x, p.y),
-                    estimate: *estimate,
-                    goal: Some(decision.goal),
-                    command: Some(*command),
-                    actuators: *set,
-                    chemical: log.chemical,
-                    detected: std::mem::take(&mut log.detected),
-                    behaviour: decision.behaviour,
-                    layers: decision.layers.clone(),
-                    lost_points: decision.lost_points.clone(),
-                    planned: decision.planned.clone(),
-                    belief: belief.cloned(),
-                    regions: decision.regions.clone(),
-                    declarations: log.declarations.clone(),
-                    fix_m: log.fix_m.take(),
-                }
-            },
-        );
-        outbox.frame = Some(Frame {
-            t_s: clock.t_next_s(),
-            step: clock.step + 1,
-            robots: robots.collect(),
-            gantries: picture(&physics, &gantries),
-        });
-    }
-    if outbox.plume_every.due(&clock) {
-        outbox.plume = Some(PlumeFrame {
-            t_s: clock.t_next_s(),
-            total: dye.plume.len(),
-            points: dye.plume.decimated(outbox.plume_points),
-        });
     }
 }
 

@@ -3,6 +3,7 @@
 //! One thread, one order, one writer for each type; an ambiguity between two systems is an error
 //! when the schedule is built. Parallelism is across runs, so a run is the same on any machine load.
 
+use crate::frame::system::take_frame;
 use crate::gantry::system as gantry;
 use crate::system;
 use bevy_ecs::prelude::{IntoScheduleConfigs, Schedule};
@@ -52,7 +53,7 @@ pub fn tick() -> Schedule {
         (
             system::digest_state,
             gantry::digest_gantries,
-            system::take_frame,
+            take_frame,
             system::pass_time,
         )
             .chain()

@@ -1,11 +1,12 @@
 //! One run of a scenario from spin-up to its end, without files or screens: those watch it.
 
 use crate::assemble::{AssembleError, Simulation};
-use crate::frame::{Frame, PlumeFrame};
+use crate::frame::system::Outbox;
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use crate::report::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::spun_up::{Mismatch, Origin, SpunUp};
-use crate::system::{Dye, Outbox};
+use crate::system::Dye;
 use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
@@ -23,6 +24,10 @@ pub trait Watch {
     fn frame(&mut self, _frame: &Frame) {}
     /// A new picture of the plume.
     fn plume(&mut self, _plume: &PlumeFrame) {}
+    /// A picture that a robot's camera took.
+    fn picture(&mut self, _picture: &PictureFrame) {}
+    /// A ping of a robot's sidescan sonar.
+    fn ping(&mut self, _ping: &PingFrame) {}
     /// After every tick; `false` stops the run.
     fn go_on(&mut self, _t_s: f64) -> bool {
         true
@@ -211,6 +216,12 @@ impl Trial {
     fn show(&mut self, watch: &mut dyn Watch) {
         let mut outbox = self.simulation.world.resource_mut::<Outbox>();
         let (frame, plume) = (outbox.frame.take(), outbox.plume.take());
+        for picture in std::mem::take(&mut outbox.pictures) {
+            watch.picture(&picture);
+        }
+        for ping in std::mem::take(&mut outbox.pings) {
+            watch.ping(&ping);
+        }
         if let Some(frame) = frame {
             for robot in &frame.robots {
                 for source in &self.sources {

@@ -14,6 +14,7 @@ mod planning;
 mod reproduce;
 mod scenarios;
 mod sea;
+mod segment;
 mod spin_up;
 mod structure;
 mod subregions;

@@ -138,12 +138,13 @@ fn only_systems_speak_ecs() {
 fn stages_meet_only_in_handoff() {
     let stages = [
         "sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track",
+        "survey", "vision",
     ];
     for (file, text) in sources("robots/src") {
         let stage = file.split('/').nth(2).unwrap();
-        // A strategy composes behaviours, declaration rules and planners: it alone may name them.
+        // A strategy composes behaviours, declaration rules, planners and what looks at pictures: it alone may name them.
         let may: &[&str] = if stage == "strategy" {
-            &["behave", "declare", "plan"]
+            &["behave", "declare", "plan", "survey", "vision"]
         } else {
             &[]
         };
@@ -175,6 +176,8 @@ fn algorithm_files_say_where_they_come_from() {
         "robots/src/track",
         "robots/src/map",
         "robots/src/plan",
+        "robots/src/survey",
+        "robots/src/vision",
     ] {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();
@@ -269,6 +272,8 @@ fn every_catalogue_entry_has_a_source_and_a_scenario() {
         robots::guide::CATALOGUE,
         robots::actuate::CATALOGUE,
         robots::track::UNITS,
+        robots::survey::CATALOGUE,
+        robots::vision::CATALOGUE,
     ];
     for entry in variants.into_iter().chain(others).flatten() {
         let said = [entry.name, entry.what, entry.source];

@@ -74,6 +74,48 @@ impl Terrain {
         Vector3::new(-dx, -dy, 1.0).normalize()
     }
 
+    /// Way along a ray from `from` (ENU, m) in the unit direction `dir` to the bed within `max_m`, m; zero from below it.
+    #[must_use]
+    pub fn ray(&self, from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
+        let above = |way: f64| {
+            let p = from + dir * way;
+            p.z - self.bed_z(p.x, p.y)
+        };
+        // The bed is flat between the lines where the slope begins and ends: so is the height above it along the ray.
+        let mut bends = [max_m; 3];
+        if let Terrain::Slope {
+            middle,
+            shoreward,
+            run_m,
+            ..
+        } = self
+        {
+            let u = shoreward.unit();
+            let (at, pace) = ((from.xy() - middle).dot(&u), dir.xy().dot(&u));
+            for (bend, edge) in bends.iter_mut().zip([-0.5 * run_m, 0.5 * run_m]) {
+                let way = (edge - at) / pace;
+                if way > 0.0 && way < max_m {
+                    *bend = way;
+                }
+            }
+            if bends[0] > bends[1] {
+                bends.swap(0, 1);
+            }
+        }
+        let (mut free, mut height) = (0.0, above(0.0));
+        if height <= 0.0 {
+            return Some(0.0);
+        }
+        for end in bends {
+            let there = above(end);
+            if there <= 0.0 {
+                return Some(free + (end - free) * height / (height - there));
+            }
+            (free, height) = (end, there);
+        }
+        None
+    }
+
     /// Least depth anywhere, m.
     #[must_use]
     pub fn shallowest_m(&self) -> f64 {
@@ -112,5 +154,46 @@ mod tests {
         assert!((t.bed_z(sea.x, sea.y) + 8.0).abs() < 1e-9);
         let mid = t.normal(5.0, -3.0);
         assert!(mid.z > 0.999 && mid.norm() - 1.0 < 1e-12);
+    }
+
+    #[test]
+    fn rays_end_on_level_slope_and_the_flats_beyond() {
+        let t = Terrain::Slope {
+            middle: Vector2::zeros(),
+            shoreward: Heading::from_deg(90.0),
+            shallow_m: 4.0,
+            deep_m: 8.0,
+            run_m: 100.0,
+        };
+        let level = Terrain::Level { depth_m: 8.0 };
+        let mut met = [0; 4];
+        for k in 0..2000 {
+            let turn = f64::from(k) * 0.37;
+            let (s, c) = crate::math::sin_cos(turn);
+            let from = Vector3::new(-80.0 + f64::from(k % 160), 3.0, -3.5 - 0.4 * s * s);
+            let dir = Vector3::new(c, s, -0.02 - 0.3 * f64::from(k % 7)).normalize();
+            for t in [&t, &level] {
+                let way = t.ray(&from, &dir, 60.0);
+                let end = from + dir * way.unwrap_or(60.0);
+                let over = end.z - t.bed_z(end.x, end.y);
+                if way.is_some() {
+                    assert!(over.abs() < 1e-9, "{over}");
+                    met[usize::from(end.x > -50.0) + usize::from(end.x > 50.0)] += 1;
+                } else {
+                    assert!(over > 0.0);
+                    met[3] += 1;
+                }
+                // Nothing was passed through on the way.
+                for part in 1..20 {
+                    let p = from + dir * (way.unwrap_or(60.0) * f64::from(part) / 20.0);
+                    assert!(p.z - t.bed_z(p.x, p.y) > -1e-9);
+                }
+            }
+        }
+        assert!(met.iter().all(|n| *n > 50), "{met:?}");
+        assert_eq!(
+            level.ray(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 5.0),
+            Some(0.0)
+        );
     }
 }

@@ -88,6 +88,11 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Tian et al. 2013, section 2; Khatib 1986, Int. J. Robotics Research 5(1), 90",
     },
     Entry {
+        name: "Passes",
+        what: "survey: parallel lines over a place, for sidescan and camera",
+        source: "Pang 2009, sections 4.2 and 6",
+    },
+    Entry {
         name: "GoHome",
         what: "goes back to the launch point",
         source: "Pang 2009, section 4.1",

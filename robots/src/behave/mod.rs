@@ -8,6 +8,7 @@ mod go_home;
 mod go_to;
 mod open_loop;
 mod reacquire;
+mod survey;
 mod track_in;
 mod track_out;
 
@@ -19,5 +20,6 @@ pub use go_home::GoHome;
 pub use go_to::GoTo;
 pub use open_loop::{TimeTable, TimeTableParams, TimeTableRow};
 pub use reacquire::Bowtie;
+pub use survey::Passes;
 pub use track_in::CounterTurn;
 pub use track_out::UpAcross;

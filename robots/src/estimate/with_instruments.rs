@@ -72,7 +72,15 @@ mod tests {
             };
             let bed = Terrain::Level { depth_m: 8.0 };
             let obstacles = Default::default();
-            let said = suite.read(&clock, &truth, &Stratified, &Clean, &bed, &obstacles);
+            let said = suite.read(
+                &clock,
+                &truth,
+                &Stratified,
+                &Clean,
+                &bed,
+                &obstacles,
+                Default::default(),
+            );
             believed.push(e.step(&clock, &said).flow.map(|f| f.velocity.y));
             clock.advance();
         }
@@ -119,6 +127,7 @@ mod tests {
                 &Clean,
                 &bed,
                 &Default::default(),
+                Default::default(),
             );
             all.push((p, e.step(&clock, &readings)));
             clock.advance();

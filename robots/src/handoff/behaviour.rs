@@ -1,6 +1,7 @@
 //! What a behaviour is, what it shares with the others and what it answers.
 
 use super::{FixMove, FixWatch, Lcdp, LcdpQueue, LostPoints, Manoeuvre, Observation};
+use nalgebra::Vector2;
 use std::fmt::Debug;
 use std::num::NonZeroUsize;
 use world::seeds::Stream;
@@ -90,6 +91,12 @@ impl PlumeMemory {
     pub fn lose(&mut self, point: Lcdp, up_flow: Heading) {
         self.lost.add(point, up_flow);
         self.lcdps.add(point);
+    }
+
+    /// Forgets where the plume was lost within a distance of a place.
+    pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
+        self.lost.forget_near(place, within_m);
+        self.lcdps.forget_near(place, within_m);
     }
 
     /// Takes in the estimate of a tick: after a navigation fix the places remembered are moved by `rule`.

@@ -119,6 +119,11 @@ impl LcdpQueue {
         most_up_flow_first(&self.points, up_flow)
     }
 
+    /// Forgets the points within a distance of a place.
+    pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
+        (self.points).retain(|p| (p.position - place).norm() > within_m);
+    }
+
     /// Forgets all points.
     pub fn clear(&mut self) {
         self.points.clear();

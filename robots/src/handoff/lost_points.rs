@@ -1,6 +1,7 @@
 //! Where the plume was lost: the list that Track-In writes and Track-Out, Reacquire and the declaration read.
 
 use super::{FixMove, Lcdp, NavigationFix};
+use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::units::Heading;
 
@@ -63,6 +64,11 @@ impl LostPoints {
         }
     }
 
+    /// Forgets the points within a distance of a place.
+    pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
+        (self.points).retain(|p| (p.position - place).norm() > within_m);
+    }
+
     /// Forgets all points.
     pub fn clear(&mut self) {
         self.points.clear();
@@ -91,5 +97,7 @@ mod tests {
         assert_eq!(norths(&list), [10.0, 15.0, 20.0]);
         list.drop_first();
         assert_eq!(norths(&list), [15.0, 20.0]);
+        list.forget_near(Vector2::new(0.0, 12.0), 4.0);
+        assert_eq!(norths(&list), [20.0]);
     }
 }

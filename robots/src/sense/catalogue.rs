@@ -54,4 +54,14 @@ pub const CATALOGUE: &[Entry] = &[
         what: "Ranges ahead in a fan of beams against solids and bed: noise, range, drop-outs.",
         source: "Petillot, Tena Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240",
     },
+    Entry {
+        name: "sidescan",
+        what: "Echo strength to either side by slant range: Lambert's law, shadows, water column, speckle, noise.",
+        source: "Urick 1983, sections 8.2 and 8.11; Blondel 2009, The Handbook of Sidescan Sonar",
+    },
+    Entry {
+        name: "camera",
+        what: "Pictures through the water when asked for: attenuation, veil, dye, daylight or lamp, sensor noise.",
+        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Duntley 1963, J. Opt. Soc. Am. 53, 214; Mobley 1994, Light and Water",
+    },
 ];

@@ -2,6 +2,7 @@
 
 mod adcp;
 mod altimeter;
+pub mod camera;
 mod catalogue;
 mod compass;
 mod ctd;
@@ -11,6 +12,8 @@ mod fluorometer;
 mod lbl;
 mod probe;
 mod ranging;
+mod sidescan;
+mod sidescan_fan;
 mod suite;
 #[cfg(test)]
 mod testing;
@@ -27,4 +30,5 @@ pub use fluorometer::{Fluorometer, FluorometerSpec};
 pub use lbl::{Lbl, LblSpec};
 pub use probe::{Probes, ProbesSpec};
 pub use ranging::{Ranging, RangingSpec};
-pub use suite::{SensorSuite, SensorsSpec};
+pub use sidescan::{Sidescan, SidescanSpec};
+pub use suite::{Asked, SensorSuite, SensorsSpec};

@@ -1,12 +1,14 @@
 //! All instruments of a robot, read in one go.
 
+use super::camera::{Camera, CameraSpec, Scene};
 use super::tools::Below;
 use super::{
     Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Ctd, CtdSpec, Depth, DepthSpec,
-    Dvl, DvlSpec, Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec,
+    Dvl, DvlSpec, Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec, Sidescan,
+    SidescanSpec,
 };
 use crate::error::RobotError;
-use crate::handoff::Readings;
+use crate::handoff::{Behaviour, Decision, Picture, Readings};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -38,6 +40,28 @@ pub struct SensorsSpec {
     pub lbl: Option<LblSpec>,
     /// Forward ranging.
     pub ranging: Option<RangingSpec>,
+    /// Sidescan sonar.
+    pub sidescan: Option<SidescanSpec>,
+    /// Camera; it takes a picture when the strategy asks for one.
+    pub camera: Option<CameraSpec>,
+}
+
+/// What the strategy asked of the instruments in the step before.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Asked {
+    /// A picture.
+    pub picture: bool,
+    /// The vehicle is on a survey.
+    pub survey: bool,
+}
+
+impl From<&Decision> for Asked {
+    fn from(decision: &Decision) -> Self {
+        Self {
+            picture: decision.picture,
+            survey: decision.behaviour == Behaviour::Survey,
+        }
+    }
 }
 
 /// The instruments of a robot.
@@ -52,11 +76,14 @@ pub struct SensorSuite {
     altimeter: Option<Altimeter>,
     lbl: Option<Lbl>,
     ranging: Option<Ranging>,
+    sidescan: Option<Sidescan>,
+    camera: Option<Camera>,
 }
 
 impl SensorSuite {
     /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `ctd`, `altimeter`, `ranging`; compass and baseline need none).
+    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `ctd`, `altimeter`, `ranging`, `sidescan`, `camera`; compass and
+    /// baseline need none).
     ///
     /// # Errors
     /// When a mount is missing or an instrument cannot be as described.
@@ -67,14 +94,15 @@ impl SensorSuite {
         seed: u64,
         dt_s: f64,
     ) -> Result<Self, RobotError> {
-        let place = |name: &str| -> Result<Vector3<f64>, RobotError> {
+        let mount = |name: &str| -> Result<Pose, RobotError> {
             mounts(name)
-                .map(|pose| pose.p_WB)
                 .ok_or_else(|| RobotError::Invalid {
                     field: format!("sensors.{name}"),
                     problem: format!("the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"),
                 })
         };
+        let place =
+            |name: &str| -> Result<Vector3<f64>, RobotError> { mount(name).map(|pose| pose.p_WB) };
         Ok(Self {
             fluorometer: (spec.fluorometer.as_ref())
                 .map(|s| Fluorometer::new(s, place("fluorometer")?, robot_id, seed, dt_s))
@@ -103,10 +131,31 @@ impl SensorSuite {
             ranging: (spec.ranging.as_ref())
                 .map(|s| Ranging::new(s, place("ranging")?, robot_id, seed, dt_s))
                 .transpose()?,
+            sidescan: (spec.sidescan.as_ref())
+                .map(|s| Sidescan::new(s, place("sidescan")?, robot_id, seed, dt_s))
+                .transpose()?,
+            camera: (spec.camera.as_ref())
+                .map(|s| Camera::new(s, &mount("camera")?, robot_id, seed, dt_s))
+                .transpose()?,
         })
     }
 
-    /// What the instruments say in this step.
+    /// The picture of this step, if there is a camera, one was asked for and its time has come.
+    pub fn look(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        scene: &Scene<'_>,
+        asked: Asked,
+    ) -> Option<Picture> {
+        (self.camera.as_mut()).and_then(|s| s.read(clock, truth, scene, asked.picture))
+    }
+
+    /// What the instruments but the camera ([`Self::look`]) say in this step, after what was asked of them.
+    #[allow(
+        clippy::too_many_arguments,
+        reason = "the instruments see the whole world"
+    )]
     pub fn read(
         &mut self,
         clock: &Clock,
@@ -115,6 +164,7 @@ impl SensorSuite {
         dye: &dyn Concentration,
         terrain: &Terrain,
         obstacles: &Obstacles,
+        asked: Asked,
     ) -> Readings {
         let below = &Below { terrain, obstacles };
         Readings {
@@ -127,7 +177,8 @@ impl SensorSuite {
             altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, below)),
             lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
             ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
-            sidescan: None,
+            sidescan: (self.sidescan.as_mut())
+                .and_then(|s| s.read(clock, truth, obstacles, terrain, asked.survey)),
             picture: None,
         }
     }
@@ -150,6 +201,12 @@ mod tests {
             altimeter: Some(AltimeterSpec::default()),
             lbl: Some(LblSpec::default()),
             ranging: Some(RangingSpec::default()),
+            sidescan: Some(SidescanSpec {
+                rate_hz: world::ranges::Positive::new(1.0),
+                always: true,
+                ..SidescanSpec::default()
+            }),
+            camera: None,
         }
     }
 
@@ -163,7 +220,8 @@ mod tests {
         let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
         let t = at(0.0, 0.0, -5.0);
         run(5_000, 0.02, |c| {
-            Some(suite.read(c, &t, &Still, &Clean, &BED, &Obstacles::default()))
+            let asked = Asked::default();
+            Some(suite.read(c, &t, &Still, &Clean, &BED, &Obstacles::default(), asked))
         })
     }
 
@@ -181,6 +239,7 @@ mod tests {
             "altimeter",
             "lbl",
             "ranging",
+            "sidescan",
         ] {
             let (mut spec, mut want) = (all(), whole.clone());
             match name {
@@ -192,7 +251,8 @@ mod tests {
                 "ctd" => spec.ctd = None,
                 "altimeter" => spec.altimeter = None,
                 "lbl" => spec.lbl = None,
-                _ => spec.ranging = None,
+                "ranging" => spec.ranging = None,
+                _ => spec.sidescan = None,
             }
             for r in &mut want {
                 let before = r.clone();
@@ -205,17 +265,18 @@ mod tests {
                     "ctd" => r.ctd = None,
                     "altimeter" => r.altimeter = None,
                     "lbl" => r.lbl = None,
-                    _ => r.ranging = None,
+                    "ranging" => r.ranging = None,
+                    _ => r.sidescan = None,
                 }
                 lost += usize::from(*r != before);
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25, 10, 5 and 2 Hz, and what came through of 3 fixes.
+        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and what came through of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
         assert_eq!(
             lost,
-            1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + fixes
+            1000 + 500 + 100 + 2500 + 2500 + 1000 + 500 + 200 + 100 + fixes
         );
     }
 

@@ -7,8 +7,9 @@ mod open_loop;
 mod spec;
 mod subregions;
 mod subsumption;
+mod survey;
 
-pub use amp::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
+pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
 pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
@@ -21,4 +22,7 @@ pub use subregions::{
 };
 pub use subsumption::{
     GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
+};
+pub use survey::{
+    AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify,
 };

@@ -44,6 +44,19 @@ impl StrategySpec {
         }
     }
 
+    /// Whether it flies passes for sidescan and camera after a declaration.
+    #[must_use]
+    pub fn flies_for(&self) -> [bool; 2] {
+        match self {
+            StrategySpec::Amp(spec) => spec.after_declaration.flies_for(),
+            StrategySpec::Subsumption(spec) => {
+                spec.survey.as_ref().map_or([false; 2], |s| s.flies_for())
+            }
+            StrategySpec::Subregions(spec) => spec.search.flies_for(),
+            StrategySpec::MapAndPlan(_) | StrategySpec::OpenLoop(_) => [false; 2],
+        }
+    }
+
     /// The strategy, ready for its first tick.
     ///
     /// # Errors

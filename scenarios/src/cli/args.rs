@@ -1,7 +1,9 @@
 //! What the command can be asked.
 
 use super::args_campaign::CampaignArgs;
+use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
+use super::args_vision::{ScoreVisionArgs, SegmentArgs};
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -63,6 +65,12 @@ pub enum Command {
     Reproduce(ReproduceArgs),
     /// Watch a scenario's water and plume and show their statistics beside published ones.
     Statistics(StatisticsArgs),
+    /// Take a picture of a scenario's plume from anywhere in the water.
+    Picture(PictureArgs),
+    /// Take a picture apart by colour and judge whether it shows a source giving off dye.
+    Segment(SegmentArgs),
+    /// Score how well dye and source are found in rendered pictures of known truth.
+    ScoreVision(ScoreVisionArgs),
 }
 
 /// Arguments of `run`.

@@ -31,6 +31,11 @@ const SECTIONS: &[Section] = &[
         "Declaration rules",
         robots::declare::CATALOGUE,
     ),
+    section(
+        ListKind::Algorithms,
+        "Eyes (rheotaxis segment, and a verifier's fields)",
+        robots::vision::CATALOGUE,
+    ),
     section(ListKind::Algorithms, "Guidance", robots::guide::CATALOGUE),
     section(
         ListKind::Algorithms,
@@ -51,6 +56,11 @@ const SECTIONS: &[Section] = &[
         ListKind::Algorithms,
         "Units of the Crab tracker, by their fields",
         robots::track::UNITS,
+    ),
+    section(
+        ListKind::Algorithms,
+        "Objects in a sidescan's picture",
+        robots::survey::CATALOGUE,
     ),
     section(ListKind::Flows, "Flows", plumes::flow::CATALOGUE),
     section(

@@ -7,7 +7,9 @@
 
 mod args;
 mod args_campaign;
+mod args_picture;
 mod args_reproduce;
+mod args_vision;
 mod campaign;
 mod campaign_report;
 mod check;
@@ -15,10 +17,13 @@ mod exit;
 mod init;
 mod list;
 mod onlooker;
+mod picture;
 mod progress;
 mod reproduce;
 mod run;
 mod say;
+mod score_vision;
+mod segment;
 mod statistics;
 mod topics;
 
@@ -30,7 +35,9 @@ pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
     StatusArgs,
 };
+pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
+pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;
 
 use clap::Parser;
@@ -50,6 +57,9 @@ pub fn main() -> ExitCode {
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Statistics(args) => statistics::statistics(&args),
+        Command::Picture(args) => picture::picture(&args),
+        Command::Segment(args) => segment::segment(&args),
+        Command::ScoreVision(args) => score_vision::score_vision(&args),
     };
     exit.into()
 }

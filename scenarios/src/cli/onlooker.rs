@@ -7,13 +7,13 @@
 use super::args::{RunArgs, Speed};
 use super::progress::Progress;
 use crate::assemble::AssembleError;
-use crate::frame::{Frame, PlumeFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use crate::gantry::GantryBlock;
 use crate::live::{Live, LiveMeta, LiveOptions, run_id};
 use crate::report::{
-    BeliefTrack, GantryInfo, MassBalance, ObstacleOutline, ProbeTables, Recorder, ReportError,
-    RobotInfo, RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder, Totals,
-    TrackTable, write_all,
+    BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables, Recorder,
+    ReportError, RobotInfo, RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder,
+    Totals, TrackTable, write_all,
 };
 use crate::scenario::Loaded;
 use crate::system::Dye;
@@ -38,6 +38,8 @@ pub(super) struct Onlooker<'a> {
     track: TrackTable,
     probes: ProbeTables,
     beliefs: BeliefTrack,
+    pictures: Pictures,
+    echoes: Echoes,
     recorder: Option<Recorder>,
     live: Option<Live>,
     progress: Progress,
@@ -118,6 +120,8 @@ impl<'a> Onlooker<'a> {
             track,
             probes,
             beliefs: BeliefTrack::default(),
+            pictures: Pictures::new(out, scenario.record.pictures),
+            echoes: Echoes::default(),
             recorder,
             live,
             progress,
@@ -206,6 +210,8 @@ impl<'a> Onlooker<'a> {
         let written = write_all(
             &self.out,
             &RunReport {
+                pictures: self.pictures.shown(),
+                echoes: &self.echoes,
                 summary: &summary,
                 track: &track,
                 gantries: &gantries,
@@ -293,6 +299,20 @@ impl Watch for Onlooker<'_> {
         }
         self.beliefs.plume(plume);
         self.last_plume = Some(plume.clone());
+    }
+
+    fn picture(&mut self, picture: &PictureFrame) {
+        let written = self.pictures.push(picture);
+        self.note(written);
+    }
+
+    fn ping(&mut self, ping: &PingFrame) {
+        if let Some(line) = self.echoes.push(ping)
+            && let Some(recorder) = &mut self.recorder
+        {
+            let recorded = recorder.echo(&ping.robot, line);
+            self.note(recorded);
+        }
     }
 
     fn go_on(&mut self, t_s: f64) -> bool {

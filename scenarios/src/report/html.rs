@@ -15,7 +15,7 @@ th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f
 
 const TEXT: &str = "writing to a String succeeds";
 
-/// The page: summary, figures (SVG), scenario.
+/// The page: summary, figures (SVG or whatever else stands in a page), scenario.
 pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_text: &str) -> String {
     let name = escaped(&summary.scenario);
     let mut out = format!(
@@ -75,13 +75,16 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
         d.rule
     );
     rows.push((format!("Declared{which}"), what));
-    if d.verdict != Verdict::Unchecked || d.surveyed.is_some() {
-        let at = d
-            .surveyed
-            .map_or_else(String::new, |p| format!("; seen at {}", place(p)));
+    if d.verdict != Verdict::Unchecked {
+        rows.push((format!("Looked at{which}"), d.verdict.name().to_owned()));
+    }
+    if let Some(p) = d.surveyed {
+        let error = (d.surveyed_error.as_ref()).map_or_else(String::new, |e| {
+            format!("; {:.1} m from {}", e.total_m, e.source)
+        });
         rows.push((
-            format!("Looked at{which}"),
-            format!("{}{at}", d.verdict.name()),
+            format!("By the sidescan{which}"),
+            format!("{}{error}", place(p)),
         ));
     }
     if let Some(e) = &d.error {

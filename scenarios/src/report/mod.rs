@@ -1,11 +1,13 @@
 //! What a run leaves behind: recording, tables, figures, one-page report.
 
 mod belief_track;
+mod echoes;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
 mod map_record;
 mod odour;
+mod pictures;
 mod probes;
 mod recorder;
 mod recorder_gantry;
@@ -15,8 +17,10 @@ mod track;
 mod write;
 
 pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
+pub use echoes::{Echoes, RobotEchoes};
 pub use files::ReportError;
 pub(crate) use files::{make_folder, write_whole};
+pub use pictures::{Pictures, ShownPicture};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{

@@ -1,11 +1,12 @@
 //! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
 
-use super::ReportError;
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
+use super::{Echoes, ReportError};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::{Belief, Command, Declaration, Estimate, Layer, Vertical};
+use robots::survey::Row;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -251,6 +252,27 @@ impl Recorder {
         let names = ["x", "y", "z", "size", "mass", "concentration"];
         let cloud = point_cloud(t, WORLD, names, &rows);
         self.file.write("/plume", Kind::PointCloud2, t, &cloud)?;
+        Ok(())
+    }
+
+    /// Records a line of a sidescan's picture as a cloud on the bed as believed; `level` is in dB, Lambert's fall taken out.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn echo(&mut self, robot: &str, line: &Row) -> Result<(), ReportError> {
+        let t = nanoseconds(line.t_s);
+        let mut rows: Vec<[f32; 4]> = Vec::new();
+        for port in [true, false] {
+            for (k, level) in line.side(port).iter().enumerate() {
+                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M);
+                if level.is_finite() {
+                    rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
+                }
+            }
+        }
+        let cloud = point_cloud(t, WORLD, ["x", "y", "z", "level"], &rows);
+        let topic = format!("/{robot}/sidescan");
+        self.file.write(&topic, Kind::PointCloud2, t, &cloud)?;
         Ok(())
     }
 

@@ -104,6 +104,8 @@ pub struct DeclarationSummary {
     pub verdict: Verdict,
     /// Where the sidescan had the source, as the vehicle believed.
     pub surveyed: Option<Position>,
+    /// How wrong that was.
+    pub surveyed_error: Option<SourceError>,
     /// Straight distance from the first detection in this area, or subregion, to it, m.
     pub traced_m: Option<f64>,
     /// How far a position fix moved what the robot believed in the minute before, the farthest, m; none without one.

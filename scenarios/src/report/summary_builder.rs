@@ -48,6 +48,13 @@ impl SourceTruth {
     }
 }
 
+/// A place against the true source nearest to it.
+fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> {
+    (sources.iter())
+        .map(|s| s.error_of(place))
+        .min_by(|a, b| a.total_m.total_cmp(&b.total_m))
+}
+
 impl DeclarationSummary {
     /// A declaration against the true sources.
     #[must_use]
@@ -58,12 +65,10 @@ impl DeclarationSummary {
             t_s: d.t_s,
             rule: d.rule.to_owned(),
             position: d.position.into(),
-            error: sources
-                .iter()
-                .map(|s| s.error_of(d.position))
-                .min_by(|a, b| a.total_m.total_cmp(&b.total_m)),
+            error: nearest(d.position, sources),
             verdict: d.verdict,
             surveyed: d.surveyed.map(Position::from),
+            surveyed_error: d.surveyed.and_then(|p| nearest(p, sources)),
             traced_m: None,
             fix_m: None,
             evidence: d.evidence,

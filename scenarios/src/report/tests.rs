@@ -209,6 +209,8 @@ fn report_of(
         beliefs.push(f);
     }
     let run = RunReport {
+        pictures: &[],
+        echoes: &crate::report::Echoes::default(),
         summary,
         track,
         gantries: &[],

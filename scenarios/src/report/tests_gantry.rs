@@ -203,6 +203,8 @@ fn written(
     let files = write_all(
         dir.path(),
         &RunReport {
+            pictures: &[],
+            echoes: &crate::report::Echoes::default(),
             summary: &summary(frames),
             track: &Track::default(),
             beliefs: &crate::report::BeliefTrack::default(),

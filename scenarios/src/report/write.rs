@@ -3,7 +3,8 @@
 use super::files::{ReportError, make_folder, write_whole};
 use super::probes::file_name;
 use super::{
-    BeliefTrack, GantryTrack, SourceTruth, Summary, Track, belief_track, figures, html, odour,
+    BeliefTrack, Echoes, GantryTrack, ShownPicture, SourceTruth, Summary, Track, belief_track,
+    figures, html, odour,
 };
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
@@ -32,6 +33,10 @@ pub struct RunReport<'a> {
     pub gantries: &'a [GantryTrack],
     /// The robots' maps of where the source may be.
     pub beliefs: &'a BeliefTrack,
+    /// Pictures that cameras took; their files are there already.
+    pub pictures: &'a [ShownPicture],
+    /// What sidescan sonars heard.
+    pub echoes: &'a Echoes,
     /// Some of the plume's filaments at the end; none in a run without one.
     pub plume: Option<&'a PlumeFrame>,
     /// What is dissolved in the water at the end, for sections through it.
@@ -52,7 +57,7 @@ pub struct RunReport<'a> {
 /// was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
 /// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
 /// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`; for those whose map says more
-/// of the odour `odour-<robot>`, with a table.
+/// of the odour `odour-<robot>`, with a table; for one whose sidescan surveyed a declared place `sidescan-<robot>`.
 ///
 /// # Errors
 /// If the folder or a file cannot be written.
@@ -86,6 +91,7 @@ pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Re
         written.push(write_whole(&path, &png)?);
         shown.push((title, svg));
     }
+    shown.extend(run.pictures.iter().map(|p| (p.title(), p.html())));
     let page = html::page(run.summary, &shown, run.scenario_text);
     written.push(write_whole(&out_dir.join("report.html"), page.as_bytes())?);
     Ok(written)
@@ -119,6 +125,12 @@ fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
                 figures::odour(run, robot),
             ));
         }
+    }
+    for robot in &run.echoes.robots {
+        figures.extend(figures::sidescan(run, robot).map(|svg| {
+            let name = format!("sidescan-{}", file_name(&robot.id));
+            (name, format!("Sidescan of {}", robot.id), svg)
+        }));
     }
     if !run.beliefs.robots.is_empty() {
         let title = "Convergence of the maps".to_owned();

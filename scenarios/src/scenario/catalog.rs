@@ -77,6 +77,8 @@ pub const CATALOG: &[Template] = catalog![
     "duck_mt",
     "san_clemente",
     "moth_plus",
+    "duck_survey",
+    "eyes_over_source",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

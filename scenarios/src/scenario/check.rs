@@ -9,6 +9,7 @@ use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::SensorSuite;
+use robots::sense::camera::Optics;
 use robots::strategy::StrategySpec;
 use robots::vehicles::Vehicle;
 use std::path::Path;
@@ -34,6 +35,9 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     if let Err(PlumeError::Invalid { field, problem }) = scenario.water.build(&area, &terrain, 0) {
         found.push(Found::error(field, problem));
     }
+    if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
+        found.push(Found::error(field, problem));
+    }
     let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
     let solid = scenario.solid(&obstacles);
     check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
@@ -43,7 +47,7 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
         &scenario.obstacles,
         &mut found,
     );
-    sources(scenario, &area, &terrain, &obstacles, &mut found);
+    sources(scenario, &area, &terrain, &solid, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
@@ -225,6 +229,20 @@ fn mind(
     }
     if let Err(e) = robot.strategy.build(setting) {
         found.push(robot_error(&path, "strategy", e));
+    }
+    let [sidescan, camera] = robot.strategy.flies_for();
+    let lacks = [
+        ("sidescan", sidescan && robot.sensors.sidescan.is_none()),
+        ("camera", camera && robot.sensors.camera.is_none()),
+    ];
+    for (name, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
+        let problem = format!(
+            "robot \"{}\" flies a survey for its {name} and carries none",
+            robot.id.as_str()
+        );
+        let hint = format!("give it one, sensors: ({name}: ()), or leave its passes out");
+        let field = format!("{path}.strategy");
+        found.push(Found::error(field, problem).hint(&hint));
     }
 }
 

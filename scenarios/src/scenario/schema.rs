@@ -11,6 +11,7 @@ use robots::guide::GuidanceSpec;
 use robots::handoff::Setting;
 use robots::map::MapSpec;
 use robots::sense::SensorsSpec;
+use robots::sense::camera::OpticsSpec;
 use robots::strategy::StrategySpec;
 use robots::vehicles::VehicleSpec;
 use serde::{Deserialize, Serialize};
@@ -38,6 +39,9 @@ pub struct Scenario {
     pub terrain: TerrainSpec,
     /// Currents, stratification, mixing.
     pub water: WaterSpec,
+    /// How clear the water is and how light falls into it, for cameras.
+    #[serde(default)]
+    pub optics: OpticsSpec,
     /// What is released; any number.
     #[serde(default)]
     pub sources: Vec<SourceSpec>,
@@ -349,6 +353,8 @@ pub struct RecordSpec {
     pub plume_points: u32,
     /// Period of the recorded maps of where the source may be, s.
     pub map_period_s: Positive,
+    /// Most pictures of cameras that a run leaves behind.
+    pub pictures: u32,
 }
 
 impl Default for RecordSpec {
@@ -358,6 +364,7 @@ impl Default for RecordSpec {
             plume_period_s: Positive::new(10.0),
             plume_points: 2000,
             map_period_s: Positive::new(10.0),
+            pictures: 40,
         }
     }
 }

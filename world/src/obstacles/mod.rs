@@ -1,5 +1,6 @@
 //! Solid things standing in the water: boxes, cylinders, height fields and closed meshes.
 
+mod cast;
 mod heightfield_file;
 mod mesh;
 mod mesh_file;
@@ -14,6 +15,7 @@ mod tests;
 mod tests_placing;
 mod way_out;
 
+pub use cast::Hit;
 pub use mesh_file::read_corners;
 pub use placing::Remark;
 pub use solid::{Obstacle, Obstacles};

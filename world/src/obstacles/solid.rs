@@ -171,11 +171,11 @@ fn to_parry_pose(pose: &Pose) -> ParryPose {
     )
 }
 
-fn to_parry(v: &Vector3<f64>) -> Vector {
+pub(super) fn to_parry(v: &Vector3<f64>) -> Vector {
     Vector::new(v.x, v.y, v.z)
 }
 
-fn from_parry(v: Vector) -> Vector3<f64> {
+pub(super) fn from_parry(v: Vector) -> Vector3<f64> {
     Vector3::new(v.x, v.y, v.z)
 }
 

@@ -4,18 +4,19 @@
 //!
 //! *Parameters*: see [`AmpSpec`].
 //!
-//! *Deviations*: none in the switching. The post-declaration survey with sidescan sonar is not flown: after
-//! the declaration the vehicle goes home, and the mission is completed there. A cage abort ends the
-//! mission at once.
+//! *Deviations*: none in the switching. After the declaration the vehicle goes home, unless the scenario asks for a
+//! survey of the declared place (see `strategy/survey`); the mission is completed at home. A rejected place sends it on with
+//! the search. A cage abort ends the mission at once.
 
 use super::super::spec::Strategy;
-use super::spec::{AfterDeclaration, AmpSpec, Detections};
+use super::super::survey::{PostDeclaration, Progress};
+use super::spec::{AmpSpec, Detections};
 use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
     Behave, Behaviour, Decision, Declaration, FixMove, Goal, Lcdp, Manoeuvre, Observation, Outcome,
-    PlumeMemory, Stride, Vertical, detects,
+    PlumeMemory, Stride, Verdict, Vertical, detects,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -57,7 +58,7 @@ pub struct Amp {
     speed_m_s: f64,
     vertical: Vertical,
     rule: DeclareSpec,
-    after: AfterDeclaration,
+    post: PostDeclaration,
     heeds_on_the_way: bool,
     behaviours: Behaviours,
     memory: PlumeMemory,
@@ -77,7 +78,7 @@ impl Amp {
             speed_m_s,
             vertical,
             rule: spec.declare.clone(),
-            after: spec.after_declaration,
+            post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec
                 .start_at
                 .as_ref()
@@ -151,12 +152,17 @@ impl Amp {
             Some(behaviour) => behaviour.step(seen, arrived, &mut self.memory, rng),
             None => Stride::Keep,
         };
+        self.ask(stride, self.vertical)
+    }
+
+    /// What a behaviour asks for becomes the goal; true when it asks for nothing more.
+    fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
         match stride {
             Stride::Start(manoeuvre) => {
                 self.goal = Goal {
                     id: self.goal.id + 1,
                     manoeuvre,
-                    vertical: self.vertical,
+                    vertical,
                     speed_m_s: self.speed_m_s,
                 }
             }
@@ -167,17 +173,28 @@ impl Amp {
         false
     }
 
+    /// One step of the survey of a declared place: the declaration again when it is over.
+    fn survey(&mut self, seen: &Observation, arrived: bool) -> Option<Declaration> {
+        match self.post.step(seen, arrived) {
+            Progress::Go(stride) => {
+                let vertical = self.post.vertical().unwrap_or(self.vertical);
+                self.ask(stride, vertical);
+                None
+            }
+            Progress::Over(declaration) => {
+                if declaration.verdict == Verdict::Rejected {
+                    (self.memory).forget_near(declaration.position, self.post.forget_m());
+                }
+                self.turn_to(PostDeclaration::next(declaration.verdict), seen);
+                Some(declaration)
+            }
+        }
+    }
+
     /// The declaration test at the end of Track-Out (section 5.6).
     fn test(&self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
         self.rule.declaration(seen.t_s, &self.memory, up_flow)
-    }
-
-    fn after_declaration(&self) -> Behaviour {
-        match self.after {
-            AfterDeclaration::GoHome => Behaviour::GoHome,
-            AfterDeclaration::Stop => Behaviour::Done,
-        }
     }
 
     fn observe(&mut self, seen: &Observation) -> bool {
@@ -186,7 +203,7 @@ impl Amp {
         }
         self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
-            Behaviour::GoHome | Behaviour::Done => false,
+            Behaviour::GoHome | Behaviour::Survey | Behaviour::Done => false,
             Behaviour::Idle | Behaviour::GoTo => {
                 self.behaviours.go_to.is_none() || self.heeds_on_the_way
             }
@@ -215,6 +232,14 @@ impl Strategy for Amp {
         // A behaviour that ends gives way within the tick; none but the empty ones end twice, so a
         // handful of turns always suffices.
         for _ in 0..4 {
+            if self.now == Behaviour::Survey {
+                // What it comes to is begun within the tick.
+                declared = self.survey(seen, arrived).or(declared);
+                arrived = false;
+                if self.now == Behaviour::Survey {
+                    break;
+                }
+            }
             let out = self.now == Behaviour::TrackOut;
             let over = if out && detected {
                 true
@@ -226,9 +251,11 @@ impl Strategy for Amp {
             }
             arrived = false;
             let next = if out {
-                declared = self.test(seen);
-                if declared.is_some() {
-                    self.after_declaration()
+                if let Some(declaration) = self.test(seen) {
+                    let along = self.memory.up_flow_or_nose(seen);
+                    let (declaration, next) = self.post.enter(declaration, seen, along);
+                    declared = Some(declaration);
+                    next
                 } else if detected {
                     Behaviour::TrackIn
                 } else {
@@ -247,7 +274,7 @@ impl Strategy for Amp {
             planned: Arc::default(),
             regions: Default::default(),
             layers: Arc::default(),
-            picture: false,
+            picture: self.now == Behaviour::Survey && self.post.picture(),
             outcome: self.outcome,
         }
     }

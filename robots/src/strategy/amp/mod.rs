@@ -4,7 +4,7 @@ mod machine;
 mod spec;
 
 pub use machine::Amp;
-pub use spec::{AfterDeclaration, AmpSpec, Detections, StartAt};
+pub use spec::{AmpSpec, Detections, StartAt};
 
 #[cfg(test)]
 mod switch_tests;

@@ -1,6 +1,7 @@
 //! What a scenario says about the adaptive mission planner.
 
 use super::super::spec::VerticalSpec;
+use super::super::survey::AfterDeclaration;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::{FixMove, LCDPS};
@@ -78,14 +79,4 @@ pub enum Detections {
     Ignored,
     /// The first one begins the tracing, wherever it comes.
     Heeded,
-}
-
-/// What follows the declaration.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum AfterDeclaration {
-    /// Home, and the mission is completed there.
-    #[default]
-    GoHome,
-    /// The mission is completed on the spot.
-    Stop,
 }

@@ -1,6 +1,7 @@
 //! Fig. 5 edge by edge, with observations written by hand.
 
-use super::{AfterDeclaration, Amp, AmpSpec, Detections, StartAt};
+use super::super::survey::AfterDeclaration;
+use super::{Amp, AmpSpec, Detections, StartAt};
 use crate::handoff::testing::{seen, smelling};
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Outcome};
 use crate::strategy::Strategy;

@@ -8,8 +8,8 @@
 //! where the leg is free again. What the vehicle does at the target while the map still wavers is not said there: see
 //! [`AtTarget`]. A cell that is solid through and through is no target: the paper's map does not know of obstacles. The map is the robot's own (`map` in the scenario); without one the strategy is refused.
 
-use super::super::amp::AfterDeclaration;
 use super::super::spec::Strategy;
+use super::super::survey::AfterDeclaration;
 use super::pilot::{Pilot, place};
 use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::declare::BeliefRule;
@@ -68,13 +68,19 @@ impl MapAndPlan {
                 problem: "MapAndPlan goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Pomdp()".into(),
             });
         }
+        if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
+            return Err(RobotError::Invalid {
+                field: "strategy.after_declaration".into(),
+                problem: "MapAndPlan flies no survey: GoHome or Stop".into(),
+            });
+        }
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
         Ok(Self {
             speed_m_s,
             vertical,
             arrive_m: spec.arrive_m.get(),
             at_target: spec.at_target,
-            after: spec.after_declaration,
+            after: spec.after_declaration.clone(),
             find: spec.find.build()?,
             rule: BeliefRule::new(&spec.declare),
             pilot: Pilot::new(spec, setting)?,
@@ -307,7 +313,7 @@ impl Strategy for MapAndPlan {
                 self.turn_to(
                     match self.after {
                         AfterDeclaration::GoHome => Behaviour::GoHome,
-                        AfterDeclaration::Stop => Behaviour::Done,
+                        AfterDeclaration::Stop | AfterDeclaration::Survey(_) => Behaviour::Done,
                     },
                     seen,
                 );

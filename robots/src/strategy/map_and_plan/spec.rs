@@ -1,7 +1,7 @@
 //! What a scenario says about map and plan.
 
-use super::super::amp::AfterDeclaration;
 use super::super::spec::VerticalSpec;
+use super::super::survey::AfterDeclaration;
 use super::evade::EvadeSpec;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;

@@ -1,7 +1,7 @@
 //! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, its map written by hand.
 
-use super::super::amp::AfterDeclaration;
 use super::super::spec::{Strategy, VerticalSpec};
+use super::super::survey::AfterDeclaration;
 use super::*;
 use crate::handoff::testing::seen;
 use crate::handoff::{

@@ -12,12 +12,14 @@
 //! always. Maintain asks from a detection until it loses the plume, Reacquire from then until a detection or its end: they
 //! never ask together. A search that was suppressed begins afresh when it gets the vehicle back, as in Pang 2009, Fig. 5.
 //! Declare asks when its rule is met at the end of Track-Out (Pang 2009, section 5.6) and holds the vehicle for
-//! the one tick of the declaration; suppressed by Avoid it asks on, and declares afterwards. Avoid replaces
+//! the one tick of the declaration, or until the survey of the declared place is over (ours, as Pang 2009, section 6, has it):
+//! the plume's layers are inhibited the while, and begin afresh where the place is rejected. Suppressed by Avoid it asks on, and declares afterwards. Avoid replaces
 //! the command of the layer that would hold the vehicle by one turned away from what is in its way. Layers suppressed by
 //! Avoid go on watching but do not arrive, unless Avoid gives up. Where Construct-Plume-Map goes in: `plume_map.rs`. Without a Go-Home layer the
 //! mission is over with the declaration. A cage abort ends it at once.
 
 use super::super::spec::Strategy;
+use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
 use super::plume::Asked;
@@ -26,7 +28,7 @@ use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
     Behave, Behaviour, Decision, Declaration, FixMove, Goal, Layer, LayerState, Lcdp, Manoeuvre,
-    Observation, Outcome, PlumeMemory, Setting, Stride, Vertical, detects,
+    Observation, Outcome, PlumeMemory, Setting, Stride, Verdict, Vertical, detects,
 };
 use nalgebra::Vector2;
 use std::sync::Arc;
@@ -40,6 +42,11 @@ pub struct Subsumption {
     memory: PlumeMemory,
     /// What the rule says: Declare asks.
     declaring: Option<Declaration>,
+    /// What follows a declaration; the survey has begun, and what was asked for on it.
+    post: PostDeclaration,
+    surveying: bool,
+    passes: Option<Manoeuvre>,
+    vertical: Vertical,
     /// The way home has begun, and what was asked for on it.
     homing: bool,
     home: Option<Manoeuvre>,
@@ -67,6 +74,15 @@ impl Subsumption {
             layers,
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             declaring: None,
+            post: PostDeclaration::new(
+                &spec
+                    .survey
+                    .clone()
+                    .map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
+            )?,
+            surveying: false,
+            passes: None,
+            vertical: Vertical::from(spec.vertical),
             homing: false,
             home: None,
             holder: None,
@@ -91,7 +107,7 @@ impl Subsumption {
             self.memory.up_flow = Some(flow.up_flow());
         }
         self.memory.take_fixes(seen, self.fixes);
-        let detected = !self.homing && detects(seen);
+        let detected = !self.homing && !self.surveying && detects(seen);
         if detected {
             self.memory.last_detection = Some(Lcdp::here(seen));
         }
@@ -119,12 +135,51 @@ impl Subsumption {
         Ask::of(Kind::GoHome, Behaviour::GoHome, way, anew)
     }
 
+    /// One step of the survey: what it asks for, or the declaration again when it is over.
+    fn survey(
+        &mut self,
+        seen: &Observation,
+        arrived: Option<Kind>,
+    ) -> (Option<Ask>, Option<Declaration>) {
+        match self.post.step(seen, arrived == Some(Kind::Declare)) {
+            Progress::Go(stride) => {
+                let anew = keep(&mut self.passes, stride);
+                let ask = Ask::of(Kind::Declare, Behaviour::Survey, self.passes, anew);
+                (ask, None)
+            }
+            Progress::Over(declaration) => {
+                self.surveying = false;
+                if declaration.verdict == Verdict::Rejected {
+                    (self.memory).forget_near(declaration.position, self.post.forget_m());
+                    self.layers.plume.renew();
+                } else {
+                    self.leave(seen);
+                }
+                (None, Some(declaration))
+            }
+        }
+    }
+
+    /// The search is over: home, if there is such a layer.
+    fn leave(&mut self, seen: &Observation) {
+        match &mut self.layers.go_home {
+            Some(home) => {
+                home.enter(seen, &self.memory);
+                self.homing = true;
+            }
+            None => self.end(Outcome::Completed),
+        }
+    }
+
     /// From the lowest layer up: who asks, who is suppressed or inhibited, who holds.
-    fn arbitrate(&mut self, seen: &Observation, asked: &Asked, home: Option<Ask>) -> Option<Ask> {
-        let (homing, declaring) = (self.homing, self.declaring.is_some());
+    fn arbitrate(&mut self, seen: &Observation, asked: &Asked, above: Option<Ask>) -> Option<Ask> {
+        let (homing, surveying) = (self.homing, self.surveying);
+        let declaring = self.declaring.is_some();
         let Layers { order, avoid, .. } = &mut self.layers;
         let place = |kind| order.iter().position(|k| *k == kind);
-        let from = place(Kind::GoHome).filter(|_| homing).unwrap_or(0);
+        let from = (place(Kind::GoHome).filter(|_| homing))
+            .or_else(|| place(Kind::Declare).filter(|_| surveying))
+            .unwrap_or(0);
         let mut states = vec![LayerState::Silent; order.len()];
         states[..from].fill(LayerState::Inhibited);
         let mut holder: Option<Ask> = None;
@@ -139,6 +194,7 @@ impl Subsumption {
                 Kind::Find => asked.find,
                 Kind::Maintain => asked.maintain,
                 Kind::Reacquire => asked.reacquire,
+                Kind::Declare if surveying => above,
                 Kind::Declare => {
                     (holder.filter(|_| declaring)).map(|h| of(h.behaviour, h.manoeuvre))
                 }
@@ -147,7 +203,7 @@ impl Subsumption {
                     let away = avoid.as_mut()?.step(seen, &h.manoeuvre)?;
                     Some(of(Behaviour::Avoid, away))
                 }),
-                Kind::GoHome => home,
+                Kind::GoHome => above.filter(|a| a.kind == Kind::GoHome),
                 // Its command stands in Find's place, below.
                 Kind::PlumeMap => None,
             };
@@ -185,6 +241,8 @@ impl Subsumption {
             self.goal.id += 1;
         }
         self.goal.manoeuvre = ask.manoeuvre;
+        let passes = self.post.vertical().filter(|_| self.surveying);
+        self.goal.vertical = passes.unwrap_or(self.vertical);
         self.behaviour = ask.behaviour;
         self.holder = Some(ask.kind);
     }
@@ -193,17 +251,18 @@ impl Subsumption {
     fn declare(&mut self, seen: &Observation) -> Option<Declaration> {
         let declared = self.declaring.take()?;
         self.holder = Some(Kind::Declare);
-        match &mut self.layers.go_home {
-            Some(home) => {
-                home.enter(seen, &self.memory);
-                self.homing = true;
-            }
-            None => self.end(Outcome::Completed),
-        }
-        Some(Declaration {
+        let along = self.memory.up_flow_or_nose(seen);
+        let now = Declaration {
             t_s: seen.t_s,
             ..declared
-        })
+        };
+        let (now, next) = self.post.enter(now, seen, along);
+        if next == Behaviour::Survey {
+            (self.surveying, self.passes) = (true, None);
+        } else {
+            self.leave(seen);
+        }
+        Some(now)
     }
 
     fn end(&mut self, outcome: Outcome) {
@@ -221,13 +280,19 @@ impl Subsumption {
         {
             arrived = self.under_avoid;
         }
-        let (mut asked, mut home) = (Asked::default(), None);
+        let (mut asked, mut above) = (Asked::default(), None);
         if self.homing {
-            home = self.go_home(seen, arrived, rng);
-            if home.is_none() {
+            above = self.go_home(seen, arrived, rng);
+            if above.is_none() {
                 self.end(Outcome::Completed);
                 return None;
             }
+        } else if self.surveying {
+            let (ask, again) = self.survey(seen, arrived);
+            if again.is_some() {
+                return again;
+            }
+            above = ask;
         } else {
             let plume = &mut self.layers.plume;
             asked = plume.step(seen, detected, arrived, &mut self.memory, rng);
@@ -235,8 +300,8 @@ impl Subsumption {
                 self.declaring = self.test(seen);
             }
         }
-        let holder = self.arbitrate(seen, &asked, home)?;
-        if holder.kind == Kind::Declare {
+        let holder = self.arbitrate(seen, &asked, above)?;
+        if holder.kind == Kind::Declare && !self.surveying {
             return self.declare(seen);
         }
         self.command(&holder);
@@ -265,7 +330,7 @@ impl Strategy for Subsumption {
             lost_points: points.iter().map(|l| l.position).collect(),
             planned: Arc::default(),
             layers: self.states.clone(),
-            picture: false,
+            picture: self.surveying && self.post.picture(),
             regions: Default::default(),
             outcome: self.outcome,
         }

@@ -49,6 +49,11 @@ impl Maintain {
         })
     }
 
+    /// Contact counts no more, until the next detection.
+    pub(super) fn leave(&mut self) {
+        self.phase = Phase::Off;
+    }
+
     /// It asks for the vehicle.
     pub(super) fn active(&self) -> bool {
         self.phase != Phase::Off

@@ -53,6 +53,13 @@ impl PlumeLayers {
         }
     }
 
+    /// All begin afresh: what led to the last declaration counts no more.
+    pub(super) fn renew(&mut self) {
+        self.maintain.leave();
+        self.plume_map.iter_mut().for_each(PlumeMap::drop_target);
+        (self.reacquiring, self.searching) = (false, false);
+    }
+
     /// One tick; `arrived`: whose goal has been reached.
     pub(super) fn step(
         &mut self,

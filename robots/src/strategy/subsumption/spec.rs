@@ -1,6 +1,7 @@
 //! What a scenario says about the subsumption planner.
 
 use super::super::spec::VerticalSpec;
+use super::super::survey::SurveySpec;
 use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
@@ -27,6 +28,9 @@ pub struct SubsumptionSpec {
     /// Most last detection points that the SIZ rules look at; the oldest are forgotten (all are kept in the paper: 1000).
     #[serde(default = "all")]
     pub lcdps: NonZeroUsize,
+    /// What the Declare layer does with a declared place before Go-Home; without it the vehicle goes home at once.
+    #[serde(default)]
+    pub survey: Option<Box<SurveySpec>>,
     /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
     #[serde(default)]
     pub fixes: FixMove,
@@ -58,6 +62,7 @@ impl SubsumptionSpec {
             layers,
             lost_points: six(),
             lcdps: all(),
+            survey: None,
             fixes: FixMove::default(),
         }
     }

@@ -1,7 +1,9 @@
 //! A range that is meant to hold a figure.
 
+use serde::Serialize;
+
 /// A closed interval.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Interval {
     /// Lower end.
     pub low: f64,

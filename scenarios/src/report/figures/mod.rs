@@ -20,6 +20,7 @@ mod raster;
 mod section;
 mod series;
 mod series_panels;
+mod sidescan;
 
 pub(super) use approach::approach;
 pub(super) use belief::belief;
@@ -31,3 +32,4 @@ pub(super) use odour::odour;
 pub(super) use probe_records::probe_records;
 pub(crate) use raster::png;
 pub(super) use series::series;
+pub(super) use sidescan::sidescan;

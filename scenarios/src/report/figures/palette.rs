@@ -109,3 +109,12 @@ pub(super) fn likelihood(share: f64) -> String {
         mix([0xfc, 0x8d, 0x59], [0x7f, 0x00, 0x00], 2.0 * share - 1.0)
     }
 }
+
+/// Echo of a sidescan, from none (0) to strong (1): the copper of paper records.
+pub(super) fn echo(share: f64) -> String {
+    if share < 0.5 {
+        mix([0x08, 0x06, 0x04], [0x9a, 0x5f, 0x22], 2.0 * share)
+    } else {
+        mix([0x9a, 0x5f, 0x22], [0xff, 0xf3, 0xd2], 2.0 * share - 1.0)
+    }
+}

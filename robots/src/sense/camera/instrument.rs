@@ -1,0 +1,111 @@
+//! Camera: a picture of what is before its mount, when asked for.
+//!
+//! *Source:* the picture is that of `render.rs`; a still camera asked at a declaration or a last detection: Tian et al. 2013, Sensors 13,
+//! 3776, section 6.
+//!
+//! *Parameters:* `rate_hz` most pictures a second, 1 Hz; the others in `model.rs` and `sensor.rs`.
+//!
+//! *Deviations:* a picture asked for before the last one's time is up is taken when it is.
+
+use super::model::{CameraModel, CameraSpec, turned};
+use super::render::render;
+use super::scene::Scene;
+use crate::error::RobotError;
+use crate::handoff::Picture;
+use nalgebra::{UnitQuaternion, Vector3};
+use std::sync::Arc;
+use world::clock::Clock;
+use world::frames::{Pose, Truth};
+use world::seeds;
+
+/// Most pixels along a side.
+const MOST: u32 = 4096;
+
+/// A camera on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    model: CameraModel,
+    p_BC: Vector3<f64>,
+    R_BC: UnitQuaternion<f64>,
+    /// Steps from one picture to the next.
+    wait: u64,
+    next: u64,
+    asked: bool,
+    taken: u64,
+    key: u64,
+}
+
+impl Camera {
+    /// A camera at the mount `pose_BM` (body axes) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit the step, or the picture or its angle cannot be.
+    pub fn new(
+        spec: &CameraSpec,
+        pose_BM: &Pose,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let wrong = |field: &str, problem: String| RobotError::Invalid {
+            field: format!("sensors.camera.{field}"),
+            problem,
+        };
+        for (field, n) in [("width", spec.width), ("height", spec.height)] {
+            if n == 0 || n > MOST {
+                return Err(wrong(field, format!("must be from 1 to {MOST}, got {n}")));
+            }
+        }
+        if spec.view_deg.get() >= 170.0 {
+            return Err(wrong(
+                "view_deg",
+                format!("must be less than 170, got {}", spec.view_deg.get()),
+            ));
+        }
+        let every = super::super::tools::every("sensors.camera.rate_hz", spec.rate_hz.get(), dt_s)?;
+        let look = turned(
+            spec.pan_deg.get().to_radians(),
+            spec.tilt_deg.get().to_radians(),
+        );
+        Ok(Self {
+            model: CameraModel::new(spec),
+            p_BC: pose_BM.p_WB,
+            R_BC: pose_BM.R_WB * look,
+            wait: every.steps,
+            next: 0,
+            asked: false,
+            taken: 0,
+            key: seeds::key(seed, robot_id, "camera"),
+        })
+    }
+
+    /// The picture of this step, if one was asked for and its time has come.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        scene: &Scene<'_>,
+        asked: bool,
+    ) -> Option<Picture> {
+        self.asked |= asked;
+        if !self.asked || clock.step < self.next {
+            return None;
+        }
+        self.asked = false;
+        self.next = clock.step + self.wait;
+        let pose_WC = Pose {
+            p_WB: truth.pose.point(self.p_BC),
+            R_WB: truth.pose.R_WB * self.R_BC,
+        };
+        // The number of the picture, not the time, so that pictures differ however they are asked for.
+        let noise = self.key.wrapping_add(self.taken);
+        self.taken += 1;
+        let made = render(&self.model, &pose_WC, scene, noise);
+        Some(Picture {
+            image: Arc::new(made.image),
+            p_BC: self.p_BC,
+            R_BC: self.R_BC,
+            view_rad: self.model.view_rad,
+        })
+    }
+}

@@ -1,0 +1,167 @@
+//! A pinhole camera: which way each pixel looks, and the lamp beside it.
+//!
+//! *Source:* the pinhole camera of any text on computer vision, e.g. Hartley & Zisserman 2003, Multiple View Geometry, section 6.1.
+//!
+//! *Parameters:* `width`, `height` in pixels 640 × 480; `view_deg` full horizontal angle of view in the water 60°; `pan_deg` to the left
+//! and `tilt_deg` down from the mount's x axis, 0° and 20°; `lamp`: luminous intensity on its axis `candela` 2000 cd, angle from the axis
+//! at which half is left `half_deg` 30°, place beside the camera `right_m` 0.2, `down_m` 0 (m).
+//!
+//! *Deviations:* no distortion and no blur by lens or motion; the angle of view is that behind a flat port, already narrowed. The lamp
+//! is a point.
+
+use super::sensor::SensorSpec;
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use serde::{Deserialize, Serialize};
+use world::frames::Pose;
+use world::math;
+use world::ranges::{Finite, Positive};
+
+/// What a scenario may say of a camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct CameraSpec {
+    /// Most pictures a second, Hz; one is taken only when asked for.
+    pub rate_hz: Positive,
+    /// Pixels side by side, at most 4096.
+    pub width: u32,
+    /// Pixels one above the other, at most 4096.
+    pub height: u32,
+    /// Full horizontal angle of view in the water, °, less than 170.
+    pub view_deg: Positive,
+    /// To the left of the mount's x axis, °.
+    pub pan_deg: Finite,
+    /// Down from the mount's x axis, °: 90 looks straight down.
+    pub tilt_deg: Finite,
+    /// Exposure and noise.
+    pub sensor: SensorSpec,
+    /// A lamp beside it.
+    pub lamp: Option<LampSpec>,
+}
+
+impl Default for CameraSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(1.0),
+            width: 640,
+            height: 480,
+            view_deg: Positive::new(60.0),
+            pan_deg: Finite::new(0.0),
+            tilt_deg: Finite::new(20.0),
+            sensor: SensorSpec::default(),
+            lamp: None,
+        }
+    }
+}
+
+/// A lamp that shines where the camera looks.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct LampSpec {
+    /// Luminous intensity on its axis, cd.
+    pub candela: Positive,
+    /// Angle from its axis at which half of that is left, °.
+    pub half_deg: Positive,
+    /// Its place to the right of the camera, m.
+    pub right_m: Finite,
+    /// Its place below the camera, m.
+    pub down_m: Finite,
+}
+
+impl Default for LampSpec {
+    fn default() -> Self {
+        Self {
+            candela: Positive::new(2000.0),
+            half_deg: Positive::new(30.0),
+            right_m: Finite::new(0.2),
+            down_m: Finite::new(0.0),
+        }
+    }
+}
+
+/// A camera: its lens, its sensor and its lamp. Camera axes: x right in the picture, y down, z into the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraModel {
+    /// Pixels side by side.
+    pub width: u32,
+    /// Pixels one above the other.
+    pub height: u32,
+    /// Full horizontal angle of view, rad.
+    pub view_rad: f64,
+    /// Exposure and noise.
+    pub sensor: SensorSpec,
+    /// A lamp beside it.
+    pub lamp: Option<LampSpec>,
+}
+
+impl CameraModel {
+    /// The camera of a specification; where it looks is that of [`mounted`].
+    #[must_use]
+    pub fn new(spec: &CameraSpec) -> Self {
+        Self {
+            width: spec.width,
+            height: spec.height,
+            view_rad: spec.view_deg.get().to_radians(),
+            sensor: spec.sensor.clone(),
+            lamp: spec.lamp.clone(),
+        }
+    }
+
+    /// Focal length, pixels.
+    #[must_use]
+    pub fn focal_px(&self) -> f64 {
+        0.5 * f64::from(self.width) / math::tan(0.5 * self.view_rad)
+    }
+
+    /// Where a place in the picture (pixels from its upper left corner) looks: a unit vector in camera axes.
+    #[must_use]
+    pub fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
+        let middle = [self.width, self.height].map(|n| 0.5 * f64::from(n));
+        Vector3::new(x - middle[0], y - middle[1], self.focal_px()).normalize()
+    }
+}
+
+/// Camera axes in those of a body (FLU) for a camera turned to the left and down from the body's x axis, rad.
+#[must_use]
+pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
+    // Camera x, y, z are the body's right, down and forward.
+    let forward = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
+    UnitQuaternion::from_euler_angles(0.0, tilt_rad, pan_rad)
+        * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(forward))
+}
+
+/// Pose of a camera in the world (its axes: see [`CameraModel`]) at a place, looking along a yaw (rad, from east to the left) and
+/// an angle down from the horizon (rad).
+#[must_use]
+pub fn looking(p_W: Vector3<f64>, yaw_rad: f64, down_rad: f64) -> Pose {
+    Pose {
+        p_WB: p_W,
+        R_WB: turned(yaw_rad, down_rad),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::f64::consts::FRAC_PI_2;
+
+    #[test]
+    fn the_axes_lie_as_said() {
+        let near =
+            |a: Vector3<f64>, b: [f64; 3]| assert!((a - Vector3::from(b)).norm() < 1e-12, "{a}");
+        let east = looking(Vector3::zeros(), 0.0, 0.0).R_WB;
+        near(east * Vector3::z(), [1.0, 0.0, 0.0]);
+        near(east * Vector3::x(), [0.0, -1.0, 0.0]);
+        near(east * Vector3::y(), [0.0, 0.0, -1.0]);
+        near(turned(FRAC_PI_2, 0.0) * Vector3::z(), [0.0, 1.0, 0.0]);
+        near(turned(0.0, FRAC_PI_2) * Vector3::z(), [0.0, 0.0, -1.0]);
+        near(turned(0.0, FRAC_PI_2) * Vector3::y(), [-1.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn the_picture_spans_the_angle_of_view() {
+        let camera = CameraModel::new(&CameraSpec::default());
+        let (left, right) = (camera.ray(0.0, 240.0), camera.ray(640.0, 240.0));
+        assert!((math::acos(left.dot(&right)) - camera.view_rad).abs() < 1e-12);
+        assert!((camera.ray(320.0, 240.0) - Vector3::z()).norm() < 1e-12);
+    }
+}

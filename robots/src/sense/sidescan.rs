@@ -1,0 +1,207 @@
+//! Sidescan sonar: at each ping the strength of the echo from either side by slant range, with water column, bottom, objects and the
+//! shadows behind them.
+//!
+//! *Source:* the sonar equation for bottom reverberation with Lambert's law, S = μ + 10 log sin² γ (Lambert 1760, Photometria; Urick 1983,
+//! Principles of Underwater Sound, sections 8.2 and 8.11); what the picture shows, and that it is speckled: Blondel 2009, The Handbook
+//! of Sidescan Sonar, sections 2.3 and 4.2. Speckle: many scatterers in a cell make the amplitude Rayleigh, the intensity exponential.
+//!
+//! *Parameters:* pings a second `rate_hz` 10; slant range `range_m` 20 m in `samples` 400, the pulse's resolution; beam `beam_deg` 0.6° along the
+//! track, `aperture_deg` 50° up and down round an axis `tilt_deg` 20° below the horizontal (REMUS 100 carried a Marine Sonic of 600 or
+//! 900 kHz; class values, no data sheet was at hand); bed `bed_db` μ = −27 dB (Urick 1983, section 8.11: −27 to −29 dB fit many bottoms; sand
+//! in APL-UW TR 9407, section IV, lies near it at 10 to 40° and tens of kHz); obstacles by their own `surface.backscatter_db`; noise
+//! `floor_db` −60 dB: the backscatter strength whose echo from the greatest range equals the noise (thermal noise alone at 600 kHz
+//! gives −77 dB with 210 dB source level, 20 kHz bandwidth and 30 dB directivity; the rest is left to electronics and propeller);
+//! absorption `absorption_db_m` 0.17 dB/m (sea water at 600 kHz, 10 °C: François & Garrison 1982). `always` false: it pings only in a survey.
+//!
+//! *Deviations:* the time-varied gain is exact, so that a bed of one strength differs with grazing angle and beam only; noise grows with
+//! it. Straight rays, no echo by way of the surface, no side lobes along the track, smooth bed without ripples. The ping is taken in an
+//! instant: in the 27 ms to 20 m and back a vehicle at 2 m/s moves 5 cm.
+
+use super::sidescan_fan::Fan;
+use crate::error::RobotError;
+use crate::handoff::SidescanPing;
+use nalgebra::Vector3;
+use serde::{Deserialize, Serialize};
+use std::f64::consts::LN_10;
+use std::sync::Arc;
+use world::clock::{Clock, Every};
+use world::frames::Truth;
+use world::math;
+use world::obstacles::Obstacles;
+use world::ranges::{Finite, NonNegative, Positive};
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// Most samples on a side.
+const MOST: u32 = 4096;
+/// Speed of sound that limits the rate, m/s.
+const SOUND_M_S: f64 = 1500.0;
+
+/// What a scenario may say of the sidescan sonar.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct SidescanSpec {
+    /// Pings a second, Hz.
+    pub rate_hz: Positive,
+    /// Greatest slant range, m.
+    pub range_m: Positive,
+    /// Samples on a side, nearest to farthest.
+    pub samples: u32,
+    /// Width of the beam along the track, °.
+    pub beam_deg: Positive,
+    /// Width of the beam up and down, to a half of the power one way, °.
+    pub aperture_deg: Positive,
+    /// Angle of the beam's axis below the horizontal, °.
+    pub tilt_deg: NonNegative,
+    /// Backscatter strength of a square metre of bed at a grazing angle of 90°, dB.
+    pub bed_db: Finite,
+    /// Backscatter strength whose echo from the greatest range equals the noise, dB.
+    pub floor_db: Finite,
+    /// Absorption, dB/m.
+    pub absorption_db_m: NonNegative,
+    /// Pings all the time, not only while the vehicle surveys.
+    pub always: bool,
+}
+
+impl Default for SidescanSpec {
+    fn default() -> Self {
+        Self {
+            rate_hz: Positive::new(10.0),
+            range_m: Positive::new(20.0),
+            samples: 400,
+            beam_deg: Positive::new(0.6),
+            aperture_deg: Positive::new(50.0),
+            tilt_deg: NonNegative::new(20.0),
+            bed_db: Finite::new(-27.0),
+            floor_db: Finite::new(-60.0),
+            absorption_db_m: NonNegative::new(0.17),
+            always: false,
+        }
+    }
+}
+
+/// A sidescan sonar on a vehicle.
+#[derive(Clone, Debug)]
+pub struct Sidescan {
+    every: Every,
+    p_BS: Vector3<f64>,
+    fan: Fan,
+    /// Noise of each sample, and what 0 dB is, as backscatter strengths.
+    noise: Vec<f64>,
+    floor: f64,
+    always: bool,
+    /// Strength of each sample before speckle, of the side at hand.
+    echo: Vec<f64>,
+    rng: Stream,
+}
+
+impl Sidescan {
+    /// A sidescan sonar at `p_BS` (body axes, m) of the robot `robot_id`.
+    ///
+    /// # Errors
+    /// When the rate does not fit range or step, or the beam cannot be.
+    pub fn new(
+        spec: &SidescanSpec,
+        p_BS: Vector3<f64>,
+        robot_id: &str,
+        seed: u64,
+        dt_s: f64,
+    ) -> Result<Self, RobotError> {
+        let wrong = |field: &str, problem: String| RobotError::Invalid {
+            field: format!("sensors.sidescan.{field}"),
+            problem,
+        };
+        if spec.samples == 0 || spec.samples > MOST {
+            let problem = format!("must be from 1 to {MOST}, got {}", spec.samples);
+            return Err(wrong("samples", problem));
+        }
+        for (field, angle, most) in [
+            ("beam_deg", spec.beam_deg.get(), 20.0),
+            ("aperture_deg", spec.aperture_deg.get(), 180.0),
+            ("tilt_deg", spec.tilt_deg.get(), 90.0),
+        ] {
+            if angle > most {
+                return Err(wrong(field, format!("must be at most {most}, got {angle}")));
+            }
+        }
+        let (range_m, rate_hz) = (spec.range_m.get(), spec.rate_hz.get());
+        let most_hz = SOUND_M_S / (2.0 * range_m);
+        if rate_hz > most_hz {
+            let problem = format!(
+                "an echo from {range_m} m takes longer than the time between two pings; at most {most_hz:.1} Hz"
+            );
+            return Err(wrong("rate_hz", problem));
+        }
+        let n = spec.samples as usize;
+        let floor = from_db(spec.floor_db.get());
+        let noise = |k: usize| {
+            let r = (k as f64 + 0.5) / n as f64 * range_m;
+            let part = r / range_m;
+            floor * part * part * part * from_db(2.0 * spec.absorption_db_m.get() * (r - range_m))
+        };
+        Ok(Self {
+            every: super::tools::every("sensors.sidescan.rate_hz", rate_hz, dt_s)?,
+            p_BS,
+            fan: Fan {
+                range_m,
+                samples: n,
+                beam_rad: spec.beam_deg.get().to_radians(),
+                half_aperture_rad: 0.5 * spec.aperture_deg.get().to_radians(),
+                tilt_rad: spec.tilt_deg.get().to_radians(),
+                bed: from_db(spec.bed_db.get()),
+            },
+            noise: (0..n).map(noise).collect(),
+            floor,
+            always: spec.always,
+            echo: vec![0.0; n],
+            rng: Stream::new(seed, robot_id, "sidescan"),
+        })
+    }
+
+    /// The ping of this step, if one is due; `surveying`: the vehicle is on a survey.
+    pub fn read(
+        &mut self,
+        clock: &Clock,
+        truth: &Truth,
+        obstacles: &Obstacles,
+        terrain: &Terrain,
+        surveying: bool,
+    ) -> Option<SidescanPing> {
+        if !self.every.due(clock) || !(surveying || self.always) {
+            return None;
+        }
+        let mut side = |port: bool| -> Arc<[f32]> {
+            self.echo.fill(0.0);
+            let from = truth.pose.point(self.p_BS);
+            (self.fan).sound(
+                &from,
+                &truth.pose.R_WB,
+                port,
+                obstacles,
+                terrain,
+                &mut self.echo,
+            );
+            let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
+                // Echo and noise are sums of many waves of random phase: the intensity of their sum is exponential.
+                let speckle = -math::ln(1.0 - self.rng.uniform());
+                let level = ((echo + noise) * speckle / self.floor).max(1e-15);
+                (10.0 / LN_10 * math::ln(level)) as f32
+            });
+            heard.collect()
+        };
+        Some(SidescanPing {
+            p_BS: self.p_BS,
+            max_m: self.fan.range_m,
+            port_db: side(true),
+            starboard_db: side(false),
+        })
+    }
+}
+
+pub(super) fn from_db(db: f64) -> f64 {
+    math::exp(db / 10.0 * LN_10)
+}
+
+#[cfg(test)]
+#[path = "sidescan_tests.rs"]
+mod tests;

@@ -1,0 +1,292 @@
+//! After a declaration: passes with the sidescan, then with the camera, and what they say of the declared place.
+//!
+//! *Source*: Pang 2009, section 3 ("following the source declaration, additional AUV maneuvers") and section 6 (the declared source's
+//! place confirmed by sidescan sonar); verification of a declared source by pictures: Tian et al. 2013, section 5.
+//!
+//! *Parameters*: see [`SurveySpec`]; none is printed. With lines 8 m beside the place a sidescan of 20 m range sees from each
+//! the strip below the other, where that one is blind, and the place itself from two sides; ±30 m is twice the mean error of a
+//! declaration there (13 m); 3 m of height is 15 % of the range, as sidescans are towed (10 to 20 %).
+//!
+//! *Deviations*: what is not printed is ours: the order, the rule. Detections count nothing during a survey. A picture that verifies
+//! ends the camera's passes. Where the declared place and the sidescan's differ, the declaration keeps its own and carries the other.
+
+use super::spec::{AfterDeclaration, SurveySpec, Verify};
+use crate::behave::Passes;
+use crate::error::RobotError;
+use crate::handoff::{Behaviour, Declaration, Observation, Stride, Verdict, Vertical};
+use crate::survey::{Object, Waterfall, detect, merge};
+use crate::vision::Verifier;
+use nalgebra::Vector2;
+use world::units::Heading;
+
+/// Cell of the sidescan's picture, m.
+const CELL_M: f64 = 0.25;
+
+/// What a step after a declaration comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Progress {
+    /// Go on: this is asked of the guidance.
+    Go(Stride),
+    /// The survey is over: the declaration again, with its verdict.
+    Over(Declaration),
+}
+
+/// Which passes are flown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    None,
+    Sidescan,
+    Camera,
+}
+
+/// State of the time after declarations.
+#[derive(Debug)]
+pub struct PostDeclaration {
+    after: AfterDeclaration,
+    verifier: Option<Verifier>,
+    /// Declarations so far.
+    made: u32,
+    stage: Stage,
+    declaration: Option<Declaration>,
+    along: Heading,
+    passes: Passes,
+    /// The line being imaged and its picture.
+    line: Option<(usize, Waterfall)>,
+    objects: Vec<Object>,
+    /// Whether each instrument saw a source; `None` if it never reported.
+    by_sidescan: Option<bool>,
+    by_camera: Option<bool>,
+    /// A picture is wanted; when the newest was asked for, s.
+    picture: bool,
+    asked_s: Option<f64>,
+}
+
+impl PostDeclaration {
+    /// # Errors
+    /// [`RobotError::Invalid`] when parts of a survey do not go together.
+    pub fn new(after: &AfterDeclaration) -> Result<Self, RobotError> {
+        let mut verifier = None;
+        if let AfterDeclaration::Survey(spec) = after {
+            spec.check()?;
+            verifier = spec.camera.as_ref().map(|c| Verifier::new(&c.verifier));
+        }
+        Ok(Self {
+            after: after.clone(),
+            verifier,
+            made: 0,
+            stage: Stage::None,
+            declaration: None,
+            along: Heading::from_deg(0.0),
+            passes: Passes::default(),
+            line: None,
+            objects: Vec::new(),
+            by_sidescan: None,
+            by_camera: None,
+            picture: false,
+            asked_s: None,
+        })
+    }
+
+    /// A source was declared; `along`: the direction of the lines, up-flow. The declaration with its number, and what the vehicle
+    /// does next: [`Behaviour::Survey`], or the mission's end.
+    pub fn enter(
+        &mut self,
+        declaration: Declaration,
+        seen: &Observation,
+        along: Heading,
+    ) -> (Declaration, Behaviour) {
+        let declaration = Declaration {
+            number: self.made,
+            ..declaration
+        };
+        self.made += 1;
+        let next = match &self.after {
+            AfterDeclaration::GoHome => Behaviour::GoHome,
+            AfterDeclaration::Stop => Behaviour::Done,
+            AfterDeclaration::Survey(_) => Behaviour::Survey,
+        };
+        self.declaration = Some(declaration);
+        self.along = along;
+        self.objects.clear();
+        self.line = None;
+        (self.by_sidescan, self.by_camera) = (None, None);
+        self.begin(Stage::Sidescan, declaration.position, seen);
+        (declaration, next)
+    }
+
+    fn spec(&self) -> Option<&SurveySpec> {
+        match &self.after {
+            AfterDeclaration::Survey(spec) => Some(spec.as_ref()),
+            _ => None,
+        }
+    }
+
+    fn begin(&mut self, stage: Stage, place: Vector2<f64>, seen: &Observation) {
+        let flown = self.spec().and_then(|s| match stage {
+            Stage::Sidescan => s.sidescan.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
+            Stage::Camera => s.camera.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
+            Stage::None => None,
+        });
+        self.passes = flown.map_or_else(Passes::default, |(offsets, half)| {
+            let offsets: Vec<f64> = offsets.iter().map(|o| o.get()).collect();
+            Passes::over(place, self.along, &offsets, half.get(), &seen.area)
+        });
+        self.stage = stage;
+    }
+
+    /// One tick of the survey. `arrived`: the guidance has reached the end of the line last given.
+    pub fn step(&mut self, seen: &Observation, arrived: bool) -> Progress {
+        let Some(declared) = self.declaration else {
+            return Progress::Go(Stride::Over);
+        };
+        self.picture = false;
+        let course = Heading::of(seen.estimate.v_ground());
+        let on = self.passes.on_line(seen.estimate.position, course);
+        match self.stage {
+            Stage::Sidescan => self.image(seen, on),
+            Stage::Camera => self.look(seen, on),
+            Stage::None => {}
+        }
+        let mut arrived = arrived;
+        loop {
+            // What was seen is enough.
+            let enough = self.stage == Stage::Camera && self.by_camera == Some(true);
+            let stride = if enough {
+                Stride::Over
+            } else {
+                self.passes.step(arrived)
+            };
+            if stride != Stride::Over {
+                return Progress::Go(stride);
+            }
+            // The next passes begin whether or not these had any lines.
+            arrived = false;
+            match self.stage {
+                Stage::Sidescan => {
+                    self.end_line();
+                    let place = self.place(declared.position);
+                    let of_source = place.unwrap_or(declared.position);
+                    if let Some(d) = &mut self.declaration {
+                        d.surveyed = place;
+                    }
+                    self.begin(Stage::Camera, of_source, seen);
+                }
+                Stage::Camera | Stage::None => {
+                    self.stage = Stage::None;
+                    let verdict = self.verdict();
+                    let over = self.declaration.take().unwrap_or(declared);
+                    return Progress::Over(Declaration { verdict, ..over });
+                }
+            }
+        }
+    }
+
+    /// What the vehicle does after a verdict.
+    #[must_use]
+    pub fn next(verdict: Verdict) -> Behaviour {
+        match verdict {
+            Verdict::Rejected => Behaviour::Find,
+            Verdict::Verified | Verdict::Unchecked => Behaviour::GoHome,
+        }
+    }
+
+    /// Height that the passes ask for; `None` when none are flown.
+    #[must_use]
+    pub fn vertical(&self) -> Option<Vertical> {
+        let spec = self.spec()?;
+        let altitude = match self.stage {
+            Stage::Sidescan => spec.sidescan.as_ref()?.altitude_m,
+            Stage::Camera => spec.camera.as_ref()?.altitude_m,
+            Stage::None => return None,
+        };
+        Some(Vertical::Altitude(altitude.get()))
+    }
+
+    /// A picture is wanted in this tick.
+    #[must_use]
+    pub fn picture(&self) -> bool {
+        self.picture
+    }
+
+    /// Within this distance of a rejected place what led there is forgotten, m.
+    #[must_use]
+    pub fn forget_m(&self) -> f64 {
+        self.spec().map_or(0.0, |s| s.forget_m.get())
+    }
+
+    fn image(&mut self, seen: &Observation, on: Option<usize>) {
+        if self.line.as_ref().map(|(n, _)| *n) != on && self.line.is_some() {
+            self.end_line();
+        }
+        let (Some(number), Some(ping)) = (on, &seen.sidescan) else {
+            return;
+        };
+        let (_, picture) = self
+            .line
+            .get_or_insert_with(|| (number, Waterfall::new(CELL_M)));
+        picture.push(ping, &seen.estimate);
+    }
+
+    /// Looks through the picture of a line that is over.
+    fn end_line(&mut self) {
+        let Some((_, picture)) = self.line.take() else {
+            return;
+        };
+        if let Some(p) = self.spec().and_then(|s| s.sidescan.as_ref()) {
+            let found = detect(&picture, &p.detect);
+            self.objects.extend(found);
+            self.by_sidescan.get_or_insert(false);
+        }
+    }
+
+    /// Where the sidescan has the source, if it saw an object near enough to the declared place.
+    fn place(&mut self, declared: Vector2<f64>) -> Option<Vector2<f64>> {
+        let p = self.spec().and_then(|s| s.sidescan.as_ref())?;
+        let (within_m, merge_m) = (p.within_m.get(), p.detect.merge_m.get());
+        let near = |o: &Object| (o.place - declared).norm() <= within_m;
+        let objects: Vec<Object> = self.objects.iter().copied().filter(near).collect();
+        let best = merge(&objects, merge_m).first().map(|f| f.place);
+        if best.is_some() {
+            self.by_sidescan = Some(true);
+        }
+        best
+    }
+
+    fn look(&mut self, seen: &Observation, on: Option<usize>) {
+        let Some(period_s) = self
+            .spec()
+            .and_then(|s| s.camera.as_ref())
+            .map(|c| c.period_s.get())
+        else {
+            return;
+        };
+        if let (Some(picture), Some(verifier)) = (&seen.picture, &self.verifier) {
+            let verified = verifier.judge(&picture.image).verified;
+            self.by_camera = Some(self.by_camera == Some(true) || verified);
+        }
+        let due = self.asked_s.is_none_or(|t| seen.t_s - t >= period_s - 1e-9);
+        if on.is_some() && due {
+            self.asked_s = Some(seen.t_s);
+            self.picture = true;
+        }
+    }
+
+    fn verdict(&self) -> Verdict {
+        let Some(spec) = self.spec() else {
+            return Verdict::Unchecked;
+        };
+        let says: &[Option<bool>] = match spec.verify {
+            Verify::Sidescan => &[self.by_sidescan],
+            Verify::Camera => &[self.by_camera],
+            Verify::Either | Verify::Both => &[self.by_sidescan, self.by_camera],
+        };
+        let (yes, no) = (says.contains(&Some(true)), says.contains(&Some(false)));
+        match spec.verify {
+            Verify::Both if no => Verdict::Rejected,
+            Verify::Both if says.contains(&None) => Verdict::Unchecked,
+            _ if yes => Verdict::Verified,
+            _ if no => Verdict::Rejected,
+            _ => Verdict::Unchecked,
+        }
+    }
+}

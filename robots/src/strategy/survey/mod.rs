@@ -1,0 +1,12 @@
+//! What follows a declaration: home, a stop, or a survey of the declared place. Any strategy can hold it.
+
+mod machine;
+mod spec;
+
+pub use machine::{PostDeclaration, Progress};
+pub use spec::{AfterDeclaration, CameraPasses, SidescanPasses, SurveySpec, Verify};
+
+#[cfg(test)]
+mod amp_tests;
+#[cfg(test)]
+mod tests;

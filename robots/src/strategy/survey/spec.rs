@@ -1,0 +1,184 @@
+//! What a scenario says about the time after a declaration.
+
+use crate::error::RobotError;
+use crate::survey::DetectSpec;
+use crate::vision::VerifierSpec;
+use serde::{Deserialize, Serialize};
+use world::ranges::{Finite, Positive};
+
+/// Most lines of either kind.
+const MOST_LINES: usize = 32;
+
+/// What follows the declaration.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub enum AfterDeclaration {
+    /// Home, and the mission is completed there.
+    #[default]
+    GoHome,
+    /// The mission is completed on the spot.
+    Stop,
+    /// Passes over the declared place: home if it is verified (or nothing on board could look), on with the search if it is
+    /// rejected.
+    Survey(Box<SurveySpec>),
+}
+
+impl AfterDeclaration {
+    /// Whether passes are flown for sidescan and camera.
+    #[must_use]
+    pub fn flies_for(&self) -> [bool; 2] {
+        match self {
+            Self::Survey(spec) => spec.flies_for(),
+            Self::GoHome | Self::Stop => [false; 2],
+        }
+    }
+}
+
+/// A survey of a declared place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SurveySpec {
+    /// Passes for the sidescan; its best object takes the camera's passes to itself.
+    pub sidescan: Option<SidescanPasses>,
+    /// Passes for the camera, after the sidescan's.
+    pub camera: Option<CameraPasses>,
+    /// What a source must have been seen by.
+    pub verify: Verify,
+    /// Points where the plume was lost are forgotten within this distance of a rejected place, m.
+    pub forget_m: Positive,
+}
+
+impl SurveySpec {
+    /// Whether passes are flown for sidescan and camera.
+    #[must_use]
+    pub fn flies_for(&self) -> [bool; 2] {
+        [self.sidescan.is_some(), self.camera.is_some()]
+    }
+}
+
+impl Default for SurveySpec {
+    fn default() -> Self {
+        Self {
+            sidescan: Some(SidescanPasses::default()),
+            camera: None,
+            verify: Verify::Sidescan,
+            forget_m: Positive::new(30.0),
+        }
+    }
+}
+
+/// Lines for the sidescan.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SidescanPasses {
+    /// Distances of the lines from the place, across the flow, m; the lines lie along the flow.
+    pub offsets_m: Vec<Finite>,
+    /// Half their length, m.
+    pub half_length_m: Positive,
+    /// Height above the bed, m.
+    pub altitude_m: Positive,
+    /// An object counts within this distance of the declared place, m.
+    pub within_m: Positive,
+    /// When a bright return is an object.
+    pub detect: DetectSpec,
+}
+
+impl Default for SidescanPasses {
+    fn default() -> Self {
+        Self {
+            offsets_m: [-8.0, 8.0].map(Finite::new).into(),
+            half_length_m: Positive::new(30.0),
+            altitude_m: Positive::new(3.0),
+            within_m: Positive::new(30.0),
+            detect: DetectSpec::default(),
+        }
+    }
+}
+
+/// Lines for the camera.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct CameraPasses {
+    /// Distances of the lines from the place, across the flow, m.
+    pub offsets_m: Vec<Finite>,
+    /// Half their length, m.
+    pub half_length_m: Positive,
+    /// Height above the bed, m.
+    pub altitude_m: Positive,
+    /// Time between two pictures, s.
+    pub period_s: Positive,
+    /// When a picture shows a source.
+    pub verifier: VerifierSpec,
+}
+
+impl Default for CameraPasses {
+    fn default() -> Self {
+        Self {
+            offsets_m: vec![Finite::new(0.0)],
+            half_length_m: Positive::new(15.0),
+            altitude_m: Positive::new(2.0),
+            period_s: Positive::new(1.0),
+            verifier: VerifierSpec::default(),
+        }
+    }
+}
+
+/// What a source must have been seen by for a declaration to be verified; else it is rejected. An instrument that never
+/// reported has no say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Verify {
+    /// An object by the sidescan.
+    #[default]
+    Sidescan,
+    /// A source giving off dye by the camera.
+    Camera,
+    /// One of the two.
+    Either,
+    /// The two.
+    Both,
+}
+
+impl SurveySpec {
+    /// Whether its parts go together.
+    ///
+    /// # Errors
+    /// Names the field and what is legal.
+    pub fn check(&self) -> Result<(), RobotError> {
+        let wrong = |field: &str, problem: String| {
+            Err(RobotError::Invalid {
+                field: format!("strategy.after_declaration.{field}"),
+                problem,
+            })
+        };
+        let offsets = [
+            ("sidescan", self.sidescan.as_ref().map(|p| &p.offsets_m)),
+            ("camera", self.camera.as_ref().map(|p| &p.offsets_m)),
+        ];
+        for (part, offsets) in offsets {
+            if let Some(n) = offsets.map(Vec::len).filter(|n| *n == 0 || *n > MOST_LINES) {
+                let problem = format!("must have from 1 to {MOST_LINES} lines, got {n}");
+                return wrong(&format!("{part}.offsets_m"), problem);
+            }
+        }
+        let (sonar, eyes) = (self.sidescan.is_some(), self.camera.is_some());
+        let flown = match self.verify {
+            Verify::Sidescan => sonar,
+            Verify::Camera => eyes,
+            Verify::Either => sonar || eyes,
+            Verify::Both => sonar && eyes,
+        };
+        if !flown {
+            let problem = format!(
+                "{:?} asks for passes that are not flown: give them, or verify otherwise",
+                self.verify
+            );
+            return wrong("verify", problem);
+        }
+        match &self.camera {
+            Some(c) => c
+                .verifier
+                .check("strategy.after_declaration.camera.verifier"),
+            None => Ok(()),
+        }
+    }
+}

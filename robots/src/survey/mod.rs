@@ -1,0 +1,15 @@
+//! What a sidescan's pings show: lines of a picture of the bed, and the objects on it.
+
+mod catalogue;
+mod detect;
+mod merge;
+mod spec;
+#[cfg(test)]
+mod testing;
+mod waterfall;
+
+pub use catalogue::CATALOGUE;
+pub use detect::{Object, detect};
+pub use merge::{Found, merge};
+pub use spec::DetectSpec;
+pub use waterfall::{Row, Waterfall};

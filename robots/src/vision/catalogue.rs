@@ -1,0 +1,27 @@
+//! What `rheotaxis list` says of the eyes.
+
+use world::catalogue::Entry;
+
+/// Parts of the visual verification.
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "verifier",
+        what: "Whether a picture shows a source giving off dye: enough dye that is redder than the rest, and a darker body that it touches",
+        source: "ours, on the parts found by Tian et al. 2013, section 5",
+    },
+    Entry {
+        name: "colours",
+        what: "Fuzzy colour extractor: three passes towards red for the dye, four towards dark blue for the source",
+        source: "Tian et al. 2013, section 5, eq. 6-13, GetCP, FuzzyColorSeg",
+    },
+    Entry {
+        name: "delta1, delta2, edges",
+        what: "Clusters of the passes' colour patterns: those near the one nearest the reference are kept",
+        source: "Tian et al. 2013, section 5, two criteria; Floyd 1962",
+    },
+    Entry {
+        name: "dehaze, give_back",
+        what: "Against haze: slow changes taken out and each colour brought to the whole range first; what dropped plume patterns took goes back",
+        source: "ours; histogram stretching as Iqbal et al. 2007",
+    },
+];

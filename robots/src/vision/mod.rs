@@ -1,0 +1,29 @@
+//! What a picture shows: dye and source by their colours, and whether that verifies a declared source.
+
+mod blobs;
+mod catalogue;
+mod clusters;
+mod colour_pattern;
+mod extractor;
+mod fuzzy;
+mod level;
+mod membership;
+mod passes;
+mod spec;
+mod stretch;
+#[cfg(test)]
+mod testing;
+mod verifier;
+
+pub use blobs::{Blob, blobs};
+pub use catalogue::CATALOGUE;
+pub use clusters::{Fate, fates, shortest_paths};
+pub use colour_pattern::{Pattern, Reference, WHITE, distance, nearest};
+pub use extractor::Extractor;
+pub use fuzzy::Inference;
+pub use level::levelled;
+pub use membership::{Differences, Outputs};
+pub use passes::{Pass, Segmentation, Target, segment};
+pub use spec::{ColourSpec, Edges, VerifierSpec};
+pub use stretch::stretched;
+pub use verifier::{Lack, Sighting, Verifier};

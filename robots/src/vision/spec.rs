@@ -1,0 +1,201 @@
+//! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns and of what makes a picture verify a source.
+
+use crate::error::RobotError;
+use serde::{Deserialize, Serialize};
+use world::ranges::{Fraction, NonNegative, Positive};
+
+/// Most passes of both kinds together.
+const MOST_PASSES: u32 = 60;
+
+/// The parameters of Tian et al. 2013, section 5, with their values as defaults. Levels are of 8 bits, 0 to 255.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ColourSpec {
+    /// Differences below this are wholly Zero (α₁), levels.
+    pub alpha1: NonNegative,
+    /// Differences from this on are wholly Negative or Positive (α₂), levels.
+    pub alpha2: Positive,
+    /// Width of the output set Matched (ρ_M), levels; Unmatched begins at ρ_U = 255 − ρ_M.
+    pub rho_m: Positive,
+    /// A pixel is extracted if its difference Δρ_F is below this (ε), levels.
+    pub epsilon: Positive,
+    /// Passes towards RED, whose union is the plume.
+    pub plume_passes: u8,
+    /// Passes towards DARK-BLUE on what they leave, whose union is the source.
+    pub source_passes: u8,
+    /// A colour pattern may be so much farther from its reference than the nearest one (δ₁), levels.
+    pub delta1: NonNegative,
+    /// A colour pattern may be so far from the nearest one, by the shortest way over the others (δ₂), levels.
+    pub delta2: NonNegative,
+    /// What joins two patterns in the graph of the shortest ways.
+    pub edges: Edges,
+    /// Whether pixels of dropped plume patterns go back into the picture before the source is looked for; the paper's stay taken.
+    pub give_back: bool,
+    /// Whether what changes slowly over the picture is first taken out and each colour brought to the whole range of levels; the paper's
+    /// passes see the picture as it is.
+    pub dehaze: bool,
+}
+
+impl ColourSpec {
+    /// The paper's with what hazy pictures need: dehazed, and dropped patterns given back.
+    #[must_use]
+    pub fn for_haze() -> Self {
+        Self {
+            give_back: true,
+            dehaze: true,
+            ..Self::default()
+        }
+    }
+}
+
+/// Length of the edge between two colour patterns.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Edges {
+    /// The distance of the two colours.
+    #[default]
+    Colours,
+    /// The difference of their distances to the reference colour.
+    Reference,
+}
+
+impl Default for ColourSpec {
+    fn default() -> Self {
+        Self {
+            alpha1: NonNegative::new(35.0),
+            alpha2: Positive::new(200.0),
+            rho_m: Positive::new(20.0),
+            epsilon: Positive::new(80.0),
+            plume_passes: 3,
+            source_passes: 4,
+            delta1: NonNegative::new(40.0),
+            delta2: NonNegative::new(45.0),
+            edges: Edges::default(),
+            give_back: false,
+            dehaze: false,
+        }
+    }
+}
+
+impl ColourSpec {
+    /// Whether the parameters go together.
+    ///
+    /// # Errors
+    /// Names the field below `path` and its legal range.
+    pub fn check(&self, path: &str) -> Result<(), RobotError> {
+        match self.fault() {
+            None => Ok(()),
+            Some((field, problem)) => Err(RobotError::Invalid {
+                field: format!("{path}.{field}"),
+                problem,
+            }),
+        }
+    }
+
+    /// The first field that does not go with the others, and what would.
+    #[must_use]
+    pub fn fault(&self) -> Option<(&'static str, String)> {
+        let (a1, a2) = (self.alpha1.get(), self.alpha2.get());
+        if a1 >= a2 {
+            return Some(("alpha1", format!("must be below alpha2 ({a2}), got {a1}")));
+        }
+        if a2 > 255.0 {
+            return Some(("alpha2", format!("must be at most 255, got {a2}")));
+        }
+        let rho_m = self.rho_m.get();
+        if rho_m >= 255.0 {
+            return Some(("rho_m", format!("must be below 255, got {rho_m}")));
+        }
+        let epsilon = self.epsilon.get();
+        if epsilon > 255.0 {
+            return Some(("epsilon", format!("must be at most 255, got {epsilon}")));
+        }
+        let passes = u32::from(self.plume_passes) + u32::from(self.source_passes);
+        (passes == 0 || passes > MOST_PASSES).then(|| {
+            let range = format!("must be, with source_passes, from 1 to {MOST_PASSES}");
+            ("plume_passes", format!("{range}, got {passes}"))
+        })
+    }
+}
+
+/// When a picture verifies a source.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VerifierSpec {
+    /// The extractor. Without it the paper's with `give_back` and `dehaze`; with it what it does not name is the paper's.
+    pub colours: ColourSpec,
+    /// Least share of the picture that must have the dye's colours.
+    pub least_dye: Positive,
+    /// Least difference of the share of red in the light, (R, G, B sum to 1), of dye and the rest of the picture.
+    pub least_redness: Positive,
+    /// Least share of the picture that the source's patch must fill.
+    pub least_source: Positive,
+    /// Least contrast by which the patch must be darker than what surrounds it: 1 is black.
+    pub least_contrast: Positive,
+    /// Greatest share of the picture that the dye may fill: what is everywhere stands out from nothing.
+    pub most_dye: Fraction,
+    /// Greatest share that the patch may fill.
+    pub most_source: Fraction,
+    /// Greatest way from the patch to the nearest dye, as a share of the picture's diagonal.
+    pub reach: Fraction,
+}
+
+impl Default for VerifierSpec {
+    fn default() -> Self {
+        Self {
+            colours: ColourSpec::for_haze(),
+            least_dye: Positive::new(0.004),
+            least_redness: Positive::new(0.04),
+            least_source: Positive::new(0.004),
+            least_contrast: Positive::new(0.15),
+            most_dye: Fraction::new(0.7),
+            most_source: Fraction::new(0.3),
+            reach: Fraction::new(0.1),
+        }
+    }
+}
+
+impl VerifierSpec {
+    /// Whether the parameters go together.
+    ///
+    /// # Errors
+    /// Names the field below `path` and its legal range.
+    pub fn check(&self, path: &str) -> Result<(), RobotError> {
+        self.colours.check(&format!("{path}.colours"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_does_not_go_together_is_named() {
+        assert!(ColourSpec::default().check("colours").is_ok());
+        let of = |change: &dyn Fn(&mut ColourSpec)| {
+            let mut spec = ColourSpec::default();
+            change(&mut spec);
+            spec.check("colours").unwrap_err().to_string()
+        };
+        for (said, field) in [
+            (
+                of(&|s| s.alpha1 = NonNegative::new(200.0)),
+                "colours.alpha1: must be below alpha2 (200), got 200",
+            ),
+            (
+                of(&|s| s.alpha2 = Positive::new(256.0)),
+                "colours.alpha2: must be at most 255",
+            ),
+            (
+                of(&|s| s.rho_m = Positive::new(255.0)),
+                "colours.rho_m: must be below 255",
+            ),
+            (
+                of(&|s| s.epsilon = Positive::new(300.0)),
+                "colours.epsilon: must be at most 255",
+            ),
+            (of(&|s| s.plume_passes = 57), "from 1 to 60, got 61"),
+        ] {
+            assert!(said.contains(field), "{said}");
+        }
+    }
+}

@@ -1,0 +1,20 @@
+//! `rheotaxis score-vision`: how well dye and source are found in rendered pictures of known truth, from clear to murky water.
+
+mod draw;
+mod figures;
+mod methods;
+mod pixels;
+mod render;
+mod roc;
+mod run;
+mod save;
+mod write;
+
+pub use draw::{BINS, Content, Drawn, bin, draw};
+pub use methods::{METHODS, Method};
+pub use pixels::{Counts, Ratio, precision, recall};
+pub use render::{Shot, SizePx, shoot};
+pub use roc::{Roc, Scored};
+pub use run::{Row, ScoreError, score};
+pub use save::save;
+pub use write::{Plan, table, write};

@@ -1,0 +1,10 @@
+//! `rheotaxis segment`: a picture taken apart by the fuzzy colour extractor, with everything drawn.
+
+mod clusters;
+mod overlay;
+mod picture;
+mod sheet;
+mod write;
+
+pub use picture::{MOST_PIXELS, MOST_SIDE, PictureError, read_picture};
+pub use write::{Segmented, table, write};

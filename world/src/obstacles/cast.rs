@@ -1,0 +1,119 @@
+//! Where a ray first meets a solid, and how the surface lies there: what cameras and sonars ask.
+
+use super::solid::{from_parry, to_parry};
+use super::{Obstacle, Obstacles, Surface};
+use nalgebra::Vector3;
+use parry3d::query::Ray;
+
+/// The first thing a ray meets.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit<'a> {
+    /// Way along the ray, m; zero from inside.
+    pub way_m: f64,
+    /// Outward unit normal there; against the ray from inside.
+    pub normal: Vector3<f64>,
+    /// Which obstacle, by its place in the scenario's order.
+    pub obstacle: usize,
+    /// How its surface looks and sounds.
+    pub surface: &'a Surface,
+}
+
+impl Obstacle {
+    /// Way along a ray from `origin` (ENU, m) in the unit direction `dir` to the first hit within `max_m`, m, and the outward
+    /// unit normal there; zero and the way back from inside.
+    #[must_use]
+    pub fn cast(
+        &self,
+        origin: &Vector3<f64>,
+        dir: &Vector3<f64>,
+        max_m: f64,
+    ) -> Option<(f64, Vector3<f64>)> {
+        if self.contains(origin) {
+            return Some((0.0, -dir));
+        }
+        let ray = Ray::new(to_parry(origin), to_parry(dir));
+        let met = (self.shape).cast_ray_and_get_normal(&self.parry_pose(), &ray, max_m, true)?;
+        Some((met.time_of_impact, from_parry(met.normal)))
+    }
+
+    /// Middle and radius of a ball round it, m.
+    #[must_use]
+    pub fn ball(&self) -> (Vector3<f64>, f64) {
+        let (low, high) = self.bounds();
+        (0.5 * (low + high), 0.5 * (high - low).norm())
+    }
+}
+
+impl Obstacles {
+    /// The first hit of any along a ray from `origin` (ENU, m) in the unit direction `dir` within `max_m`, m.
+    #[must_use]
+    pub fn cast(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<Hit<'_>> {
+        self.0
+            .iter()
+            .enumerate()
+            .filter_map(|(obstacle, o)| {
+                let (way_m, normal) = o.cast(origin, dir, max_m)?;
+                Some(Hit {
+                    way_m,
+                    normal,
+                    obstacle,
+                    surface: &o.surface,
+                })
+            })
+            .min_by(|a, b| a.way_m.total_cmp(&b.way_m))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Base, BoxShape, ObstacleSpec, ShapeSpec};
+    use super::*;
+    use crate::ranges::{Finite, HeadingDeg, Positive};
+    use crate::terrain::Terrain;
+    use std::path::Path;
+
+    fn block(id: &str, east_m: f64) -> Obstacle {
+        let m = Positive::new;
+        let spec = ObstacleSpec {
+            surface: Surface {
+                backscatter_db: Finite::new(-5.0),
+                ..Surface::default()
+            },
+            id: id.into(),
+            shape: ShapeSpec::Box(BoxShape {
+                size_m: (m(2.0), m(2.0), m(2.0)),
+            }),
+            east_m: Finite::new(east_m),
+            north_m: Finite::new(0.0),
+            base: Base::default(),
+            heading_deg: HeadingDeg::new(90.0),
+        };
+        Obstacle::build(&spec, &Terrain::Level { depth_m: 10.0 }, Path::new(".")).unwrap()
+    }
+
+    #[test]
+    fn the_nearer_face_is_met_with_its_normal() {
+        let two = Obstacles(vec![block("far", 20.0), block("near", 10.0)]);
+        let hit = two
+            .cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 50.0)
+            .unwrap();
+        assert!((hit.way_m - 9.0).abs() < 1e-12 && hit.obstacle == 1);
+        assert!((hit.normal + Vector3::x()).norm() < 1e-12);
+        assert_eq!(hit.surface.backscatter_db.get(), -5.0);
+        let down = two
+            .cast(&Vector3::new(10.5, 0.0, -5.0), &-Vector3::z(), 50.0)
+            .unwrap();
+        assert!((down.way_m - 3.0).abs() < 1e-12 && (down.normal.z - 1.0).abs() < 1e-12);
+        assert!(
+            two.cast(&Vector3::new(0.0, 0.0, -9.0), &Vector3::x(), 8.9)
+                .is_none()
+        );
+    }
+
+    #[test]
+    fn the_ball_holds_the_solid() {
+        let (middle, r) = block("a", 3.0).ball();
+        assert!((middle - Vector3::new(3.0, 0.0, -9.0)).norm() < 1e-12);
+        assert!((r - 3.0f64.sqrt()).abs() < 1e-12);
+    }
+}
