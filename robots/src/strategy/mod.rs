@@ -21,7 +21,7 @@ pub use subregions::{
     SubregionsSpec,
 };
 pub use subsumption::{
-    GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
+    EyesSpec, GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec,
 };
 pub use survey::{
     AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify,

@@ -50,7 +50,8 @@ impl StrategySpec {
         match self {
             StrategySpec::Amp(spec) => spec.after_declaration.flies_for(),
             StrategySpec::Subsumption(spec) => {
-                spec.survey.as_ref().map_or([false; 2], |s| s.flies_for())
+                let [sidescan, camera] = spec.survey.as_ref().map_or([false; 2], |s| s.flies_for());
+                [sidescan, camera || spec.eyes.is_some()]
             }
             StrategySpec::Subregions(spec) => spec.search.flies_for(),
             StrategySpec::MapAndPlan(_) | StrategySpec::OpenLoop(_) => [false; 2],

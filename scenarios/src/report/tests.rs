@@ -132,8 +132,8 @@ fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaratio
     }
     let text = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = text.lines().collect();
-    assert!(lines[0].ends_with(",behaviour,region"));
-    assert!(lines[1].ends_with(",go_to,") && lines[100].ends_with(",1"));
+    assert!(lines[0].ends_with(",behaviour,region,layer"));
+    assert!(lines[1].contains(",go_to,,") && lines[100].contains(",1,"));
     let summary = builder.finish(end(RunOutcome::Found), &[source()]);
     let of = &summary.robots[0];
     assert_eq!((of.declarations.len(), of.regions.len()), (2, 2));

@@ -79,6 +79,7 @@ pub const CATALOG: &[Template] = catalog![
     "moth_plus",
     "duck_survey",
     "eyes_over_source",
+    "moth_eyes",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

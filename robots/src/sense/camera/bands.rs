@@ -47,11 +47,11 @@ mod tests {
         let shape = |x: f64, middle: f64, width: f64| {
             math::exp(-4.0 * std::f64::consts::LN_2 * (x - middle) * (x - middle) / (width * width))
         };
-        for band in 0..3 {
+        for (band, middle) in WAVELENGTH_NM.into_iter().enumerate() {
             let (mut both, mut alone) = (0.0, 0.0);
             for nm in 100..1100 {
                 let nm = f64::from(nm);
-                let s = shape(nm, WAVELENGTH_NM[band], WIDTH_NM);
+                let s = shape(nm, middle, WIDTH_NM);
                 both += s * shape(nm, 554.0, 40.0);
                 alone += s;
             }

@@ -214,9 +214,9 @@ mod tests {
         // The sun in the south: the light comes from there.
         assert!(light.to_sun.y < -0.5);
         let deep = light.at(-2.0);
-        for i in 0..3 {
+        for (i, got) in deep.into_iter().enumerate() {
             let want = light.scalar * math::exp(-2.0 * light.down[i]);
-            assert!((deep[i] - want).abs() < 1e-9 * want);
+            assert!((got - want).abs() < 1e-9 * want);
         }
     }
 }

@@ -142,6 +142,10 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
             "GoHome waits for a declaration, and there is no Declare; add one, or leave GoHome out";
         return Err(wrong(&format!("layers[{i}]"), problem.into()));
     }
+    if spec.eyes.is_some() && place(Kind::Declare).is_none() {
+        let problem = "a source that the camera sees is declared, and there is no Declare; add one, or leave eyes out";
+        return Err(wrong("eyes", problem.into()));
+    }
     for (upper, lower, why) in ABOVE {
         if let (Some(i), Some(j)) = (place(*upper), place(*lower))
             && i < j

@@ -22,6 +22,7 @@ use super::super::spec::Strategy;
 use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
 use super::ask::{Ask, Kind, keep};
 use super::compose::Layers;
+use super::eyes::Eyes;
 use super::plume::Asked;
 use super::spec::SubsumptionSpec;
 use crate::declare::DeclareSpec;
@@ -45,6 +46,7 @@ pub struct Subsumption {
     /// What follows a declaration; the survey has begun, and what was asked for on it.
     post: PostDeclaration,
     surveying: bool,
+    eyes: Option<Eyes>,
     passes: Option<Manoeuvre>,
     vertical: Vertical,
     /// The way home has begun, and what was asked for on it.
@@ -81,6 +83,7 @@ impl Subsumption {
                     .map_or(AfterDeclaration::GoHome, AfterDeclaration::Survey),
             )?,
             surveying: false,
+            eyes: spec.eyes.as_ref().map(Eyes::new),
             passes: None,
             vertical: Vertical::from(spec.vertical),
             homing: false,
@@ -265,6 +268,15 @@ impl Subsumption {
         Some(now)
     }
 
+    fn wants_picture(&self) -> bool {
+        let at_point = !self.homing && self.eyes.as_ref().is_some_and(Eyes::asks);
+        if self.surveying {
+            self.post.picture()
+        } else {
+            at_point
+        }
+    }
+
     fn end(&mut self, outcome: Outcome) {
         self.outcome = Some(outcome);
         self.behaviour = Behaviour::Done;
@@ -299,6 +311,14 @@ impl Subsumption {
             if asked.out_ended && self.declaring.is_none() {
                 self.declaring = self.test(seen);
             }
+            if let Some(eyes) = &mut self.eyes {
+                if asked.reacquire.is_some() {
+                    let by_sight = eyes.step(seen, &self.memory);
+                    self.declaring = self.declaring.take().or(by_sight);
+                } else {
+                    eyes.rest();
+                }
+            }
         }
         let holder = self.arbitrate(seen, &asked, above)?;
         if holder.kind == Kind::Declare && !self.surveying {
@@ -330,7 +350,7 @@ impl Strategy for Subsumption {
             lost_points: points.iter().map(|l| l.position).collect(),
             planned: Arc::default(),
             layers: self.states.clone(),
-            picture: self.surveying && self.post.picture(),
+            picture: self.outcome.is_none() && self.wants_picture(),
             regions: Default::default(),
             outcome: self.outcome,
         }

@@ -2,12 +2,14 @@
 
 mod ask;
 mod compose;
+mod eyes;
 mod machine;
 mod maintain;
 mod plume;
 mod plume_map;
 mod spec;
 
+pub use eyes::EyesSpec;
 pub use machine::Subsumption;
 pub use plume_map::PlumeMapSpec;
 pub use spec::{GoHomeSpec, LayerSpec, MaintainSpec, SubsumptionSpec};

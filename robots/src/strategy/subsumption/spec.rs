@@ -2,6 +2,7 @@
 
 use super::super::spec::VerticalSpec;
 use super::super::survey::SurveySpec;
+use super::eyes::EyesSpec;
 use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
@@ -31,6 +32,9 @@ pub struct SubsumptionSpec {
     /// What the Declare layer does with a declared place before Go-Home; without it the vehicle goes home at once.
     #[serde(default)]
     pub survey: Option<Box<SurveySpec>>,
+    /// Looks at each last detection point with the camera; a source seen there is declared at once.
+    #[serde(default)]
+    pub eyes: Option<EyesSpec>,
     /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
     #[serde(default)]
     pub fixes: FixMove,
@@ -63,6 +67,7 @@ impl SubsumptionSpec {
             lost_points: six(),
             lcdps: all(),
             survey: None,
+            eyes: None,
             fixes: FixMove::default(),
         }
     }

@@ -1,0 +1,147 @@
+//! Looks with the camera at each last detection point that Reacquire passes, and says when a source is seen there.
+//!
+//! *Source*: Tian et al. 2013, section 6, names it as future work: pictures at every LCDP, not only at the declared place.
+//!
+//! *Parameters*: see [`EyesSpec`]; all are ours.
+//!
+//! *Deviations*: the paper does not say when a picture is taken. An LCDP is known λ seconds after the vehicle has left it, so
+//! it is looked at when Reacquire, whose pattern is centred on it, comes back within `within_m`.
+
+use crate::handoff::{Declaration, Observation, PlumeMemory, Verdict};
+use crate::vision::{Verifier, VerifierSpec};
+use serde::{Deserialize, Serialize};
+use world::ranges::Positive;
+
+/// Looking at last detection points.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct EyesSpec {
+    /// A picture is asked for within this distance of the newest LCDP, m.
+    pub within_m: Positive,
+    /// Time between two pictures, s.
+    pub period_s: Positive,
+    /// What verifies.
+    pub verifier: VerifierSpec,
+}
+
+impl Default for EyesSpec {
+    fn default() -> Self {
+        Self {
+            within_m: Positive::new(8.0),
+            period_s: Positive::new(1.0),
+            verifier: VerifierSpec::default(),
+        }
+    }
+}
+
+/// State of the looking.
+#[derive(Debug)]
+pub(super) struct Eyes {
+    within_m: f64,
+    period_s: f64,
+    verifier: Verifier,
+    asked_s: Option<f64>,
+    asks: bool,
+}
+
+impl Eyes {
+    pub(super) fn new(spec: &EyesSpec) -> Self {
+        Self {
+            within_m: spec.within_m.get(),
+            period_s: spec.period_s.get(),
+            verifier: Verifier::new(&spec.verifier),
+            asked_s: None,
+            asks: false,
+        }
+    }
+
+    /// A picture is wanted in this tick.
+    pub(super) fn asks(&self) -> bool {
+        self.asks
+    }
+
+    /// Not looking in this tick.
+    pub(super) fn rest(&mut self) {
+        self.asks = false;
+    }
+
+    /// One tick of Reacquire: the source at the newest last detection point, if the camera has seen one near it.
+    pub(super) fn step(&mut self, seen: &Observation, memory: &PlumeMemory) -> Option<Declaration> {
+        self.asks = false;
+        let point = memory.lcdps.newest()?;
+        if (point.position - seen.estimate.position).norm() > self.within_m {
+            return None;
+        }
+        if let Some(picture) = &seen.picture
+            && self.verifier.judge(&picture.image).verified
+        {
+            return Some(Declaration {
+                verdict: Verdict::Verified,
+                ..Declaration::first(seen.t_s, point.position, "Eyes")
+            });
+        }
+        let due = |t: f64| seen.t_s - t >= self.period_s - 1e-9;
+        if self.asked_s.is_none_or(due) {
+            (self.asked_s, self.asks) = (Some(seen.t_s), true);
+        }
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::testing::seen;
+    use crate::handoff::{Lcdp, Picture};
+    use image::{Rgb, RgbImage};
+    use nalgebra::{UnitQuaternion, Vector2, Vector3};
+    use std::sync::Arc;
+
+    /// A dark body in a red cloud, or nothing, in green water.
+    fn picture(source: bool) -> Picture {
+        let colour = |x: u32, y: u32| {
+            let from = |cx: i64, cy: i64| (i64::from(x) - cx).pow(2) + (i64::from(y) - cy).pow(2);
+            match (source, from(60, 60), from(95, 55)) {
+                (true, near, _) if near < 14 * 14 => Rgb([12, 20, 60]),
+                (true, _, cloud) if cloud < 36 * 36 => Rgb([210, 60, 60]),
+                _ => Rgb([90, 150, 140]),
+            }
+        };
+        Picture {
+            image: Arc::new(RgbImage::from_fn(160, 120, colour)),
+            p_BC: Vector3::zeros(),
+            R_BC: UnitQuaternion::identity(),
+            view_rad: 1.0,
+        }
+    }
+
+    #[test]
+    fn it_looks_where_contact_was_lost_and_only_there() {
+        let mut eyes = Eyes::new(&EyesSpec::default());
+        let mut memory = PlumeMemory::default();
+        let at = |t_s: f64, east: f64| seen(t_s, Vector2::new(east, 0.0), 90.0, None);
+        assert_eq!(eyes.step(&at(0.0, 0.0), &memory), None);
+        assert!(!eyes.asks(), "no point to look at");
+        memory.lcdps.add(Lcdp::at(0.0, Vector2::new(100.0, 0.0)));
+        eyes.step(&at(1.0, 80.0), &memory);
+        assert!(!eyes.asks(), "20 m off");
+        eyes.step(&at(2.0, 95.0), &memory);
+        assert!(eyes.asks());
+        eyes.step(&at(2.5, 96.0), &memory);
+        assert!(!eyes.asks(), "one a second");
+        let with = |source| {
+            let mut o = at(3.0, 97.0);
+            o.picture = Some(picture(source));
+            o
+        };
+        assert_eq!(eyes.step(&with(false), &memory), None);
+        let declared = eyes
+            .step(&with(true), &memory)
+            .expect("a source is in the picture");
+        assert_eq!(declared.position, Vector2::new(100.0, 0.0));
+        assert_eq!(
+            (declared.rule, declared.verdict),
+            ("Eyes", Verdict::Verified)
+        );
+    }
+}
