@@ -62,7 +62,9 @@ pub(in super::super) fn map(run: &RunReport<'_>) -> String {
             panel.at([inset.x[1], inset.y[0]]),
         );
         let box_style = Style::line(GREY, 1.0);
+        panel.clip(&mut c);
         c.rect(a[0], a[1], b[0] - a[0], b[1] - a[1], &box_style);
+        c.unclip();
         below = inset.bottom();
     }
     // The column may end above the room that was kept for it.
