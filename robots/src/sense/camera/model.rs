@@ -94,7 +94,7 @@ pub struct CameraModel {
 }
 
 impl CameraModel {
-    /// The camera of a specification; where it looks is that of [`mounted`].
+    /// The camera of a specification; where it looks is given with each picture, see [`looking`].
     #[must_use]
     pub fn new(spec: &CameraSpec) -> Self {
         Self {
