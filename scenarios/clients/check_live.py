@@ -125,7 +125,10 @@ class Client:
         schemas = {key.rpartition("/")[2]: value for key, value in self.messages() if "/meta/schema/" in key}
         must(set(TOPICS) <= set(schemas), f"`{self.name}` misses schemas: {sorted(schemas)}")
         for key, value in self.messages():
-            name = "schema" if "/meta/schema/" in key else key.rpartition("/")[2]
+            parts = key.split("/")
+            if parts[-1].isdigit():
+                parts.pop()  # a declaration's number
+            name = "schema" if "/meta/schema/" in key else parts[-1]
             if "/gantry/" in key and f"gantry_{name}" in schemas:
                 name = f"gantry_{name}"  # a vehicle has its own
             missing = set(schemas[name]["required"]) - set(value)
