@@ -155,7 +155,6 @@ const ROWS: &[(&str, &str)] = &[
     row!("wp_laminar"),
     row!("wp_turbulent"),
     row!("wp_dead_end"),
-    row!("harbour_3d"),
 ];
 
 /// All rows that come with the program.
