@@ -1,12 +1,12 @@
-//! Finds the filaments that can be felt at a point: groups in the order of release, each parted into leaves on demand.
+//! Finds the filaments that can be felt at a point: groups in the order of release, each parted into leaves where it is asked.
 //!
 //! *Source*: k-d tree, Bentley 1975, Commun. ACM 18, 509, as bounding boxes of leaves.
 //!
 //! *Parameters*: 1024 filaments a group, 32 a leaf; speed in `benches/filaments.rs`.
 //!
 //! *Deviations*: neighbours in the order of release are neighbours in the water, so a group needs no sorting, only its
-//! bounds, and most groups are never near a robot. A group is parted when first asked; what it answers does not
-//! depend on when that was, so a viewer that asks too changes nothing.
+//! bounds, and most groups are never near a robot. A group is halved again and again, as far as what is asked lies near a
+//! half; what it answers does not depend on what was asked before, so a viewer that asks too changes nothing.
 
 use super::kernel::Path;
 pub use super::leaf::CUT_SIGMAS;
@@ -16,9 +16,8 @@ use super::thread;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 
-/// Leaves a group, at most.
-const LEAVES: usize = 32;
-const GROUP: usize = LEAF * LEAVES;
+/// Filaments a group, at most.
+const GROUP: usize = 1024;
 
 /// All groups of all stores at one time.
 #[derive(Clone, Debug)]
@@ -34,15 +33,33 @@ struct Group {
     n: usize,
     lo: [f32; 3],
     hi: [f32; 3],
-    leaves: OnceLock<Leaves>,
+    /// Size of the oldest member, the largest: horizontal, and vertical wherever it may be.
+    largest: [f32; 2],
+    whole: OnceLock<Part>,
 }
 
-/// The leaves of a group, with their bounds side by side.
+/// Members of a group, in the order of release, with the box they are in; parted when first asked near it.
 #[derive(Clone, Debug)]
-struct Leaves {
-    lo: [[f32; LEAVES]; 3],
-    hi: [[f32; LEAVES]; 3],
-    leaves: Vec<Leaf>,
+struct Part {
+    members: Vec<u16>,
+    at: [Vec<f32>; 3],
+    lo: [f32; 3],
+    hi: [f32; 3],
+    inside: OnceLock<Inside>,
+}
+
+#[derive(Clone, Debug)]
+enum Inside {
+    Halves(Box<[Part; 2]>),
+    Leaf(Box<Bounded>),
+}
+
+/// A leaf with its bounds.
+#[derive(Clone, Debug)]
+struct Bounded {
+    leaf: Leaf,
+    lo: [f32; 3],
+    hi: [f32; 3],
 }
 
 impl Index {
@@ -52,7 +69,8 @@ impl Index {
             for from in (0..s.len()).step_by(GROUP) {
                 let n = GROUP.min(s.len() - from);
                 // The first is the oldest, and so the largest.
-                let reach = CUT_SIGMAS * 1.000_01 * s.size.horizontal(now_s - s.born_s[from]);
+                let horizontal = s.size.horizontal(now_s - s.born_s[from]);
+                let reach = CUT_SIGMAS * 1.000_01 * horizontal;
                 let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
                 for (d, v) in [&s.x, &s.y, &s.z].into_iter().enumerate() {
                     let (low, high) = extent(&v[from..from + n]);
@@ -64,7 +82,8 @@ impl Index {
                     n,
                     lo,
                     hi,
-                    leaves: OnceLock::new(),
+                    largest: [horizontal, s.size.vertical(horizontal, f32::MIN)],
+                    whole: OnceLock::new(),
                 });
             }
         }
@@ -82,113 +101,135 @@ impl Index {
             total += thread::at(s, self.now_s, path, p);
         }
         for g in &self.groups {
-            if (0..3).all(|d| p[d] >= g.lo[d] && p[d] <= g.hi[d]) {
-                let leaves = g
-                    .leaves
-                    .get_or_init(|| Leaves::new(&stores[g.store], g.from, g.n, self.now_s));
-                total += leaves.at(path, p);
+            if within(p, g.lo, g.hi) {
+                let s = &stores[g.store];
+                let mut felt = 0.0;
+                g.whole.get_or_init(|| g.whole(s)).add(
+                    &Asked { p, path, g, s },
+                    self.now_s,
+                    &mut felt,
+                );
+                total += felt;
             }
         }
         total
     }
 }
 
-impl Leaves {
-    fn new(s: &Store, from: usize, n: usize, now_s: f64) -> Self {
-        let part = |v: &'_ [f32]| -> Vec<f32> { v[from..from + n].to_vec() };
-        let coordinates = [part(&s.x), part(&s.y), part(&s.z)];
-        let horizontal = s.size.horizontal(now_s - s.born_s[from]);
-        let vertical = s.size.vertical(horizontal, s.bed[from]);
+/// What is asked, and of whom.
+struct Asked<'a> {
+    p: [f32; 3],
+    path: Path,
+    g: &'a Group,
+    s: &'a Store,
+}
+
+impl Group {
+    fn whole(&self, s: &Store) -> Part {
+        let of = |v: &[f32]| v[self.from..self.from + self.n].to_vec();
+        let members = (0..self.n as u16).collect();
+        Part::new(members, [of(&s.x), of(&s.y), of(&s.z)])
+    }
+}
+
+impl Part {
+    fn new(members: Vec<u16>, at: [Vec<f32>; 3]) -> Self {
+        let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
+        for (d, v) in at.iter().enumerate() {
+            (lo[d], hi[d]) = extent(v);
+        }
+        Self {
+            members,
+            at,
+            lo,
+            hi,
+            inside: OnceLock::new(),
+        }
+    }
+
+    /// Adds what its leaves make felt, one after the other.
+    fn add(&self, asked: &Asked, now_s: f64, total: &mut f64) {
+        // More than the leaves' own bounds, which decide.
+        let reach = asked.g.largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
+        let reach = [reach[0], reach[0], reach[1]];
+        let lo = std::array::from_fn(|d| self.lo[d] - reach[d]);
+        let hi = std::array::from_fn(|d| self.hi[d] + reach[d]);
+        if !within(asked.p, lo, hi) {
+            return;
+        }
+        match self.inside.get_or_init(|| self.part(asked, now_s)) {
+            Inside::Halves(halves) => {
+                for half in &**halves {
+                    half.add(asked, now_s, total);
+                }
+            }
+            Inside::Leaf(b) => {
+                if within(asked.p, b.lo, b.hi) {
+                    *total += f64::from(b.leaf.at(asked.path, asked.p));
+                }
+            }
+        }
+    }
+
+    fn part(&self, asked: &Asked, now_s: f64) -> Inside {
+        if self.members.len() <= LEAF {
+            return Inside::Leaf(Box::new(self.leaf(asked, now_s)));
+        }
+        Inside::Halves(Box::new(self.halves(asked)))
+    }
+
+    fn leaf(&self, Asked { g, s, .. }: &Asked, now_s: f64) -> Bounded {
+        let mut leaf = Leaf::new();
+        for m in &self.members {
+            let i = g.from + usize::from(*m);
+            let sh = s.size.horizontal(now_s - s.born_s[i]);
+            let sizes = [sh, s.size.vertical(sh, s.bed[i])];
+            leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
+        }
+        let (lo, hi) = leaf.bounds();
+        Bounded { leaf, lo, hi }
+    }
+
+    /// Halves the members along their longest side (in units of the kernel's reach), full leaves to each.
+    fn halves(&self, Asked { g, s, .. }: &Asked) -> [Self; 2] {
+        let n = self.members.len();
+        let horizontal = g.largest[0];
+        let vertical = s.size.vertical(horizontal, s.bed[g.from]);
         let weight = [1.0 / horizontal, 1.0 / horizontal, 1.0 / vertical];
-        let mut order: Vec<u16> = (0..n as u16).collect();
-        let mut keys = Vec::with_capacity(n);
-        let mut out = Self {
-            lo: [[f32::MAX; LEAVES]; 3],
-            hi: [[f32::MIN; LEAVES]; 3],
-            leaves: Vec::with_capacity(n.div_ceil(LEAF)),
-        };
-        parted(
-            &mut order,
-            &coordinates,
-            weight,
-            &mut keys,
-            &mut |members| {
-                // In the order of release, so that the sum does not depend on how the parting is done.
-                members.sort_unstable();
-                let mut leaf = Leaf::new();
-                for m in members.iter() {
-                    let i = from + usize::from(*m);
-                    let sh = s.size.horizontal(now_s - s.born_s[i]);
-                    let sizes = [sh, s.size.vertical(sh, s.bed[i])];
-                    leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
-                }
-                let (lo, hi) = leaf.bounds();
-                for d in 0..3 {
-                    out.lo[d][out.leaves.len()] = lo[d];
-                    out.hi[d][out.leaves.len()] = hi[d];
-                }
-                out.leaves.push(leaf);
-            },
-        );
-        out
-    }
-
-    #[expect(clippy::needless_range_loop, reason = "one axis of three arrays")]
-    fn at(&self, path: Path, p: [f32; 3]) -> f64 {
-        let mut felt = [true; LEAVES];
-        for d in 0..3 {
-            for (l, felt) in felt.iter_mut().enumerate() {
-                *felt &= (p[d] >= self.lo[d][l]) & (p[d] <= self.hi[d][l]);
+        let side = |d: usize| self.hi[d] - self.lo[d];
+        let mut d = 0;
+        for other in 1..3 {
+            if side(other) * weight[other] > side(d) * weight[d] {
+                d = other;
             }
         }
-        let mut total = 0.0;
-        for (leaf, _) in self.leaves.iter().zip(felt).filter(|(_, felt)| *felt) {
-            total += f64::from(leaf.at(path, p));
+        // Coordinate in 22 bits, member in 10: plain numbers without ties, which select fast.
+        let (lo, side) = (self.lo[d], side(d));
+        let scale = if side > 0.0 { 4_194_300.0 / side } else { 0.0 };
+        let key = |(v, m): (&f32, &u16)| (((v - lo) * scale) as u32) << 10 | u32::from(*m);
+        let keys: Vec<u32> = self.at[d].iter().zip(&self.members).map(key).collect();
+        let half = n.div_ceil(LEAF) / 2 * LEAF;
+        let least_high = *keys.clone().select_nth_unstable(half).1;
+        let (mut low, mut high) = (Vec::with_capacity(half), Vec::with_capacity(n - half));
+        for (place, key) in keys.iter().enumerate() {
+            let to = if *key < least_high {
+                &mut low
+            } else {
+                &mut high
+            };
+            to.push(place as u16);
         }
-        total
+        [low, high].map(|places| {
+            let of = |v: &[f32]| places.iter().map(|l| v[usize::from(*l)]).collect();
+            let at = [of(&self.at[0]), of(&self.at[1]), of(&self.at[2])];
+            let members = places.iter().map(|l| self.members[usize::from(*l)]);
+            Self::new(members.collect(), at)
+        })
     }
 }
 
-/// Halves the members along their longest side (in units of the kernel's reach) until each part fits a leaf.
-fn parted(
-    members: &mut [u16],
-    coordinates: &[Vec<f32>; 3],
-    weight: [f32; 3],
-    keys: &mut Vec<u32>,
-    leaf: &mut impl FnMut(&mut [u16]),
-) {
-    if members.len() <= LEAF {
-        leaf(members);
-        return;
-    }
-    let mut widest = (0, f32::MIN, 0.0, 1.0);
-    for d in 0..3 {
-        let (mut lo, mut hi) = (f32::MAX, f32::MIN);
-        for m in members.iter() {
-            let v = coordinates[d][usize::from(*m)];
-            lo = lo.min(v);
-            hi = hi.max(v);
-        }
-        if (hi - lo) * weight[d] > widest.1 {
-            widest = (d, (hi - lo) * weight[d], lo, hi - lo);
-        }
-    }
-    let (d, _, lo, side) = widest;
-    // Coordinate in 22 bits, member in 10: plain numbers without ties, which select fast.
-    let scale = if side > 0.0 { 4_194_300.0 / side } else { 0.0 };
-    keys.clear();
-    keys.extend(members.iter().map(|m| {
-        let place = ((coordinates[d][usize::from(*m)] - lo) * scale) as u32;
-        (place << 10) | u32::from(*m)
-    }));
-    let half = members.len().div_ceil(LEAF) / 2 * LEAF;
-    keys.select_nth_unstable(half);
-    for (m, key) in members.iter_mut().zip(keys.iter()) {
-        *m = (key & 0x3ff) as u16;
-    }
-    let (low, high) = members.split_at_mut(half);
-    parted(low, coordinates, weight, keys, leaf);
-    parted(high, coordinates, weight, keys, leaf);
+fn within(p: [f32; 3], lo: [f32; 3], hi: [f32; 3]) -> bool {
+    (0..3).all(|d| p[d] >= lo[d] && p[d] <= hi[d])
 }
 
 fn extent(v: &[f32]) -> (f32, f32) {
@@ -262,6 +303,22 @@ mod tests {
             hits += usize::from(want > 0.0);
         }
         assert!(hits > 500, "{hits}");
+    }
+
+    #[test]
+    fn answers_do_not_depend_on_what_was_asked_before() {
+        let stores = [cloud(5000)];
+        let asked = Index::new(&stores, 0.0);
+        let mut r = Stream::new(7, "test", "probe");
+        let mut hits = 0;
+        for _ in 0..300 {
+            let p = Vector3::new(110.0 * r.uniform(), 2.0 * r.normal(), -6.0 * r.uniform());
+            let fresh = Index::new(&stores, 0.0).at(&stores, Path::Portable, &p);
+            let again = asked.at(&stores, Path::detect(), &p);
+            assert_eq!(again.to_bits(), fresh.to_bits());
+            hits += usize::from(fresh > 0.0);
+        }
+        assert!(hits > 100, "{hits}");
     }
 
     #[test]

@@ -52,6 +52,33 @@ pub(super) struct Block {
     pub(super) outside: [u32; BLOCK],
 }
 
+/// Room for what a step works out about its block; every step writes all of it anew.
+pub(super) struct Work {
+    noise: [[f32; BLOCK]; 4],
+    column: Columns,
+    level: Levels,
+    up: [f32; BLOCK],
+    slope: [f32; BLOCK],
+    kick: [f32; BLOCK],
+    here: Water,
+    there: Water,
+}
+
+impl Work {
+    pub(super) fn new() -> Self {
+        Self {
+            noise: [[0.0; BLOCK]; 4],
+            column: Columns::new(),
+            level: Levels::new(),
+            up: [0.0; BLOCK],
+            slope: [0.0; BLOCK],
+            kick: [0.0; BLOCK],
+            here: [[0.0; BLOCK]; 4],
+            there: [[0.0; BLOCK]; 4],
+        }
+    }
+}
+
 /// Which version of the step the machine can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Path {
@@ -80,19 +107,20 @@ pub(super) fn step(
     nodes: &[[f32; 4]],
     key: [u32; 2],
     block: &mut Block,
+    work: &mut Work,
 ) {
     match path {
-        Path::Portable => body(cells, nodes, key, block),
+        Path::Portable => body(cells, nodes, key, block, work),
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block) },
+        Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block, work) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block) {
-    body(cells, nodes, key, block);
+fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
+    body(cells, nodes, key, block, work);
 }
 
 #[inline(always)]
@@ -100,13 +128,17 @@ fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
-    let mut noise = [[0.0_f32; BLOCK]; 4];
-    let (mut column, mut level) = (Columns::new(), Levels::new());
-    let mut up = [0.0_f32; BLOCK];
-    let (mut slope, mut kick) = ([0.0_f32; BLOCK], [0.0_f32; BLOCK]);
-    let mut here: Water = [[0.0; BLOCK]; 4];
-    let mut there: Water = [[0.0; BLOCK]; 4];
+fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &mut Work) {
+    let Work {
+        noise,
+        column,
+        level,
+        up,
+        slope,
+        kick,
+        here,
+        there,
+    } = work;
 
     for l in 0..BLOCK {
         let n = normals(b.number[l], key);
@@ -121,7 +153,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
         up[l] = -1.0 / b.bed[l];
         slope[l] = level.set(l, cells.level(b.z[l], up[l]));
     }
-    fetch(cells, nodes, &column, &level, &mut here, Some(&mut slope));
+    fetch(cells, nodes, column, level, here, Some(slope));
     for l in 0..BLOCK {
         kick[l] = (2.0 * here[3][l] * b.dt[l] * b.kicked[l]).sqrt() * noise[2][l];
         level.set(
@@ -129,7 +161,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block) {
             cells.level(folded(b.z[l] + kick[l], b.bed[l], up[l]), up[l]),
         );
     }
-    fetch(cells, nodes, &column, &level, &mut there, None);
+    fetch(cells, nodes, column, level, there, None);
     if let Some(k_h) = cells.even_k_h {
         for l in 0..BLOCK {
             let kick = (2.0 * k_h * b.dt[l] * b.kicked[l]).sqrt();
@@ -277,9 +309,24 @@ mod tests {
         let (grid, cells) = scene(GridShape::default());
         let start = block(&cells);
         let (mut a, mut b) = (start.clone(), start.clone());
+        let mut work = Work::new();
         for n in 0..200 {
-            step(Path::Portable, &cells, &grid.data, [n, 7], &mut a);
-            step(Path::detect(), &cells, &grid.data, [n, 7], &mut b);
+            step(
+                Path::Portable,
+                &cells,
+                &grid.data,
+                [n, 7],
+                &mut a,
+                &mut work,
+            );
+            step(
+                Path::detect(),
+                &cells,
+                &grid.data,
+                [n, 7],
+                &mut b,
+                &mut work,
+            );
         }
         let bits = |v: &[f32; BLOCK]| v.map(f32::to_bits);
         assert_eq!(bits(&a.x), bits(&b.x));

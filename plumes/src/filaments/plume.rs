@@ -11,7 +11,7 @@
 
 use super::cells::Cells;
 use super::index::Index;
-use super::kernel::{self, BLOCK, Block, Path};
+use super::kernel::{self, BLOCK, Block, Path, Work};
 use super::noise::step_key;
 use super::size::Size;
 use super::solids::Solids;
@@ -161,8 +161,16 @@ impl Plume {
                     store.push([p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)], bed, t);
                 }
             });
+            let mut work = Work::new();
             sweep(store, old, t0_s, t1_s, |block| {
-                kernel::step(self.path, &self.cells, &self.grid.data, key, block);
+                kernel::step(
+                    self.path,
+                    &self.cells,
+                    &self.grid.data,
+                    key,
+                    block,
+                    &mut work,
+                );
             });
             if let Some(walls) = &walls {
                 if carries {

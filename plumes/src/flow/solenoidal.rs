@@ -114,15 +114,27 @@ impl Solenoidal {
                 slope[a][i] = integral(|t| splines(t).1[a] * hat(t, i));
             }
         }
+        // What each corner of a cell gives to each spline alive there, for x and y.
+        let mut share = [[[0.0; 2]; 4]; 9];
+        for (l, share) in share.iter_mut().enumerate() {
+            let a = [l / 3, l % 3];
+            for (corner, share) in share.iter_mut().enumerate() {
+                let (p, q) = (corner / 2, corner % 2);
+                *share = [
+                    self.h[0] * value[a[0]][p] * slope[a[1]][q],
+                    self.h[1] * slope[a[0]][p] * value[a[1]][q],
+                ];
+            }
+        }
         let n = (mx + 2) * (my + 2);
         let mut c = vec![0.0; n];
         for cell in 0..mx * my {
             let (i, j) = (cell / my, cell % my);
-            for (r, a) in self.alive(cell) {
-                for (p, q) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-                    let node = u[(i + p) * (my + 1) + j + q];
-                    c[r] += self.h[0] * value[a[0]][p] * slope[a[1]][q] * node.x
-                        - self.h[1] * slope[a[0]][p] * value[a[1]][q] * node.y;
+            let at = i * (my + 1) + j;
+            let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
+            for ((r, _), share) in self.alive(cell).zip(&share) {
+                for (node, share) in corners.iter().zip(share) {
+                    c[r] += share[0] * node.x - share[1] * node.y;
                 }
             }
         }
@@ -142,8 +154,8 @@ impl Solenoidal {
             let l = &self.factor[i * row + w - (i - from)..=i * row + w];
             c[i] /= l[i - from];
             let done = c[i];
-            for (k, l) in (from..i).zip(l) {
-                c[k] -= l * done;
+            for (c, l) in c[from..i].iter_mut().zip(l) {
+                *c -= l * done;
             }
         }
         c
