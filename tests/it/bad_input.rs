@@ -1,5 +1,7 @@
 //! Bad input: each mistake with the exact message it gets.
 
+mod odd;
+
 use crate::common;
 use std::net::TcpListener;
 use std::path::Path;

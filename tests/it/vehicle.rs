@@ -190,3 +190,42 @@ fn roll_release() {
     let (m, deg) = against(file, Solver::Alone, still, free);
     assert!(m < 0.02 && deg < of_rapier, "{m} m, {deg} deg");
 }
+
+/// A manoeuvre of no reference file, all three actuators at once: rapier's integration alone against the
+/// equation of motion itself.
+#[test]
+fn a_manoeuvre_of_our_own() {
+    let at = |t_s: f64| {
+        let side = |period_s: f64| {
+            if t_s % period_s < period_s / 2.0 {
+                1.0
+            } else {
+                -1.0
+            }
+        };
+        let rpm = if (60.0..100.0).contains(&t_s) {
+            700.0
+        } else {
+            1400.0
+        };
+        command(7.0 * side(34.0), 1.5 * side(20.0), rpm)
+    };
+    let current = water(Vector3::new(-0.2, 0.15, 0.0));
+    for set in [ParameterSet::Reference, ParameterSet::Remus100] {
+        let [mut free, mut stepped] = [Solver::WhenInReach, Solver::Alone]
+            .map(|solver| Alone::new(set, solver, start(), current));
+        let (mut worst_m, mut worst_deg): (f64, f64) = (0.0, 0.0);
+        while free.t_s() < 200.0 {
+            for auv in [&mut free, &mut stepped] {
+                auv.step(&at(auv.t_s()));
+            }
+            let (a, b) = (free.truth().pose, stepped.truth().pose);
+            worst_m = worst_m.max((a.p_WB - b.p_WB).norm());
+            worst_deg = worst_deg.max(a.R_WB.angle_to(&b.R_WB).to_degrees());
+        }
+        assert!(
+            worst_m < 0.02 && worst_deg < 0.05,
+            "{set:?}: {worst_m} m, {worst_deg} deg"
+        );
+    }
+}

@@ -59,6 +59,14 @@ impl GridShape {
             ..usual
         }
     }
+
+    /// Nodes along and across an area, and upwards; not whole numbers of this machine's, so that they can be judged.
+    #[must_use]
+    pub fn nodes(&self, area: &Area) -> [f64; 3] {
+        let [along, across] = [area.length_m, area.width_m]
+            .map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
+        [along, across, self.levels as f64]
+    }
 }
 
 /// Flow and diffusivities at the grid's nodes at one time.
@@ -115,7 +123,7 @@ impl FlowGrid {
             "a flow grid needs levels >= 2, cell_m > 0 and stretch in [0, 1), got {shape:?}"
         );
         let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * shape.margin_m);
-        let n = extent.map(|e| (e / shape.cell_m).ceil().max(1.0) as usize + 1);
+        let n = shape.nodes(area).map(|n| n as usize);
         let spacing = [0, 1].map(|d| extent[d] / (n[d] - 1) as f64);
         let corner = Vector2::new(-extent[0] / 2.0, -extent[1] / 2.0);
         let at = |i: usize, j: usize| {

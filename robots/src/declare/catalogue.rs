@@ -9,6 +9,7 @@ use crate::error::RobotError;
 use crate::handoff::{Belief, Declaration, Evidence, PlumeMemory};
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
+use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::units::Heading;
 
@@ -62,11 +63,24 @@ impl DeclareSpec {
         }
     }
 
-    /// Whether the parameters make sense.
+    /// Whether the parameters make sense, of a searcher that remembers so many lost points and last detection points.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when bounds contradict each other.
-    pub fn check(&self) -> Result<(), RobotError> {
+    /// [`RobotError::Invalid`] when bounds contradict each other, or more points are asked for than are remembered.
+    pub fn check(&self, lost_points: NonZeroUsize, lcdps: NonZeroUsize) -> Result<(), RobotError> {
+        let (points, most, list) = match self {
+            DeclareSpec::AlongFlow(rule) => (rule.points, lost_points, "lost_points"),
+            DeclareSpec::SizT(rule) => (rule.points.max(rule.initial), lcdps, "lcdps"),
+            DeclareSpec::SizF(rule) => (rule.points.max(rule.initial), lcdps, "lcdps"),
+        };
+        if points > most {
+            return Err(RobotError::Invalid {
+                field: format!("declare.{}.points", self.name()),
+                problem: format!(
+                    "must be at most {list}, {most}, got {points}: it would never declare"
+                ),
+            });
+        }
         match self {
             DeclareSpec::AlongFlow(_) => Ok(()),
             DeclareSpec::SizT(rule) => rule.size.check("declare.SizT.size"),

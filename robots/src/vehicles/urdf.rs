@@ -8,7 +8,7 @@
 //! there, their forces are in the hydrodynamics. Cylinders and capsules lie along z.
 
 use super::coefficients::Coefficients;
-use super::urdf_parts::{joined, parse, place, pose_of, root, shape};
+use super::urdf_parts::{check_tree, finite, joined, parse, place, pose_of, root, shape};
 use crate::error::RobotError;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -31,6 +31,9 @@ const NEEDED: [&str; 3] = ["rudder", "stern_plane", "propeller"];
 /// By how much mass and inertia may differ from the hydrodynamic parameters, which were fitted to one hull.
 const MASS_TOLERANCE: f64 = 0.01;
 
+/// No part of a hull of some 1.6 m lies further from its middle, m.
+const FURTHEST_M: f64 = 10.0;
+
 /// Reads URDF text; `path` is for messages and for mesh files beside it.
 pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, RobotError> {
     let fail = |problem: String| RobotError::File {
@@ -38,28 +41,32 @@ pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, Ro
         problem,
     };
     let robot = parse(text).map_err(fail)?;
+    check_tree(&robot).map_err(fail)?;
     let body = root(&robot).map_err(fail)?;
     let links = place(&robot, &body.name).map_err(fail)?;
     for needed in NEEDED {
         if !links.contains_key(needed) {
-            return Err(fail(format!(
-                "link \"{needed}\" is missing (or not joined to \"{}\")",
-                body.name
-            )));
+            return Err(fail(format!("link \"{needed}\" is missing")));
         }
     }
     check_mass(body, c).map_err(fail)?;
     let mut shapes = Vec::new();
     for link in &robot.links {
-        let Some(pose) = links.get(&link.name) else {
-            continue;
-        };
+        let pose = &links[&link.name];
         for (i, collision) in link.collision.iter().enumerate() {
             let place = format!("link \"{}\", collision {}", link.name, i + 1);
             let beside = path.parent().unwrap_or(Path::new(""));
             let shape = shape(&collision.geometry, beside)
                 .map_err(|problem| fail(format!("{place}: {problem}")))?;
-            shapes.push((joined(pose, &pose_of(&collision.origin)), shape));
+            finite(&collision.origin, &place).map_err(fail)?;
+            let at = joined(pose, &pose_of(&collision.origin));
+            let reach = at.p_WB.norm() + shape.reach_m();
+            if reach > FURTHEST_M {
+                return Err(fail(format!(
+                    "{place}: reaches {reach:.1} m from the body's origin; at most {FURTHEST_M} m"
+                )));
+            }
+            shapes.push((at, shape));
         }
     }
     if shapes.is_empty() {
@@ -99,7 +106,19 @@ fn check_mass(body: &Link, c: &Coefficients) -> Result<(), String> {
             ));
         }
     }
-    let z = inertial.origin.xyz[2];
+    for (have, axis) in [(i.ixy, "ixy"), (i.ixz, "ixz"), (i.iyz, "iyz")] {
+        if !near(want.x + have, want.x) {
+            return Err(format!(
+                "link \"{name}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull without"
+            ));
+        }
+    }
+    let [x, y, z] = inertial.origin.xyz.0;
+    if !near(c.z_g_m + x, c.z_g_m) || !near(c.z_g_m + y, c.z_g_m) {
+        return Err(format!(
+            "link \"{name}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters have it under the middle"
+        ));
+    }
     if !near(-z, c.z_g_m) {
         return Err(format!(
             "link \"{name}\": the centre of gravity is at z = {z} m, but the hydrodynamic parameters are for {} m",

@@ -37,7 +37,17 @@ pub(super) fn open(
 
 /// Links and joints; every joint has its links.
 pub(super) fn parse(text: &str) -> Result<Robot, String> {
-    let robot = urdf_rs::read_from_string(text).map_err(|e| format!("not a URDF file: {e}"))?;
+    let robot = urdf_rs::read_from_string(text).map_err(|e| {
+        // The reader of XML says of all these only that it finds nothing.
+        let why = if !text.contains("<robot") {
+            "there is no <robot> in it".to_string()
+        } else if !text.contains("</robot>") {
+            format!("it ends at line {}, before </robot>", text.lines().count())
+        } else {
+            e.to_string()
+        };
+        format!("not a URDF file: {why}")
+    })?;
     for joint in &robot.joints {
         for end in [&joint.parent.link, &joint.child.link] {
             if !robot.links.iter().any(|l| &l.name == end) {
@@ -72,6 +82,43 @@ pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>,
         }
     }
     Ok(links)
+}
+
+/// Every link but one is the child of exactly one joint, names are unique, numbers finite.
+pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
+    for (i, link) in robot.links.iter().enumerate() {
+        if robot.links[..i].iter().any(|l| l.name == link.name) {
+            return Err(format!("link \"{}\" is there twice", link.name));
+        }
+    }
+    let base = &root(robot)?.name;
+    for (i, joint) in robot.joints.iter().enumerate() {
+        let child = &joint.child.link;
+        finite(&joint.origin, &format!("joint \"{}\"", joint.name))?;
+        if let Some(other) = robot.joints[..i].iter().find(|j| &j.child.link == child) {
+            return Err(format!(
+                "link \"{child}\" is the child of two joints, \"{}\" and \"{}\"",
+                other.name, joint.name
+            ));
+        }
+    }
+    let links = place(robot, base)?;
+    match robot.links.iter().find(|l| !links.contains_key(&l.name)) {
+        Some(link) => Err(format!(
+            "link \"{}\" is not joined to \"{base}\"",
+            link.name
+        )),
+        None => Ok(()),
+    }
+}
+
+/// That an `<origin>` is made of numbers.
+pub(super) fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> {
+    let all = origin.xyz.iter().chain(origin.rpy.iter());
+    match all.into_iter().find(|v| !v.is_finite()) {
+        Some(v) => Err(format!("{whose}: <origin> must be finite, got {v}")),
+        None => Ok(()),
+    }
 }
 
 /// A collision shape; mesh files are looked for in the folder `beside`.

@@ -74,8 +74,57 @@ fn missing_links_are_named() {
     );
     assert_eq!(
         fails("child link=\"rudder\"", "child link=\"lbl\""),
-        "/no/such/place/auv.urdf: link \"rudder\" is missing (or not joined to \"base_link\")"
+        "/no/such/place/auv.urdf: link \"lbl\" is the child of two joints, \"rudder_joint\" and \"lbl_joint\""
     );
+    let other = GOOD.replace("\"rudder\"", "\"helm\"");
+    assert_eq!(
+        parse(&other).expect_err("no rudder"),
+        "/no/such/place/auv.urdf: link \"rudder\" is missing"
+    );
+}
+
+#[test]
+fn what_is_no_tree_is_told() {
+    let with = |more: &str| {
+        let text = GOOD.replace("</robot>", &format!("{more}</robot>"));
+        let error = parse(&text).expect_err("no tree");
+        error.replace("/no/such/place/auv.urdf: ", "")
+    };
+    let joint = |name: &str, parent: &str, child: &str| {
+        format!(
+            "<joint name=\"{name}\" type=\"fixed\"><parent link=\"{parent}\"/><child link=\"{child}\"/></joint>"
+        )
+    };
+    assert_eq!(
+        with("<link name=\"rudder\"/>"),
+        "link \"rudder\" is there twice"
+    );
+    assert_eq!(
+        with(&joint("round", "rudder", "base_link")),
+        "every link is the child of a joint: there is no body"
+    );
+    let ring = format!(
+        "<link name=\"a\"/><link name=\"b\"/>{}{}",
+        joint("there", "a", "b"),
+        joint("back", "b", "a")
+    );
+    assert_eq!(with(&ring), "link \"a\" is not joined to \"base_link\"");
+    assert_eq!(
+        with("<link name=\"loose\"/>"),
+        "link \"loose\" is not joined to \"base_link\""
+    );
+    for (text, why) in [
+        ("hello", "there is no <robot> in it"),
+        (
+            &GOOD[..GOOD.len() / 2],
+            "it ends at line 50, before </robot>",
+        ),
+    ] {
+        assert_eq!(
+            parse(text).expect_err("no URDF"),
+            format!("/no/such/place/auv.urdf: not a URDF file: {why}")
+        );
+    }
 }
 
 #[test]
@@ -96,6 +145,14 @@ fn wrong_masses_are_told() {
         fails("0 0 -0.02", "0 0 0.02"),
         "/no/such/place/auv.urdf: link \"base_link\": the centre of gravity is at z = 0.02 m, but the hydrodynamic parameters are for -0.02 m"
     );
+    assert_eq!(
+        fails("0 0 -0.02", "0.1 0 -0.02"),
+        "/no/such/place/auv.urdf: link \"base_link\": the centre of gravity is at x = 0.1 m, y = 0 m, but the hydrodynamic parameters have it under the middle"
+    );
+    assert_eq!(
+        fails("ixz=\"0\"", "ixz=\"1\""),
+        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull without"
+    );
 }
 
 #[test]
@@ -109,6 +166,12 @@ fn wrong_geometry_is_told() {
         fails(hull, "<sphere radius=\"-1\"/>"),
         "/no/such/place/auv.urdf: link \"base_link\", collision 1: sphere radius must be > 0, got -1"
     );
+    assert_eq!(
+        fails(hull, "<sphere radius=\"1e3\"/>"),
+        "/no/such/place/auv.urdf: link \"base_link\", collision 1: reaches 1000.0 m from the body's origin; at most 10 m"
+    );
+    let nose = "0.72 0 -0.06";
+    assert!(fails(nose, "0.72 NaN -0.06").ends_with("<origin> must be finite, got NaN"));
 }
 
 #[test]

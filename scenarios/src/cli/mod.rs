@@ -41,6 +41,7 @@ pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;
 
 use clap::Parser;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 /// The whole command, from its arguments to its exit code.
@@ -48,7 +49,17 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     say::set_up();
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
-    let exit = match Args::parse().command {
+    let command = Args::parse().command;
+    // A broken assumption has said so by now, with its cure: an error like any other to the shell.
+    guarded(|| dispatch(command)).into()
+}
+
+fn guarded(work: impl FnOnce() -> Exit) -> Exit {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Error)
+}
+
+fn dispatch(command: Command) -> Exit {
+    match command {
         Command::Run(args) => run::run(&args),
         Command::Check(args) => check::check(&args),
         Command::Init(args) => init::init(&args),
@@ -60,6 +71,17 @@ pub fn main() -> ExitCode {
         Command::Picture(args) => picture::picture(&args),
         Command::Segment(args) => segment::segment(&args),
         Command::ScoreVision(args) => score_vision::score_vision(&args),
-    };
-    exit.into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_assumption_is_an_error_to_the_shell() {
+        assert_eq!(guarded(|| Exit::NotFound), Exit::NotFound);
+        let broken = guarded(|| panic!("the hull is {} m long", -1));
+        assert_eq!(broken, Exit::Error);
+    }
 }

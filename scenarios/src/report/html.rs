@@ -248,7 +248,12 @@ fn run_rows(s: &Summary) -> Vec<(&'static str, String)> {
         );
         rows.push(("Chemical", what));
     }
-    rows.push(("Version", s.version.clone()));
+    let v = &s.versions;
+    let versions = format!(
+        "rheotaxis {}, scenario format {}, rapier3d {}",
+        v.rheotaxis, v.scenario, v.rapier3d
+    );
+    rows.push(("Versions", versions));
     rows.push(("Digest", s.digest.clone()));
     rows
 }

@@ -25,7 +25,7 @@ pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{
     DeclarationSummary, MassBalance, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary,
-    SourceError, SourceSummary, Summary, Totals,
+    SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
 pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

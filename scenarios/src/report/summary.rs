@@ -2,6 +2,7 @@
 
 use super::files::{ReportError, write_whole};
 use crate::gantry::GantrySummary;
+use crate::scenario::VERSION;
 use robots::handoff::{Evidence, RegionState, Verdict};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -213,6 +214,30 @@ pub struct RunSummary {
     pub real_time_factor_with_spin_up: Option<f64>,
 }
 
+/// Version of rapier3d that the program is built with; its contacts go into the digest.
+const RAPIER: &str = "0.36.1";
+
+/// By what a run was made: equal digests are promised for equal versions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Versions {
+    /// The program.
+    pub rheotaxis: String,
+    /// The schema of scenario files.
+    pub scenario: u32,
+    /// The rigid-body solver.
+    pub rapier3d: &'static str,
+}
+
+impl Versions {
+    pub(super) fn of(rheotaxis: &str) -> Self {
+        Self {
+            rheotaxis: rheotaxis.to_string(),
+            scenario: VERSION,
+            rapier3d: RAPIER,
+        }
+    }
+}
+
 /// What a run came to.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
@@ -220,8 +245,8 @@ pub struct Summary {
     pub scenario: String,
     /// Seed.
     pub seed: u64,
-    /// Version of the program.
-    pub version: String,
+    /// What it was run by.
+    pub versions: Versions,
     /// Digest of the whole state sequence; the same run again gives the same.
     pub digest: String,
     /// How it ended.
@@ -253,5 +278,17 @@ impl Summary {
     /// If the file cannot be written.
     pub fn write_json(&self, path: &Path) -> Result<PathBuf, ReportError> {
         write_whole(path, self.json().as_bytes())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_solver_is_the_one_that_is_built_in() {
+        let lock = include_str!("../../../Cargo.lock");
+        let entry = format!("name = \"rapier3d-f64\"\nversion = \"{RAPIER}\"\n");
+        assert!(lock.contains(&entry), "Cargo.lock has another rapier3d");
     }
 }

@@ -3,7 +3,7 @@
 use super::recorder::RunInfo;
 use super::summary::{
     DeclarationSummary, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary, SourceError,
-    SourceSummary, Summary, Totals,
+    SourceSummary, Summary, Totals, Versions,
 };
 use crate::frame::{Frame, RobotFrame};
 use crate::gantry::GantryPath;
@@ -307,7 +307,7 @@ impl SummaryBuilder {
         Summary {
             scenario: self.scenario.clone(),
             seed: self.seed,
-            version: self.version.clone(),
+            versions: Versions::of(&self.version),
             digest: end.digest,
             outcome: end.outcome,
             error: end.error,

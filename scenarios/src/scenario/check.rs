@@ -2,7 +2,7 @@
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
-use super::{check_fitted, check_obstacles};
+use super::{check_berth, check_fitted, check_limits, check_obstacles};
 use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
@@ -32,9 +32,11 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     let mut found = Vec::new();
     slope(&scenario.terrain, &mut found);
     // Seed 0: whether water can be made does not depend on its random numbers.
-    if let Err(PlumeError::Invalid { field, problem }) = scenario.water.build(&area, &terrain, 0) {
-        found.push(Found::error(field, problem));
+    match scenario.water.build(&area, &terrain, 0) {
+        Ok(water) => check_limits::speeds(scenario, &water, &terrain, &mut found),
+        Err(PlumeError::Invalid { field, problem }) => found.push(Found::error(field, problem)),
     }
+    check_limits::sizes(scenario, &area, &terrain, &mut found);
     if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
         found.push(Found::error(field, problem));
     }
@@ -56,7 +58,9 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
         let setting = robot.setting(&area, &terrain, &obstacles);
         mind(i, robot, &setting, &scenario.obstacles, &mut found);
         check_fitted::fitted(i, robot, &mut found);
+        check_fitted::blind(i, robot, &mut found);
     }
+    check_berth::berths(&scenario.robots, &terrain, &mut found);
     let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
     twins("gantries", &gantry_ids, &mut found);
     for (i, gantry) in scenario.gantries.iter().enumerate() {
@@ -284,6 +288,7 @@ fn times(scenario: &Scenario, found: &mut Vec<Found>) {
     for (path, period) in [
         ("time.limit_s", t.limit_s),
         ("time.drift_period_s", t.drift_period_s),
+        ("time.spin_up_period_s", t.spin_up_period_s),
         ("record.frame_period_s", r.frame_period_s),
         ("record.plume_period_s", r.plume_period_s),
     ] {

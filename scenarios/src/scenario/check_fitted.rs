@@ -2,6 +2,7 @@
 
 use super::fault::Found;
 use super::schema::RobotSpec;
+use robots::strategy::StrategySpec;
 
 /// Instruments that are asked for and missing.
 pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
@@ -20,6 +21,30 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
             Found::error(format!("{path}.strategy.layers"), problem)
                 .hint("fit one, as in `sensors: (ranging: ())`, or leave Avoid out"),
         );
+    }
+}
+
+/// What a search cannot do without: with it missing the vehicle goes on blindly.
+pub(super) fn blind(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
+    if matches!(robot.strategy, StrategySpec::OpenLoop(_)) {
+        return;
+    }
+    let s = &robot.sensors;
+    for (name, lacks, so) in [
+        ("fluorometer", s.fluorometer.is_none(), "smells nothing"),
+        ("compass", s.compass.is_none(), "never knows its heading"),
+        ("dvl", s.dvl.is_none(), "never knows how it moves"),
+        ("adcp", s.adcp.is_none(), "never knows the flow"),
+        ("depth", s.depth.is_none(), "never knows its depth"),
+    ] {
+        if lacks {
+            let problem = format!(
+                "robot \"{}\" searches without a {name}: it {so}",
+                robot.id.as_str()
+            );
+            let hint = format!("fit one, as in `sensors: ({name}: ())`");
+            found.push(Found::warning(format!("robots[{i}].sensors"), problem).hint(&hint));
+        }
     }
 }
 
@@ -50,5 +75,18 @@ mod tests {
             problems(&without("ranging: (")),
             ["robots[0].strategy.layers"]
         );
+    }
+
+    #[test]
+    fn a_blind_search_is_a_warning() {
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        assert_eq!(problems(text), Vec::<String>::new());
+        let line = text
+            .lines()
+            .find(|l| l.trim_start().starts_with("sensors: ("));
+        let without = text.replace(line.expect("it is fitted"), "");
+        assert_eq!(problems(&without), ["robots[0].sensors"; 5]);
+        let deaf = text.replace("fluorometer: (), ", "");
+        assert_eq!(problems(&deaf), ["robots[0].sensors"]);
     }
 }

@@ -88,6 +88,9 @@ fn unexpected(
     let wanted = match error {
         Error::ExpectedFloat => "expected a number".to_string(),
         Error::ExpectedString => "expected a text in quotes".to_string(),
+        Error::InvalidValueForType { expected, .. } if expected.contains("nonzero") => {
+            "must be at least 1".to_string()
+        }
         other => lower(&other.to_string()),
     };
     // After the last token of a value the reader stands just behind it.

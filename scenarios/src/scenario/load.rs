@@ -184,7 +184,10 @@ fn read(path: &Path) -> Result<String, Unread> {
             Some("a scenario is text of a few kilobytes; is this the right file?"),
         ));
     }
-    String::from_utf8(bytes).map_err(|e| {
+    // Some editors begin a file with a mark of its encoding.
+    let marked = bytes.starts_with("\u{feff}".as_bytes());
+    let text = bytes.split_off(if marked { 3 } else { 0 });
+    String::from_utf8(text).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
         let line = 1 + e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count();
         Unread::Other(

@@ -2,7 +2,9 @@
 
 mod catalog;
 mod check;
+mod check_berth;
 mod check_fitted;
+mod check_limits;
 mod check_obstacles;
 mod explain;
 mod fault;

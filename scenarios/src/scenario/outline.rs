@@ -193,8 +193,9 @@ fn token_len(rest: &str) -> usize {
         }
         return whole;
     }
-    let hashes = rest[1..].len() - rest.get(1..).unwrap_or("").trim_start_matches('#').len();
-    if rest.starts_with('r') && rest[1 + hashes..].starts_with('"') {
+    let raw = rest.strip_prefix('r').unwrap_or("");
+    let hashes = raw.len() - raw.trim_start_matches('#').len();
+    if raw[hashes..].starts_with('"') {
         let closing = format!("\"{}", "#".repeat(hashes));
         let from = hashes + 2;
         return rest[from..]

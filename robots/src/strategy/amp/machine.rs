@@ -72,7 +72,7 @@ impl Amp {
     /// # Errors
     /// [`RobotError::Invalid`] when a behaviour's parameters make no sense.
     pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
-        spec.declare.check()?;
+        spec.declare.check(spec.lost_points, spec.lcdps)?;
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
         Ok(Self {
             speed_m_s,

@@ -2,10 +2,12 @@
 
 use super::super::survey::AfterDeclaration;
 use super::{Amp, AmpSpec, Detections, StartAt};
+use crate::declare::{AlongFlow, DeclareSpec};
 use crate::handoff::testing::{seen, smelling};
 use crate::handoff::{Behaviour, Decision, Goal, Manoeuvre, Outcome};
 use crate::strategy::Strategy;
 use nalgebra::Vector2;
+use std::num::NonZeroUsize;
 use world::ranges::Finite;
 use world::seeds::Stream;
 
@@ -246,4 +248,21 @@ fn detections_on_the_way_to_the_start_as_told() {
     let mut d = Desk::new(&start(Detections::Heeded));
     assert_eq!(d.quiet(0.0).behaviour, Behaviour::GoTo);
     assert_eq!(d.smell(0.0).behaviour, Behaviour::TrackIn);
+}
+
+#[test]
+fn a_rule_on_more_points_than_are_remembered_is_refused() {
+    let spec = |points| AmpSpec {
+        declare: DeclareSpec::AlongFlow(AlongFlow {
+            points: NonZeroUsize::new(points).expect("not zero"),
+            ..AlongFlow::default()
+        }),
+        ..AmpSpec::default()
+    };
+    assert!(Amp::new(&spec(6)).is_ok());
+    let error = Amp::new(&spec(7)).map(|_| ()).expect_err("never declares");
+    assert_eq!(
+        error.to_string(),
+        "declare.AlongFlow.points: must be at most lost_points, 6, got 7: it would never declare"
+    );
 }

@@ -172,7 +172,7 @@ impl Layers {
                 LayerSpec::Maintain(m) => maintain = Some(Maintain::new(m).map_err(here)?),
                 LayerSpec::Reacquire(r) => reacquire = Some(r.build().map_err(here)?),
                 LayerSpec::Declare(rule) => {
-                    rule.check().map_err(here)?;
+                    rule.check(spec.lost_points, spec.lcdps).map_err(here)?;
                     declare = Some(rule.clone());
                 }
                 LayerSpec::Avoid(p) => {

@@ -10,7 +10,7 @@
 //! origin the point that is steered. A probe is any link fixed to the head whose name begins with `probe_`;
 //! its origin is the tip. Only the slides' own links need mass. `visual`, `dynamics` and `mimic` are not read.
 
-use super::super::urdf_parts::{joined, parse, place, pose_of, root, shape};
+use super::super::urdf_parts::{check_tree, finite, joined, parse, place, pose_of, root, shape};
 use super::drive::AxisLimits;
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeMount};
@@ -159,42 +159,6 @@ fn part_of(robot: &Robot, moving: &[&Joint; 2], link: &str) -> usize {
             Some(joint) => link = &joint.parent.link,
             None => return 0,
         }
-    }
-}
-
-/// Every link but one is the child of exactly one joint, names are unique, numbers finite.
-fn check_tree(robot: &Robot) -> Result<(), String> {
-    for (i, link) in robot.links.iter().enumerate() {
-        if robot.links[..i].iter().any(|l| l.name == link.name) {
-            return Err(format!("link \"{}\" is there twice", link.name));
-        }
-    }
-    let base = &root(robot)?.name;
-    for (i, joint) in robot.joints.iter().enumerate() {
-        let child = &joint.child.link;
-        finite(&joint.origin, &format!("joint \"{}\"", joint.name))?;
-        if let Some(other) = robot.joints[..i].iter().find(|j| &j.child.link == child) {
-            return Err(format!(
-                "link \"{child}\" is the child of two joints, \"{}\" and \"{}\"",
-                other.name, joint.name
-            ));
-        }
-    }
-    let links = place(robot, base)?;
-    match robot.links.iter().find(|l| !links.contains_key(&l.name)) {
-        Some(link) => Err(format!(
-            "link \"{}\" is not joined to \"{base}\"",
-            link.name
-        )),
-        None => Ok(()),
-    }
-}
-
-fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> {
-    let all = origin.xyz.iter().chain(origin.rpy.iter());
-    match all.into_iter().find(|v| !v.is_finite()) {
-        Some(v) => Err(format!("{whose}: <origin> must be finite, got {v}")),
-        None => Ok(()),
     }
 }
 
