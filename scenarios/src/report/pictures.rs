@@ -68,13 +68,14 @@ impl Pictures {
         }
     }
 
-    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`; nothing once there are enough.
+    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns what is in the file; nothing once
+    /// there are enough.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn push(&mut self, taken: &PictureFrame) -> Result<(), ReportError> {
+    pub fn push(&mut self, taken: &PictureFrame) -> Result<Option<Vec<u8>>, ReportError> {
         if self.shown.len() >= self.most {
-            return Ok(());
+            return Ok(None);
         }
         let number = (self.shown.iter())
             .filter(|p| p.robot == taken.robot)
@@ -101,7 +102,7 @@ impl Pictures {
             t_s: taken.t_s,
             jpeg,
         });
-        Ok(())
+        Ok(Some(png.into_inner()))
     }
 
     fn row(&mut self, file: &str, taken: &PictureFrame) {
