@@ -18,7 +18,7 @@ use crate::handoff::{
     Behave, Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome,
     PlumeMemory, Setting, Stride, Vertical,
 };
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use std::sync::Arc;
 use world::seeds::Stream;
 use world::units::Heading;
@@ -86,15 +86,7 @@ impl MapAndPlan {
             pilot: Pilot::new(spec, setting)?,
             memory: PlumeMemory::default(),
             now: Behaviour::Idle,
-            goal: Goal {
-                id: 0,
-                manoeuvre: Manoeuvre::GoToPoint {
-                    point: Vector2::zeros(),
-                    radius_m: None,
-                },
-                vertical,
-                speed_m_s,
-            },
+            goal: Goal::none_yet(vertical, speed_m_s),
             leg: None,
             detour: None,
             aim: None,
