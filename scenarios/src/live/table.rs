@@ -140,7 +140,7 @@ pub(super) const TOPICS: &[Topic] = &[
         name: "picture",
         key: "auv/<id>/picture",
         what: "Newest picture of the vehicle's camera, as JPEG; halved in size until it fits into a message.",
-        rate: "at most 2 a second, of a vehicle with a camera; the recording has them without loss",
+        rate: "at most 2 a second, of a vehicle with a camera; as PNG, without loss, in the recording",
         payload: Payload::Jpeg,
         fields: &[
             always("t_s", Kind::Number, "Simulated time at which it was taken, s."),

@@ -184,7 +184,8 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let mut kept = Pictures::new(dir.path(), 3);
         for (robot, t) in [("a", 1.0), ("b", 2.0), ("a", 3.0), ("a", 4.0)] {
-            kept.push(&taken(robot, t)).unwrap();
+            let file = kept.push(&taken(robot, t)).unwrap();
+            assert_eq!(file.is_some(), t < 4.0, "three are enough");
         }
         let names: Vec<_> = kept.shown().iter().map(|p| p.file.as_str()).collect();
         assert_eq!(
