@@ -14,7 +14,7 @@ import zenoh
 
 endpoint, key = (sys.argv[1:] + ["tcp/127.0.0.1:7447", "rheotaxis/**"][len(sys.argv) - 1:])[:2]
 
-def show(sample):  # packed numbers (the plume) carry their JSON header as attachment
+def show(sample):  # what is no JSON (plume, map, sidescan: packed numbers; picture: JPEG) carries a JSON header as attachment
     print(f"{sample.key_expr} {(sample.attachment or sample.payload).to_string()}\n", end="", flush=True)
 
 config = zenoh.Config.from_json5(f"""{{ mode: "peer", listen: {{ endpoints: [] }}, scouting: {{ multicast: {{ enabled: false }} }},

@@ -57,6 +57,21 @@ pub(crate) fn rheotaxis(args: &[&str]) -> Output {
     rheotaxis_in(Path::new("."), args)
 }
 
+/// Runs a scenario's text as `<dir>/<name>.ron` into the folder `<dir>/<name>`; its exit code and its summary.
+#[track_caller]
+pub(crate) fn mission(dir: &Path, name: &str, text: &str) -> (i32, serde_json::Value) {
+    let (file, out) = (dir.join(format!("{name}.ron")), dir.join(name));
+    std::fs::write(&file, text).expect("the folder is ours");
+    let args = ["run", "--no-zenoh", "--quiet", "--out"].map(Path::new);
+    let end = command(dir, &[]).args(args).args([&out, &file]).output();
+    let end = end.expect("rheotaxis starts");
+    let summary = std::fs::read_to_string(out.join("summary.json"));
+    let summary =
+        summary.unwrap_or_else(|e| panic!("{e}: {}", String::from_utf8_lossy(&end.stderr)));
+    let summary = serde_json::from_str(&summary).expect("a summary is JSON");
+    (end.status.code().expect("it was not killed"), summary)
+}
+
 /// A scenario's text with other numbers: each field must stand in it exactly once.
 pub(crate) fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
     let mut text = text.to_string();

@@ -8,8 +8,10 @@ mod hostile;
 mod kit;
 mod setup;
 
+use image::Rgb;
 use kit::{
-    PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, plume, sent, start,
+    PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, picture, ping, plume,
+    sent, start,
 };
 use rheotaxis::frame::Frame;
 use rheotaxis::live::{Live, LiveOptions, Payload, topics};
@@ -18,6 +20,7 @@ use rheotaxis::trial::{Trial, Watch};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::net::TcpListener;
+use zenoh::bytes::Encoding;
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Config, Wait};
 use zenoh_ext::{AdvancedSubscriberBuilderExt, HistoryConfig};
@@ -210,6 +213,8 @@ fn every_message_keeps_its_published_schema() {
     let live = start("schema_1");
     live.publish(&frame(3));
     live.plume(&plume(100));
+    live.picture(&picture(1.0));
+    live.ping(&ping(1.0));
     live.end("d1");
     let session = client(live.endpoint());
     let mut seen = kept(&session, "schema_1");
@@ -227,7 +232,7 @@ fn every_message_keeps_its_published_schema() {
             .unwrap_or_else(|| panic!("{key} is not published"));
         let value = match topic.payload {
             Payload::Json | Payload::Schema => json(sample),
-            Payload::PackedF32 => {
+            Payload::PackedF32 | Payload::Jpeg => {
                 let header = sample.attachment().expect("packed numbers have a header");
                 serde_json::from_slice(&header.to_bytes()).unwrap()
             }
@@ -247,6 +252,16 @@ fn every_message_keeps_its_published_schema() {
     assert_eq!(packed.len(), 100 * 5 * 4);
     let mass = f32::from_le_bytes(packed[16..20].try_into().unwrap());
     assert_eq!(mass, 1e-6);
+    let seen_picture = &seen["auv/auv0/picture"];
+    assert_eq!(seen_picture.encoding(), &Encoding::IMAGE_JPEG);
+    let shown = image::load_from_memory(&seen_picture.payload().to_bytes()).unwrap();
+    let Rgb([red, green, blue]) = *shown.to_rgb8().get_pixel(8, 4);
+    // JPEG keeps an even colour within a few of 255.
+    let near = |is: u8, should: u8| is.abs_diff(should) <= 4;
+    assert_eq!((shown.width(), shown.height()), (16, 8));
+    assert!(near(red, 200) && near(green, 30) && near(blue, 20));
+    let echoes = seen["auv/auv0/sidescan"].payload().to_bytes();
+    assert_eq!(f32::from_le_bytes(echoes[4..8].try_into().unwrap()), 2.0);
     session.close().wait().unwrap();
 }
 

@@ -11,6 +11,7 @@ mod interrupt;
 mod live;
 mod memory;
 mod planning;
+mod rejection;
 mod reproduce;
 mod scenarios;
 mod sea;

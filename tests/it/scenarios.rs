@@ -29,22 +29,9 @@ fn crowded(robots: usize) -> String {
 }
 
 fn run(dir: &Path, robots: usize) -> Value {
-    let file = dir.join(format!("crowded_{robots}.ron"));
-    std::fs::write(&file, crowded(robots)).unwrap();
-    let out = dir.join(robots.to_string());
-    let args = [
-        "run",
-        file.to_str().unwrap(),
-        "--no-zenoh",
-        "--quiet",
-        "--out",
-    ];
-    let mut args = args.to_vec();
-    args.push(out.to_str().unwrap());
-    let end = common::rheotaxis(&args);
-    let said = String::from_utf8_lossy(&end.stderr);
-    assert_eq!(end.status.code(), Some(3), "{said}");
-    serde_json::from_str(&std::fs::read_to_string(out.join("summary.json")).unwrap()).unwrap()
+    let (code, summary) = common::mission(dir, &robots.to_string(), &crowded(robots));
+    assert_eq!(code, 3, "{summary}");
+    summary
 }
 
 #[test]

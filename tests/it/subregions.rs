@@ -46,21 +46,8 @@ const MISSION: &str = r#"(
 #[test]
 fn one_region_after_the_other_each_with_its_end() {
     let dir = tempfile::tempdir().unwrap();
-    let file = dir.path().join("three.ron");
-    std::fs::write(&file, MISSION).unwrap();
-    let out = dir.path().join("out");
-    let paths = [file.to_str().unwrap(), out.to_str().unwrap()];
-    let args = ["run", paths[0], "--no-zenoh", "--quiet", "--out", paths[1]];
-    let end = common::rheotaxis(&args);
-    assert_eq!(
-        end.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&end.stderr)
-    );
-    let text = std::fs::read_to_string(out.join("summary.json")).unwrap();
-    let summary: Value = serde_json::from_str(&text).unwrap();
-    assert_eq!(summary["outcome"], "found");
+    let (code, summary) = common::mission(dir.path(), "three", MISSION);
+    assert_eq!((code, &summary["outcome"]), (0, &"found".into()));
     let robot = &summary["robots"][0];
     let states: Vec<_> = (0..3).map(|k| &robot["regions"][k]["state"]).collect();
     assert_eq!(states, ["source_free", "up_flow_edge", "declared"]);
@@ -90,7 +77,7 @@ fn one_region_after_the_other_each_with_its_end() {
     assert!(number(inside, "/error/total_m") < 20.0, "{inside}");
 
     // The track says which region was searched when; without one it was on its way.
-    let track = std::fs::read_to_string(out.join("track.csv")).unwrap();
+    let track = std::fs::read_to_string(dir.path().join("three/track.csv")).unwrap();
     let mut regions = Vec::new();
     for line in track.lines().skip(1) {
         let (rest, region) = line.rsplit_once(',').unwrap();
@@ -102,7 +89,7 @@ fn one_region_after_the_other_each_with_its_end() {
         }
     }
     assert_eq!(regions, ["0", "1", "2"]);
-    let map = std::fs::read_to_string(out.join("map.svg")).unwrap();
+    let map = std::fs::read_to_string(dir.path().join("three/map.svg")).unwrap();
     for words in ["1 source free", "2 up flow edge", "3 declared", "subregion"] {
         assert!(map.contains(words), "the map does not say `{words}`");
     }

@@ -17,7 +17,7 @@
 
 use crate::error::RobotError;
 use crate::handoff::{Manoeuvre, Observation, Side};
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -197,9 +197,8 @@ impl SoftAvoid {
             self.echoes.pop_front();
         }
         let Some(scan) = &seen.ranging else { return };
-        let a = &e.attitude;
-        let turn = UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw());
-        let at = Vector3::new(e.position.x, e.position.y, -e.depth_m) + turn * scan.p_BS;
+        let turn = e.attitude.R_WB();
+        let at = e.p_WB() + turn * scan.p_BS;
         for beam in scan.beams.iter() {
             let Some(echo_m) = beam.echo_m else { continue };
             let to = at + turn * beam.dir_B * echo_m;
@@ -238,6 +237,7 @@ mod tests {
     use super::*;
     use crate::handoff::testing::seen;
     use crate::handoff::{Beam, RangeScan};
+    use nalgebra::Vector3;
 
     const BED: Terrain = Terrain::Level { depth_m: 8.0 };
 

@@ -17,7 +17,7 @@
 //! at a new one; the queue of last detection points stays.
 
 use crate::error::RobotError;
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
+use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -26,9 +26,6 @@ use world::math;
 use world::ranges::Positive;
 use world::seeds::Stream;
 use world::units::Heading;
-
-/// Points are held this far inside the area, m: the cage's 5 m and as much again.
-const MARGIN_M: f64 = 10.0;
 
 /// Parameters of the behaviour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

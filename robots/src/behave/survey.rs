@@ -8,14 +8,12 @@
 //!
 //! *Deviations*: none. A line's ends are held 10 m inside the area; a line that is left with less than a metre is not flown.
 
-use crate::handoff::{Manoeuvre, Stride, inside};
+use crate::handoff::{MARGIN_M, Manoeuvre, Stride, inside};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
 use world::units::Heading;
 
-/// Distance kept from the area's edges, m.
-const MARGIN_M: f64 = 10.0;
 /// Shortest line that is flown, m.
 const SHORTEST_M: f64 = 1.0;
 /// Farther off its line than this, or turned from it by more than this, the vehicle is not on it, m and rad.

@@ -15,16 +15,13 @@
 //! with fewer points they are whole.
 
 use crate::error::RobotError;
-use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Stride, inside};
+use crate::handoff::{Behave, Lcdp, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Stride, inside};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::seeds::Stream;
 use world::units::Heading;
-
-/// Points are held this far inside the area, m: the cage's 5 m and as much again.
-const MARGIN_M: f64 = 10.0;
 
 /// Parameters of the behaviour.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

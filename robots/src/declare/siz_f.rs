@@ -74,15 +74,9 @@ impl SizF {
 mod tests {
     use super::*;
     use crate::declare::AdaptiveSize;
+    use crate::declare::testing::list;
     use crate::handoff::testing::fixed;
     use proptest::prelude::*;
-
-    fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
-        let point = |(k, (east, north)): (usize, &(f64, f64))| {
-            Lcdp::at(k as f64, Vector2::new(*east, *north))
-        };
-        places.iter().enumerate().map(point).collect()
-    }
 
     fn rule(eps_m: f64, points: usize) -> SizF {
         SizF {

@@ -68,17 +68,11 @@ impl SizT {
 mod tests {
     use super::*;
     use crate::declare::AdaptiveSize;
+    use crate::declare::testing::list;
     use crate::handoff::testing::fixed;
     use proptest::prelude::*;
 
     const NORTH: f64 = 0.0;
-
-    fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
-        let point = |(k, (east, north)): (usize, &(f64, f64))| {
-            Lcdp::at(k as f64, Vector2::new(*east, *north))
-        };
-        places.iter().enumerate().map(point).collect()
-    }
 
     fn rule(eps_m: f64, points: usize) -> SizT {
         SizT {
@@ -130,6 +124,9 @@ mod tests {
         let up = Heading::from_deg(NORTH);
         let (_, evidence) = rule(5.9, 3).declare(&list(&places), up, 0.0).expect("near");
         assert_eq!((evidence.points, evidence.since_s), (3, 1.0));
+        // From (11, 21) to (10, 24).
+        assert_eq!(evidence.middle_m, [11.0, 21.0]);
+        assert_eq!(evidence.reach_m, 10f64.sqrt());
     }
 
     #[test]

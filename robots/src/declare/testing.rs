@@ -1,6 +1,6 @@
-//! A belief written by hand, for tests.
+//! A belief and last detection points written by hand, for tests.
 
-use crate::handoff::{Belief, BeliefGrid};
+use crate::handoff::{Belief, BeliefGrid, Lcdp};
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 
@@ -24,4 +24,11 @@ pub(crate) fn belief(best: usize, informed: bool, credible_95: f64) -> Belief {
         credible_95,
         odour: None,
     }
+}
+
+/// Last detection points (east, north), m, a second apart.
+pub(crate) fn list(places: &[(f64, f64)]) -> Vec<Lcdp> {
+    let point =
+        |(k, (east, north)): (usize, &(f64, f64))| Lcdp::at(k as f64, Vector2::new(*east, *north));
+    places.iter().enumerate().map(point).collect()
 }

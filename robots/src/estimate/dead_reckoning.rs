@@ -91,7 +91,7 @@ impl DeadReckoning {
     /// What is believed at the clock's time, after the readings of this step.
     pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
         self.take_in(readings);
-        let R_WB = rotation(&self.attitude);
+        let R_WB = self.attitude.R_WB();
         let v_now = (R_WB * self.v_ground_body).xy();
         if let Some(v_before) = self.v_before.replace(v_now) {
             self.position += (v_before + v_now) * (0.5 * self.dt_s);
@@ -170,12 +170,6 @@ impl DeadReckoning {
         self.flow = Some((believed, t_s));
         self.layers.iter_mut().for_each(LayerWatch::measured);
     }
-}
-
-/// Body axes (FLU) to world axes (ENU), as believed.
-fn rotation(a: &Attitude) -> UnitQuaternion<f64> {
-    // Euler pitch in FLU is nose down positive, a vehicle's pitch is nose up positive.
-    UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw())
 }
 
 #[cfg(test)]

@@ -106,25 +106,29 @@ pub struct Evidence {
     pub points: u32,
     /// Time of the oldest of them, s.
     pub since_s: f64,
+    /// Their mean (east, north), m.
+    pub middle_m: [f64; 2],
+    /// The farthest of them from it, m.
+    pub reach_m: f64,
 }
 
 impl Evidence {
     /// Of these points; there must be one at least.
     #[must_use]
     pub fn of<'a>(points: impl IntoIterator<Item = &'a Lcdp>) -> Self {
-        let none = Self {
-            points: 0,
-            since_s: f64::INFINITY,
-        };
-        let all = points.into_iter().fold(none, |e, p| Self {
-            points: e.points + 1,
-            since_s: e.since_s.min(p.t_s),
-        });
+        let all: Vec<&Lcdp> = points.into_iter().collect();
         assert!(
-            all.points > 0,
+            !all.is_empty(),
             "a declaration that rests on no point: its rule must ask for one at least"
         );
-        all
+        let middle = all.iter().map(|p| p.position).sum::<Vector2<f64>>() / all.len() as f64;
+        let reach = |m: f64, p: &&Lcdp| m.max((p.position - middle).norm());
+        Self {
+            points: all.len() as u32,
+            since_s: all.iter().fold(f64::INFINITY, |t, p| t.min(p.t_s)),
+            middle_m: middle.into(),
+            reach_m: all.iter().fold(0.0, reach),
+        }
     }
 }
 

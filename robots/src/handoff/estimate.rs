@@ -3,7 +3,7 @@
 use super::{Belief, ChemicalReading, GuidanceStatus, RangeScan};
 use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
-use nalgebra::{Vector2, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use world::area::Area;
 use world::units::Heading;
 
@@ -18,6 +18,14 @@ pub struct Attitude {
     pub pitch_rad: f64,
     /// Angular rates in body axes (FLU), rad/s.
     pub rates_rad_s: Vector3<f64>,
+}
+
+impl Attitude {
+    /// Body axes (FLU) to world axes (ENU), as believed: a pitch of those axes is positive nose down.
+    #[must_use]
+    pub fn R_WB(&self) -> UnitQuaternion<f64> {
+        UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
+    }
 }
 
 /// Believed flow at the vehicle.
@@ -65,6 +73,12 @@ pub struct Estimate {
 }
 
 impl Estimate {
+    /// Believed place of the origin of the body frame (ENU), m.
+    #[must_use]
+    pub fn p_WB(&self) -> Vector3<f64> {
+        Vector3::new(self.position.x, self.position.y, -self.depth_m)
+    }
+
     /// Length of the jump, m.
     #[must_use]
     pub fn fix_jump_m(&self) -> f64 {

@@ -66,6 +66,22 @@ pub struct Goal {
     pub speed_m_s: f64,
 }
 
+impl Goal {
+    /// What stands before the first goal is given.
+    #[must_use]
+    pub fn none_yet(vertical: Vertical, speed_m_s: f64) -> Self {
+        Self {
+            id: 0,
+            manoeuvre: Manoeuvre::GoToPoint {
+                point: Vector2::zeros(),
+                radius_m: None,
+            },
+            vertical,
+            speed_m_s,
+        }
+    }
+}
+
 /// How the guidance stands with a goal.
 #[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
 pub struct GuidanceStatus {

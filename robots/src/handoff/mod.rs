@@ -32,7 +32,7 @@ pub use layers::{Layer, LayerState};
 pub use lcdp::{Lcdp, LcdpQueue, most_up_flow_first};
 pub use lost_points::LostPoints;
 pub use pictures::{Picture, SidescanPing};
-pub use places::{edges, inside};
+pub use places::{MARGIN_M, edges, inside};
 pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,
     DepthReading, DvlReading, LblFix, RangeScan, Readings,

@@ -18,6 +18,9 @@ pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
     ]
 }
 
+/// Places to go to are held this far inside the area, m: the cage's 5 m and as much again.
+pub const MARGIN_M: f64 = 10.0;
+
 /// `p` moved to the nearest place at least `margin_m` inside the area (its middle line where it is narrower).
 #[must_use]
 pub fn inside(area: &Area, p: Vector2<f64>, margin_m: f64) -> Vector2<f64> {

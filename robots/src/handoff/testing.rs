@@ -1,8 +1,15 @@
 //! Observations written by hand, for tests.
 
-use super::{Attitude, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation};
+use super::{
+    Attitude, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation, Setpoint,
+};
 use nalgebra::{Vector2, Vector3};
+use std::f64::consts::FRAC_PI_2;
+use std::path::Path;
 use world::area::Area;
+use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
+use world::ranges::{Finite, HeadingDeg, Positive};
+use world::terrain::Terrain;
 use world::units::Heading;
 
 /// 600 m north-south by 400 m east-west round the origin.
@@ -71,4 +78,29 @@ pub(crate) fn fixed(cases: u32) -> proptest::test_runner::Config {
         failure_persistence: None,
         ..Default::default()
     }
+}
+
+/// A block on the bed, its length along east.
+pub(crate) fn block(bed: &Terrain, id: &str, at: [f64; 2], size_m: [f64; 3]) -> Obstacle {
+    let [x, y, z] = size_m.map(Positive::new);
+    let spec = ObstacleSpec {
+        surface: Default::default(),
+        id: id.into(),
+        shape: ShapeSpec::Box(BoxShape { size_m: (x, y, z) }),
+        east_m: Finite::new(at[0]),
+        north_m: Finite::new(at[1]),
+        base: Base::default(),
+        heading_deg: HeadingDeg::new(90.0),
+    };
+    Obstacle::build(&spec, bed, Path::new(".")).expect("a legal block")
+}
+
+/// A vehicle without inertia: it turns at once to what it is told to steer, in water that moves. Its velocity over ground.
+pub(crate) fn steered(e: &mut Estimate, set: &Setpoint, flow: Vector2<f64>) -> Vector2<f64> {
+    let v = set.heading.unit() * set.water_speed_m_s + flow;
+    let right = set.heading.turned(FRAC_PI_2).unit();
+    e.attitude.heading = set.heading;
+    e.v_ground_body.x = v.dot(&set.heading.unit());
+    e.v_ground_body.y = -v.dot(&right);
+    v
 }

@@ -2,10 +2,9 @@
 
 use super::Room;
 use crate::handoff::BeliefGrid;
+use crate::handoff::testing;
 use nalgebra::{Vector2, Vector3};
-use std::path::Path;
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg, Positive};
+use world::obstacles::{Obstacle, Obstacles};
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
@@ -21,17 +20,12 @@ pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
 
 /// A block on a bed 8 m down.
 pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Obstacle {
-    let [x, y, z] = size_m.map(Positive::new);
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: id.into(),
-        shape: ShapeSpec::Box(BoxShape { size_m: (x, y, z) }),
-        east_m: Finite::new(east_m),
-        north_m: Finite::new(north_m),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacle::build(&spec, &Terrain::Level { depth_m: 8.0 }, Path::new(".")).expect("a legal block")
+    testing::block(
+        &Terrain::Level { depth_m: 8.0 },
+        id,
+        [east_m, north_m],
+        size_m,
+    )
 }
 
 /// A room with blocks in it.

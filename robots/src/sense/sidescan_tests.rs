@@ -2,27 +2,18 @@
 
 use super::super::testing::{BED, at, run};
 use super::*;
+use crate::handoff::testing;
 use nalgebra::Vector2;
-use std::path::Path;
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
-use world::ranges::HeadingDeg;
 use world::units::Heading;
 
 /// A block of a metre on the bed.
 fn block(east_m: f64, north_m: f64, bed: &Terrain) -> Obstacles {
-    let m = || Positive::new(1.0);
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(), m(), m()),
-        }),
-        east_m: Finite::new(east_m),
-        north_m: Finite::new(north_m),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacles(vec![Obstacle::build(&spec, bed, Path::new(".")).unwrap()])
+    Obstacles(vec![testing::block(
+        bed,
+        "block",
+        [east_m, north_m],
+        [1.0; 3],
+    )])
 }
 
 fn sonar(spec: SidescanSpec) -> Sidescan {

@@ -11,7 +11,7 @@
 //! the one believed at its end.
 
 use crate::handoff::{Estimate, SidescanPing};
-use nalgebra::{UnitQuaternion, Vector2};
+use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, LN_10};
 use world::math;
 use world::units::Heading;
@@ -122,9 +122,7 @@ impl Waterfall {
         if let Some(last_s) = self.last_s.replace(estimate.t_s) {
             self.along_m += estimate.v_ground().norm() * (estimate.t_s - last_s);
         }
-        let a = &estimate.attitude;
-        let R_WB = UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw());
-        let arm = R_WB * ping.p_BS;
+        let arm = estimate.attitude.R_WB() * ping.p_BS;
         let height_m = (altitude_m + arm.z).max(0.1);
         for (sums, samples) in (self.sums.iter_mut()).zip([&ping.port_db, &ping.starboard_db]) {
             let cells = (ping.max_m / self.cell_m).floor() as usize;
@@ -168,7 +166,7 @@ impl Waterfall {
                 t_s: estimate.t_s,
                 along_m: self.along_m,
                 place,
-                heading: a.heading,
+                heading: estimate.attitude.heading,
                 height_m,
                 bed_z: arm.z - estimate.depth_m - height_m,
                 port_db,

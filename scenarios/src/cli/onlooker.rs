@@ -302,11 +302,21 @@ impl Watch for Onlooker<'_> {
     }
 
     fn picture(&mut self, picture: &PictureFrame) {
-        let written = self.pictures.push(picture);
-        self.note(written);
+        if let Some(live) = &self.live {
+            live.picture(picture);
+        }
+        let kept = self.pictures.push(picture);
+        if let (Ok(Some(png)), Some(recorder)) = (&kept, &mut self.recorder) {
+            let recorded = recorder.picture(picture, png);
+            self.note(recorded);
+        }
+        self.note(kept.map(drop));
     }
 
     fn ping(&mut self, ping: &PingFrame) {
+        if let Some(live) = &self.live {
+            live.ping(ping);
+        }
         if let Some(line) = self.echoes.push(ping)
             && let Some(recorder) = &mut self.recorder
         {

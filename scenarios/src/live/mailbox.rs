@@ -4,7 +4,8 @@
 //! copy of the state and cannot wait for a subscriber. Nothing accumulates.
 
 use super::LiveCounts;
-use crate::frame::{Frame, PlumeFrame};
+use super::slots::{Gate, Newest, Numbered};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -13,45 +14,105 @@ use std::time::{Duration, Instant};
 pub(super) enum Work {
     /// Send this state.
     Frame(Frame),
-    /// Send this plume.
-    Plume(PlumeFrame),
-    /// The run is over: send the last state and plume, if not sent yet, then the digest.
+    /// Send these.
+    Rest(Rest),
+    /// The run is over: send the last state and the rest, if not sent yet, then the digest.
     End {
         frame: Option<Frame>,
-        plume: Option<PlumeFrame>,
+        rest: Rest,
         digest: String,
     },
     /// Close.
     Close,
 }
 
-#[derive(Debug, Default)]
+/// What is sent beside the states.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Rest {
+    pub(super) plume: Option<PlumeFrame>,
+    /// The newest of each vehicle.
+    pub(super) pictures: Vec<Numbered<PictureFrame>>,
+    /// The newest of each vehicle.
+    pub(super) pings: Vec<Numbered<PingFrame>>,
+}
+
+#[derive(Debug)]
 struct Slots {
     frame: Option<Frame>,
     plume: Option<PlumeFrame>,
+    pictures: Newest<PictureFrame>,
+    pings: Newest<PingFrame>,
     digest: Option<String>,
     ended: bool,
     close: bool,
     counts: LiveCounts,
-    frame_due: Option<Instant>,
-    plume_due: Option<Instant>,
+    frame_gate: Gate,
+    plume_gate: Gate,
+    picture_gate: Gate,
+    ping_gate: Gate,
+}
+
+impl Slots {
+    fn waits(&self, now: Instant) -> [Option<Duration>; 4] {
+        [
+            self.frame_gate.wait(self.frame.is_some(), now),
+            self.plume_gate.wait(self.plume.is_some(), now),
+            (self.picture_gate).wait(self.pictures.waits(), now),
+            (self.ping_gate).wait(self.pings.waits(), now),
+        ]
+    }
+
+    /// All that waits beside the state.
+    fn rest(&mut self) -> Rest {
+        Rest {
+            plume: self.plume.take(),
+            pictures: self.pictures.take(),
+            pings: self.pings.take(),
+        }
+    }
+
+    /// What of it is due.
+    fn rest_due(&mut self, now: Instant) -> Option<Rest> {
+        let mut due = Rest::default();
+        let mut any = false;
+        if self.plume_gate.pass(self.plume.is_some(), now) {
+            (due.plume, any) = (self.plume.take(), true);
+        }
+        if (self.picture_gate).pass(self.pictures.waits(), now) {
+            (due.pictures, any) = (self.pictures.take(), true);
+        }
+        if (self.ping_gate).pass(self.pings.waits(), now) {
+            (due.pings, any) = (self.pings.take(), true);
+        }
+        any.then_some(due)
+    }
 }
 
 #[derive(Debug)]
 pub(super) struct Mailbox {
     slots: Mutex<Slots>,
     wake: Condvar,
-    frame_period: Duration,
-    plume_period: Duration,
 }
 
 impl Mailbox {
+    /// Pings keep to the period of the states, pictures to that of the plume.
     pub(super) fn new(frame_period: Duration, plume_period: Duration) -> Self {
         Self {
-            slots: Mutex::new(Slots::default()),
+            slots: Mutex::new(Slots {
+                frame: None,
+                plume: None,
+                pictures: Newest::default(),
+                pings: Newest::default(),
+                digest: None,
+                ended: false,
+                close: false,
+                counts: LiveCounts::default(),
+                frame_gate: Gate::every(frame_period),
+                plume_gate: Gate::every(plume_period),
+                picture_gate: Gate::every(plume_period),
+                ping_gate: Gate::every(frame_period),
+            }),
             wake: Condvar::new(),
-            frame_period,
-            plume_period,
         }
     }
 
@@ -79,18 +140,28 @@ impl Mailbox {
         }
         let old = slots.frame.replace(new);
         drop(slots);
-        self.wake_if_first(old);
+        self.wake_if(old.is_none());
     }
 
     pub(super) fn put_plume(&self, plume: &PlumeFrame) {
         let new = plume.clone();
         let old = self.slots().plume.replace(new);
-        self.wake_if_first(old);
+        self.wake_if(old.is_none());
+    }
+
+    pub(super) fn put_picture(&self, picture: &PictureFrame) {
+        let first = (self.slots().pictures).put(&picture.robot, picture.clone());
+        self.wake_if(first);
+    }
+
+    pub(super) fn put_ping(&self, ping: &PingFrame) {
+        let first = self.slots().pings.put(&ping.robot, ping.clone());
+        self.wake_if(first);
     }
 
     /// With something in the slot already, the thread is up or knows when it is due.
-    fn wake_if_first<T>(&self, old: Option<T>) {
-        if old.is_none() {
+    fn wake_if(&self, first: bool) {
+        if first {
             self.wake.notify_one();
         }
     }
@@ -124,11 +195,11 @@ impl Mailbox {
         let mut slots = self.slots();
         loop {
             if let Some(digest) = slots.digest.take() {
-                let (frame, plume) = (slots.frame.take(), slots.plume.take());
+                let (frame, rest) = (slots.frame.take(), slots.rest());
                 slots.counts.sent += u64::from(frame.is_some());
                 return Work::End {
                     frame,
-                    plume,
+                    rest,
                     digest,
                 };
             }
@@ -136,23 +207,17 @@ impl Mailbox {
                 return Work::Close;
             }
             let now = Instant::now();
-            let wait = |due: Option<Instant>| due.map_or(Duration::ZERO, |at| at - now.min(at));
-            let frame_wait = slots.frame.is_some().then(|| wait(slots.frame_due));
-            let plume_wait = slots.plume.is_some().then(|| wait(slots.plume_due));
-            if frame_wait == Some(Duration::ZERO)
+            let waiting = slots.frame.is_some();
+            if slots.frame_gate.pass(waiting, now)
                 && let Some(frame) = slots.frame.take()
             {
-                slots.frame_due = Some(now + self.frame_period);
                 slots.counts.sent += 1;
                 return Work::Frame(frame);
             }
-            if plume_wait == Some(Duration::ZERO)
-                && let Some(plume) = slots.plume.take()
-            {
-                slots.plume_due = Some(now + self.plume_period);
-                return Work::Plume(plume);
+            if let Some(rest) = slots.rest_due(now) {
+                return Work::Rest(rest);
             }
-            slots = match [frame_wait, plume_wait].into_iter().flatten().min() {
+            slots = match slots.waits(now).into_iter().flatten().min() {
                 None => self
                     .wake
                     .wait(slots)
@@ -220,11 +285,46 @@ mod tests {
         mailbox.close();
         let last = Work::End {
             frame: Some(frame(1)),
-            plume: None,
+            rest: Rest::default(),
             digest: "d1".to_owned(),
         };
         assert_eq!(mailbox.next(), last);
         mailbox.end("the first end counts");
         assert_eq!(mailbox.next(), Work::Close);
+    }
+
+    fn ping(robot: &str, t_s: f64) -> PingFrame {
+        PingFrame {
+            t_s,
+            robot: robot.to_owned(),
+            ping: robots::handoff::SidescanPing {
+                p_BS: nalgebra::Vector3::zeros(),
+                max_m: 20.0,
+                port_db: [1.0].into(),
+                starboard_db: [2.0].into(),
+            },
+            estimate: frame(0).robots[0].estimate,
+        }
+    }
+
+    #[test]
+    fn the_newest_ping_of_each_vehicle_wins_and_says_how_many_there_were() {
+        let mailbox = hour_between_states();
+        for k in 0..10 {
+            mailbox.put_ping(&ping("a", f64::from(k)));
+        }
+        mailbox.put_ping(&ping("b", 0.0));
+        let Work::Rest(sent) = mailbox.next() else {
+            panic!("pings were handed over")
+        };
+        let told: Vec<_> = sent.pings.iter().map(|p| (p.taken, p.value.t_s)).collect();
+        assert_eq!(told, [(10, 9.0), (1, 0.0)]);
+        // The next is an hour away, but the end does not wait.
+        mailbox.put_ping(&ping("a", 10.0));
+        mailbox.end("d1");
+        let Work::End { rest, .. } = mailbox.next() else {
+            panic!("the end does not wait")
+        };
+        assert_eq!(rest.pings[0].taken, 11);
     }
 }

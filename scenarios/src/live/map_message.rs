@@ -23,11 +23,8 @@ fn map(id: &str, b: &Belief) -> Message {
         "axis_heading_rad": Heading::of(grid.axes[0]).rad(), "best_m": grid.centre(b.best).as_slice(),
         "entropy_nat": b.entropy_nat, "credible_95": b.credible_95, "dtype": "<f4",
     });
-    Message {
-        key: format!("map/{}", chunk(id)),
-        payload: p.iter().flat_map(|v| (*v as f32).to_le_bytes()).collect(),
-        attachment: Some(header.to_string().into_bytes()),
-    }
+    let key = format!("map/{}", chunk(id));
+    Message::numbers(key, p.iter().map(|v| *v as f32), &header)
 }
 
 /// Cells, how many of the map's own lie in one along each axis, and the probability of each: cells are taken

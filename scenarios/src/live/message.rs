@@ -2,7 +2,7 @@
 
 use super::message_gantry::gantry;
 use super::options::chunk;
-use super::{LiveCounts, Topic, topics};
+use super::{LiveCounts, Payload, Topic, topics};
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
 use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical};
 use serde_json::{Map, Value, json};
@@ -12,7 +12,8 @@ use serde_json::{Map, Value, json};
 pub(super) struct Message {
     pub(super) key: String,
     pub(super) payload: Vec<u8>,
-    /// Header of a packed payload; a message without one is JSON.
+    pub(super) packed: Payload,
+    /// Header of a payload that is no JSON.
     pub(super) attachment: Option<Vec<u8>>,
 }
 
@@ -21,7 +22,22 @@ impl Message {
         Self {
             key: key.into(),
             payload: value.to_string().into_bytes(),
+            packed: Payload::Json,
             attachment: None,
+        }
+    }
+
+    /// Numbers behind a header.
+    pub(super) fn numbers(
+        key: impl Into<String>,
+        numbers: impl Iterator<Item = f32>,
+        header: &Value,
+    ) -> Self {
+        Self {
+            key: key.into(),
+            payload: numbers.flat_map(f32::to_le_bytes).collect(),
+            packed: Payload::PackedF32,
+            attachment: Some(header.to_string().into_bytes()),
         }
     }
 }
@@ -207,11 +223,7 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
         "t_s": p.t_s, "total": p.total, "shown": shown.len(),
         "fields": ["x", "y", "z", "size", "mass"], "dtype": "<f4",
     });
-    Message {
-        key: "plume".to_owned(),
-        payload: shown.flatten().flat_map(|v| v.to_le_bytes()).collect(),
-        attachment: Some(header.to_string().into_bytes()),
-    }
+    Message::numbers("plume", shown.flatten().copied(), &header)
 }
 
 /// What is known before the run starts: scenario, version and schemas.

@@ -11,6 +11,8 @@ mod table;
 mod topics;
 
 #[cfg(feature = "live")]
+mod look_message;
+#[cfg(feature = "live")]
 mod mailbox;
 #[cfg(feature = "live")]
 mod map_message;
@@ -20,6 +22,8 @@ mod message;
 mod message_gantry;
 #[cfg(feature = "live")]
 mod session;
+#[cfg(feature = "live")]
+mod slots;
 #[cfg(feature = "live")]
 mod tree;
 

@@ -1,7 +1,7 @@
 //! Live state left out of the build: the same calls, doing nothing.
 
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
-use crate::frame::{Frame, PlumeFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::time::Duration;
 
 /// Live state left out of the build (feature `live`).
@@ -35,6 +35,12 @@ impl Live {
 
     /// Does nothing.
     pub fn plume(&self, _plume: &PlumeFrame) {}
+
+    /// Does nothing.
+    pub fn picture(&self, _picture: &PictureFrame) {}
+
+    /// Does nothing.
+    pub fn ping(&self, _ping: &PingFrame) {}
 
     /// All zero.
     #[must_use]

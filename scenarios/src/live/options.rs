@@ -18,9 +18,9 @@ pub struct LiveOptions {
     /// `None`: the file the environment variable `ZENOH_CONFIG` names, if any. With a configuration
     /// only a `listen` given here replaces something in it.
     pub config_file: Option<PathBuf>,
-    /// Shortest wall time between two publications of state; what comes in between is superseded.
+    /// Shortest wall time between two publications of state, and of sidescan pings; what comes in between is superseded.
     pub state_period: Duration,
-    /// Shortest wall time between two publications of the plume.
+    /// Shortest wall time between two publications of the plume, of maps, and of camera pictures.
     pub plume_period: Duration,
 }
 

@@ -1,10 +1,11 @@
 //! The thread that owns the zenoh session, and the run's handle on it.
 
-use super::mailbox::{Mailbox, Work};
+use super::look_message;
+use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
 use super::tree::Tree;
 use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message};
-use crate::frame::{Frame, PlumeFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -91,6 +92,16 @@ impl Live {
         self.mailbox.put_plume(plume);
     }
 
+    /// Hands a camera's picture over; never waits for anybody.
+    pub fn picture(&self, picture: &PictureFrame) {
+        self.mailbox.put_picture(picture);
+    }
+
+    /// Hands a sidescan's ping over; never waits for anybody.
+    pub fn ping(&self, ping: &PingFrame) {
+        self.mailbox.put_ping(ping);
+    }
+
     /// What became of the states so far.
     #[must_use]
     pub fn counts(&self) -> LiveCounts {
@@ -173,10 +184,10 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
                 say_state(tree, &frame, mailbox.counts());
                 newest = Some(frame);
             }
-            Work::Plume(plume) => drop(tree.say(message::plume(&plume))),
+            Work::Rest(rest) => say_rest(tree, &rest),
             Work::End {
                 frame,
-                plume,
+                rest,
                 digest,
             } => {
                 // The last map may have been held back when its state was sent.
@@ -189,9 +200,7 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
                     last = (frame.t_s, frame.step);
                     say_state(tree, &frame, mailbox.counts());
                 }
-                if let Some(plume) = plume {
-                    drop(tree.say(message::plume(&plume)));
-                }
+                say_rest(tree, &rest);
                 drop(tree.say_for_good(message::digest(&digest)));
                 drop(tree.say(message::clock(last.0, last.1, true, mailbox.counts())));
             }
@@ -206,6 +215,15 @@ fn say_state(tree: &Tree<'_>, frame: &Frame, counts: LiveCounts) {
     }
     // Last, so that who has the clock has the state it belongs to.
     drop(tree.say(message::clock(frame.t_s, frame.step, false, counts)));
+}
+
+fn say_rest(tree: &Tree<'_>, rest: &Rest) {
+    let pictures = rest.pictures.iter().flat_map(look_message::picture);
+    let pings = rest.pings.iter().map(look_message::ping);
+    let plume = rest.plume.iter().map(message::plume);
+    for message in pictures.chain(pings).chain(plume) {
+        drop(tree.say(message));
+    }
 }
 
 /// The configuration, and what the user should know of it.

@@ -86,6 +86,8 @@ pub enum Payload {
     Json,
     /// The payload is little-endian f32, the attachment a JSON object.
     PackedF32,
+    /// The payload is a picture (JPEG), the attachment a JSON object.
+    Jpeg,
     /// The payload is a JSON Schema.
     Schema,
 }
@@ -133,7 +135,9 @@ impl Topic {
             .map(|f| f.name)
             .collect();
         let what = match self.payload {
-            Payload::PackedF32 => format!("{} This is the schema of the attachment.", self.what),
+            Payload::PackedF32 | Payload::Jpeg => {
+                format!("{} This is the schema of the attachment.", self.what)
+            }
             _ => self.what.to_owned(),
         };
         json!({

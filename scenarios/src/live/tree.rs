@@ -1,8 +1,8 @@
 //! The keys of one run in zenoh: what is published, kept for those who come later, and told when
 //! the run is alive.
 
-use super::LiveOptions;
 use super::message::Message;
+use super::{LiveOptions, Payload};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use zenoh::bytes::Encoding;
@@ -136,8 +136,9 @@ fn answer(kept: &Kept, query: &Query) {
 }
 
 fn encoding(message: &Message) -> Encoding {
-    match message.attachment {
-        None => Encoding::APPLICATION_JSON,
-        Some(_) => Encoding::APPLICATION_OCTET_STREAM,
+    match message.packed {
+        Payload::Json | Payload::Schema => Encoding::APPLICATION_JSON,
+        Payload::PackedF32 => Encoding::APPLICATION_OCTET_STREAM,
+        Payload::Jpeg => Encoding::IMAGE_JPEG,
     }
 }

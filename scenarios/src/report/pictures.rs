@@ -68,13 +68,14 @@ impl Pictures {
         }
     }
 
-    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`; nothing once there are enough.
+    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns what is in the file; nothing once
+    /// there are enough.
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn push(&mut self, taken: &PictureFrame) -> Result<(), ReportError> {
+    pub fn push(&mut self, taken: &PictureFrame) -> Result<Option<Vec<u8>>, ReportError> {
         if self.shown.len() >= self.most {
-            return Ok(());
+            return Ok(None);
         }
         let number = (self.shown.iter())
             .filter(|p| p.robot == taken.robot)
@@ -101,7 +102,7 @@ impl Pictures {
             t_s: taken.t_s,
             jpeg,
         });
-        Ok(())
+        Ok(Some(png.into_inner()))
     }
 
     fn row(&mut self, file: &str, taken: &PictureFrame) {
@@ -183,7 +184,8 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let mut kept = Pictures::new(dir.path(), 3);
         for (robot, t) in [("a", 1.0), ("b", 2.0), ("a", 3.0), ("a", 4.0)] {
-            kept.push(&taken(robot, t)).unwrap();
+            let file = kept.push(&taken(robot, t)).unwrap();
+            assert_eq!(file.is_some(), t < 4.0, "three are enough");
         }
         let names: Vec<_> = kept.shown().iter().map(|p| p.file.as_str()).collect();
         assert_eq!(

@@ -3,16 +3,16 @@
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use super::{Echoes, ReportError};
-use crate::frame::{Frame, PlumeFrame, RobotFrame};
+use crate::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Belief, Command, Declaration, Estimate, Layer, Vertical};
+use robots::handoff::{Belief, Command, Declaration, Layer, Vertical};
 use robots::survey::Row;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use world::record::{
-    Kind, McapFile, Odometry, RecordError, clock, float64, nanoseconds, point_cloud, pose_stamped,
-    text, transforms, vector3_stamped,
+    Kind, McapFile, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
+    point_cloud, pose_stamped, text, transforms, vector3_stamped,
 };
 
 /// Which run this is.
@@ -109,7 +109,7 @@ impl Recorder {
             let e = &r.estimate;
             [
                 (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
-                (b.as_str(), believed_position(e), believed_attitude(e)),
+                (b.as_str(), e.p_WB(), e.attitude.R_WB()),
             ]
         });
         let of_gantries = heads.iter().map(|(name, p, q)| (name.as_str(), *p, *q));
@@ -135,8 +135,8 @@ impl Recorder {
             t_ns: t,
             frame: WORLD,
             child: &believed_frame(id),
-            position: believed_position(e),
-            attitude: believed_attitude(e),
+            position: e.p_WB(),
+            attitude: e.attitude.R_WB(),
             linear: e.v_ground_body,
             angular: e.attitude.rates_rad_s,
         };
@@ -276,6 +276,21 @@ impl Recorder {
         Ok(())
     }
 
+    /// Records a picture without loss, and where the camera sits on the robot.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
+        let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
+        let camera = format!("{id}/camera");
+        let mount = transforms(t, id, &[(camera.as_str(), p.p_BC, p.R_BC)]);
+        self.file.write("/tf", Kind::TfMessage, t, &mount)?;
+        let image = compressed_image(t, &camera, "png", png);
+        let topic = format!("/{camera}/compressed");
+        self.file.write(&topic, Kind::CompressedImage, t, &image)?;
+        Ok(())
+    }
+
     /// Closes the recording with the run's digest and gives it its name.
     ///
     /// # Errors
@@ -305,14 +320,4 @@ fn layers_line(layers: &[Layer]) -> String {
 
 pub(super) fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {
     Vector3::new(p.x, p.y, z)
-}
-
-fn believed_position(e: &Estimate) -> Vector3<f64> {
-    on_plane(e.position, -e.depth_m)
-}
-
-/// Of FLU axes: pitch there is positive nose down, the estimate's nose up.
-fn believed_attitude(e: &Estimate) -> UnitQuaternion<f64> {
-    let a = &e.attitude;
-    UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw())
 }

@@ -5,9 +5,10 @@ use super::{
     BeliefTrack, MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder,
     Totals, Track, TrackTable, write_all,
 };
-use crate::frame::{Frame, PlumeFrame};
-use nalgebra::Vector2;
-use robots::handoff::{Declaration, Region, RegionState, Regions, Verdict};
+use crate::frame::{Frame, PictureFrame, PlumeFrame};
+use image::RgbImage;
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use robots::handoff::{Declaration, Picture, Region, RegionState, Regions, Verdict};
 use std::fs;
 use std::sync::Arc;
 use world::area::Area;
@@ -173,6 +174,20 @@ fn recording_holds_every_topic() {
         rec.frame(f).unwrap();
     }
     rec.plume(&plume()).unwrap();
+    let robot = &frames(1)[0].robots[0];
+    let taken = PictureFrame {
+        t_s: 2.0,
+        robot: robot.id.clone(),
+        picture: Picture {
+            image: Arc::new(RgbImage::new(4, 2)),
+            p_BC: Vector3::new(0.5, 0.0, -0.1),
+            R_BC: UnitQuaternion::identity(),
+            view_rad: 1.0,
+        },
+        truth: robot.truth.pose,
+        estimate: robot.estimate,
+    };
+    rec.picture(&taken, b"a file").unwrap();
     rec.finish("00ff").unwrap();
     let bytes = fs::read(&path).unwrap();
     for part in [
@@ -183,6 +198,8 @@ fn recording_holds_every_topic() {
         "/auv0/layers",
         "/auv0/map",
         "/plume",
+        "/auv0/camera/compressed",
+        "sensor_msgs/msg/CompressedImage",
     ] {
         let found = bytes.windows(part.len()).any(|w| w == part.as_bytes());
         assert!(found, "{part}");

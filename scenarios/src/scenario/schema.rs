@@ -353,7 +353,7 @@ pub struct RecordSpec {
     pub plume_points: u32,
     /// Period of the recorded maps of where the source may be, s.
     pub map_period_s: Positive,
-    /// Most pictures of cameras that a run leaves behind.
+    /// Most pictures of cameras that a run leaves behind, as files and in the recording.
     pub pictures: u32,
 }
 

@@ -1,7 +1,7 @@
 //! Subscribers that die or stall, each a process of its own: threads of this one would stall the
 //! run's zenoh along with theirs, which no client of a real run can.
 
-use super::kit::{client, frame, kept, listen, next_of, plume, sent, start};
+use super::kit::{client, frame, kept, listen, next_of, picture, ping, plume, sent, start};
 use serde_json::json;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdout, Stdio};
@@ -120,8 +120,11 @@ fn a_stalled_subscriber_holds_neither_the_run_nor_its_end() {
         sent(&live);
     }
     // The run meets a thread busy with a full queue, and goes on.
+    let (picture, ping) = (picture(1.0), ping(1.0));
     for step in 62..10_062 {
         live.plume(&plume);
+        live.picture(&picture);
+        live.ping(&ping);
         live.publish(&frame(step));
     }
     assert_eq!(live.counts().offered, 10_062);

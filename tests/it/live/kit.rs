@@ -1,14 +1,15 @@
 //! A run to listen to, and a client to listen with.
 
-use nalgebra::{Vector2, Vector3};
-use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use image::{Rgb, RgbImage};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
     Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
-    Layer, LayerState, MAX_PROBES, Manoeuvre, ProbeScan, Region, RegionState, Regions, Setpoint,
-    TrackerState, Vertical,
+    Layer, LayerState, MAX_PROBES, Manoeuvre, Picture, ProbeScan, Region, RegionState, Regions,
+    Setpoint, SidescanPing, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -201,6 +202,39 @@ pub(super) fn plume(points: usize) -> PlumeFrame {
         t_s: 0.5,
         total: 10 * points,
         points: vec![[1.0, 2.0, -3.0, 0.5, 1e-6]; points],
+    }
+}
+
+/// A small red picture.
+pub(super) fn picture(t_s: f64) -> PictureFrame {
+    let robot = &frame(0).robots[0];
+    PictureFrame {
+        t_s,
+        robot: robot.id.clone(),
+        picture: Picture {
+            image: Arc::new(RgbImage::from_pixel(16, 8, Rgb([200, 30, 20]))),
+            p_BC: Vector3::new(0.5, 0.0, -0.1),
+            R_BC: UnitQuaternion::identity(),
+            view_rad: 1.0,
+        },
+        truth: robot.truth.pose,
+        estimate: robot.estimate,
+    }
+}
+
+/// Two samples to port, one to starboard.
+pub(super) fn ping(t_s: f64) -> PingFrame {
+    let robot = &frame(0).robots[0];
+    PingFrame {
+        t_s,
+        robot: robot.id.clone(),
+        ping: SidescanPing {
+            p_BS: Vector3::zeros(),
+            max_m: 20.0,
+            port_db: [1.0, 2.0].into(),
+            starboard_db: [3.0].into(),
+        },
+        estimate: robot.estimate,
     }
 }
 

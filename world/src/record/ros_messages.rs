@@ -28,11 +28,13 @@ pub enum Kind {
     PointCloud2,
     /// `sensor_msgs/msg/JointState`.
     JointState,
+    /// `sensor_msgs/msg/CompressedImage`.
+    CompressedImage,
 }
 
 impl Kind {
     /// All kinds.
-    pub const ALL: [Kind; 9] = [
+    pub const ALL: [Kind; 10] = [
         Kind::Odometry,
         Kind::Float64,
         Kind::Text,
@@ -42,6 +44,7 @@ impl Kind {
         Kind::Clock,
         Kind::PointCloud2,
         Kind::JointState,
+        Kind::CompressedImage,
     ];
 }
 
@@ -145,6 +148,15 @@ pub fn transforms(
 pub fn clock(t_ns: u64) -> Vec<u8> {
     let mut c = Cdr::new();
     c.time(t_ns);
+    c.finish()
+}
+
+/// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the file it
+/// would be, `png` or `jpeg`.
+#[must_use]
+pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
+    let mut c = Cdr::new();
+    c.header(t_ns, frame).text(format).blob(file);
     c.finish()
 }
 
@@ -271,6 +283,22 @@ mod tests {
         ]
         .concat();
         assert_eq!(joint_state(0, "w", &[joint])[4..], body);
+    }
+
+    #[test]
+    fn picture_of_three_bytes_by_hand() {
+        let body: Vec<u8> = [
+            &[1, 0, 0, 0, 5, 0, 0, 0][..],      // time
+            &[2, 0, 0, 0, b'c', 0, 0, 0],       // frame, padded to 16
+            &[4, 0, 0, 0, b'p', b'n', b'g', 0], // format
+            &[3, 0, 0, 0, 0x89, b'P', b'N'],    // data
+        ]
+        .concat();
+        let file = [0x89, b'P', b'N'];
+        assert_eq!(
+            compressed_image(1_000_000_005, "c", "png", &file)[4..],
+            body
+        );
     }
 
     #[test]

@@ -58,6 +58,7 @@ impl Kind {
             Kind::Clock => "rosgraph_msgs/msg/Clock",
             Kind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
             Kind::JointState => "sensor_msgs/msg/JointState",
+            Kind::CompressedImage => "sensor_msgs/msg/CompressedImage",
         }
     }
 
@@ -102,6 +103,10 @@ impl Kind {
             Kind::JointState => (
                 "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
                  float64[] effort\n",
+                &[HEADER, TIME],
+            ),
+            Kind::CompressedImage => (
+                "std_msgs/Header header\nstring format\nuint8[] data\n",
                 &[HEADER, TIME],
             ),
         };

@@ -15,7 +15,7 @@ use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Lcdp, Manoeuvre, Observation, Outcome,
+    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Lcdp, Observation, Outcome,
     PlumeMemory, Stride, Verdict, Vertical, detects,
 };
 use nalgebra::Vector2;
@@ -97,15 +97,7 @@ impl Amp {
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             fixes: spec.fixes,
             now: Behaviour::Idle,
-            goal: Goal {
-                id: 0,
-                manoeuvre: Manoeuvre::GoToPoint {
-                    point: Vector2::zeros(),
-                    radius_m: None,
-                },
-                vertical,
-                speed_m_s,
-            },
+            goal: Goal::none_yet(vertical, speed_m_s),
             outcome: None,
         })
     }

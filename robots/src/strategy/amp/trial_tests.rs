@@ -5,7 +5,7 @@
 
 use super::{Amp, AmpSpec};
 use crate::guide::{Guidance, GuidanceSpec};
-use crate::handoff::testing::{area, fixed, seen, smelling};
+use crate::handoff::testing::{area, fixed, seen, smelling, steered};
 use crate::handoff::{Behaviour, Command, GuidanceStatus, Outcome};
 use crate::strategy::Strategy;
 use nalgebra::Vector2;
@@ -95,16 +95,11 @@ fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
         let Command::Steer(set) = command else {
             panic!("the planner never drives the actuators");
         };
-        let v = set.heading.unit() * set.water_speed_m_s + flow();
-        truth += v * DT_S;
-        let right = set.heading.turned(FRAC_PI_2).unit();
+        truth += steered(&mut o.estimate, &set, flow()) * DT_S;
         if tick % 300 == 299 {
             off = Vector2::new(noise.normal(), noise.normal()) * fix_m;
         }
         o.estimate.position = truth + off;
-        o.estimate.attitude.heading = set.heading;
-        o.estimate.v_ground_body.x = v.dot(&set.heading.unit());
-        o.estimate.v_ground_body.y = -v.dot(&right);
         let outside = -area().edge_distance(truth).0;
         report.farthest_outside_m = report.farthest_outside_m.max(outside);
     }

@@ -10,7 +10,7 @@
 
 use super::super::spec::Strategy;
 use super::super::survey::AfterDeclaration;
-use super::pilot::{Pilot, place};
+use super::pilot::Pilot;
 use super::spec::{AtTarget, MapAndPlanSpec};
 use crate::declare::BeliefRule;
 use crate::error::RobotError;
@@ -18,7 +18,7 @@ use crate::handoff::{
     Behave, Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome,
     PlumeMemory, Setting, Stride, Vertical,
 };
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use std::sync::Arc;
 use world::seeds::Stream;
 use world::units::Heading;
@@ -86,15 +86,7 @@ impl MapAndPlan {
             pilot: Pilot::new(spec, setting)?,
             memory: PlumeMemory::default(),
             now: Behaviour::Idle,
-            goal: Goal {
-                id: 0,
-                manoeuvre: Manoeuvre::GoToPoint {
-                    point: Vector2::zeros(),
-                    radius_m: None,
-                },
-                vertical,
-                speed_m_s,
-            },
+            goal: Goal::none_yet(vertical, speed_m_s),
             leg: None,
             detour: None,
             aim: None,
@@ -132,11 +124,11 @@ impl MapAndPlan {
         let s = self.pilot.steer(seen, wish);
         let course = Manoeuvre::Course { course: s.course };
         self.steer_by(course, s.z_m, s.replanned);
-        s.ended || (wish - place(&seen.estimate)).xy().norm() < self.arrive_m
+        s.ended || (wish - seen.estimate.p_WB()).xy().norm() < self.arrive_m
     }
 
     fn search(&mut self, seen: &Observation, rng: &mut Stream) {
-        let at = place(&seen.estimate);
+        let at = seen.estimate.p_WB();
         let arrived = match self.leg {
             Some(Manoeuvre::GoToPoint { point, .. }) => {
                 (point - at.xy()).norm() < 2.0 * self.arrive_m
@@ -184,7 +176,7 @@ impl MapAndPlan {
 
     /// Where a leg that runs into something is free again; `None` when it runs into nothing near.
     fn way_round(&self, seen: &Observation, course: Heading) -> Option<Vector3<f64>> {
-        let (at, room) = (place(&seen.estimate), self.pilot.room());
+        let (at, room) = (seen.estimate.p_WB(), self.pilot.room());
         let u = course.unit();
         let on = |m: f64| {
             let p = at.xy() + u * m;

@@ -103,10 +103,8 @@ impl Pilot {
     /// Takes a ping into the map of obstacles.
     pub(super) fn sense(&mut self, seen: &Observation) {
         let Some(scan) = &seen.ranging else { return };
-        let at = place(&seen.estimate);
-        let a = &seen.estimate.attitude;
-        let turn = UnitQuaternion::from_euler_angles(a.roll_rad, -a.pitch_rad, a.heading.yaw());
-        self.take_in(scan, at, turn);
+        let at = seen.estimate.p_WB();
+        self.take_in(scan, at, seen.estimate.attitude.R_WB());
     }
 
     fn take_in(&mut self, scan: &RangeScan, at: Vector3<f64>, turn: UnitQuaternion<f64>) {
@@ -181,7 +179,7 @@ impl Pilot {
 
     /// What to steer to come to `wish` (ENU, m).
     pub(super) fn steer(&mut self, seen: &Observation, wish: Vector3<f64>) -> Steering {
-        let at = place(&seen.estimate);
+        let at = seen.estimate.p_WB();
         let mut steer = self.follow.as_mut().map(|f| f.step(&at));
         let moved = (wish - self.wish).norm() > SAME_M;
         let due = seen.t_s - self.planned_s >= self.replan_s;
@@ -231,7 +229,7 @@ impl Pilot {
     pub(super) fn clear(&self, est: &Estimate, wish: Heading) -> Heading {
         let evade = self.evade.as_ref();
         evade.map_or(wish, |e| {
-            e.course(&self.room, &place(est), moving(est), wish)
+            e.course(&self.room, &est.p_WB(), moving(est), wish)
         })
     }
 
@@ -260,11 +258,6 @@ fn level(vertical: Vertical, bed: &Terrain, x: f64, y: f64) -> f64 {
         Vertical::Altitude(m) => bed.bed_z(x, y) + m,
         Vertical::Depth(m) => -m,
     }
-}
-
-/// Where the vehicle believes it is (ENU), m.
-pub(super) fn place(est: &Estimate) -> Vector3<f64> {
-    Vector3::new(est.position.x, est.position.y, -est.depth_m)
 }
 
 /// Direction of motion over ground.

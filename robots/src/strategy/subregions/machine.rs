@@ -108,15 +108,7 @@ impl Subregions {
             regions: areas.iter().map(waiting).collect(),
             up_flow: None,
             plume: Plume::new(spec.edge.plume_s.get()),
-            goal: Goal {
-                id: 0,
-                manoeuvre: Manoeuvre::GoToPoint {
-                    point: Vector2::zeros(),
-                    radius_m: None,
-                },
-                vertical,
-                speed_m_s,
-            },
+            goal: Goal::none_yet(vertical, speed_m_s),
             goals_from: 0,
             numbers_from: 0,
             declared: Vec::new(),

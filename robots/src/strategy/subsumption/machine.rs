@@ -31,7 +31,6 @@ use crate::handoff::{
     Behave, Behaviour, Decision, Declaration, FixMove, Goal, Layer, LayerState, Lcdp, Manoeuvre,
     Observation, Outcome, PlumeMemory, Setting, Stride, Verdict, Vertical, detects,
 };
-use nalgebra::Vector2;
 use std::sync::Arc;
 use world::seeds::Stream;
 
@@ -91,15 +90,7 @@ impl Subsumption {
             holder: None,
             under_avoid: None,
             behaviour: Behaviour::Idle,
-            goal: Goal {
-                id: 0,
-                manoeuvre: Manoeuvre::GoToPoint {
-                    point: Vector2::zeros(),
-                    radius_m: None,
-                },
-                vertical: Vertical::from(spec.vertical),
-                speed_m_s: spec.speed_m_s.get(),
-            },
+            goal: Goal::none_yet(Vertical::from(spec.vertical), spec.speed_m_s.get()),
             outcome: None,
         })
     }

@@ -12,13 +12,10 @@
 //! once; from there Find goes on. It does not command against Maintain or Reacquire, and although Tian lists it above
 //! Avoid-Obstacle its command passes through that layer as Find's would.
 
-use crate::handoff::{Manoeuvre, Observation, PlumeMemory, inside};
+use crate::handoff::{MARGIN_M, Manoeuvre, Observation, PlumeMemory, inside};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative, Positive};
-
-/// Places are held this far inside the area, m: the cage's 5 m and as much again.
-const MARGIN_M: f64 = 10.0;
 
 /// Parameters of the layer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

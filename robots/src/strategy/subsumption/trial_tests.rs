@@ -8,7 +8,7 @@ use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::guide::{Guidance, GuidanceSpec};
-use crate::handoff::testing::{area, seen, smelling};
+use crate::handoff::testing::{area, seen, smelling, steered};
 use crate::handoff::{
     Beam, Behaviour, Command, FlowEstimate, GuidanceStatus, LayerState, Outcome, RangeScan, Setting,
 };
@@ -154,12 +154,8 @@ fn run(seed: u64, avoids: bool, limit_s: f64) -> Report {
         let Command::Steer(set) = command else {
             panic!("the planner never drives the actuators");
         };
-        let v = set.heading.unit() * set.water_speed_m_s + flow();
-        let right = set.heading.turned(FRAC_PI_2).unit();
+        let v = steered(&mut o.estimate, &set, flow());
         o.estimate.position += v * DT_S;
-        o.estimate.attitude.heading = set.heading;
-        o.estimate.v_ground_body.x = v.dot(&set.heading.unit());
-        o.estimate.v_ground_body.y = -v.dot(&right);
     }
     report
 }

@@ -1,19 +1,18 @@
 //! Surveys flown by a vehicle that does as it is asked, with a real sonar over a real block.
 
 use super::*;
-use crate::handoff::testing::{area, seen};
+use crate::handoff::testing::{self, area, seen};
 use crate::handoff::{
     Behaviour, Declaration, Manoeuvre, Observation, Picture, Stride, Verdict, Vertical,
 };
 use crate::sense::{Sidescan, SidescanSpec};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use std::path::Path;
 use std::sync::Arc;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
-use world::ranges::{Finite, HeadingDeg, Positive};
+use world::obstacles::Obstacles;
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -21,19 +20,7 @@ const BED: Terrain = Terrain::Level { depth_m: 8.0 };
 const PERIOD_S: f64 = 0.1;
 
 fn block(at: Vector2<f64>) -> Obstacles {
-    let m = || Positive::new(1.0);
-    let spec = ObstacleSpec {
-        surface: Default::default(),
-        id: "block".into(),
-        shape: ShapeSpec::Box(BoxShape {
-            size_m: (m(), m(), m()),
-        }),
-        east_m: Finite::new(at.x),
-        north_m: Finite::new(at.y),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(90.0),
-    };
-    Obstacles(vec![Obstacle::build(&spec, &BED, Path::new(".")).unwrap()])
+    Obstacles(vec![testing::block(&BED, "block", [at.x, at.y], [1.0; 3])])
 }
 
 /// Water, and in it, if told, dye and a dark body.

@@ -131,6 +131,11 @@ pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) 
     }
     let several = t.declarations.len() > 1;
     for (d, at) in t.declarations.iter().zip(t.declared()) {
+        if let Some(e) = d.evidence {
+            let [x, y] = e.middle_m;
+            let ends = [panel.at([x, y]), panel.at([x + e.reach_m, y])];
+            zone(c, ends[0], ends[1][0] - ends[0][0]);
+        }
         let p = panel.at(at);
         declared(c, p);
         if several {
@@ -194,6 +199,12 @@ pub(super) fn declared(c: &mut Canvas, [x, y]: [f64; 2]) {
     const R: f64 = 7.0;
     let diamond = vec![[x, y - R], [x + R, y], [x, y + R], [x - R, y]];
     c.polygon(diamond, &Style::fill(DECLARED).edged(INK, 1.4));
+}
+
+/// Of the points that a declaration rests on.
+pub(super) fn zone(c: &mut Canvas, p: [f64; 2], r: f64) {
+    c.circle(p, r, &Style::line("#ffffff", 3.2));
+    c.circle(p, r, &Style::line(INK, 1.4));
 }
 
 pub(super) fn true_source(c: &mut Canvas, p: [f64; 2]) {

@@ -6,7 +6,7 @@ use super::map_layers as layers;
 use super::palette::{self, BELIEVED, FLOW, INK};
 use super::panel::{decade, number};
 use super::plume_load::PlumeLoad;
-use crate::report::RunReport;
+use crate::report::{RobotTrack, RunReport};
 use robots::handoff::Behaviour;
 use world::units::Heading;
 
@@ -50,7 +50,8 @@ pub(super) fn legend(
     }
     let robots = &run.track.robots;
     type Draw = fn(&mut Canvas, [f64; 2]);
-    let marks: [(bool, Draw, &str); 5] = [
+    let zones = |t: &RobotTrack| t.declarations.iter().any(|d| d.evidence.is_some());
+    let marks: [(bool, Draw, &str); 6] = [
         (
             robots.iter().any(|t| !t.rows.is_empty()),
             layers::start,
@@ -70,6 +71,11 @@ pub(super) fn legend(
             robots.iter().any(|t| !t.declarations.is_empty()),
             layers::declared,
             "declared source",
+        ),
+        (
+            robots.iter().any(zones),
+            |c, p| layers::zone(c, p, 8.0),
+            "round the points it rests on",
         ),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];

@@ -1,0 +1,77 @@
+//! Parts of the mailbox: the newest of each vehicle, and how often something may pass.
+
+use std::collections::BTreeMap;
+use std::time::{Duration, Instant};
+
+/// What a vehicle took, with how many it has taken.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Numbered<T> {
+    pub(super) taken: u64,
+    pub(super) value: T,
+}
+
+/// The newest of each vehicle.
+#[derive(Debug)]
+pub(super) struct Newest<T> {
+    waiting: BTreeMap<String, Numbered<T>>,
+    taken: BTreeMap<String, u64>,
+}
+
+impl<T> Default for Newest<T> {
+    fn default() -> Self {
+        Self {
+            waiting: BTreeMap::new(),
+            taken: BTreeMap::new(),
+        }
+    }
+}
+
+impl<T> Newest<T> {
+    /// Whether nothing waited before.
+    pub(super) fn put(&mut self, robot: &str, value: T) -> bool {
+        let first = self.waiting.is_empty();
+        let count = self.taken.entry(robot.to_owned()).or_default();
+        *count += 1;
+        let taken = *count;
+        (self.waiting).insert(robot.to_owned(), Numbered { taken, value });
+        first
+    }
+
+    /// Whether something waits.
+    pub(super) fn waits(&self) -> bool {
+        !self.waiting.is_empty()
+    }
+
+    /// What waits, in the order of the vehicles' ids.
+    pub(super) fn take(&mut self) -> Vec<Numbered<T>> {
+        std::mem::take(&mut self.waiting).into_values().collect()
+    }
+}
+
+/// Lets something pass once a period.
+#[derive(Debug)]
+pub(super) struct Gate {
+    period: Duration,
+    due: Option<Instant>,
+}
+
+impl Gate {
+    pub(super) fn every(period: Duration) -> Self {
+        Self { period, due: None }
+    }
+
+    /// How long until it may pass; nothing if nothing waits.
+    pub(super) fn wait(&self, waiting: bool, now: Instant) -> Option<Duration> {
+        let left = |at: Instant| at - now.min(at);
+        waiting.then(|| self.due.map_or(Duration::ZERO, left))
+    }
+
+    /// Whether it passes now.
+    pub(super) fn pass(&mut self, waiting: bool, now: Instant) -> bool {
+        let passes = self.wait(waiting, now) == Some(Duration::ZERO);
+        if passes {
+            self.due = Some(now + self.period);
+        }
+        passes
+    }
+}
