@@ -9,6 +9,7 @@ use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics};
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
@@ -80,11 +81,17 @@ impl Run {
 
     /// Estimates, one a step, while a command is held.
     fn hold(&mut self, seconds: f64, heading_deg: f64, vertical: Vertical) -> Vec<Estimate> {
-        let command = Command::Steer(Setpoint {
-            heading: Heading::from_deg(heading_deg),
-            water_speed_m_s: 2.0,
-            vertical,
-        });
+        self.turn(seconds, heading_deg, 0.0, vertical)
+    }
+
+    /// Estimates, one a step, while the heading asked for turns steadily.
+    fn turn(
+        &mut self,
+        seconds: f64,
+        from_deg: f64,
+        rate_deg_s: f64,
+        vertical: Vertical,
+    ) -> Vec<Estimate> {
         let water = WaterSample {
             velocity: self.current,
             gradient: Matrix3::zeros(),
@@ -92,7 +99,13 @@ impl Run {
             density_kg_m3: 1026.0,
         };
         let mut seen = Vec::new();
-        for _ in 0..(seconds / STEP_S) as u64 {
+        for step in 0..(seconds / STEP_S) as u64 {
+            let heading_deg = from_deg + rate_deg_s * step as f64 * STEP_S;
+            let command = Command::Steer(Setpoint {
+                heading: Heading::from_deg(heading_deg),
+                water_speed_m_s: 2.0,
+                vertical,
+            });
             let set = self.pilot.step(&command, &self.estimate(), STEP_S);
             let truth = self.physics.truth(self.id);
             let free = self.vehicle.step(&truth, &water, &set, STEP_S);
@@ -137,6 +150,35 @@ fn a_quarter_turn_settles() {
         assert!(rate < 11.0, "rate {rate} deg/s");
         assert!(depth < 0.5, "depth off by {depth} m in the turn");
     }
+}
+
+/// A circle leaves a standing error, which must not wind the integral up against the next turn; bounded only by
+/// the fin, it does.
+#[test]
+fn a_circle_does_not_slow_the_turn_out_of_it() {
+    let fastest_to_port = |circling_s: f64, trim_limit_deg: f64| {
+        let mut run = Run::new(0.0, 3.0, Vector3::zeros());
+        run.pilot = Autopilot::new(&AutopilotSpec {
+            heading_trim_limit_deg: Positive::new(trim_limit_deg),
+            ..AutopilotSpec::default()
+        });
+        run.turn(circling_s, 0.0, 4.5, Vertical::Depth(3.0));
+        let heading_deg = run.estimate().attitude.heading.deg();
+        let seen = run.hold(10.0, heading_deg - 150.0, Vertical::Depth(3.0));
+        seen.iter()
+            .map(|e| e.attitude.rates_rad_s.z.to_degrees())
+            .fold(0.0, f64::max)
+    };
+    let by_default = AutopilotSpec::default().heading_trim_limit_deg.get();
+    let (soon, late) = (
+        fastest_to_port(5.0, by_default),
+        fastest_to_port(400.0, by_default),
+    );
+    let wound_up = fastest_to_port(400.0, 15.0);
+    assert!(
+        late > 0.85 * soon && wound_up < 0.85 * soon,
+        "{late} deg/s after a long circle, {soon} deg/s after a short one, {wound_up} deg/s unbounded"
+    );
 }
 
 #[test]

@@ -5,19 +5,21 @@
 //! limits of 10 °/s and 2 m/s: Pang 2009, section 6.
 //!
 //! *Parameters:* [`AutopilotSpec`]: K_h `heading_gain_1_s`, r_max `heading_rate_deg_s`, K_ff `rudder_per_rate_s`,
-//! K_r `rate_gain_s`, K_hi `heading_integral_1_s`; K_z `depth_gain_deg_m`, K_zi
+//! K_r `rate_gain_s`, K_hi `heading_integral_1_s`, its bound `heading_trim_limit_deg`; K_z `depth_gain_deg_m`, K_zi
 //! `depth_integral_deg_m_s`, θ_max `pitch_limit_deg`; K_θff `stern_per_pitch`, K_θ `pitch_gain`, K_q
 //! `pitch_rate_gain_s`; n_ff `rpm_per_speed`, K_n `speed_integral_rpm_m`. The feed-forwards are the shipped
 //! REMUS's steady turn (9.9° of rudder for 7.1 °/s), dive and run (1000 rpm for 1.674 m/s).
 //!
 //! ```text
-//! r_d = clamp(K_h e_ψ, ±r_max)        rudder = s (K_r (r_d − r) + K_hi ∫e_ψ) + K_ff r_d U_0/U
+//! r_d = clamp(K_h e_ψ, ±r_max)        rudder = s (K_r (r_d − r) + clamp(K_hi ∫e_ψ)) + K_ff r_d U_0/U
 //! θ_d = clamp(K_z e_z + K_zi ∫e_z, ±θ_max)   stern = s (K_θff θ_d + K_θ (θ_d − θ) − K_q q),  s = (U_0/U)²
 //! rpm = n_ff U_d + K_n ∫(U_d − U)
 //! ```
 //!
 //! *Deviations:* integrals stand still while their output is at its limit, and the heading's also while the
-//! heading is more than 10° off, so that a turn winds nothing up. Without a flow estimate the speed is fed
+//! heading is more than 10° off, so that a turn winds nothing up. A heading asked for that itself turns, as in a
+//! circle, leaves a small error standing for minutes; the heading's integral is therefore also bounded to what
+//! it is there for, a rudder's trim, or it ends as the rudder of the circle and holds the next turn back. Without a flow estimate the speed is fed
 //! forward only. Without an altitude the vehicle stays level.
 
 use super::spec::AutopilotSpec;
@@ -96,7 +98,8 @@ impl Autopilot {
             + k.heading_integral_1_s.get() * self.heading_sum;
         let rudder = k.rudder_per_rate_s.get() * rate_wanted * slower + back * slower * slower;
         if rudder.abs() < fin && error.abs() < OFFSET_RAD {
-            self.heading_sum += error * dt_s;
+            let trim = k.heading_trim_limit_deg.get().to_radians() / k.heading_integral_1_s.get();
+            self.heading_sum = (self.heading_sum + error * dt_s).clamp(-trim, trim);
         }
         rudder.clamp(-fin, fin)
     }

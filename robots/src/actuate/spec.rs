@@ -19,6 +19,8 @@ pub struct AutopilotSpec {
     pub rate_gain_s: Positive,
     /// Rudder per integrated heading error, 1/s.
     pub heading_integral_1_s: NonNegative,
+    /// Most rudder that the integral may hold, deg. A straight leg of the REMUS needs 0.3 deg.
+    pub heading_trim_limit_deg: Positive,
     /// Pitch asked per error in depth or altitude, deg/m.
     pub depth_gain_deg_m: Positive,
     /// Pitch asked per integrated error in depth or altitude, deg/(m s).
@@ -51,6 +53,7 @@ impl Default for AutopilotSpec {
             rudder_per_rate_s: NonNegative::new(1.4),
             rate_gain_s: Positive::new(0.6),
             heading_integral_1_s: NonNegative::new(0.02),
+            heading_trim_limit_deg: Positive::new(2.0),
             depth_gain_deg_m: Positive::new(6.0),
             depth_integral_deg_m_s: NonNegative::new(0.2),
             pitch_limit_deg: Positive::new(15.0),
