@@ -16,6 +16,6 @@ pub use along_flow::AlongFlow;
 pub use catalogue::{BeliefRule, BeliefRuleSpec, CATALOGUE, DeclareSpec};
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
 pub use siz_f::SizF;
-pub use siz_t::SizT;
+pub use siz_t::{Order as SizOrder, SizT};
 pub use unchanged::{Params as UnchangedParams, Unchanged};
 pub use zone_size::{AdaptiveSize, ZoneSize};

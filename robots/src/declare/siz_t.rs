@@ -6,10 +6,13 @@
 //! ε_T = 3 m and N_dec = 3, with which nothing was declared.
 //!
 //! *Deviations*: none by default. N_ini is 1, which does nothing: the paper says that it matters only for very small
-//! N_dec. `size: Adaptive` takes twice the adaptive radius for the diagonal.
+//! N_dec. `size: Adaptive` takes twice the adaptive radius for the diagonal. `order: UpFlow` is another reading: algorithm 1
+//! takes the newest points "in the order of the time serials", and so does the default; but its input is a queue in
+//! up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this rule with these
+//! 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
 
 use super::zone_size::ZoneSize;
-use crate::handoff::{Evidence, Lcdp};
+use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -22,10 +25,22 @@ use world::units::Heading;
 pub struct SizT {
     /// Greatest diagonal of the points' bounding box (axes east and north), m.
     pub size: ZoneSize,
-    /// N_dec: how many of the newest points are looked at.
+    /// N_dec: how many points are looked at.
     pub points: NonZeroUsize,
+    /// Which ones.
+    pub order: Order,
     /// N_ini: so many there must be before anything is declared.
     pub initial: NonZeroUsize,
+}
+
+/// Of which order the first points are looked at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Order {
+    /// Newest first.
+    #[default]
+    Time,
+    /// Most up-flow first, in the present flow.
+    UpFlow,
 }
 
 impl Default for SizT {
@@ -33,15 +48,17 @@ impl Default for SizT {
         Self {
             size: ZoneSize::Fixed(Positive::new(4.0)),
             points: NonZeroUsize::new(6).expect("6 is not zero"),
+            order: Order::default(),
             initial: NonZeroUsize::MIN,
         }
     }
 }
 
 impl SizT {
-    /// The mean (east, north), m, of the newest of `points` (in order of time), if they lie close enough together, and
-    /// what it rests on.
-    /// `up_flow` and `fix_m`, what a navigation fix errs along an axis, m, matter to an adaptive size only.
+    /// The mean (east, north), m, of those of `points` (in order of time) that are looked at, if they lie close enough
+    /// together, and what it rests on.
+    /// `fix_m`, what a navigation fix errs along an axis, m, matters to an adaptive size only; `up_flow` to that and to
+    /// the order of the same name.
     #[must_use]
     pub fn declare(
         &self,
@@ -53,14 +70,21 @@ impl SizT {
         if points.len() < n.max(self.initial.get()) {
             return None;
         }
-        let newest = &points[points.len() - n..];
-        let first = newest[0].position;
-        let (low, high) = newest.iter().fold((first, first), |(l, h), p| {
+        let sorted;
+        let first = match self.order {
+            Order::Time => &points[points.len() - n..],
+            Order::UpFlow => {
+                sorted = most_up_flow_first(points, up_flow);
+                &sorted[..n]
+            }
+        };
+        let corner = first[0].position;
+        let (low, high) = first.iter().fold((corner, corner), |(l, h), p| {
             (l.inf(&p.position), h.sup(&p.position))
         });
-        let mean = newest.iter().map(|p| p.position).sum::<Vector2<f64>>() / n as f64;
+        let mean = first.iter().map(|p| p.position).sum::<Vector2<f64>>() / n as f64;
         let near = (high - low).norm() <= self.size.diagonal_m(points, up_flow, fix_m);
-        near.then(|| (mean, Evidence::of(newest)))
+        near.then(|| (mean, Evidence::of(first)))
     }
 }
 
@@ -78,7 +102,7 @@ mod tests {
         SizT {
             size: ZoneSize::Fixed(Positive::new(eps_m)),
             points: NonZeroUsize::new(points).expect("some points"),
-            initial: NonZeroUsize::MIN,
+            ..SizT::default()
         }
     }
 
@@ -116,6 +140,32 @@ mod tests {
         let line = [(0.0, 0.0), (2.0, 0.0), (4.0, 0.0)];
         assert_eq!(found(&rule(4.0, 3), &line), Some(Vector2::new(2.0, 0.0)));
         assert_eq!(found(&rule(3.9, 3), &line), None);
+    }
+
+    #[test]
+    fn in_up_flow_order_by_hand() {
+        let up = SizT {
+            order: Order::UpFlow,
+            ..rule(2.9, 3)
+        };
+        // Three round (0, 100) with two farther down-flow between and after them: never the three newest.
+        let places = [
+            (0.0, 100.0),
+            (0.0, 60.0),
+            (2.0, 101.0),
+            (1.0, 99.0),
+            (5.0, 70.0),
+        ];
+        assert_eq!(found(&rule(2.9, 3), &places), None);
+        // A box of 2 by 2 m: its diagonal is 2.83 m; the mean of the three is (1, 100).
+        assert_eq!(found(&up, &places), Some(Vector2::new(1.0, 100.0)));
+        assert_eq!(found(&up, &places[..3]), None);
+        let (_, evidence) =
+            (up.declare(&list(&places), Heading::from_deg(NORTH), 0.0)).expect("near");
+        assert_eq!((evidence.points, evidence.since_s), (3, 0.0));
+        // With the flow turned about, the most up-flow ones are those at 60, 70 and 99 m.
+        let south = Heading::from_deg(180.0);
+        assert!(up.declare(&list(&places), south, 0.0).is_none());
     }
 
     #[test]

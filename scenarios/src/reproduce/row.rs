@@ -150,6 +150,7 @@ const ROWS: &[(&str, &str)] = &[
     row!("dalian_bay"),
     row!("duck_mt"),
     row!("san_clemente"),
+    row!("t13_rate"),
     row!("t13_siz_t"),
     row!("t13_siz_f"),
     row!("wp_laminar"),
