@@ -39,7 +39,7 @@ pub(super) fn blind(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     ] {
         if lacks {
             let problem = format!(
-                "robot \"{}\" searches without a {name}: it {so}",
+                "robot \"{}\" searches without {name}: it {so}",
                 robot.id.as_str()
             );
             let hint = format!("fit one, as in `sensors: ({name}: ())`");
