@@ -13,7 +13,7 @@
 //! *Deviations:* the field keeps its shape with depth; the bed throws no light up into the water; nothing casts a shadow but
 //! dye. Daylight is white, sun and sky alike.
 
-use super::bands::{Rgb, each};
+use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
 use crate::error::RobotError;
 use nalgebra::Vector3;
@@ -61,7 +61,7 @@ pub struct Light {
     /// Unit vector in the water towards where most light comes from.
     pub to_sun: Vector3<f64>,
     /// Attenuation with depth, 1/m.
-    pub down: Rgb,
+    pub down: Spectrum,
     /// Scalar irradiance just below the surface, lx.
     pub scalar: f64,
     /// Illuminance above the surface, lx.
@@ -104,7 +104,7 @@ impl Light {
 
     /// Scalar irradiance at height `z` (m, negative below the surface), lx.
     #[must_use]
-    pub fn at(&self, z: f64) -> Rgb {
+    pub fn at(&self, z: f64) -> Spectrum {
         each(|i| self.scalar * math::exp(self.down[i] * z.min(0.0)))
     }
 
@@ -128,7 +128,7 @@ impl Light {
 
     /// Radiance of endless water along `dir` from height `z`: what a camera sees where nothing stands, cd/m².
     #[must_use]
-    pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Rgb {
+    pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Spectrum {
         let (e, p) = (self.at(z), self.scattered(dir));
         each(|i| clarity.scattering[i] * p * e[i] / (clarity.attenuation[i] - self.down[i] * dir.z))
     }
