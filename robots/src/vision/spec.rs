@@ -143,10 +143,10 @@ impl Default for VerifierSpec {
     fn default() -> Self {
         Self {
             colours: ColourSpec::for_haze(),
-            least_dye: Positive::new(0.004),
-            least_redness: Positive::new(0.04),
-            least_source: Positive::new(0.004),
-            least_contrast: Positive::new(0.15),
+            least_dye: Positive::new(0.0022),
+            least_redness: Positive::new(0.022),
+            least_source: Positive::new(0.0022),
+            least_contrast: Positive::new(0.0825),
             most_dye: Fraction::new(0.7),
             most_source: Fraction::new(0.3),
             reach: Fraction::new(0.1),

@@ -2,9 +2,10 @@
 //!
 //! *Source:* single scattering of a light field that has the shape of Henyey & Greenstein 1941 (Astrophys. J. 93, 70) about the
 //! refracted sun: two such shapes one after the other make a third with the product of their mean cosines, so what is scattered
-//! into a line of sight has it too. Mean cosine of scattering 0.924 (Petzold's particles; Mobley 1994, table 3.10: its share
-//! of backscattering, 0.017, comes out with it). Light falling on a tilted face from such a field: Ramamoorthi &
-//! Hanrahan 2001, J. Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
+//! into a line of sight has it too. Mean cosine of scattering 0.924 (Mobley 1994, Light and Water, table 3.10,
+//! Petzold's particles, from memory; its share of backscattering, 0.017, lies within the 0.013 to 0.020 that Petzold 1972, SIO Ref. 72-78,
+//! measured off California and in San Diego harbour, read from jerlov 0.22.0 (PyPI), `petzold1972_stations.csv`). Light falling on a tilted face from such a
+//! field: Ramamoorthi & Hanrahan 2001, J. Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
 //!
 //! *Parameters:* `sun_elevation_deg` 45°; `sun_heading_deg` where it stands, 180°; `illuminance_klux` on the surface, 60 klx;
 //! `mean_cosine` of the light field in the water, 0.75 (Kirk 1994, Light and Photosynthesis in Aquatic Ecosystems, ch. 6: 0.7 to
