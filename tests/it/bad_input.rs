@@ -194,24 +194,20 @@ fn pond_with_eyes(strategy: &str) -> String {
 }
 
 #[test]
-fn verifier_after_a_declaration_that_could_never_verify() {
-    let text = pond_with_eyes(
-        "Amp(
+fn verifiers_that_could_never_verify() {
+    let survey = "Amp(
                 after_declaration: Survey(camera: (verifier: (least_dye: 0.8)), verify: Camera),
-            )",
-    );
-    refused(text, &golden("verifier_that_could_never_verify"));
-}
-
-#[test]
-fn verifier_of_the_eyes_out_of_range() {
-    let text = pond_with_eyes(
-        "Subsumption(
+            )";
+    let eyes = "Subsumption(
                 layers: [Find(ZigZag()), Maintain(), Declare(SizF())],
                 eyes: (verifier: (colours: (alpha2: 300))),
-            )",
-    );
-    refused(text, &golden("verifier_of_the_eyes_out_of_range"));
+            )";
+    for (strategy, name) in [(survey, "survey"), (eyes, "eyes")] {
+        refused(
+            pond_with_eyes(strategy),
+            &golden(&format!("verifier_of_{name}")),
+        );
+    }
 }
 
 #[test]
