@@ -62,6 +62,6 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "camera",
         what: "Pictures through the water when asked for: attenuation, veil, dye, daylight or lamp, sensor noise.",
-        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Duntley 1963, J. Opt. Soc. Am. 53, 214; Mobley 1994, Light and Water",
+        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Williamson & Hollins 2022, Appl. Opt. 61, 9951; Zaneveld & Pegau 2003, Opt. Express 11, 2997",
     },
 ];

@@ -143,10 +143,10 @@ impl Default for VerifierSpec {
     fn default() -> Self {
         Self {
             colours: ColourSpec::for_haze(),
-            least_dye: Positive::new(0.004),
-            least_redness: Positive::new(0.04),
-            least_source: Positive::new(0.004),
-            least_contrast: Positive::new(0.15),
+            least_dye: Positive::new(0.0022),
+            least_redness: Positive::new(0.022),
+            least_source: Positive::new(0.0022),
+            least_contrast: Positive::new(0.0825),
             most_dye: Fraction::new(0.7),
             most_source: Fraction::new(0.3),
             reach: Fraction::new(0.1),
@@ -160,7 +160,33 @@ impl VerifierSpec {
     /// # Errors
     /// Names the field below `path` and its legal range.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
-        self.colours.check(&format!("{path}.colours"))
+        self.colours.check(&format!("{path}.colours"))?;
+        let most = [
+            ("least_dye", self.least_dye, self.most_dye, "most_dye, "),
+            ("least_redness", self.least_redness, Fraction::new(1.0), ""),
+            (
+                "least_source",
+                self.least_source,
+                self.most_source,
+                "most_source, ",
+            ),
+            (
+                "least_contrast",
+                self.least_contrast,
+                Fraction::new(1.0),
+                "",
+            ),
+        ];
+        for (field, least, most, name) in most {
+            let (least, most) = (least.get(), most.get());
+            if least > most {
+                return Err(RobotError::Invalid {
+                    field: format!("{path}.{field}"),
+                    problem: format!("must be above 0 and at most {name}{most}, got {least}"),
+                });
+            }
+        }
+        Ok(())
     }
 }
 
@@ -197,5 +223,27 @@ mod tests {
         ] {
             assert!(said.contains(field), "{said}");
         }
+    }
+
+    #[test]
+    fn a_verifier_that_could_never_verify_is_refused() {
+        assert!(VerifierSpec::default().check("v").is_ok());
+        let of = |change: &dyn Fn(&mut VerifierSpec)| {
+            let mut spec = VerifierSpec::default();
+            change(&mut spec);
+            spec.check("v").unwrap_err().to_string()
+        };
+        assert_eq!(
+            of(&|s| s.least_dye = Positive::new(0.8)),
+            "v.least_dye: must be above 0 and at most most_dye, 0.7, got 0.8"
+        );
+        assert_eq!(
+            of(&|s| s.least_contrast = Positive::new(1.5)),
+            "v.least_contrast: must be above 0 and at most 1, got 1.5"
+        );
+        assert_eq!(
+            of(&|s| s.colours.alpha2 = Positive::new(300.0)),
+            "v.colours.alpha2: must be at most 255, got 300"
+        );
     }
 }

@@ -179,7 +179,7 @@ fn scores_csv(all: &[Figures]) -> String {
                 let _ = writeln!(
                     out,
                     "{},{range},{name},{n},{},{},{},{}",
-                    f.method.name(),
+                    f.method.name().replace(',', ""),
                     count.map_or(String::new(), |c| c.to_string()),
                     text(value),
                     text(i.map(|i| i.low)),
@@ -237,7 +237,7 @@ fn scenes_csv(rows: &[Row]) -> String {
             s.albedo,
             s.range_m,
             s.height_m,
-            r.method.name(),
+            r.method.name().replace(',', ""),
             r.dye.hit,
             r.dye.false_alarm,
             r.dye.missed,
@@ -314,5 +314,14 @@ mod tests {
             csv.contains("given back,6,12,verified_with_source,3,3,1,"),
             "{csv}"
         );
+        for name in ["scores.csv", "scenes.csv"] {
+            let csv = std::fs::read_to_string(folder.path().join(name)).unwrap();
+            let fields = |line: &str| line.split(',').count();
+            let head = csv.lines().next().map(fields);
+            assert!(
+                csv.lines().all(|l| Some(fields(l)) == head),
+                "{name}: {csv}"
+            );
+        }
     }
 }

@@ -59,7 +59,8 @@ impl DyeGrid {
             any: false,
         };
         // What takes less than 2 of 1000 parts of the light on the whole way is nothing: the same everywhere, so that no edge shows.
-        let strongest = scene.optics.dye.absorption[1] + scene.optics.dye.scattering;
+        let dye = &scene.optics.dye;
+        let strongest = dye.absorption.into_iter().fold(0.0, f64::max) + dye.scattering;
         let whole_m = lines.ways.last().copied().unwrap_or(1.0);
         let least = 2e-3 / (strongest * whole_m).max(1e-30);
         let ask = |line: usize, k: usize| {

@@ -2,9 +2,10 @@
 //!
 //! *Source:* single scattering of a light field that has the shape of Henyey & Greenstein 1941 (Astrophys. J. 93, 70) about the
 //! refracted sun: two such shapes one after the other make a third with the product of their mean cosines, so what is scattered
-//! into a line of sight has it too. Mean cosine of scattering 0.924 (Petzold's particles; Mobley 1994, table 3.10: its share
-//! of backscattering, 0.017, comes out with it). Light falling on a tilted face from such a field: Ramamoorthi &
-//! Hanrahan 2001, J. Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
+//! into a line of sight has it too. Mean cosine of scattering 0.924 (Mobley 1994, Light and Water, table 3.10,
+//! Petzold's particles, from memory; its share of backscattering, 0.017, lies within the 0.013 to 0.020 that Petzold 1972, SIO Ref. 72-78,
+//! measured off California and in San Diego harbour, read from jerlov 0.22.0 (PyPI), `petzold1972_stations.csv`). Light falling on a tilted face from such a
+//! field: Ramamoorthi & Hanrahan 2001, J. Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
 //!
 //! *Parameters:* `sun_elevation_deg` 45°; `sun_heading_deg` where it stands, 180°; `illuminance_klux` on the surface, 60 klx;
 //! `mean_cosine` of the light field in the water, 0.75 (Kirk 1994, Light and Photosynthesis in Aquatic Ecosystems, ch. 6: 0.7 to
@@ -13,7 +14,7 @@
 //! *Deviations:* the field keeps its shape with depth; the bed throws no light up into the water; nothing casts a shadow but
 //! dye. Daylight is white, sun and sky alike.
 
-use super::bands::{Rgb, each};
+use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
 use crate::error::RobotError;
 use nalgebra::Vector3;
@@ -61,7 +62,7 @@ pub struct Light {
     /// Unit vector in the water towards where most light comes from.
     pub to_sun: Vector3<f64>,
     /// Attenuation with depth, 1/m.
-    pub down: Rgb,
+    pub down: Spectrum,
     /// Scalar irradiance just below the surface, lx.
     pub scalar: f64,
     /// Illuminance above the surface, lx.
@@ -104,7 +105,7 @@ impl Light {
 
     /// Scalar irradiance at height `z` (m, negative below the surface), lx.
     #[must_use]
-    pub fn at(&self, z: f64) -> Rgb {
+    pub fn at(&self, z: f64) -> Spectrum {
         each(|i| self.scalar * math::exp(self.down[i] * z.min(0.0)))
     }
 
@@ -128,7 +129,7 @@ impl Light {
 
     /// Radiance of endless water along `dir` from height `z`: what a camera sees where nothing stands, cd/m².
     #[must_use]
-    pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Rgb {
+    pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Spectrum {
         let (e, p) = (self.at(z), self.scattered(dir));
         each(|i| clarity.scattering[i] * p * e[i] / (clarity.attenuation[i] - self.down[i] * dir.z))
     }

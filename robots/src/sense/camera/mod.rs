@@ -39,6 +39,7 @@ mod sensor;
 #[cfg(test)]
 mod tests;
 mod volume;
+mod waters;
 
 pub use clarity::{Clarity, ClaritySpec};
 pub use dye::{Dye, DyeSpec};

@@ -7,7 +7,7 @@
 //!
 //! *Deviations:* Jaffe's blur by forward scattering is left out.
 
-use super::bands::{Rgb, each};
+use super::bands::{GREEN, Rgb, each, see};
 use super::model::CameraModel;
 use super::scene::{End, Kind, Scene};
 use super::sensor::Exposed;
@@ -65,21 +65,23 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
             let surface = scene.radiance(&end, &p, &dir, lit);
             let veil = volume.before(x, y, end.way_m);
             let left = each(|i| math::exp(-o.clarity.attenuation[i] * end.way_m));
-            let water = each(|i| veil.water[i] + left[i] * surface[i]);
-            let dyed = each(|i| veil.dyed[i] + left[i] * veil.passes[i] * surface[i]);
+            let bare = see(&each(|i| left[i] * surface[i]));
+            let shaded = see(&each(|i| left[i] * veil.passes[i] * surface[i]));
+            let water = [0, 1, 2].map(|k| veil.water[k] + bare[k]);
+            let dyed = [0, 1, 2].map(|k| veil.dyed[k] + shaded[k]);
             // The lens: light falls off as cos⁴ from the middle.
             let cos2 = dir_C.z * dir_C.z;
-            let got = each(|i| dyed[i] * cos2 * cos2);
+            let got = dyed.map(|l| l * cos2 * cos2);
             for i in 0..3 {
                 sum[i] += got[i];
             }
             radiance.push(got.map(|v| v as f32));
             seen.push(Seen {
                 plume: change(&water, &dyed),
-                opacity: (1.0 - veil.passes[1]) as f32,
+                opacity: (1.0 - veil.passes[GREEN]) as f32,
                 obstacle: obstacle(&end),
                 way_m: end.way_m as f32,
-                clear: (left[1] * veil.passes[1]) as f32,
+                clear: (left[GREEN] * veil.passes[GREEN]) as f32,
             });
         }
     }

@@ -10,7 +10,7 @@
 //! 0.1 rad for the waves; beyond it the surface mirrors endless water. Texture is noise of three sizes, 0.05 to 0.8 m,
 //! and the light that waves focus is noise of 0.3 m, gone by some metres (flicker e^(-z/4 m)); neither moves.
 
-use super::bands::{Rgb, each, plain};
+use super::bands::{N, Spectrum, each, spread};
 use super::clarity::{Clarity, ClaritySpec};
 use super::dye::{Dye, DyeSpec};
 use super::light::{INDEX, Light, LightSpec, fresnel, phase};
@@ -65,7 +65,7 @@ pub struct Optics {
     /// The dye.
     pub dye: Dye,
     /// The bed.
-    pub bed_albedo: Rgb,
+    pub bed_albedo: Spectrum,
     /// Unevenness of surfaces.
     pub texture: f64,
 }
@@ -81,7 +81,7 @@ impl Optics {
             light: Light::new(&spec.light, &clarity)?,
             clarity,
             dye: Dye::new(&spec.dye),
-            bed_albedo: plain(spec.bed_albedo),
+            bed_albedo: spread(spec.bed_albedo),
             texture: spec.texture.get(),
         })
     }
@@ -197,14 +197,14 @@ impl Scene<'_> {
         end: &End,
         p: &Vector3<f64>,
         dir: &Vector3<f64>,
-        lamp: Option<(Rgb, Vector3<f64>)>,
-    ) -> Rgb {
+        lamp: Option<(Spectrum, Vector3<f64>)>,
+    ) -> Spectrum {
         let o = self.optics;
         let (albedo, normal) = match end.kind {
-            Kind::Water => return [0.0; 3],
+            Kind::Water => return [0.0; N],
             Kind::Surface => return window(o, dir),
             Kind::Bed => (o.bed_albedo, self.terrain.normal(p.x, p.y)),
-            Kind::Solid(n, normal) => (plain(self.obstacles.0[n].surface.albedo), normal),
+            Kind::Solid(n, normal) => (spread(self.obstacles.0[n].surface.albedo), normal),
         };
         let rough = (1.0 + o.texture * texture(p, end.way_m)).max(0.0);
         let waves = o.light.flicker * math::exp(0.25 * p.z.min(0.0));
@@ -218,7 +218,7 @@ impl Scene<'_> {
 }
 
 /// Radiance of the surface seen from below along `dir`, cd/m².
-fn window(o: &Optics, dir: &Vector3<f64>) -> Rgb {
+fn window(o: &Optics, dir: &Vector3<f64>) -> Spectrum {
     const SKY: f64 = 0.3;
     const WAVES_RAD: f64 = 0.1;
     let light = &o.light;
@@ -297,11 +297,11 @@ mod tests {
         let o = Optics::new(&OpticsSpec::default()).unwrap();
         let at = |slant_deg: f64| {
             let (s, c) = math::sin_cos(slant_deg.to_radians());
-            window(&o, &Vector3::new(s, 0.0, c))[1]
+            window(&o, &Vector3::new(s, 0.0, c))[3]
         };
         assert!(at(20.0) > 5.0 * at(60.0), "{} {}", at(20.0), at(60.0));
         let (s, c) = math::sin_cos(60f64.to_radians());
         let mirrored = o.light.endless(&o.clarity, 0.0, &Vector3::new(s, 0.0, -c));
-        assert!((at(60.0) - mirrored[1]).abs() < 1e-9 * mirrored[1]);
+        assert!((at(60.0) - mirrored[3]).abs() < 1e-9 * mirrored[3]);
     }
 }

@@ -10,7 +10,7 @@
 //! than they are. Daylight reaches dye from two sides: along the line of sight the share that comes from the camera's half, from the
 //! sun's direction the rest; the lamp's comes along the line of sight.
 
-use super::bands::{Rgb, each};
+use super::bands::{N, Rgb, Spectrum, each, see};
 use super::dye_grid::{DyeGrid, Lines};
 use super::light::{SCATTER_COSINE, phase};
 use super::model::{CameraModel, LampSpec};
@@ -49,7 +49,7 @@ impl Lamp {
     }
 
     /// Light on a face turned to the lamp, lx, and the direction to the lamp.
-    pub(super) fn on(&self, p: &Vector3<f64>, o: &Optics) -> (Rgb, Vector3<f64>) {
+    pub(super) fn on(&self, p: &Vector3<f64>, o: &Optics) -> (Spectrum, Vector3<f64>) {
         let to = self.p_W - p;
         let way = to.norm().max(0.05);
         let to = to / way;
@@ -61,22 +61,25 @@ impl Lamp {
 }
 
 /// What the water does up to some distance.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Veil {
-    /// Radiance of the water alone, cd/m².
+    /// Radiance of the water alone as the camera sees it, cd/m².
     pub water: Rgb,
     /// The same with its dye.
     pub dyed: Rgb,
     /// What the dye lets through.
-    pub passes: Rgb,
+    pub passes: Spectrum,
 }
+
+/// Numbers of a veil.
+const ROW: usize = 6 + N;
 
 /// The veil at the ends of all steps of all lines.
 pub(super) struct Volume {
     tile: u32,
     lines: Lines,
     /// Water, dyed, passes.
-    veils: Vec<[f32; 9]>,
+    veils: Vec<[f32; ROW]>,
 }
 
 impl Volume {
@@ -127,7 +130,7 @@ impl Volume {
             veils: Vec::with_capacity(lines.dirs.len() * STEPS),
             lines,
         };
-        let clear: Vec<Rgb> = (0..STEPS)
+        let clear: Vec<Spectrum> = (0..STEPS)
             .map(|k| {
                 each(|i| math::exp(-scene.optics.clarity.attenuation[i] * volume.lines.step(k).1))
             })
@@ -144,13 +147,13 @@ impl Volume {
         dye: &DyeGrid,
         lamp: Option<&Lamp>,
         line: usize,
-        clear: &[Rgb],
+        clear: &[Spectrum],
     ) {
         let (w, d) = (&o.clarity, &o.dye);
         let dir = self.lines.dirs[line];
         let (thrown, front) = (o.light.scattered(&dir), o.light.from_front(&dir));
-        let (mut left, mut veil) = ([1.0; 3], Veil::default());
-        veil.passes = [1.0; 3];
+        let (mut left, mut passes) = ([1.0; N], [1.0; N]);
+        let (mut water, mut dyed) = ([0.0; N], [0.0; N]);
         let mut parted = false;
         for (k, clear) in clear.iter().enumerate() {
             let (way, length) = self.lines.step(k);
@@ -162,17 +165,17 @@ impl Volume {
                 (lx, phase(SCATTER_COSINE, to.dot(&dir)))
             });
             parted |= rho > 0.0;
-            let before = veil.passes;
+            let before = passes;
             let from_lamp = each(|i| lamp.map_or(0.0, |(lx, p)| lx[i] * p));
-            for i in 0..3 {
+            for i in 0..N {
                 let (b, c) = (w.scattering[i], w.attenuation[i]);
                 let got = left[i] * (1.0 - clear[i]) / c;
-                veil.water[i] += got * b * (day[i] * thrown + from_lamp[i]);
+                water[i] += got * b * (day[i] * thrown + from_lamp[i]);
                 if !parted {
-                    veil.dyed[i] = veil.water[i];
+                    dyed[i] = water[i];
                 } else if rho == 0.0 {
                     let lit = day[i] * thrown + from_lamp[i] * before[i];
-                    veil.dyed[i] += got * before[i] * b * lit;
+                    dyed[i] += got * before[i] * b * lit;
                 } else {
                     // Light from the camera's side has come along the line of sight, the rest from the sun.
                     let taken = d.absorption.map(|a| rho * a);
@@ -185,19 +188,18 @@ impl Volume {
                     let evenly = rho / (4.0 * PI);
                     let mut sum = b * from_lamp[i] * ahead(i)
                         + (b * thrown + d.scattering * evenly) * day_on(i);
-                    for j in (0..3).filter(|j| d.glow[i][*j] > 0.0) {
+                    for j in (0..N).filter(|j| d.glow[i][*j] > 0.0) {
                         sum += evenly * d.glow[i][j] * (day_on(j) + lamp_on(j));
                     }
-                    veil.dyed[i] += left[i] * before[i] * sum;
-                    veil.passes[i] *= math::exp(-all * length) / clear[i];
+                    dyed[i] += left[i] * before[i] * sum;
+                    passes[i] *= math::exp(-all * length) / clear[i];
                 }
                 left[i] *= clear[i];
             }
-            let mut row = [0.0; 9];
-            for i in 0..3 {
-                row[i] = veil.water[i] as f32;
-                row[3 + i] = veil.dyed[i] as f32;
-                row[6 + i] = veil.passes[i] as f32;
+            let mut row = [0.0; ROW];
+            let seen = (see(&water).into_iter()).chain(see(&dyed)).chain(passes);
+            for (to, v) in row.iter_mut().zip(seen) {
+                *to = v as f32;
             }
             self.veils.push(row);
         }
@@ -222,7 +224,7 @@ impl Volume {
             (i, x - i as f64)
         };
         let ((i, fx), (j, fy)) = (cell(x, nx), cell(y, ny));
-        let mut sum = [0.0; 9];
+        let mut sum = [0.0; ROW];
         for (line, weight) in [
             (j * nx + i, (1.0 - fx) * (1.0 - fy)),
             (j * nx + i + 1, fx * (1.0 - fy)),
@@ -230,7 +232,7 @@ impl Volume {
             ((j + 1) * nx + i + 1, fx * fy),
         ] {
             let far = &self.veils[line * STEPS + k];
-            let none = [0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0];
+            let none: [f32; ROW] = std::array::from_fn(|k| if k < 6 { 0.0 } else { 1.0 });
             let near = if k == 0 {
                 &none
             } else {
@@ -242,8 +244,8 @@ impl Volume {
             }
         }
         Veil {
-            water: each(|i| sum[i]),
-            dyed: each(|i| sum[3 + i]),
+            water: [sum[0], sum[1], sum[2]],
+            dyed: [sum[3], sum[4], sum[5]],
             passes: each(|i| sum[6 + i]),
         }
     }

@@ -65,6 +65,12 @@ impl Subsumption {
     /// [`RobotError::Invalid`] when the layers make no sense together, or a layer's parameters none.
     pub fn new(spec: &SubsumptionSpec, setting: &Setting) -> Result<Self, RobotError> {
         let layers = Layers::new(spec, setting)?;
+        if let Some(survey) = &spec.survey {
+            survey.check("strategy.survey")?;
+        }
+        if let Some(eyes) = &spec.eyes {
+            eyes.verifier.check("strategy.eyes.verifier")?;
+        }
         let silent = |k: &Kind| Layer {
             name: k.name(),
             state: LayerState::Silent,

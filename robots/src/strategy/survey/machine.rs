@@ -67,7 +67,7 @@ impl PostDeclaration {
     pub fn new(after: &AfterDeclaration) -> Result<Self, RobotError> {
         let mut verifier = None;
         if let AfterDeclaration::Survey(spec) = after {
-            spec.check()?;
+            spec.check("strategy.after_declaration")?;
             verifier = spec.camera.as_ref().map(|c| Verifier::new(&c.verifier));
         }
         Ok(Self {

@@ -142,11 +142,11 @@ impl SurveySpec {
     /// Whether its parts go together.
     ///
     /// # Errors
-    /// Names the field and what is legal.
-    pub fn check(&self) -> Result<(), RobotError> {
+    /// Names the field below `path` and what is legal.
+    pub fn check(&self, path: &str) -> Result<(), RobotError> {
         let wrong = |field: &str, problem: String| {
             Err(RobotError::Invalid {
-                field: format!("strategy.after_declaration.{field}"),
+                field: format!("{path}.{field}"),
                 problem,
             })
         };
@@ -175,9 +175,7 @@ impl SurveySpec {
             return wrong("verify", problem);
         }
         match &self.camera {
-            Some(c) => c
-                .verifier
-                .check("strategy.after_declaration.camera.verifier"),
+            Some(c) => c.verifier.check(&format!("{path}.camera.verifier")),
             None => Ok(()),
         }
     }
