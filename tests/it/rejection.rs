@@ -38,7 +38,8 @@ const BARE: &str = r#"(
             ),
         ),
     ],
-    time: (spin_up_s: 1200, limit_s: 1800),
+    // A search round a rejected place may take half an hour until its lost points lie together again.
+    time: (spin_up_s: 1200, limit_s: 3600),
     success: Declared(within_m: 20),
 )"#;
 
