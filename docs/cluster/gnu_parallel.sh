@@ -4,10 +4,10 @@
 #   docs/cluster/gnu_parallel.sh CAMPAIGN DIR SHARDS [--sshloginfile HOSTS] [more options of parallel]
 #
 # A shard that stops in order (exit 75) or fails is started again; what is done is not done again.
-# PROGRAM, BLOCK (runs in a block) and JOBS (runs at a time in a shard) may be set in the environment.
+# PROGRAM, BLOCK (runs in a block; without it by their cost) and JOBS (runs at a time in a shard) may be set in the environment.
 set -eu
 campaign=$1 dir=$2 shards=$3
 shift 3
 exec parallel --will-cite --halt soon,fail=50% --retries 5 "$@" \
     "${PROGRAM:-rheotaxis}" campaign run "$campaign" --out "$dir" --shard "{}/$shards" \
-    --jobs "${JOBS:-1}" --block "${BLOCK:-16}" --quiet ::: $(seq "$shards")
+    --jobs "${JOBS:-1}" ${BLOCK:+--block "$BLOCK"} --quiet ::: $(seq "$shards")

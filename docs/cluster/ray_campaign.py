@@ -32,14 +32,16 @@ def main() -> int:
     parser.add_argument("--out", required=True, help="folder for the blocks")
     parser.add_argument("--shards", type=int, required=True, help="number of tasks")
     parser.add_argument("--cpus", type=int, default=1, help="cores a task takes")
-    parser.add_argument("--block", type=int, default=16, help="runs in a block")
+    parser.add_argument("--block", type=int, help="runs in a block; without it by what they cost")
     parser.add_argument("--program", default="rheotaxis")
     parser.add_argument("--address", help="of the cluster; without it RAY_ADDRESS, or this machine alone")
     args = parser.parse_args()
 
     file = os.path.abspath(args.campaign) if os.path.exists(args.campaign) else args.campaign
     command = [args.program, "campaign", "run", file]
-    command += ["--out", os.path.abspath(args.out), "--block", str(args.block)]
+    command += ["--out", os.path.abspath(args.out)]
+    if args.block:
+        command += ["--block", str(args.block)]
 
     ray.init(address=args.address, log_to_driver=True)
     task = ray.remote(num_cpus=args.cpus, max_retries=5, retry_exceptions=True)(shard)

@@ -6,11 +6,15 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Plume, PlumeSettings};
+use plumes::flow::uniform::UniformSpec;
+use plumes::flow::{BlockageSpec, CurrentSpec, WaterSpec};
 use plumes::release::{ReleaseSpec, SourceSpec};
+use std::path::Path;
 use world::area::Area;
 use world::fields::{Concentration, Flow, Mixing};
 use world::math;
-use world::ranges::{Finite, Positive};
+use world::obstacles::{BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
+use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::seeds::Stream;
 use world::terrain::Terrain;
 use world::units::Heading;
@@ -86,6 +90,104 @@ fn drift(bencher: Bencher, n: usize) {
         .bench_local(|| {
             let t = plume.now_s();
             plume.drift(&TwoLayers, t, t + 0.5);
+        });
+}
+
+/// A stream round a block and ten piles, in cells of 2 m, with about `n` filaments among them; in it the plume follows the cells, or, as
+/// if nothing stood there, the grid.
+fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
+    let area = Area {
+        centre: Vector2::zeros(),
+        length_m: 160.0,
+        width_m: 80.0,
+        axis: Heading::from_deg(90.0),
+    };
+    let terrain = Terrain::Level { depth_m: 10.0 };
+    let m = Positive::new;
+    let mut solids = vec![(
+        ShapeSpec::Box(BoxShape {
+            size_m: (m(7.5), m(20.0), m(10.0)),
+        }),
+        -20.0,
+        2.0,
+    )];
+    for k in 0..10 {
+        let pile = CylinderShape {
+            radius_m: m(1.5),
+            height_m: m(12.0),
+        };
+        solids.push((ShapeSpec::Cylinder(pile), 10.0, -31.0 + 7.0 * f64::from(k)));
+    }
+    let solids = solids.into_iter().map(|(shape, east, north)| {
+        let spec = ObstacleSpec {
+            surface: Default::default(),
+            id: "o".into(),
+            shape,
+            east_m: Finite::new(east),
+            north_m: Finite::new(north),
+            base: Default::default(),
+            heading_deg: HeadingDeg::new(90.0),
+        };
+        Obstacle::build(&spec, &terrain, Path::new("")).expect("a block or a pile")
+    });
+    let solids = Obstacles(solids.collect());
+    let blockage = BlockageSpec {
+        cell_m: m(2.0),
+        ..BlockageSpec::default()
+    };
+    let mut spec = WaterSpec {
+        currents: vec![CurrentSpec::Uniform(UniformSpec {
+            speed_m_s: NonNegative::new(0.2),
+            heading_deg: HeadingDeg::new(90.0),
+        })],
+        blockage: Some(blockage.clone()),
+        ..WaterSpec::default()
+    };
+    spec.mixing.horizontal_m2_s = NonNegative::new(0.02);
+    spec.mixing.background_vertical_m2_s = NonNegative::new(1e-3);
+    let water = spec
+        .build_round(&area, &terrain, &solids, 1)
+        .expect("water round obstacles");
+    let sources: Vec<SourceSpec> = (0..8)
+        .map(|k| SourceSpec {
+            id: format!("s{k}"),
+            east_m: Finite::new(-60.0),
+            north_m: Finite::new(-28.0 + 8.0 * f64::from(k)),
+            height_m: Some(Finite::new(5.0)),
+            depth_m: None,
+            rate_g_s: Positive::new(0.025),
+            release: ReleaseSpec {
+                rate_hz: Positive::new(n as f64 / 8.0 / 700.0),
+                ..ReleaseSpec::default()
+            },
+        })
+        .collect();
+    let settings = PlumeSettings {
+        refresh_s: 1e9,
+        grid: blockage.grid_shape(),
+    };
+    let mut plume = Plume::new(&sources, &area, &terrain, 1, settings).expect("legal sources");
+    if led {
+        plume = plume
+            .with_obstacles(solids)
+            .and_then(|p| p.led_round(water.blocked()))
+            .expect("sources in open water");
+    }
+    for t in 0..700 {
+        plume.drift(&water, f64::from(t), f64::from(t + 1));
+    }
+    (water, plume)
+}
+
+/// Drift of half a second round obstacles, and on a grid as fine without any; items are filaments.
+#[divan::bench(args = [(10_000, true), (10_000, false)])]
+fn drift_round(bencher: Bencher, (n, led): (usize, bool)) {
+    let (water, mut plume) = round(n, led);
+    bencher
+        .counter(ItemsCount::new(plume.len()))
+        .bench_local(|| {
+            let t = plume.now_s();
+            plume.drift(&water, t, t + 0.5);
         });
 }
 

@@ -1,18 +1,21 @@
 //! From a scenario to a world that ticks: everything that lives in it, put in its place.
 
+use crate::abnormal::{Abnormals, Lookout};
 use crate::frame::system::{Log, Outbox};
 use crate::gantry::assemble as gantry;
 use crate::gantry::system::outcome;
+use crate::ocean::{Ocean, Origin};
 use crate::scenario::{RobotSpec, Scenario};
+use crate::score::Score;
 use crate::system::{
-    Cartographer, Dye, Helm, Hull, Instruments, Mind, Navigator, Pilotage, RobotId, Water,
+    Cartographer, Dye, Helm, Hull, Instruments, Mind, Navigator, Pilotage, RobotId, Roster, Water,
+    whole,
 };
 use crate::tick::tick;
-use bevy_ecs::prelude::{Schedule, World};
+use bevy_ecs::prelude::{Component, Entity, Schedule, World};
 use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
-use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::{BlockageSpec, GridShape};
+use plumes::filaments::Plume;
 use robots::actuate::Autopilot;
 use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
@@ -29,7 +32,6 @@ use world::clock::{Clock, Every};
 use world::error::WorldError;
 use world::fields::Flow;
 use world::frames::{Pose, Truth};
-use world::obstacles::{Obstacle, Obstacles};
 use world::physics::Physics;
 use world::record::Digest;
 use world::seeds::Stream;
@@ -61,8 +63,7 @@ pub struct Simulation {
     /// All entities and resources.
     pub world: World,
     tick: Schedule,
-    spin_up_s: f64,
-    spin_up_period_s: f64,
+    pub(crate) origin: Origin,
 }
 
 impl Simulation {
@@ -76,41 +77,29 @@ impl Simulation {
         seed: u64,
     ) -> Result<Self, AssembleError> {
         let dt_s = scenario.time.step_s.get();
-        let area = scenario.area.build();
-        let terrain = scenario.terrain.build(&area);
-        let obstacles = (scenario.obstacles.iter())
-            .map(|spec| Obstacle::build(spec, &terrain, base_dir))
-            .collect::<Result<Vec<_>, _>>()?;
-        let solids = scenario.solid(&Obstacles(obstacles.clone()));
-        let flow = (scenario.water).build_round(&area, &terrain, &solids, seed)?;
-        // Where the water goes round obstacles the plume sees it at the corners of the cells it was worked out in.
-        let blockage = scenario.water.blockage.as_ref();
-        let plume = Plume::new(
-            &scenario.sources,
-            &area,
-            &terrain,
-            seed,
-            PlumeSettings {
-                refresh_s: scenario.time.flow_period_s.get(),
-                grid: blockage.map_or_else(|| GridShape::fitting(&area), BlockageSpec::grid_shape),
-            },
-        )?
-        .with_obstacles(solids)?;
+        let origin = Origin::of(scenario, base_dir, seed);
+        let Ocean {
+            area,
+            terrain,
+            obstacles,
+            water,
+            plume,
+        } = origin.build(base_dir)?;
         let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
         let mut physics = Physics::new(dt_s);
         physics.add_terrain(&terrain, &area);
-        for obstacle in &obstacles {
+        for obstacle in &obstacles.0 {
             physics.add_obstacle(obstacle);
         }
 
         let mut world = World::new();
-        let charted = Obstacles(obstacles);
+        let mut roster = Roster::default();
         for spec in &scenario.robots {
-            spawn(
+            let robot = spawn(
                 &mut world,
                 &mut physics,
                 spec,
-                &spec.setting(&area, &terrain, &charted),
+                &spec.setting(&area, &terrain, &obstacles),
                 base_dir,
                 seed,
                 dt_s,
@@ -119,24 +108,31 @@ impl Simulation {
                 id: spec.id.as_str().to_string(),
                 source,
             })?;
+            roster.robots.push(robot);
         }
         for block in &scenario.gantries {
-            gantry::spawn(&mut world, &mut physics, block, &terrain, base_dir, seed).map_err(
-                |source| AssembleError::Robot {
-                    id: block.id.as_str().to_string(),
-                    source,
-                },
-            )?;
+            let gantry = gantry::spawn(&mut world, &mut physics, block, &terrain, base_dir, seed)
+                .map_err(|source| AssembleError::Robot {
+                id: block.id.as_str().to_string(),
+                source,
+            })?;
+            roster.gantries.push(gantry);
         }
-        let spin_up_s = scenario.time.spin_up_s.get();
         let every = |period_s: f64| Every::period(period_s, dt_s);
         world.insert_resource(Clock::new(dt_s));
         world.insert_resource(area);
-        world.insert_resource(charted);
+        world.insert_resource(obstacles);
         world.insert_resource(Water {
-            flow,
-            t0_s: spin_up_s,
+            flow: water,
+            t0_s: origin.spin_up_s(),
         });
+        let robots = scenario.robots.iter().map(|r| &r.id);
+        let ids = robots.chain(scenario.gantries.iter().map(|g| &g.id));
+        world.insert_resource(Score::new(
+            plume.sources().iter().map(|s| s.p_W).collect(),
+            ids.map(|id| id.as_str().to_string()),
+        ));
+        world.insert_resource(roster);
         world.insert_resource(Dye {
             plume,
             every: every(scenario.time.drift_period_s.get()),
@@ -154,11 +150,11 @@ impl Simulation {
         world.insert_resource(terrain);
         world.insert_resource(physics);
         world.insert_resource(Digest::default());
+        world.insert_resource(Abnormals::default());
         Ok(Self {
             world,
             tick: tick(),
-            spin_up_s,
-            spin_up_period_s: scenario.time.spin_up_period_s.get(),
+            origin,
         })
     }
 
@@ -167,18 +163,17 @@ impl Simulation {
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
         if self.world.resource::<Dye>().plume.sources().is_empty() {
             let mut water = self.world.resource_mut::<Water>();
-            water.flow.advance(self.spin_up_s);
+            water.flow.advance(self.origin.spin_up_s());
             return;
         }
-        let steps = (self.spin_up_s / self.spin_up_period_s).ceil();
-        let dt_s = self.spin_up_s / steps;
-        for n in 0..steps as u64 {
+        let (steps, dt_s) = self.origin.spin_up_steps();
+        for n in 0..steps {
             let (t0, t1) = (n as f64 * dt_s, (n + 1) as f64 * dt_s);
             self.world.resource_scope::<Water, ()>(|world, mut water| {
                 water.flow.advance(t1);
                 world.resource_mut::<Dye>().plume.drift(&water.flow, t0, t1);
             });
-            if !heard((n + 1) as f64 / steps) {
+            if !heard((n + 1) as f64 / steps as f64) {
                 return;
             }
         }
@@ -216,13 +211,19 @@ impl Simulation {
     }
 
     /// How each robot's and then each gantry's mission ended, in the scenario's order; `None` while it lasts.
-    pub fn outcomes(&mut self) -> Vec<Option<Outcome>> {
-        let mut robots = self.world.query::<&Decision>();
-        let mut ended: Vec<_> = robots.iter(&self.world).map(|d| d.outcome).collect();
-        let mut gantries = self.world.query::<&GantryDecision>();
-        ended.extend(gantries.iter(&self.world).map(outcome));
-        ended
+    pub fn outcomes(&self) -> impl Iterator<Item = Option<Outcome>> {
+        let (world, roster) = (&self.world, self.world.resource::<Roster>());
+        let robots = roster
+            .robots
+            .iter()
+            .map(|robot| part::<Decision>(world, *robot).outcome);
+        let gantries = roster.gantries.iter();
+        robots.chain(gantries.map(|gantry| outcome(part::<GantryDecision>(world, *gantry))))
     }
+}
+
+fn part<C: Component>(world: &World, of: Entity) -> &C {
+    whole(world.get(of).ok_or(of))
 }
 
 fn spawn(
@@ -233,7 +234,7 @@ fn spawn(
     base_dir: &Path,
     seed: u64,
     dt_s: f64,
-) -> Result<(), RobotError> {
+) -> Result<Entity, RobotError> {
     let id = spec.id.as_str();
     let heading = spec.start.heading_deg.heading();
     let p_W = spec.start.p_W(&setting.bed);
@@ -294,10 +295,11 @@ fn spawn(
             Helm(Autopilot::new(&spec.autopilot)),
             ActuatorCommand::default(),
             Log::default(),
+            Lookout::default(),
         ),
     ));
     if let Some(mapper) = mapper {
         robot.insert((mapper.belief().clone(), Cartographer(mapper)));
     }
-    Ok(())
+    Ok(robot.id())
 }

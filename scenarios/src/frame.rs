@@ -3,6 +3,7 @@
 
 pub mod system;
 
+use crate::abnormal::Abnormal;
 use crate::gantry::GantryFrame;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
@@ -72,6 +73,8 @@ pub struct Frame {
     pub robots: Vec<RobotFrame>,
     /// All gantries, in the scenario's order.
     pub gantries: Vec<GantryFrame>,
+    /// What went wrong so far, whether over or not.
+    pub abnormal: Vec<Abnormal>,
 }
 
 /// A picture that a robot's camera took.
@@ -136,6 +139,7 @@ pub struct PlumeFrame {
     pub t_s: f64,
     /// How many filaments there are in all.
     pub total: usize,
-    /// x, y, z (m, ENU), size (m), mass (kg) of each filament shown.
-    pub points: Vec<[f32; 5]>,
+    /// Of each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, so that the masses
+    /// sum to what is in the water, and how many those are.
+    pub points: Vec<[f32; 6]>,
 }

@@ -1,7 +1,7 @@
 //! Water and plume after the spin-up, kept so that runs that share them pay for it once.
 //!
-//! A spin-up knows no robot: what comes out of it follows from the blocks of the scenario that are
-//! named in [`Mismatch`] and from the seed alone. Runs that agree in these, say the arms of one seed of a
+//! A spin-up knows no robot: what comes out of it follows from the blocks of the scenario that make its water and plume,
+//! the files these name and the seed alone (see `ocean.rs`). Runs that agree in these, say the arms of one seed of a
 //! campaign, start from the same state bit for bit, whether they spin up themselves or take it over.
 //!
 //! ```no_run
@@ -17,10 +17,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::scenario::Scenario;
+use crate::ocean::Origin;
 use plumes::filaments::Plume;
 use plumes::flow::Water;
-use serde::Serialize;
 use std::sync::Arc;
 
 /// The state after a spin-up, to be taken over by other runs with
@@ -49,63 +48,27 @@ impl SpunUp {
 
     /// Copies of water and plume for a run of that origin.
     pub(crate) fn copy_for(&self, origin: &Origin) -> Result<(Water, Plume), Mismatch> {
-        self.0.origin.same_as(origin)?;
-        Ok((self.0.water.clone(), self.0.plume.clone()))
-    }
-}
-
-/// All that a spin-up follows from: the seed, and the blocks as text, so that -0 is not 0.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Origin {
-    seed: u64,
-    blocks: [(&'static str, String); 8],
-}
-
-impl Origin {
-    pub(crate) fn new(scenario: &Scenario, seed: u64) -> Self {
-        let time = &scenario.time;
-        Self {
-            seed,
-            blocks: [
-                ("area", text(&scenario.area)),
-                ("terrain", text(&scenario.terrain)),
-                ("water", text(&scenario.water)),
-                ("obstacles", text(&scenario.obstacles)),
-                ("sources", text(&scenario.sources)),
-                ("time.spin_up_s", text(&time.spin_up_s)),
-                ("time.spin_up_period_s", text(&time.spin_up_period_s)),
-                ("time.flow_period_s", text(&time.flow_period_s)),
-            ],
+        let state = &*self.0;
+        if let Some(block) = state.origin.unlike(origin) {
+            return Err(Mismatch::Block(block));
         }
-    }
-
-    fn same_as(&self, other: &Self) -> Result<(), Mismatch> {
-        let pairs = self.blocks.iter().zip(&other.blocks);
-        let mut unlike = pairs.filter(|(a, b)| a.1 != b.1).map(|(a, _)| a.0);
-        match unlike.next() {
-            Some(block) => Err(Mismatch::Block(block)),
-            None if self.seed != other.seed => Err(Mismatch::Seed {
-                theirs: self.seed,
-                ours: other.seed,
-            }),
-            None => Ok(()),
+        let (theirs, ours) = (state.origin.seed(), origin.seed());
+        if theirs != ours {
+            return Err(Mismatch::Seed { theirs, ours });
         }
+        Ok((state.water.clone(), state.plume.clone()))
     }
-}
-
-fn text(block: &impl Serialize) -> String {
-    ron::to_string(block).expect("a block of a scenario that was read can be written")
 }
 
 /// Why a run cannot take over what another has spun up.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Mismatch {
-    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `sources`,
-    /// `time.spin_up_s`, `time.spin_up_period_s` or `time.flow_period_s`.
+    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`, `sources`,
+    /// `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`, what the obstacles' files hold.
     #[error(
         "the state was spun up with another `{0}`: runs may share a spin-up only if this is the same"
     )]
-    Block(&'static str),
+    Block(String),
     /// Another seed, hence another plume.
     #[error("the state was spun up with seed {theirs}, this run has seed {ours}")]
     Seed {

@@ -1,6 +1,6 @@
 //! The systems of the tick: each hands the parts of a robot, and the world, to plain state machines.
 
-use bevy_ecs::prelude::{Component, DetectChanges, Query, Ref, Res, ResMut, Resource};
+use bevy_ecs::prelude::{Component, DetectChanges, Entity, Query, Ref, Res, ResMut, Resource};
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
 use robots::actuate::Autopilot;
@@ -23,6 +23,21 @@ use world::physics::{BodyId, Physics};
 use world::record::Digest;
 use world::seeds::Stream;
 use world::terrain::Terrain;
+
+/// All searchers, each in the scenario's order: systems whose order can be seen (digest, frames, score, the physics' input) go by it, not by
+/// the order in which they happen to be stored.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Roster {
+    /// Robots.
+    pub robots: Vec<Entity>,
+    /// Gantries.
+    pub gantries: Vec<Entity>,
+}
+
+/// The parts of somebody on the roster: nobody leaves it while the run lasts.
+pub(crate) fn whole<T, E: std::fmt::Debug>(parts: Result<T, E>) -> T {
+    parts.expect("who is on the roster is alive and has all parts: spawn it with them")
+}
 
 /// Name of a robot in the scenario.
 #[derive(Component, Clone, Debug)]
@@ -226,10 +241,12 @@ pub(crate) fn actuate(
 pub(crate) fn move_bodies(
     clock: Res<Clock>,
     water: Res<Water>,
+    roster: Res<Roster>,
     mut physics: ResMut<Physics>,
     mut robots: Query<(&RobotId, &ActuatorCommand, &mut Hull, &mut Truth)>,
 ) {
-    for (_, set, mut hull, truth) in &mut robots {
+    let mut each = robots.iter_many_mut(&roster.robots);
+    while let Some((_, set, mut hull, truth)) = each.fetch_next().map(whole) {
         let sample = water.sample(&truth.pose.p_WB, clock.t_s());
         let push = hull.vehicle.step(&truth, &sample, set, clock.dt_s);
         physics.push(hull.body, push);
@@ -267,10 +284,11 @@ type Digested<'a> = (
 pub(crate) fn digest_state(
     clock: Res<Clock>,
     dye: Res<Dye>,
+    roster: Res<Roster>,
     mut digest: ResMut<Digest>,
     robots: Query<Digested>,
 ) {
-    for (truth, estimate, decision, set, belief) in &robots {
+    for (truth, estimate, decision, set, belief) in robots.iter_many(&roster.robots).map(whole) {
         digest.f64s(truth.pose.p_WB.as_slice());
         digest.f64s(truth.pose.R_WB.coords.as_slice());
         digest.f64s(truth.v_WB_B.as_slice());

@@ -3,8 +3,10 @@
 //! One thread, one order, one writer for each type; an ambiguity between two systems is an error
 //! when the schedule is built. Parallelism is across runs, so a run is the same on any machine load.
 
+use crate::abnormal::system::watch;
 use crate::frame::system::take_frame;
 use crate::gantry::system as gantry;
+use crate::score::system::keep_score;
 use crate::system;
 use bevy_ecs::prelude::{IntoScheduleConfigs, Schedule};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
@@ -53,6 +55,8 @@ pub fn tick() -> Schedule {
         (
             system::digest_state,
             gantry::digest_gantries,
+            keep_score,
+            watch,
             take_frame,
             system::pass_time,
         )

@@ -5,7 +5,8 @@ use crate::frame::system::Outbox;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use crate::report::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
-use crate::spun_up::{Mismatch, Origin, SpunUp};
+use crate::score::Score;
+use crate::spun_up::{Mismatch, SpunUp};
 use crate::system::Dye;
 use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome, Verdict};
@@ -72,15 +73,11 @@ pub struct Trial {
     /// Everything that lives in it.
     pub simulation: Simulation,
     stage: Stage,
-    origin: Origin,
     success: SuccessSpec,
     limit_s: f64,
     sources: Vec<Vector3<f64>>,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
-    declarations: BTreeMap<String, Vec<Declaration>>,
-    /// Least horizontal distance between a robot and a source so far, m.
-    closest_m: f64,
 }
 
 impl Trial {
@@ -97,14 +94,11 @@ impl Trial {
         Ok(Self {
             simulation,
             stage: Stage::Assembled,
-            origin: Origin::new(scenario, seed),
             success: scenario.success.clone(),
             limit_s: scenario.time.limit_s.get(),
             flow_sums: vec![Vector3::zeros(); sources.len()],
             flow_samples: 0,
             sources,
-            declarations: BTreeMap::new(),
-            closest_m: f64::INFINITY,
         })
     }
 
@@ -118,7 +112,7 @@ impl Trial {
         self.develop(watch);
         (self.stage == Stage::SpunUp).then(|| {
             let (water, plume) = self.simulation.water_and_plume();
-            SpunUp::new(self.origin.clone(), water, plume)
+            SpunUp::new(self.simulation.origin.clone(), water, plume)
         })
     }
 
@@ -132,7 +126,7 @@ impl Trial {
     /// # Panics
     /// If the run has been spun up before.
     pub fn take_over(&mut self, spun_up: &SpunUp) -> Result<(), Mismatch> {
-        let (water, plume) = spun_up.copy_for(&self.origin)?;
+        let (water, plume) = spun_up.copy_for(&self.simulation.origin)?;
         self.start_afresh();
         self.simulation.put_water_and_plume(water, plume);
         self.set_out(Stage::SpunUp);
@@ -203,7 +197,7 @@ impl Trial {
             digest: world.resource::<Digest>().hex(),
             steps: world.resource::<Clock>().step,
             t_s: self.simulation.t_s(),
-            declarations: self.declarations.clone(),
+            declarations: self.declarations(),
         }
     }
 
@@ -223,21 +217,6 @@ impl Trial {
             watch.ping(&ping);
         }
         if let Some(frame) = frame {
-            for robot in &frame.robots {
-                for source in &self.sources {
-                    let away_m = (source - robot.truth.pose.p_WB).xy().norm();
-                    self.closest_m = self.closest_m.min(away_m);
-                }
-                if !robot.declarations.is_empty() {
-                    self.declarations
-                        .insert(robot.id.clone(), robot.declarations.clone());
-                }
-            }
-            for gantry in &frame.gantries {
-                if let Some(declared) = gantry.declaration {
-                    self.declarations.insert(gantry.id.clone(), vec![declared]);
-                }
-            }
             watch.frame(&frame);
         }
         if let Some(plume) = plume {
@@ -250,21 +229,34 @@ impl Trial {
     }
 
     /// Every robot has ended its mission (without robots the run goes on to its limit).
-    fn all_over(&mut self) -> bool {
-        let decisions = self.simulation.outcomes();
-        !decisions.is_empty() && decisions.iter().all(Option::is_some)
+    fn all_over(&self) -> bool {
+        let mut decisions = self.simulation.outcomes().peekable();
+        decisions.peek().is_some() && decisions.all(|d| d.is_some())
     }
 
-    fn outcome(&mut self) -> RunOutcome {
-        let missions = self.simulation.outcomes();
+    fn score(&self) -> &Score {
+        self.simulation.world.resource()
+    }
+
+    /// Declarations so far, by the searchers that have made any.
+    fn declarations(&self) -> BTreeMap<String, Vec<Declaration>> {
+        let all = self.score().searchers.iter();
+        all.filter(|s| !s.declarations.is_empty())
+            .map(|s| (s.id.clone(), s.declarations.clone()))
+            .collect()
+    }
+
+    fn outcome(&self) -> RunOutcome {
+        let missions: Vec<_> = self.simulation.outcomes().collect();
+        let declarations = self.declarations();
         // What the vehicle itself has rejected does not stand.
         let stands = |d: &&Declaration| d.verdict != Verdict::Rejected;
-        let standing = || self.declarations.values().flatten().filter(stands);
+        let standing = || declarations.values().flatten().filter(stands);
         let declared = |s: &Vector3<f64>, within_m: f64| {
             standing().any(|d| (s.xy() - d.position).norm() <= within_m)
         };
         if let SuccessSpec::Declared(wanted) = &self.success
-            && !self.declarations.is_empty()
+            && !declarations.is_empty()
         {
             let within_m = wanted.within_m.get();
             return if self.sources.iter().any(|s| declared(s, within_m)) {
@@ -274,7 +266,7 @@ impl Trial {
             };
         }
         if let SuccessSpec::Reached(wanted) = &self.success
-            && self.closest_m <= wanted.within_m.get()
+            && self.score().closest_m() <= wanted.within_m.get()
         {
             return RunOutcome::Found;
         }

@@ -1,6 +1,7 @@
 //! Bad input: each mistake with the exact message it gets.
 
 mod odd;
+mod rounds;
 mod verifiers;
 
 use crate::common;
@@ -80,10 +81,13 @@ fn the_pond_itself_is_fine() {
     let output = in_folder(POND.as_bytes(), &["check", "pond.ron"]);
     assert_eq!(stderr(&output), "");
     assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8_lossy(&output.stdout);
+    let (first, estimate) = said.split_once('\n').expect("two lines");
     assert_eq!(
-        String::from_utf8_lossy(&output.stdout),
-        "pond.ron: fine: Pond (1 robot, 1 source, 1 obstacle)\n"
+        first,
+        "pond.ron: fine: Pond (1 robot, 1 source, 1 obstacle)"
     );
+    assert!(estimate.starts_with("  a run takes about "), "{estimate}");
 }
 
 #[test]

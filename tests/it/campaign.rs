@@ -2,6 +2,9 @@
 
 mod adaptive;
 mod cut_off;
+mod damaged;
+mod permeable;
+mod seeds;
 
 use crate::common;
 use rheotaxis::campaign::{RunRow, block_path, read_rows};
@@ -12,7 +15,7 @@ use std::process::Output;
 
 /// Two arms, two conditions, in a channel so short that a run takes hundredths of a second.
 const CAMPAIGN: &str = r#"(
-    version: 1,
+    version: 2,
     title: "Two speeds",
     base: "pond.ron",
     seeds: SEEDS,
@@ -91,6 +94,11 @@ fn blocks(dir: &Path) -> BTreeMap<String, Vec<u8>> {
 fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     let dir = folder(6, "30", "4");
     let dir = dir.path();
+    // Hashed seeds are others in each condition, so that no two runs are alike.
+    let text = fs::read_to_string(dir.join("c.ron")).unwrap();
+    let hashed = text.replace("seeds: 6", "seeds: Hashed(seed: 1, count: 6)");
+    assert_ne!(hashed, text);
+    fs::write(dir.join("c.ron"), hashed).unwrap();
     let out = |name: &str, shards: u64, more: &[&str]| -> Vec<RunRow> {
         for i in 1..=shards {
             let shard = format!("{i}/{shards}");
@@ -141,7 +149,10 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     );
     assert_eq!(
         said,
-        format!("run 13: the same digest as its row, {}\n", one[13].digest)
+        format!(
+            "run 13 (arm fast, sources[0].rate_g_s=0.04, seed {}): the same digest as its row, {}\n",
+            one[13].seed, one[13].digest
+        )
     );
     assert!(dir.join("one/run-13/run.mcap").is_file());
     let (_, said) = ends(dir, 1, &["rerun", "one", "--run", "24"]);
@@ -263,22 +274,26 @@ fn a_folder_that_cannot_be_written_is_said_and_the_rest_stays() {
     fs::write(dir.join("file"), "").unwrap();
     let (_, said) = ends(dir, 1, &["run", "c.ron", "--out", "file/out"]);
     assert!(said.contains("file/out"), "{said}");
-    // Something in the way of the third block, whoever runs the tests: root writes anywhere.
+    // Something in the place of the third block, whoever runs the tests: root writes anywhere.
     let out = dir.join("out");
-    fs::create_dir_all(out.join("part-000002.parquet.tmp")).unwrap();
     let run = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
-    let (_, said) = ends(dir, 1, &run);
-    assert!(
-        said.contains("cannot write out/part-000002.parquet: "),
-        "{said}"
-    );
-    assert!(said.contains("blocks written before are whole"), "{said}");
-    assert_eq!(rows(&out).len(), 4);
-    fs::remove_dir(out.join("part-000002.parquet.tmp")).unwrap();
     ends(dir, 0, &run);
-    assert_eq!(rows(&out).len(), 8);
+    let all = rows(&out);
+    for block in [2, 3] {
+        fs::remove_file(block_path(&out, block)).unwrap();
+    }
+    fs::create_dir(block_path(&out, 2)).unwrap();
+    let (_, said) = ends(dir, 1, &run);
+    let says = "out/part-000002.parquet is not whole: it is a folder, not a file";
+    assert!(said.contains(says), "{said}");
+    fs::remove_dir(block_path(&out, 2)).unwrap();
+    assert_eq!(rows(&out), all[..4]);
+    ends(dir, 0, &run);
+    assert_eq!(rows(&out), all);
 }
 
+/// A limit on the length of files stands for a full disk: both end a write half way.
+#[cfg(unix)]
 #[test]
 fn a_full_disk_is_said_and_what_was_done_stays_readable() {
     let folder = folder(2, "30", "1");
@@ -286,21 +301,33 @@ fn a_full_disk_is_said_and_what_was_done_stays_readable() {
     let out = dir.join("out");
     let run = ["run", "c.ron", "--out", "out", "--block", "2", "--quiet"];
     ends(dir, 0, &run);
+    let all = rows(&out);
     fs::remove_file(block_path(&out, 3)).unwrap();
-    // The temporary file leads to a device without room.
-    if !Path::new("/dev/full").exists() {
-        return;
-    }
-    #[cfg(unix)]
-    std::os::unix::fs::symlink("/dev/full", out.join("part-000003.parquet.tmp")).unwrap();
-    let (_, said) = ends(dir, 1, &run);
+    let script = format!(
+        "trap '' XFSZ; ulimit -f 1; exec '{}' campaign {}",
+        common::binary().display(),
+        run.join(" ")
+    );
+    let end = std::process::Command::new("bash")
+        .args(["-c", &script])
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    let said = String::from_utf8(end.stderr).unwrap();
+    assert_eq!(end.status.code(), Some(1), "{said}");
     assert!(
-        said.contains("cannot write out/part-000003.parquet: No space left on device"),
+        said.contains("cannot write out/part-000003.parquet: File too large"),
         "{said}"
     );
-    assert_eq!(rows(&out).len(), 6);
+    assert!(said.contains("blocks written before are whole"), "{said}");
+    assert_eq!(rows(&out), all[..6]);
+    let left = fs::read_dir(&out).unwrap().map(|f| f.unwrap().file_name());
+    let left: Vec<_> = left
+        .filter(|n| n.to_string_lossy().ends_with(".tmp"))
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
     ends(dir, 0, &run);
-    assert_eq!(rows(&out).len(), 8);
+    assert_eq!(rows(&out), all);
 }
 
 #[test]
@@ -309,7 +336,8 @@ fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
     let dir = folder.path();
     let (said, _) = ends(dir, 0, &["plan", "c.ron", "--block", "5"]);
     for part in [
-        "c: Two speeds\n  12 runs: 2 arms x 2 conditions x 3 seeds on pond\n  2 blocks of 6 runs\n",
+        "c: Two speeds\n  12 runs: 2 arms x 2 conditions x 3 seeds on pond\n  2 blocks of 6 runs\n  seeds 1 to 3\n",
+        "  run 0 is `rheotaxis run --seed 1` of pond with what arm slow and its condition set\n",
         "  arm slow: robots[0].strategy.speed_m_s=1.2\n  arm fast: as it is\n",
         "  condition 1: sources[0].rate_g_s=0.04\n",
         "the first run took",

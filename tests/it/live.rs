@@ -249,9 +249,9 @@ fn every_message_keeps_its_published_schema() {
         assert!(known.contains(key), "{key} is published but in no table");
     }
     let packed = seen["plume"].payload().to_bytes();
-    assert_eq!(packed.len(), 100 * 5 * 4);
+    assert_eq!(packed.len(), 100 * 6 * 4);
     let mass = f32::from_le_bytes(packed[16..20].try_into().unwrap());
-    assert_eq!(mass, 1e-6);
+    assert_eq!(mass, 1e-5);
     let seen_picture = &seen["auv/auv0/picture"];
     assert_eq!(seen_picture.encoding(), &Encoding::IMAGE_JPEG);
     let shown = image::load_from_memory(&seen_picture.payload().to_bytes()).unwrap();

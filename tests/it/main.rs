@@ -1,23 +1,30 @@
 //! What holds: one test binary.
 
+mod abnormal;
 mod autopilot;
 mod bad_input;
 mod campaign;
 mod common;
+mod cost;
 mod determinism;
 mod flume;
 mod golden;
 mod interrupt;
 mod live;
 mod memory;
+mod outputs;
 mod planning;
 mod rejection;
 mod reproduce;
 mod scenarios;
+mod score;
 mod sea;
 mod segment;
 mod spin_up;
 mod structure;
 mod subregions;
 mod vehicle;
+mod vehicle_contacts;
 mod vehicle_effects;
+mod vehicle_mass;
+mod vehicle_published;

@@ -58,6 +58,7 @@ fn writes_the_same_table_with_one_thread_and_with_two() {
         assert_eq!(code, Some(0), "{error}");
         assert!(out.contains("3 runs, seeds 1 to 3"), "{out}");
         assert!(out.contains("7/8 = 87.5 % [52.9 to 97.8 %]"), "{out}");
+        assert!(out.contains("too few (n = 3)"), "{out}");
         assert!(out.contains("spin-up") && out.contains("mission"), "{out}");
     }
     let table = |jobs: &str| fs::read_to_string(dir.path().join(jobs).join("figures.csv")).unwrap();
@@ -75,6 +76,37 @@ fn writes_the_same_table_with_one_thread_and_with_two() {
     ] {
         assert!(page.contains(says), "{says}: {page}");
     }
+}
+
+#[test]
+fn says_first_how_many_trials_it_makes() {
+    let dir = tempfile::tempdir().unwrap();
+    write_row(dir.path());
+    let arms = ROW.replace("figures:", "arms: [(name: \"a\"), (name: \"b\")], figures:");
+    let arms = arms.replace("quantity:", "arm: \"b\", quantity:");
+    fs::write(dir.path().join("arms.ron"), arms).unwrap();
+    let said = |options: &[&str]| {
+        let mut args = vec!["reproduce", "--seeds", "1", "--out", "o"];
+        args.extend_from_slice(options);
+        let end = rheotaxis_in(dir.path(), &args);
+        let said = String::from_utf8_lossy(&end.stderr).into_owned();
+        assert!(end.status.success(), "{said}");
+        said
+    };
+    let both = said(&["arms.ron"]);
+    assert!(
+        both.contains("channel (2 arms): 1 seed each, 2 trials"),
+        "{both}"
+    );
+    let one = said(&["arms.ron", "--arm", "b"]);
+    assert!(one.contains("channel: 1 seed each, 1 trial"), "{one}");
+    assert_eq!(without_walls(&dir.path().join("o/rows.csv")).len(), 1 + 1);
+    let (code, _, error) = reproduce(dir.path(), &["arms.ron", "--arm", "c"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        error.contains("no row asked for has an arm `c`; there are: `a`, `b`"),
+        "{error}"
+    );
 }
 
 #[test]

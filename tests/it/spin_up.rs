@@ -109,6 +109,7 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
         differs(|s| s.sources[0].rate_g_s = Positive::new(0.03)),
         "sources"
     );
+    assert_eq!(differs(|s| s.permeable.push("pile".into())), "permeable");
     type Change = (fn(&mut Scenario), &'static str);
     let times: [Change; 3] = [
         (

@@ -197,6 +197,48 @@ fn algorithm_files_say_where_they_come_from() {
     }
 }
 
+/// Whatever is opened any other way could be a pipe that is waited for, or a device or a link's target that is overwritten.
+#[test]
+fn files_are_opened_in_one_room() {
+    let ways = [
+        "File::",
+        "OpenOptions",
+        "fs::write",
+        "fs::read(",
+        "fs::read_to_string",
+        "fs::rename",
+        "fs::copy",
+        "fs::remove",
+        "fs::create_dir",
+        "fs::hard_link",
+        "image::open",
+        "ImageReader::open",
+        ".save(",
+        ".save_with_format(",
+    ];
+    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/src"] {
+        for (file, text) in sources(folder) {
+            let name = file.rsplit('/').next().unwrap();
+            if file.starts_with("world/src/files/") || name.contains("test") {
+                continue;
+            }
+            let code = text.split("#[cfg(test)]").next().unwrap();
+            for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
+                for way in ways {
+                    let found = line.match_indices(way).any(|(i, _)| {
+                        way.starts_with('.') || !line[..i].ends_with(|c: char| c.is_alphanumeric())
+                    });
+                    assert!(
+                        !found,
+                        "{file}: `{}`: world::files opens files",
+                        line.trim()
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn files_hold_one_idea() {
     for folder in ["world", "plumes", "robots", "scenarios", "tests"] {

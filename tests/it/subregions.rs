@@ -50,7 +50,7 @@ fn one_region_after_the_other_each_with_its_end() {
     assert_eq!((code, &summary["outcome"]), (0, &"found".into()));
     let robot = &summary["robots"][0];
     let states: Vec<_> = (0..3).map(|k| &robot["regions"][k]["state"]).collect();
-    assert_eq!(states, ["source_free", "up_flow_edge", "declared"]);
+    assert_eq!(states, ["timed_out", "up_flow_edge", "declared"]);
     let first = &robot["regions"][0];
     let searched = first["until_s"].as_f64().unwrap() - first["from_s"].as_f64().unwrap();
     assert!((searched - 900.0).abs() < 0.1, "{searched} s");
@@ -88,9 +88,15 @@ fn one_region_after_the_other_each_with_its_end() {
             regions.push(region);
         }
     }
-    assert_eq!(regions, ["0", "1", "2"]);
+    assert_eq!(regions, ["A", "B", "C"]);
     let map = std::fs::read_to_string(dir.path().join("three/map.svg")).unwrap();
-    for words in ["1 source free", "2 up flow edge", "3 declared", "subregion"] {
+    for words in [
+        "A: timed out",
+        "B: plume to up-flow edge",
+        "C: source declared",
+        "subregion",
+        "plume at up-flow edge",
+    ] {
         assert!(map.contains(words), "the map does not say `{words}`");
     }
 }

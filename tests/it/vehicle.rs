@@ -1,4 +1,4 @@
-//! The REMUS under rapier against the published model's trajectories, and single effects.
+//! The REMUS under physics against the published model's trajectories, and single effects.
 //!
 //! Reference data: `tests/reference/remus100/README.md`.
 
@@ -122,9 +122,9 @@ fn against(
     (worst_m, worst_deg)
 }
 
-/// Both ways of stepping: our equation where nothing is touched, and rapier's integration alone.
+/// Every way of stepping: contacts looked for or not, and rapier's integration alone.
 fn holds(file: &str, water: WaterSample, at: fn(f64) -> ActuatorCommand) {
-    for solver in [Solver::WhenInReach, Solver::Alone] {
+    for solver in [Solver::WhenInReach, Solver::Always, Solver::RapierAlone] {
         let (m, deg) = against(file, solver, water, at);
         assert!(
             m < 0.02 && deg < 0.05,
@@ -183,10 +183,12 @@ fn roll_release() {
     let still = water(Vector3::zeros());
     let free = |_| command(0.0, 0.0, 0.0);
     let file = "f_roll_release_30deg.csv";
-    let (m, deg) = against(file, Solver::WhenInReach, still, free);
-    assert!(m < 0.02 && deg < 0.05, "{m} m, {deg} deg");
+    for solver in [Solver::WhenInReach, Solver::Always] {
+        let (m, deg) = against(file, solver, still, free);
+        assert!(m < 0.02 && deg < 0.05, "{solver:?}: {m} m, {deg} deg");
+    }
     // rapier's four sub-steps of first order are off by h Δω / 8, with 2.2 rad/s of roll rate.
     let of_rapier = (STEP_S * 2.2 / 8.0).to_degrees();
-    let (m, deg) = against(file, Solver::Alone, still, free);
+    let (m, deg) = against(file, Solver::RapierAlone, still, free);
     assert!(m < 0.02 && deg < of_rapier, "{m} m, {deg} deg");
 }

@@ -77,6 +77,13 @@ pub trait Flow: Send + Sync {
     /// By default there are none.
     fn carry(&self, _t_s: f64, _dt_s: &[f32], _places: [&mut [f32]; 3]) {}
 
+    /// Fills in what carries mean places through the cells in which the water was worked out, if it was: along, across and upwards the
+    /// speed at a cell's lower and upper face in parts of the cell a second, each component a straight line between the two and the volume
+    /// kept; the layout is that of whoever made the cells. False without cells.
+    fn rates(&self, _t_s: f64, _cells: &mut Vec<[f32; 6]>) -> bool {
+        false
+    }
+
     /// Way of the water whose mean place is `p` from there at this moment, m: the orbits of waves, which [`Flow::column`] leaves out.
     /// None without waves.
     fn displacement(&self, _p: &Vector3<f64>, _t_s: f64) -> Option<Vector3<f64>> {

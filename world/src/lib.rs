@@ -6,9 +6,12 @@
 pub mod area;
 pub mod catalogue;
 pub mod clock;
+pub mod cost;
 pub mod error;
 pub mod fields;
+pub mod files;
 pub mod frames;
+pub mod limits;
 pub mod math;
 pub mod obstacles;
 pub mod physics;

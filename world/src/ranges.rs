@@ -7,8 +7,14 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Smallest number above zero that a file may give: nothing in this program's units is smaller, and its powers stay
+/// numbers, in `f32` too.
+pub const SMALLEST: f64 = 1e-18;
+/// Largest number that a file may give, for the same reason. What physics allows a field is narrower: see [`crate::limits`].
+pub const LARGEST: f64 = 1e18;
+
 macro_rules! ranged {
-    ($($(#[$doc:meta])* $name:ident: $says:literal, |$v:ident| $ok:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident: $says:literal, $bounds:literal, |$v:ident| $ok:expr, |$w:ident| $within:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
         #[serde(try_from = "f64", into = "f64")]
@@ -29,6 +35,8 @@ macro_rules! ranged {
             #[must_use]
             pub const fn new($v: f64) -> Self {
                 assert!($ok, $says);
+                let $w = $v;
+                assert!($within, $bounds);
                 Self($v)
             }
         }
@@ -36,7 +44,11 @@ macro_rules! ranged {
         impl TryFrom<f64> for $name {
             type Error = String;
             fn try_from($v: f64) -> Result<Self, String> {
-                if $ok { Ok(Self($v)) } else { Err(format!(concat!($says, ", got {}"), $v)) }
+                if !($ok) {
+                    return Err(format!(concat!($says, ", got {}"), $v));
+                }
+                let $w = $v;
+                if $within { Ok(Self($v)) } else { Err(format!(concat!($bounds, ", got {:e}"), $v)) }
             }
         }
 
@@ -49,16 +61,21 @@ macro_rules! ranged {
 }
 
 ranged! {
-    /// Any finite number.
-    Finite: "must be a finite number", |v| v.is_finite();
-    /// Greater than zero.
-    Positive: "must be > 0", |v| v > 0.0 && v.is_finite();
-    /// Zero or greater.
-    NonNegative: "must be >= 0", |v| v >= 0.0 && v.is_finite();
+    /// Any finite number up to [`LARGEST`], either way.
+    Finite: "must be a finite number", "must be from -1e18 to 1e18",
+        |v| v.is_finite(), |v| v <= LARGEST && v >= -LARGEST;
+    /// Greater than zero, from [`SMALLEST`] to [`LARGEST`].
+    Positive: "must be > 0", "must be from 1e-18 to 1e18",
+        |v| v > 0.0 && v.is_finite(), |v| v >= SMALLEST && v <= LARGEST;
+    /// Zero, or from [`SMALLEST`] to [`LARGEST`].
+    NonNegative: "must be >= 0", "must be 0 or from 1e-18 to 1e18",
+        |v| v >= 0.0 && v.is_finite(), |v| v == 0.0 || (v >= SMALLEST && v <= LARGEST);
     /// From 0 to 1.
-    Fraction: "must be from 0 to 1", |v| v >= 0.0 && v <= 1.0;
+    Fraction: "must be from 0 to 1", "must be from 0 to 1",
+        |v| v >= 0.0 && v <= 1.0, |v| v <= 1.0;
     /// A compass direction in degrees.
-    HeadingDeg: "must be a heading from 0 to 360 degrees", |v| v >= 0.0 && v <= 360.0;
+    HeadingDeg: "must be a heading from 0 to 360 degrees", "must be a heading from 0 to 360 degrees",
+        |v| v >= 0.0 && v <= 360.0, |v| v <= 360.0;
 }
 
 impl HeadingDeg {
@@ -66,5 +83,37 @@ impl HeadingDeg {
     #[must_use]
     pub fn heading(self) -> crate::units::Heading {
         crate::units::Heading::from_deg(self.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_powers_would_make_infinite_or_zero_is_refused_with_the_range() {
+        assert_eq!(
+            Positive::try_from(1e154),
+            Err("must be from 1e-18 to 1e18, got 1e154".into())
+        );
+        assert_eq!(
+            Positive::try_from(5e-324),
+            Err("must be from 1e-18 to 1e18, got 5e-324".into())
+        );
+        assert_eq!(
+            NonNegative::try_from(1e-300),
+            Err("must be 0 or from 1e-18 to 1e18, got 1e-300".into())
+        );
+        assert_eq!(
+            Finite::try_from(-1e39),
+            Err("must be from -1e18 to 1e18, got -1e39".into())
+        );
+        assert_eq!(Positive::try_from(-1.0), Err("must be > 0, got -1".into()));
+        assert_eq!(
+            Positive::try_from(f64::NAN),
+            Err("must be > 0, got NaN".into())
+        );
+        assert_eq!(NonNegative::try_from(0.0).map(NonNegative::get), Ok(0.0));
+        assert_eq!(Finite::try_from(1e-300).map(Finite::get), Ok(1e-300));
     }
 }

@@ -8,9 +8,12 @@
 //! bounds, and most groups are never near a robot. A group is halved again and again, as far as what is asked lies near a
 //! half; what it answers does not depend on what was asked before, so a viewer that asks too changes nothing.
 
+use super::cells::Cells;
+use super::image::{Felt, Spot};
 use super::kernel::Path;
 pub use super::leaf::CUT_SIGMAS;
 use super::leaf::{LEAF, Leaf};
+use super::room::Room;
 use super::store::Store;
 use super::thread;
 use nalgebra::Vector3;
@@ -24,6 +27,8 @@ const GROUP: usize = 1024;
 pub(super) struct Index {
     groups: Vec<Group>,
     now_s: f64,
+    /// The farthest that any filament reaches, m.
+    reach: f64,
 }
 
 #[derive(Clone, Debug)]
@@ -35,6 +40,8 @@ struct Group {
     hi: [f32; 3],
     /// Size of the oldest member, the largest: horizontal, and vertical wherever it may be.
     largest: [f32; 2],
+    /// How much farther up and down it reaches over a steep bed, m.
+    steep: f32,
     whole: OnceLock<Part>,
 }
 
@@ -54,28 +61,34 @@ enum Inside {
     Leaf(Box<Bounded>),
 }
 
-/// A leaf with its bounds.
+/// A leaf with its bounds, and the filaments beside it that feel a wall.
 #[derive(Clone, Debug)]
 struct Bounded {
     leaf: Leaf,
+    walled: Vec<Felt>,
     lo: [f32; 3],
     hi: [f32; 3],
 }
 
 impl Index {
-    pub(super) fn new(stores: &[Store], now_s: f64) -> Self {
+    /// Over a bed and solids as steep as `steepest` the heights at which a filament near a wall is felt reach farther; 0 without walls.
+    pub(super) fn new(stores: &[Store], now_s: f64, steepest: f32) -> Self {
         let mut groups = Vec::new();
+        let mut farthest = 0.0_f64;
         for (store, s) in stores.iter().enumerate().filter(|(_, s)| !s.size.shares()) {
             for from in (0..s.len()).step_by(GROUP) {
                 let n = GROUP.min(s.len() - from);
                 // The first is the oldest, and so the largest.
                 let horizontal = s.size.horizontal(now_s - s.born_s[from]);
                 let reach = CUT_SIGMAS * 1.000_01 * horizontal;
+                farthest = farthest.max(f64::from(reach));
                 let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
                 for (d, v) in [&s.x, &s.y, &s.z].into_iter().enumerate() {
                     let (low, high) = extent(&v[from..from + n]);
                     (lo[d], hi[d]) = (low - reach, high + reach);
                 }
+                let steep = 2.0 * steepest * reach;
+                (lo[2], hi[2]) = (lo[2] - steep, hi[2] + steep);
                 groups.push(Group {
                     store,
                     from,
@@ -83,29 +96,55 @@ impl Index {
                     lo,
                     hi,
                     largest: [horizontal, s.size.vertical(horizontal, f32::MIN)],
+                    steep,
                     whole: OnceLock::new(),
                 });
             }
         }
-        Self { groups, now_s }
+        for s in stores.iter().filter(|s| s.size.shares()) {
+            let largest = s.born_s.first().map(|b| s.size.horizontal(now_s - b));
+            farthest = farthest.max(f64::from(CUT_SIGMAS * 1.000_01 * largest.unwrap_or(0.0)));
+        }
+        Self {
+            groups,
+            now_s,
+            reach: farthest,
+        }
     }
 
-    /// Concentration at a point, kg/m³; nothing above the surface.
-    pub(super) fn at(&self, stores: &[Store], path: Path, p: &Vector3<f64>) -> f64 {
+    /// Concentration at a point, kg/m³; nothing above the surface. In a solid it is that of the nearest water.
+    pub(super) fn at(
+        &self,
+        stores: &[Store],
+        room: &Room,
+        lookup: &Cells,
+        path: Path,
+        p: &Vector3<f64>,
+    ) -> f64 {
         let p = [p.x as f32, p.y as f32, p.z as f32];
         if p[2] > 0.0 {
             return 0.0;
         }
+        let Some(query) = Spot::new(room, lookup, p, self.reach) else {
+            return 0.0;
+        };
+        let p = query.p;
         let mut total = 0.0;
         for s in stores.iter().filter(|s| s.size.shares()) {
-            total += thread::at(s, self.now_s, path, p);
+            total += thread::at(s, self.now_s, path, &query);
         }
         for g in &self.groups {
             if within(p, g.lo, g.hi) {
                 let s = &stores[g.store];
                 let mut felt = 0.0;
                 g.whole.get_or_init(|| g.whole(s)).add(
-                    &Asked { p, path, g, s },
+                    &Asked {
+                        p,
+                        query: &query,
+                        path,
+                        g,
+                        s,
+                    },
                     self.now_s,
                     &mut felt,
                 );
@@ -119,6 +158,7 @@ impl Index {
 /// What is asked, and of whom.
 struct Asked<'a> {
     p: [f32; 3],
+    query: &'a Spot<'a>,
     path: Path,
     g: &'a Group,
     s: &'a Store,
@@ -151,7 +191,7 @@ impl Part {
     fn add(&self, asked: &Asked, now_s: f64, total: &mut f64) {
         // More than the leaves' own bounds, which decide.
         let reach = asked.g.largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
-        let reach = [reach[0], reach[0], reach[1]];
+        let reach = [reach[0], reach[0], reach[1] + asked.g.steep];
         let lo = std::array::from_fn(|d| self.lo[d] - reach[d]);
         let hi = std::array::from_fn(|d| self.hi[d] + reach[d]);
         if !within(asked.p, lo, hi) {
@@ -166,6 +206,9 @@ impl Part {
             Inside::Leaf(b) => {
                 if within(asked.p, b.lo, b.hi) {
                     *total += f64::from(b.leaf.at(asked.path, asked.p));
+                    for felt in &b.walled {
+                        *total += felt.add(asked.query);
+                    }
                 }
             }
         }
@@ -178,16 +221,32 @@ impl Part {
         Inside::Halves(Box::new(self.halves(asked)))
     }
 
-    fn leaf(&self, Asked { g, s, .. }: &Asked, now_s: f64) -> Bounded {
-        let mut leaf = Leaf::new();
+    fn leaf(&self, Asked { g, s, query, .. }: &Asked, now_s: f64) -> Bounded {
+        let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
+        let (room, lookup) = (query.room, query.lookup);
         for m in &self.members {
             let i = g.from + usize::from(*m);
             let sh = s.size.horizontal(now_s - s.born_s[i]);
             let sizes = [sh, s.size.vertical(sh, s.bed[i])];
-            leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
+            let p = [s.x[i], s.y[i], s.z[i]];
+            match Felt::new(room, lookup, p, sizes, s.filament_kg) {
+                Some(felt) => walled.push(felt),
+                None => leaf.push(p, s.bed[i], sizes, s.filament_kg),
+            }
         }
-        let (lo, hi) = leaf.bounds();
-        Bounded { leaf, lo, hi }
+        let (mut lo, mut hi) = leaf.bounds();
+        for felt in &walled {
+            let (low, high) = felt.bounds(room);
+            for d in 0..3 {
+                (lo[d], hi[d]) = (lo[d].min(low[d]), hi[d].max(high[d]));
+            }
+        }
+        Bounded {
+            leaf,
+            walled,
+            lo,
+            hi,
+        }
     }
 
     /// Halves the members along their longest side (in units of the kernel's reach), full leaves to each.
@@ -251,81 +310,4 @@ fn extent(v: &[f32]) -> (f32, f32) {
             .chain(rest.iter().copied())
             .fold(f32::MIN, f32::max),
     )
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::size::Size;
-    use super::*;
-    use crate::release::ReleaseSpec;
-    use world::seeds::Stream;
-
-    /// A cloud of filaments of all ages in 6 m of water.
-    fn cloud(n: usize) -> Store {
-        let mut s = Store::new(Size::new(&ReleaseSpec::default()), 1e-6);
-        let mut r = Stream::new(5, "test", "cloud");
-        for k in 0..n {
-            let age = (n - k) as f64 * 0.2;
-            let p = [0.1 * age, 0.2 * age.sqrt() * r.normal(), -6.0 * r.uniform()];
-            s.push(p.map(|v| v as f32), -6.0, -age);
-        }
-        s
-    }
-
-    #[test]
-    fn index_finds_all_that_a_full_search_finds() {
-        let s = cloud(5000);
-        let stores = [s];
-        let index = Index::new(&stores, 0.0);
-        let mut all = Vec::new();
-        for chunk in 0..stores[0].len().div_ceil(LEAF) {
-            let mut leaf = Leaf::new();
-            let s = &stores[0];
-            for i in chunk * LEAF..((chunk + 1) * LEAF).min(s.len()) {
-                let sh = s.size.horizontal(-s.born_s[i]);
-                let sizes = [sh, s.size.vertical(sh, s.bed[i])];
-                leaf.push([s.x[i], s.y[i], s.z[i]], s.bed[i], sizes, s.filament_kg);
-            }
-            all.push(leaf);
-        }
-        let mut r = Stream::new(6, "test", "probe");
-        let mut hits = 0;
-        for _ in 0..2000 {
-            let p = Vector3::new(
-                110.0 * r.uniform(),
-                10.0 * r.uniform() - 5.0,
-                -6.0 * r.uniform(),
-            );
-            let got = index.at(&stores, Path::detect(), &p);
-            let q = [p.x as f32, p.y as f32, p.z as f32];
-            let want: f64 = all.iter().map(|l| f64::from(l.at(Path::Portable, q))).sum();
-            assert!((got - want).abs() <= 1e-5 * want, "{got} {want}");
-            hits += usize::from(want > 0.0);
-        }
-        assert!(hits > 500, "{hits}");
-    }
-
-    #[test]
-    fn answers_do_not_depend_on_what_was_asked_before() {
-        let stores = [cloud(5000)];
-        let asked = Index::new(&stores, 0.0);
-        let mut r = Stream::new(7, "test", "probe");
-        let mut hits = 0;
-        for _ in 0..300 {
-            let p = Vector3::new(110.0 * r.uniform(), 2.0 * r.normal(), -6.0 * r.uniform());
-            let fresh = Index::new(&stores, 0.0).at(&stores, Path::Portable, &p);
-            let again = asked.at(&stores, Path::detect(), &p);
-            assert_eq!(again.to_bits(), fresh.to_bits());
-            hits += usize::from(fresh > 0.0);
-        }
-        assert!(hits > 100, "{hits}");
-    }
-
-    #[test]
-    fn nothing_is_felt_above_the_surface() {
-        let stores = [cloud(1000)];
-        let index = Index::new(&stores, 0.0);
-        let at = |z: f64| index.at(&stores, Path::detect(), &Vector3::new(15.0, 0.0, z));
-        assert!(at(-1e-6) > 0.0 && at(1e-6) == 0.0);
-    }
 }

@@ -9,7 +9,8 @@
 //! within, so that it integrates to 1: inside, every value is 0.11 % higher than the uncut kernel. The bed counts
 //! as level under each filament, at its height there. Images: one at each boundary, and, where the kernel is
 //! deep enough to reach it, one more of each; vertical sizes of at most half the depth need no others. The exponential
-//! is a polynomial of degree 5 to the eighth power, within 1e-5 of the function.
+//! is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments within reach of any other wall are not in leaves: file
+//! `image`.
 
 use super::kernel::Path;
 
@@ -157,7 +158,7 @@ fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
 
 /// exp(−8w) for w ≤ 1, nothing beyond.
 #[inline(always)]
-fn falling(w: f32) -> f32 {
+pub(super) fn falling(w: f32) -> f32 {
     // Interpolates exp(−w) at the Chebyshev points of [0, 1].
     const C: [f32; 6] = [
         0.999_999_5,

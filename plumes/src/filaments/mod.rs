@@ -1,21 +1,41 @@
 //! Filaments: store, drift, concentration.
 
+mod carried;
 mod cells;
+mod cut_off;
 mod displaced;
+mod evenness;
+mod image;
 mod index;
 mod kernel;
 mod leaf;
+mod longest_step;
 mod lookup;
 mod noise;
+mod open_place;
 mod plume;
 pub(crate) mod quad;
+mod rebound;
+mod room;
 mod size;
 mod solids;
 mod store;
+mod sweep;
+mod tally;
 #[cfg(test)]
 mod tests_drift;
 #[cfg(test)]
+mod tests_even;
+#[cfg(test)]
+mod tests_even_obstacles;
+#[cfg(test)]
+mod tests_evenness;
+#[cfg(test)]
 mod tests_flume;
+#[cfg(test)]
+mod tests_images;
+#[cfg(test)]
+mod tests_index;
 #[cfg(test)]
 mod tests_mass;
 #[cfg(test)]
@@ -31,6 +51,8 @@ mod tests_waves;
 mod thread;
 mod walls;
 
+pub use cut_off::cut_off;
 pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
+pub use longest_step::{EVEN, SharpestMixing, Uneven};
 pub use plume::{Plume, PlumeSettings};

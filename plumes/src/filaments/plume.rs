@@ -9,15 +9,20 @@
 //! whose spread does not depend on the step. Under waves filaments are at their mean places, and a source that stands still releases
 //! at p − ξ(p, t), ξ the waves' displacement (file `displaced`).
 
+use super::carried::{Carrier, Way};
 use super::cells::Cells;
+use super::cut_off;
 use super::index::Index;
-use super::kernel::{self, BLOCK, Block, Path, Work};
+use super::kernel::{self, Path, Work};
 use super::noise::step_key;
+use super::room::Room;
 use super::size::Size;
 use super::solids::Solids;
 use super::store::Store;
+use super::sweep::{hold, keep_out, sweep};
 use super::walls::{CARRY_S, carry, keep_between};
 use crate::error::PlumeError;
+use crate::flow::Blocked;
 use crate::flow::grid::{FlowGrid, GridShape};
 use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
 use bevy_ecs::prelude::Resource;
@@ -26,7 +31,6 @@ use std::sync::OnceLock;
 use world::area::Area;
 use world::fields::{Concentration, Flow};
 use world::obstacles::Obstacles;
-use world::record::Digest;
 use world::seeds;
 use world::terrain::Terrain;
 
@@ -51,21 +55,22 @@ impl Default for PlumeSettings {
 /// All filaments, now.
 #[derive(Resource, Clone, Debug)]
 pub struct Plume {
-    sources: Vec<Source>,
-    releases: Vec<ReleaseTimes>,
+    pub(super) sources: Vec<Source>,
+    pub(super) releases: Vec<ReleaseTimes>,
     keys: Vec<u64>,
-    stores: Vec<Store>,
-    grid: FlowGrid,
+    pub(super) stores: Vec<Store>,
+    pub(super) grid: FlowGrid,
     cells: Cells,
     refresh_s: f64,
     next_refresh_s: Option<f64>,
     carried_s: Option<f64>,
     steps: u64,
-    now_s: f64,
+    pub(super) now_s: f64,
     path: Path,
-    solids: Solids,
-    brought_out: u64,
-    index: OnceLock<Index>,
+    pub(super) room: Room,
+    carrier: Option<Carrier>,
+    pub(super) turned_back: u64,
+    pub(super) index: OnceLock<Index>,
 }
 
 impl Plume {
@@ -97,6 +102,8 @@ impl Plume {
                 .collect(),
             sources,
             cells: Cells::new(&grid),
+            room: Room::new(&grid),
+            carrier: None,
             grid,
             refresh_s: settings.refresh_s,
             next_refresh_s: None,
@@ -104,8 +111,7 @@ impl Plume {
             steps: 0,
             now_s: 0.0,
             path: Path::detect(),
-            solids: Solids::default(),
-            brought_out: 0,
+            turned_back: 0,
             index: OnceLock::new(),
         })
     }
@@ -116,7 +122,36 @@ impl Plume {
     /// If a source stands inside one.
     pub fn with_obstacles(mut self, obstacles: Obstacles) -> Result<Self, PlumeError> {
         clear(&self.sources, &obstacles)?;
-        self.solids = Solids::new(obstacles);
+        self.room.solids = Solids::new(obstacles);
+        Ok(self)
+    }
+
+    /// The same in water that is led round them, if it is: filaments then follow what goes through the faces of the water's cells, and closed
+    /// cells are what is solid. The plume's grid must be [`crate::flow::BlockageSpec::grid_shape`].
+    ///
+    /// # Errors
+    /// If a source stands in a cell that is closed, or on the other side of a thin wall than its cell's middle.
+    ///
+    /// # Panics
+    /// If the plume's grid is another: a slip of code.
+    pub fn led_round(mut self, blocked: Option<&Blocked>) -> Result<Self, PlumeError> {
+        let Some(blocked) = blocked else {
+            return Ok(self);
+        };
+        let cells = blocked.cells();
+        assert!(
+            (0..3).all(|d| self.grid.dims[d] == cells.n[d] + 1),
+            "the plume's grid of {:?} nodes must have the {:?} cells of the blocked water between them: take BlockageSpec::grid_shape",
+            self.grid.dims,
+            cells.n
+        );
+        self.room.lead_round(cells.clone());
+        self.carrier = Some(Carrier::new(blocked));
+        for (n, source) in self.sources.iter().enumerate() {
+            if let Some(problem) = cut_off::problem(&self.room, &self.cells, n, source) {
+                return Err(problem);
+            }
+        }
         Ok(self)
     }
 
@@ -134,6 +169,9 @@ impl Plume {
         self.refresh(flow, t0_s, t1_s);
         self.now_s = t1_s;
         let walls = flow.walls();
+        if let Some(walls) = &walls {
+            self.room.between(walls);
+        }
         let carried_s = *self.carried_s.get_or_insert(t0_s);
         // A hair early, as for the refresh.
         let carries = t1_s - carried_s >= CARRY_S - 1e-6;
@@ -152,33 +190,46 @@ impl Plume {
             let column = self.cells.column(p.x, p.y);
             let bed = self.cells.bed(column);
             let start = [p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)];
-            let (cells, p_W) = (&self.cells, &self.sources[n].p_W);
+            let (cells, room, p_W) = (&self.cells, &self.room, &self.sources[n].p_W);
             self.releases[n].until(t0_s, t1_s, |t| match flow.displacement(p_W, t) {
                 None => store.push(start, bed, t),
                 Some(way) => {
                     let p = (p_W - way).map(|v| v as f32);
                     let bed = cells.bed(cells.column(p.x, p.y));
-                    store.push([p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)], bed, t);
+                    let p = [p.x, p.y, kernel::folded(p.z, bed, -1.0 / bed)];
+                    store.push(room.in_water(cells, p), bed, t);
                 }
             });
-            let mut work = Work::new();
+            let (mut work, mut way) = (Work::new(), self.carrier.as_ref().map(|_| Way::new()));
+            let mut turned = 0;
             sweep(store, old, t0_s, t1_s, |block| {
-                kernel::step(
-                    self.path,
-                    &self.cells,
-                    &self.grid.data,
-                    key,
-                    block,
-                    &mut work,
-                );
+                if let (Some(carrier), Some(way)) = (&self.carrier, &mut way) {
+                    carrier.carry(self.path, cells, &self.grid, block, way);
+                }
+                let from = room.has_solids().then_some([block.x, block.y, block.z]);
+                kernel::step(self.path, cells, &self.grid.data, key, block, &mut work);
+                if let Some(way) = &way {
+                    for (outside, gone) in block.outside.iter_mut().zip(&way.gone) {
+                        *outside |= gone;
+                    }
+                }
+                if let Some(from) = from {
+                    turned += keep_out(room, cells, &self.grid, &from, block, &work);
+                }
             });
+            self.turned_back += turned;
             if let Some(walls) = &walls {
                 if carries {
+                    let before = room
+                        .has_solids()
+                        .then(|| [store.x.clone(), store.y.clone(), store.z.clone()]);
                     carry(flow, store, carried_s, t1_s);
+                    if let Some(before) = before {
+                        self.turned_back += hold(room, cells, &self.grid, &before, store);
+                    }
                 }
                 keep_between(walls, store);
             }
-            self.brought_out += self.solids.keep_out(store);
         }
         if carries {
             self.carried_s = Some(t1_s);
@@ -199,6 +250,13 @@ impl Plume {
                 "the flow at {t0_s} s gives velocity and vertical diffusivity {v:?} at grid node {n}: they must be numbers, the diffusivity >= 0"
             );
         }
+        if let Some(carrier) = &mut self.carrier {
+            carrier.refresh(flow, self.grid.t_s);
+            // What carries filaments is in the cells; the grid keeps what mixes them.
+            for v in &mut self.grid.data {
+                *v = [0.0, 0.0, 0.0, v[3]];
+            }
+        }
         self.cells.refresh(&self.grid);
         self.next_refresh_s = Some(if self.refresh_s > 0.0 {
             // A hair early, so that times that are sums of steps do not miss their multiple by rounding.
@@ -207,176 +265,12 @@ impl Plume {
             t0_s
         });
     }
-
-    /// Time of the latest drift's end, s.
-    #[must_use]
-    pub fn now_s(&self) -> f64 {
-        self.now_s
-    }
-
-    /// Filaments in the domain.
-    #[must_use]
-    pub fn len(&self) -> usize {
-        self.stores.iter().map(Store::len).sum()
-    }
-
-    /// Whether there is none.
-    #[must_use]
-    pub fn is_empty(&self) -> bool {
-        self.len() == 0
-    }
-
-    /// Filaments ever released.
-    #[must_use]
-    pub fn released(&self) -> u64 {
-        self.stores.iter().map(|s| s.released).sum()
-    }
-
-    /// Filaments that have left the domain.
-    #[must_use]
-    pub fn left(&self) -> u64 {
-        self.stores.iter().map(|s| s.left).sum()
-    }
-
-    /// How often a filament that ended a step in a solid was brought out.
-    #[must_use]
-    pub fn brought_out(&self) -> u64 {
-        self.brought_out
-    }
-
-    /// Mass in the domain, kg.
-    #[must_use]
-    pub fn mass_in_kg(&self) -> f64 {
-        self.total(|s| s.len() as f64)
-    }
-
-    /// Mass ever released, kg.
-    #[must_use]
-    pub fn mass_released_kg(&self) -> f64 {
-        self.total(|s| s.released as f64)
-    }
-
-    /// Mass that has left the domain, kg.
-    #[must_use]
-    pub fn mass_left_kg(&self) -> f64 {
-        self.total(|s| s.left as f64)
-    }
-
-    fn total(&self, count: impl Fn(&Store) -> f64) -> f64 {
-        self.stores.iter().map(|s| count(s) * s.filament_kg).sum()
-    }
-
-    /// The sources, as placed.
-    #[must_use]
-    pub fn sources(&self) -> &[Source] {
-        &self.sources
-    }
-
-    /// The flow as the filaments see it.
-    #[must_use]
-    pub fn grid(&self) -> &FlowGrid {
-        &self.grid
-    }
-
-    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first.
-    pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
-        self.stores
-            .iter()
-            .flat_map(move |s| (0..s.len()).map(move |n| self.filament(s, n)))
-    }
-
-    /// Every k-th filament, k the least that leaves at most `max_n`; the same ones for the same state.
-    #[must_use]
-    pub fn decimated(&self, max_n: usize) -> Vec<[f32; 5]> {
-        let every = self.len().div_ceil(max_n.max(1)).max(1);
-        self.iter().step_by(every).take(max_n).collect()
-    }
-
-    fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
-        let size = s.size.horizontal(self.now_s - s.born_s[n]);
-        [s.x[n], s.y[n], s.z[n], size, s.filament_kg as f32]
-    }
-
-    /// Takes the whole state into a digest.
-    pub fn digest_into(&self, digest: &mut Digest) {
-        for (s, r) in self.stores.iter().zip(&self.releases) {
-            digest.f64s(&[
-                s.released as f64,
-                s.left as f64,
-                r.next_s().unwrap_or(f64::NEG_INFINITY),
-            ]);
-            for v in [&s.x, &s.y, &s.z] {
-                digest.f32s(v);
-            }
-        }
-    }
-
-    #[cfg(test)]
-    pub(super) fn stores_mut(&mut self) -> &mut [Store] {
-        self.index.take();
-        &mut self.stores
-    }
 }
 
 impl Concentration for Plume {
     fn at(&self, p: &Vector3<f64>) -> f64 {
         self.index
-            .get_or_init(|| Index::new(&self.stores, self.now_s))
-            .at(&self.stores, self.path, p)
+            .get_or_init(|| Index::new(&self.stores, self.now_s, self.room.steepness()))
+            .at(&self.stores, &self.room, &self.cells, self.path, p)
     }
-}
-
-/// Sends the store through `step` block by block; `old` of its filaments move for the whole step, the newer ones from their
-/// release on. Those that leave are taken out on the way.
-fn sweep(store: &mut Store, old: usize, t0_s: f64, t1_s: f64, mut step: impl FnMut(&mut Block)) {
-    let mut b = Block {
-        x: [0.0; BLOCK],
-        y: [0.0; BLOCK],
-        z: [0.0; BLOCK],
-        bed: [-1.0; BLOCK],
-        dt: [(t1_s - t0_s) as f32; BLOCK],
-        number: [0; BLOCK],
-        kicked: [1.0; BLOCK],
-        outside: [0; BLOCK],
-    };
-    let (total, mut to) = (store.len(), 0);
-    for from in (0..total).step_by(BLOCK) {
-        let n = BLOCK.min(total - from);
-        b.x[..n].copy_from_slice(&store.x[from..from + n]);
-        b.y[..n].copy_from_slice(&store.y[from..from + n]);
-        b.z[..n].copy_from_slice(&store.z[from..from + n]);
-        b.bed[..n].copy_from_slice(&store.bed[from..from + n]);
-        b.number[..n].copy_from_slice(&store.number[from..from + n]);
-        for l in old.saturating_sub(from).min(n)..n {
-            b.dt[l] = (t1_s - store.born_s[from + l]) as f32;
-        }
-        if store.size.shares() {
-            for l in 0..n {
-                let middle = t1_s - 0.5 * f64::from(b.dt[l]);
-                b.kicked[l] = store.size.kicked(middle - store.born_s[from + l]);
-            }
-        }
-        step(&mut b);
-        if b.outside[..n].iter().any(|o| *o != 0) {
-            for l in (0..n).filter(|l| b.outside[*l] == 0) {
-                put(store, &b, l, to, 1);
-                store.shift_labels(from + l, to, 1);
-                to += 1;
-            }
-        } else {
-            put(store, &b, 0, to, n);
-            if to != from {
-                store.shift_labels(from, to, n);
-            }
-            to += n;
-        }
-    }
-    store.truncate(to);
-}
-
-fn put(store: &mut Store, b: &Block, l: usize, to: usize, n: usize) {
-    store.x[to..to + n].copy_from_slice(&b.x[l..l + n]);
-    store.y[to..to + n].copy_from_slice(&b.y[l..l + n]);
-    store.z[to..to + n].copy_from_slice(&b.z[l..l + n]);
-    store.bed[to..to + n].copy_from_slice(&b.bed[l..l + n]);
 }

@@ -1,47 +1,82 @@
-//! Solids that filaments may not be in: whoever ends a step inside is brought to the nearest free place.
+//! Obstacles as filaments meet them, with boxes round them for the quick test.
 //!
-//! *Source*: mass conservation at a solid wall; the geometry is that of [`Obstacles`].
+//! *Source*: the geometry is that of [`Obstacles`].
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: brought out after the step rather than reflected at the moment of contact, so the path along a wall is
-//! right to the length of a step. None is lost.
+//! *Deviations*: none.
 
-use super::store::Store;
 use nalgebra::Vector3;
-use world::obstacles::Obstacles;
+use world::obstacles::{Obstacle, Obstacles};
 
-/// The solids with boxes round them for the quick test.
+/// The solids.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solids {
     obstacles: Obstacles,
-    boxes: Vec<(Vector3<f32>, Vector3<f32>)>,
+    boxes: Vec<[Vector3<f64>; 2]>,
 }
 
 impl Solids {
     pub(super) fn new(obstacles: Obstacles) -> Self {
-        let boxes = (obstacles.0.iter())
-            .map(|o| o.bounds())
-            .map(|(low, high)| (low.map(|v| v as f32), high.map(|v| v as f32)))
-            .collect();
+        let boxes = obstacles.0.iter().map(|o| o.bounds().into()).collect();
         Self { obstacles, boxes }
     }
 
-    /// Brings every filament of a store out of the solids; how many.
-    pub(super) fn keep_out(&self, store: &mut Store) -> u64 {
-        let mut brought = 0;
-        for (low, high) in &self.boxes {
-            for n in 0..store.len() {
-                let p = Vector3::new(store.x[n], store.y[n], store.z[n]);
-                if (0..3).any(|d| p[d] < low[d] || p[d] > high[d]) {
-                    continue;
-                }
-                let out = self.obstacles.way_out(&p.map(f64::from));
-                [store.x[n], store.y[n], store.z[n]] = [out.x as f32, out.y as f32, out.z as f32];
-                brought += u64::from(out != p.map(f64::from));
-            }
-        }
-        brought
+    pub(super) fn is_empty(&self) -> bool {
+        self.boxes.is_empty()
+    }
+
+    /// Those whose boxes share something with another box.
+    fn meeting(
+        &self,
+        low: Vector3<f64>,
+        high: Vector3<f64>,
+    ) -> impl Iterator<Item = &Obstacle> + '_ {
+        let met =
+            move |b: &[Vector3<f64>; 2]| (0..3).all(|d| low[d] <= b[1][d] && high[d] >= b[0][d]);
+        let all = self.boxes.iter().zip(&self.obstacles.0);
+        all.filter(move |(b, _)| met(b)).map(|(_, o)| o)
+    }
+
+    /// Whether a point is within a reach (m) of the box of one.
+    pub(super) fn near(&self, p: [f32; 3], reach: f64) -> bool {
+        let p = Vector3::from(p.map(f64::from));
+        let reach = Vector3::repeat(reach);
+        self.meeting(p - reach, p + reach).next().is_some()
+    }
+
+    /// Whether a way from one point to another leads by the box of one.
+    pub(super) fn by(&self, from: [f32; 3], to: [f32; 3]) -> bool {
+        let [a, b] = [from, to].map(|p| Vector3::from(p.map(f64::from)));
+        self.meeting(a.inf(&b), a.sup(&b)).next().is_some()
+    }
+
+    /// Way along a unit vector to the first surface, at most `most` (m).
+    pub(super) fn ray(&self, from: &Vector3<f64>, along: &Vector3<f64>, most: f64) -> Option<f64> {
+        let to = from + along * most;
+        let hits = self.meeting(from.inf(&to), from.sup(&to));
+        hits.filter_map(|o| o.ray(from, along, most))
+            .min_by(f64::total_cmp)
+    }
+
+    /// Whether a point is seen from another, through those that hold the first.
+    pub(super) fn sees(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> bool {
+        let way = to - from;
+        let far = way.norm();
+        far == 0.0
+            || self
+                .meeting(from.inf(to), from.sup(to))
+                .all(|o| o.contains(from) || o.ray(from, &way, far).is_none())
+    }
+
+    /// The one a point lies in.
+    pub(super) fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
+        self.meeting(*p, *p).find(|o| o.contains(p))
+    }
+
+    /// The nearest free point; see [`Obstacles::way_out`].
+    pub(super) fn way_out(&self, p: &Vector3<f64>) -> Vector3<f64> {
+        self.obstacles.way_out(p)
     }
 }
 

@@ -77,8 +77,15 @@ fn released_is_here_or_has_left() {
         p.mass_released_kg()
     );
     assert!(p.mass_left_kg() > 0.1 && p.mass_in_kg() > 0.1);
-    let few = p.decimated(500);
-    assert!(few.len() <= 500 && few.len() > 400 && few == p.decimated(500));
+    // Fewer filaments stand for all of them: mass and count sum to what is there, however few are shown.
+    for most in [1, 37, 500, 1_000_000] {
+        let few = p.decimated(most);
+        assert!(few.len() <= most && few == p.decimated(most));
+        let sum = |k: usize| few.iter().map(|f| f64::from(f[k])).sum::<f64>();
+        assert!((sum(4) / p.mass_in_kg() - 1.0).abs() < 1e-5, "{most}");
+        assert!((sum(5) / p.len() as f64 - 1.0).abs() < 1e-5, "{most}");
+    }
+    assert!(p.decimated(500).len() > 400);
 }
 
 #[test]

@@ -8,9 +8,9 @@ use world::math;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
-const DEPTH: f64 = 6.0;
+pub(super) const DEPTH: f64 = 6.0;
 const FILAMENTS: usize = 60_000;
-const BINS: usize = 24;
+pub(super) const BINS: usize = 24;
 /// Filaments expected in a bin: a standard error of 2 %.
 const EVEN: f64 = FILAMENTS as f64 / BINS as f64;
 
@@ -58,15 +58,20 @@ fn unmixed(k_z: impl Fn(f64) -> f64 + Send + Sync, t_s: f64, dt_s: f64) -> f64 {
 }
 
 /// Bed-made mixing of neutral water: zero at bed and surface, straight lines next to them.
-fn parabola(u_star: f64) -> impl Fn(f64) -> f64 {
+pub(super) fn parabola(u_star: f64) -> impl Fn(f64) -> f64 {
     move |z| parabolic(u_star, z + DEPTH, DEPTH)
 }
 
 /// The same through an interface half a metre thick at 1.8 m, 2 kg/m³ and 10 cm/s across it: damped up to 190-fold.
 fn two_layers(u_star: f64) -> impl Fn(f64) -> f64 {
+    interface(u_star, 0.5)
+}
+
+/// The same through one of another thickness, m.
+pub(super) fn interface(u_star: f64, thickness_m: f64) -> impl Fn(f64) -> f64 {
     move |z| {
-        let t = math::tanh((z + 1.8) / 0.25);
-        let part = (1.0 - t * t) / 0.5;
+        let t = math::tanh((z + 1.8) / (0.5 * thickness_m));
+        let part = (1.0 - t * t) / thickness_m;
         let shear = 0.1 * part + 0.005;
         let ri = richardson(-2.0 * part, 1020.0, shear * shear);
         1e-6 + parabolic(u_star, z + DEPTH, DEPTH) * damping(ri)
@@ -74,7 +79,7 @@ fn two_layers(u_star: f64) -> impl Fn(f64) -> f64 {
 }
 
 /// A gap in strong mixing: down to 1e-5 m²/s within half a metre, which the levels there (0.4 m) make a sharp wedge.
-fn gap(k_m2_s: f64) -> impl Fn(f64) -> f64 {
+pub(super) fn gap(k_m2_s: f64) -> impl Fn(f64) -> f64 {
     move |z| {
         let d = (z + 1.8) / 0.5;
         1e-5 + k_m2_s * (1.0 - math::exp(-d * d))

@@ -59,6 +59,8 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     let mut plume = Plume::new(&[source(2.5, 5.0, 0.001, 0.1)], &basin(), &bed, 1, settings)
         .unwrap()
         .with_obstacles(solids.clone())
+        .unwrap()
+        .led_round(water.blocked())
         .unwrap();
     let mut past = 0;
     for n in 0..500 {
@@ -71,7 +73,7 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     }
     assert!(past > 200 || !blocked, "the plume passes the block: {past}");
     assert_eq!(plume.len() as u64 + plume.left(), plume.released());
-    plume.brought_out()
+    plume.turned_back()
 }
 
 /// A plume that meets a block head on, straight and turned, carried only and with eddies too: none is inside, none is lost. Without blockage

@@ -4,8 +4,9 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: none; the kernel is that of `leaf`.
+//! *Deviations*: none; the kernel is that of `leaf`, near walls that of `image`.
 
+use super::image::{Felt, Spot};
 use super::kernel::Path;
 use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
 use super::store::Store;
@@ -14,7 +15,8 @@ use super::store::Store;
 const LANES: usize = 16;
 
 /// Concentration at a point in the water, kg/m³, of the filaments of a store that stop growing at a size.
-pub(super) fn at(s: &Store, now_s: f64, path: Path, p: [f32; 3]) -> f64 {
+pub(super) fn at(s: &Store, now_s: f64, path: Path, query: &Spot<'_>) -> f64 {
+    let p = query.p;
     let Some(first) = s.born_s.first() else {
         return 0.0;
     };
@@ -27,7 +29,12 @@ pub(super) fn at(s: &Store, now_s: f64, path: Path, p: [f32; 3]) -> f64 {
         }
         let sh = s.size.horizontal(now_s - s.born_s[n]);
         let sizes = [sh, s.size.vertical(sh, s.bed[n])];
-        leaf.push([s.x[n], s.y[n], s.z[n]], s.bed[n], sizes, s.filament_kg);
+        let at = [s.x[n], s.y[n], s.z[n]];
+        if let Some(felt) = Felt::new(query.room, query.lookup, at, sizes, s.filament_kg) {
+            total += felt.add(query);
+            return;
+        }
+        leaf.push(at, s.bed[n], sizes, s.filament_kg);
         held += 1;
         if held == LEAF {
             total += f64::from(leaf.at(path, p));

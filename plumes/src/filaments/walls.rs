@@ -5,8 +5,7 @@
 //! *Parameters*: [`CARRY_S`], the step of the eddies.
 //!
 //! *Deviations*: the eddies act after the mean and the kicks (splitting, Strang 1968, SIAM J. Numer. Anal. 5, 506; first order in
-//! the step), and in longer steps: in the frame that moves with the stream, where they are asked, they change over seconds. The kernel
-//! of a filament is mirrored at bed and surface, not at the side walls: within two sizes of a wall the concentration is up to half too low.
+//! the step), and in longer steps: in the frame that moves with the stream, where they are asked, they change over seconds.
 
 use super::kernel::folded;
 use super::store::Store;

@@ -23,8 +23,10 @@ pub const KARMAN: f64 = 0.4;
 #[serde(deny_unknown_fields)]
 pub struct BedSpec {
     /// Height at which the law reaches zero, m.
+    #[serde(deserialize_with = "world::limits::roughness_m")]
     pub roughness_m: Positive,
     /// Height at which it reaches the free current, m.
+    #[serde(deserialize_with = "world::limits::depth_m")]
     pub thickness_m: Positive,
 }
 

@@ -32,15 +32,16 @@ pub const TRANSVERSE: f64 = 0.15;
 #[serde(deny_unknown_fields)]
 pub struct OpenChannelSpec {
     /// Mean over the depth, m/s.
+    #[serde(deserialize_with = "world::limits::running_m_s")]
     pub mean_m_s: Positive,
     /// Where the water goes: along the area's axis.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
     /// Equivalent sand roughness k_s, m; 0 is a smooth bed.
-    #[serde(default = "smooth")]
+    #[serde(default = "smooth", deserialize_with = "world::limits::sand_m")]
     pub roughness_m: NonNegative,
     /// Kinematic viscosity, m²/s.
-    #[serde(default = "water")]
+    #[serde(default = "water", deserialize_with = "world::limits::viscosity_m2_s")]
     pub viscosity_m2_s: Positive,
     /// Resolved turbulence; without it all of it is diffusivity.
     #[serde(default)]

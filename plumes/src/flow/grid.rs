@@ -67,6 +67,12 @@ impl GridShape {
             .map(|e| ((e + 2.0 * self.margin_m) / self.cell_m).ceil().max(1.0) + 1.0);
         [along, across, self.levels as f64]
     }
+
+    /// Height of level `k` above the bed, as a part of the depth.
+    pub(crate) fn level(&self, k: usize) -> f64 {
+        let xi = k as f64 / (self.levels - 1) as f64;
+        (1.0 - self.stretch) * xi + self.stretch * xi * xi
+    }
 }
 
 /// Flow and diffusivities at the grid's nodes at one time.
@@ -140,10 +146,7 @@ impl FlowGrid {
         let r = area.axis.turned(std::f64::consts::FRAC_PI_2).unit();
         let o = at(0, 0);
         let nz = shape.levels;
-        let levels = (0..nz).map(|k| {
-            let xi = k as f64 / (nz - 1) as f64;
-            ((1.0 - shape.stretch) * xi + shape.stretch * xi * xi) as f32
-        });
+        let levels = (0..nz).map(|k| shape.level(k) as f32);
         Self {
             origin: [o.x as f32, o.y as f32],
             along: [a.x as f32, a.y as f32],

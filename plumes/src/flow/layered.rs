@@ -14,6 +14,7 @@
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
+use world::limits::shown;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::seeds::Stream;
@@ -21,6 +22,8 @@ use world::seeds::Stream;
 use crate::error::PlumeError;
 use crate::flow::ground::Floor;
 
+/// Fastest wave of an interface, m/s.
+const FASTEST_M_S: f64 = 15.0;
 /// Most layers a water column may have: columns live on the stack.
 pub const MAX_LAYERS: usize = 4;
 const MAX_FACES: usize = MAX_LAYERS - 1;
@@ -43,10 +46,12 @@ pub struct LayeredSpec {
 #[serde(deny_unknown_fields)]
 pub struct LayerSpec {
     /// Speed over ground, m/s.
+    #[serde(deserialize_with = "world::limits::stream_m_s")]
     pub speed_m_s: NonNegative,
     /// Where its water goes, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Density, kg/m³.
+    #[serde(deserialize_with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
 }
 
@@ -55,8 +60,10 @@ pub struct LayerSpec {
 #[serde(deny_unknown_fields)]
 pub struct InterfaceSpec {
     /// Mean depth, m.
+    #[serde(deserialize_with = "world::limits::depth_m")]
     pub depth_m: Positive,
     /// Change across it divided by the steepest gradient in it, m.
+    #[serde(deserialize_with = "world::limits::depth_m")]
     pub thickness_m: Positive,
     /// Waves of its height, summed.
     #[serde(default)]
@@ -68,10 +75,13 @@ pub struct InterfaceSpec {
 #[serde(deny_unknown_fields)]
 pub struct WaveSpec {
     /// Half the height from trough to crest, m.
+    #[serde(deserialize_with = "world::limits::internal_m")]
     pub amplitude_m: NonNegative,
     /// Wave length, m.
+    #[serde(deserialize_with = "world::limits::internal_length_m")]
     pub length_m: Positive,
     /// Period at a fixed place, s.
+    #[serde(deserialize_with = "world::limits::internal_s")]
     pub period_s: Positive,
     /// Where it travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
@@ -154,6 +164,12 @@ impl LayeredSpec {
                 ));
             }
         }
+        for (i, face) in self.interfaces.iter().enumerate() {
+            for (j, wave) in face.waves.iter().enumerate() {
+                let field = format!("interfaces[{i}].waves[{j}].length_m");
+                wave.check().map_err(|problem| bad(field, problem))?;
+            }
+        }
         let mut rng = Stream::new(seed, field, "interface phases");
         let faces = self.interfaces.iter().map(|f| f.build(&mut rng)).collect();
         Ok(Layered {
@@ -163,6 +179,24 @@ impl LayeredSpec {
             density: self.layers.iter().map(|l| l.density_kg_m3.get()).collect(),
             faces,
         })
+    }
+}
+
+impl WaveSpec {
+    /// That it is no steeper than 45° and no faster than water can be: beyond, no such wave keeps its shape.
+    fn check(&self) -> Result<(), String> {
+        let (length, period) = (self.length_m.get(), self.period_s.get());
+        let least = std::f64::consts::TAU * self.amplitude_m.get();
+        let most = FASTEST_M_S * period;
+        if length >= least && length <= most {
+            return Ok(());
+        }
+        Err(format!(
+            "must be from {} (a slope of 45 degrees) to {} m ({FASTEST_M_S} m/s), got {}",
+            shown(least),
+            shown(most),
+            shown(length)
+        ))
     }
 }
 

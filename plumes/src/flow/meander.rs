@@ -20,6 +20,7 @@ use std::collections::VecDeque;
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::cost::{Cost, Part, Times};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
@@ -32,17 +33,24 @@ use crate::flow::solenoidal::Solenoidal;
 #[serde(deny_unknown_fields)]
 pub struct MeanderSpec {
     /// Standard deviation of each velocity component at the corners, m/s.
+    #[serde(deserialize_with = "world::limits::std_m_s")]
     pub std_m_s: NonNegative,
     /// Natural frequency of the noise, rad/s.
-    #[serde(default = "farrell_omega")]
+    #[serde(
+        default = "farrell_omega",
+        deserialize_with = "world::limits::wander_rad_s"
+    )]
     pub omega_rad_s: Positive,
     /// Damping ratio of the noise, in (0, 1).
-    #[serde(default = "farrell_damping")]
+    #[serde(
+        default = "farrell_damping",
+        deserialize_with = "world::limits::damping"
+    )]
     pub damping: Positive,
     /// Wanted spacing of the grid, m.
     pub cell_m: Positive,
     /// Diffusivity K of the velocity, m²/s; absent: 2ω(W/2)², W the area's shorter side.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "world::limits::diffusivity_m2_s")]
     pub diffusivity_m2_s: Option<NonNegative>,
 }
 
@@ -63,6 +71,10 @@ const PRE_ROLL: usize = 200;
 /// How far from the latest `advance` questions are answered without holding the value, s.
 const AHEAD_S: f64 = 5.0;
 const BEHIND_S: f64 = 1.0;
+/// Time of a product in the projection, and of a step of a node, s.
+const MULTIPLY_S: f64 = 0.5e-9;
+/// See above.
+const STEP_S: f64 = 100e-9;
 
 /// The meander, ready to use.
 #[derive(Clone, Debug)]
@@ -175,15 +187,47 @@ impl MeanderSpec {
     }
 }
 
+impl MeanderSpec {
+    /// What it takes, with water asked for `ahead_s` beyond the usual.
+    #[must_use]
+    pub fn cost(&self, area: &Area, ahead_s: f64, times: &Times) -> Cost {
+        let extent = [area.length_m, area.width_m];
+        let cells = extent.map(|e| (e / self.cell_m.get()).ceil().max(2.0));
+        let splines = (cells[0] + 2.0) * (cells[1] + 2.0);
+        let band = 2.0 * (cells[1] + 2.0) + 2.0;
+        let (omega, ahead_s) = (self.omega_rad_s.get(), ahead_s + AHEAD_S + BEHIND_S);
+        let a_second = STEPS_PER_RADIAN * omega;
+        let levels = ahead_s * a_second + 3.0;
+        let matrix = Part::new("cell_m", format!("{splines:.0} splines"))
+            .holds(splines * (band + 1.0) * 8.0)
+            .takes(splines * band * band * MULTIPLY_S)
+            .by(self.cell_m.get(), -3.0);
+        let steps = times.whole_s() * a_second + PRE_ROLL as f64;
+        let kept = Part::new("omega_rad_s", format!("{a_second:.3} levels a second"))
+            .holds(levels * splines * 8.0)
+            .takes(steps * splines * (4.0 * band * MULTIPLY_S + STEP_S))
+            .by(omega, 1.0);
+        Cost {
+            parts: vec![matrix, kept],
+        }
+    }
+}
+
 impl Meander {
     /// Makes the levels that questions about times near `t_s` need; the same ones however often it is called.
     pub fn advance(&mut self, t_s: f64) {
         let last = ((t_s + AHEAD_S) / self.dt_s).ceil() as u64;
+        let needed = ((t_s - BEHIND_S) / self.dt_s).floor().max(0.0) as u64;
+        // Old ones go as new ones come: a long way ahead holds no more than a short one.
         while self.first + (self.levels.len() as u64) <= last {
             self.carried.advance();
             self.levels.push_back(self.grid.project(&self.carried.u));
+            self.forget(needed);
         }
-        let needed = ((t_s - BEHIND_S) / self.dt_s).floor().max(0.0) as u64;
+        self.forget(needed);
+    }
+
+    fn forget(&mut self, needed: u64) {
         while self.first < needed && self.levels.len() > 2 {
             self.levels.pop_front();
             self.first += 1;

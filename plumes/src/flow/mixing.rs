@@ -23,10 +23,13 @@ use crate::flow::bed::KARMAN;
 #[serde(deny_unknown_fields, default)]
 pub struct MixingSpec {
     /// Horizontal diffusivity everywhere, m²/s.
+    #[serde(deserialize_with = "world::limits::diffusivity_m2_s")]
     pub horizontal_m2_s: NonNegative,
     /// Vertical diffusivity added everywhere, m²/s.
+    #[serde(deserialize_with = "world::limits::vertical_m2_s")]
     pub background_vertical_m2_s: NonNegative,
     /// Horizontal diffusivity by bed friction, in units of u_*H.
+    #[serde(deserialize_with = "world::limits::transverse")]
     pub transverse: NonNegative,
 }
 

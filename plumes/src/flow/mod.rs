@@ -1,10 +1,11 @@
 //! The water: one file a flow, summed into one answer.
 
 pub mod bed;
-mod blockage;
+pub(crate) mod blockage;
 pub mod catalogue;
 pub mod channel;
 pub mod coloured_noise;
+mod cost;
 pub mod eddies;
 mod flume;
 pub mod grid;

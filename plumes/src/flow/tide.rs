@@ -32,12 +32,13 @@ pub struct TideSpec {
 #[serde(deny_unknown_fields)]
 pub struct ConstituentSpec {
     /// Period, h.
-    #[serde(default = "m2")]
+    #[serde(default = "m2", deserialize_with = "world::limits::tide_h")]
     pub period_h: Positive,
     /// Greatest speed, m/s.
+    #[serde(deserialize_with = "world::limits::stream_m_s")]
     pub major_m_s: NonNegative,
     /// Speed a quarter of a period later, to the left of the major axis, m/s; negative: to the right.
-    #[serde(default = "none")]
+    #[serde(default = "none", deserialize_with = "world::limits::component_m_s")]
     pub minor_m_s: Finite,
     /// Where the water goes at the greatest speed, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

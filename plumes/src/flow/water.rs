@@ -33,6 +33,7 @@ use crate::flow::catalogue::CurrentSpec;
 use crate::flow::channel::Channel;
 use crate::flow::eddies::Eddies;
 use crate::flow::flume::Flume;
+use crate::flow::grid::GridShape;
 use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn, Profile, Sheet};
 use crate::flow::meander::Meander;
@@ -51,6 +52,7 @@ pub struct WaterSpec {
     /// Diffusivities.
     pub mixing: MixingSpec,
     /// Density where no layers give it, kg/m³.
+    #[serde(deserialize_with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
     /// Obstacles and bed turn the currents aside; absent: currents pass through obstacles.
     pub blockage: Option<BlockageSpec>,
@@ -95,6 +97,20 @@ pub struct Column<'a> {
 }
 
 impl WaterSpec {
+    /// Whether the area's sides are the walls of a channel.
+    #[must_use]
+    pub fn is_walled(&self) -> bool {
+        let channel = |c: &CurrentSpec| matches!(c, CurrentSpec::OpenChannel(_));
+        self.currents.iter().any(channel)
+    }
+
+    /// The grid on which the plume sees it: the usual one or, where it goes round obstacles, the corners of the cells it is worked out in.
+    #[must_use]
+    pub fn grid_shape(&self, area: &Area) -> GridShape {
+        let blockage = self.blockage.as_ref();
+        blockage.map_or_else(|| GridShape::fitting(area), BlockageSpec::grid_shape)
+    }
+
     /// The water round obstacles, if [`Self::blockage`] asks for it; else as [`Self::build`] has it.
     ///
     /// # Errors
@@ -221,6 +237,11 @@ impl Water {
         self.meanders.is_empty()
             && self.tides.is_empty()
             && self.layered.as_ref().is_none_or(Layered::is_steady)
+    }
+
+    /// Whether friction holds it at the bed.
+    pub(crate) fn stands_at_bed(&self) -> bool {
+        self.bed.is_some() || self.flume.is_some()
     }
 
     pub(crate) fn floor(&self, p: Vector2<f64>) -> Floor {

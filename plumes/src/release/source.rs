@@ -16,6 +16,7 @@ use crate::error::PlumeError;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::cost::{Cost, Part, Times};
 use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
@@ -27,8 +28,10 @@ pub struct SourceSpec {
     /// Name, unique in the scenario.
     pub id: String,
     /// East of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Height above the bed, m; either this or `depth_m`.
     #[serde(default)]
@@ -37,6 +40,7 @@ pub struct SourceSpec {
     #[serde(default)]
     pub depth_m: Option<Finite>,
     /// Mass given off, g/s.
+    #[serde(deserialize_with = "world::limits::source_g_s")]
     pub rate_g_s: Positive,
     /// In what portions.
     #[serde(default)]
@@ -50,15 +54,19 @@ pub struct ReleaseSpec {
     /// Filaments a second, 1/s.
     pub rate_hz: Positive,
     /// Size (standard deviation of the kernel) at release, m.
+    #[serde(deserialize_with = "world::limits::filament_m")]
     pub initial_size_m: Positive,
     /// Growth of the squared size, m²/s.
+    #[serde(deserialize_with = "world::limits::growth_m2_s")]
     pub growth_m2_s: NonNegative,
     /// Greatest vertical size, m; without it half the local depth.
+    #[serde(deserialize_with = "world::limits::depth_m")]
     pub vertical_size_limit_m: Option<Positive>,
     /// At random times (true) or at equal intervals (false).
     pub poisson: bool,
     /// Size of the smallest eddies that are resolved, m: below it a filament grows by the eddies smaller than itself instead of
     /// by `growth_m2_s`, and only the larger ones kick it.
+    #[serde(deserialize_with = "world::limits::filament_m")]
     pub eddy_size_m: Option<Positive>,
     /// A nozzle that gives off a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
@@ -69,10 +77,19 @@ pub struct ReleaseSpec {
 #[serde(deny_unknown_fields)]
 pub struct NozzleSpec {
     /// Inner diameter, m.
+    #[serde(deserialize_with = "world::limits::nozzle_m")]
     pub diameter_m: Positive,
     /// Speed of what leaves it, m/s; iso-kinetic: that of the water around.
+    #[serde(deserialize_with = "world::limits::nozzle_m_s")]
     pub speed_m_s: Positive,
 }
+
+/// Memory of a filament with its place in the index, twice while the arrays grow, bytes; time to move it, s, and with eddies, s.
+const FILAMENT_BYTES: f64 = 100.0;
+/// See above.
+const FILAMENT_S: f64 = 17e-9;
+/// See above.
+const EDDIES_S: f64 = 60e-9;
 
 impl NozzleSpec {
     /// Volume given off, m³/s.
@@ -92,11 +109,44 @@ impl ReleaseSpec {
         };
         let size = nozzle.diameter_m.get() / 4.0;
         Self {
+            // Within its range, as long as speed and diameter are in theirs.
             rate_hz: Positive::new(nozzle.speed_m_s.get() / size),
             initial_size_m: Positive::new(size),
             poisson: false,
             ..self.clone()
         }
+    }
+}
+
+impl ReleaseSpec {
+    /// What its filaments take in an area whose water carries them at `carries_m_s`. Those that eddies and slow water keep longer
+    /// are not counted.
+    #[must_use]
+    pub fn cost(&self, area: &Area, carries_m_s: f64, times: &Times) -> Cost {
+        let (path, value, rate_hz, power) = match &self.nozzle {
+            None => ("rate_hz", self.rate_hz.get(), self.rate_hz.get(), 1.0),
+            Some(nozzle) => {
+                let size = nozzle.diameter_m.get() / 4.0;
+                let rate_hz = nozzle.speed_m_s.get() / size;
+                ("nozzle.diameter_m", nozzle.diameter_m.get(), rate_hz, -1.0)
+            }
+        };
+        let stays_s = (area.length_m + area.width_m) / carries_m_s.max(1e-9);
+        let whole_s = times.whole_s();
+        let most = rate_hz * whole_s.min(stays_s);
+        // Their number rises to the most, then stays.
+        let rising = (0.5 * stays_s / whole_s).clamp(0.0, 0.5);
+        let each_s = FILAMENT_S
+            + if self.eddy_size_m.is_some() {
+                EDDIES_S
+            } else {
+                0.0
+            };
+        let part = Part::new(path, format!("{most:.2e} filaments at once"))
+            .holds(most * FILAMENT_BYTES)
+            .takes(most * (1.0 - rising) * times.drifts() * each_s)
+            .by(value, power);
+        Cost::of(part)
     }
 }
 

@@ -123,7 +123,9 @@ impl Cloverleaf {
 
     /// Corners of all repetitions, and one that leads back into the last leaf's second side.
     fn corners(&self) -> u32 {
-        2 * self.leaves * self.repetitions + 1
+        (2 * self.leaves)
+            .saturating_mul(self.repetitions)
+            .saturating_add(1)
     }
 }
 

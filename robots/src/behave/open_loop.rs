@@ -20,12 +20,13 @@ pub struct TimeTableRow {
     /// From this time on, s.
     pub t_s: NonNegative,
     /// Rudder, °, positive to starboard.
-    #[serde(default = "zero")]
+    #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
     pub rudder_deg: Finite,
     /// Stern plane, °, positive nose down.
-    #[serde(default = "zero")]
+    #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
     pub stern_deg: Finite,
     /// Propeller, rpm.
+    #[serde(deserialize_with = "world::limits::rpm")]
     pub rpm: Finite,
 }
 

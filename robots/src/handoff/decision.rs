@@ -132,7 +132,10 @@ impl Evidence {
     }
 }
 
-/// A declared source.
+/// Rule of what is declared where a plume crosses the up-flow edge of a subregion.
+pub const UP_FLOW_EDGE: &str = "up_flow_edge";
+
+/// A declared source, or the place at which a plume was traced out of a subregion.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Declaration {
     /// Number among the robot's declarations, from 0. A later one of the same number takes the earlier one's
@@ -168,6 +171,12 @@ impl Declaration {
             surveyed: None,
             evidence: None,
         }
+    }
+
+    /// It says where a plume crosses a subregion's up-flow edge: the source is beyond it, not there.
+    #[must_use]
+    pub fn at_edge(&self) -> bool {
+        self.rule == UP_FLOW_EDGE
     }
 
     /// Puts it among the earlier ones: in the place of one of its number, else at the end.

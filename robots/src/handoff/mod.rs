@@ -20,7 +20,7 @@ mod setting;
 pub use behaviour::{Behave, LCDPS, PlumeMemory, Side, Stride, detects};
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{ActuatorCommand, Command, Setpoint};
-pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, Verdict};
+pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, UP_FLOW_EDGE, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation};
 pub use fixes::{FixMove, FixWatch, NavigationFix};
 pub use gantry::{
@@ -37,7 +37,7 @@ pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,
     DepthReading, DvlReading, LblFix, RangeScan, Readings,
 };
-pub use regions::{Region, RegionState, Regions};
+pub use regions::{Region, RegionState, Regions, region_name};
 pub use setting::Setting;
 
 #[cfg(test)]

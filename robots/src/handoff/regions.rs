@@ -13,8 +13,10 @@ pub enum RegionState {
     Waiting,
     /// Being searched.
     Searching,
-    /// Searched to its end, and nothing was declared: free of sources, as far as the mission knows.
+    /// What searched it came to its own end and declared nothing: free of sources, as far as the mission knows.
     SourceFree,
+    /// The time for its search ran out and nothing was declared: whether a source is there is not known.
+    TimedOut,
     /// A source was declared by the strategy that searched it.
     Declared,
     /// The plume was traced to its up-flow edge, and a source declared there.
@@ -29,9 +31,34 @@ impl RegionState {
             RegionState::Waiting => "waiting",
             RegionState::Searching => "searching",
             RegionState::SourceFree => "source_free",
+            RegionState::TimedOut => "timed_out",
             RegionState::Declared => "declared",
             RegionState::UpFlowEdge => "up_flow_edge",
         }
+    }
+
+    /// The same for people.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            RegionState::Waiting => "not searched",
+            RegionState::Searching => "search not ended",
+            RegionState::SourceFree => "source free",
+            RegionState::TimedOut => "timed out",
+            RegionState::Declared => "source declared",
+            RegionState::UpFlowEdge => "plume to up-flow edge",
+        }
+    }
+}
+
+/// Name of the `k`-th subregion, from 0, in the order of search: A to Z, then AA, AB and so on. Letters, so that it cannot be
+/// taken for the number of a declared source.
+#[must_use]
+pub fn region_name(k: u32) -> String {
+    let letter = char::from(b'A' + (k % 26) as u8);
+    match k / 26 {
+        0 => letter.to_string(),
+        more => region_name(more - 1) + &letter.to_string(),
     }
 }
 
@@ -55,4 +82,17 @@ pub struct Regions {
     pub all: Arc<[Region]>,
     /// Which one is being searched, from 0; `None` in a transit and after the last.
     pub now: Option<u32>,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn regions_have_letters() {
+        assert_eq!(
+            [0, 3, 25, 26, 51, 52, 701, 702].map(region_name),
+            ["A", "D", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]
+        );
+    }
 }

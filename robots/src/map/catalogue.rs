@@ -51,6 +51,23 @@ impl MapSpec {
         })
     }
 
+    /// That its cells and its look-back are as many as a mapper can have, without making any.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`], with the field below `map`.
+    pub fn check(&self, area: &Area) -> Result<(), RobotError> {
+        let (grid, trajectory) = match self {
+            MapSpec::Pomdp(s) | MapSpec::Bayesian(s) => (&s.grid, &s.trajectory),
+            MapSpec::ParticleFilter(s) => (&s.grid, &s.trajectory),
+            MapSpec::Hmm(s) => {
+                s.trajectory.holds("step_s", s.step_s.get())?;
+                (&s.grid, &s.trajectory)
+            }
+        };
+        grid.build(area)?;
+        trajectory.check()
+    }
+
     /// Name of the mapper, as in the catalogue.
     #[must_use]
     pub fn name(&self) -> &'static str {

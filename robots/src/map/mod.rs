@@ -5,6 +5,7 @@
 
 mod bayesian;
 mod catalogue;
+mod cost;
 mod credible;
 mod evidence;
 mod flow_history;

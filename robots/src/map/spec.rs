@@ -5,11 +5,12 @@ use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::limits::shown;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Most cells a map may have: a million are 8 MB a table.
-const MOST_CELLS: u64 = 1_000_000;
+const MOST_CELLS: f64 = 1e6;
 /// Most releases a look-back may hold.
 const MOST_RELEASES: f64 = 100_000.0;
 
@@ -56,11 +57,16 @@ impl GridSpec {
                 ));
             }
         }
-        let cells: u64 = n.iter().map(|&c| u64::from(c)).product();
+        let cells = self.cells();
         if cells > MOST_CELLS {
+            let got = if cells < 1e12 {
+                format!("{cells}")
+            } else {
+                shown(cells)
+            };
             return Err(invalid(
                 "grid",
-                &format!("must have at most {MOST_CELLS} cells, got {cells}"),
+                &format!("must have at most {MOST_CELLS} cells, got {got}"),
             ));
         }
         let top = self.top_depth_m.get();
@@ -91,19 +97,26 @@ pub struct TrajectorySpec {
     /// Chance of detecting dye that is there, μ.
     pub mu: Fraction,
     /// Spread of dye in a second along the area's axis, σx, m/√s.
+    #[serde(deserialize_with = "world::limits::spread_m_rts")]
     pub sigma_x_m_rts: Positive,
     /// The same across it, σy, m/√s.
+    #[serde(deserialize_with = "world::limits::spread_m_rts")]
     pub sigma_y_m_rts: Positive,
     /// The same in the vertical, σz, m/√s; not used in a map of the plane.
+    #[serde(deserialize_with = "world::limits::spread_m_rts")]
     pub sigma_z_m_rts: Positive,
     /// Standard deviation of the flow on the way from the flow at the vehicle, each horizontal axis, u′, m/s; 0: the flow is
     /// the same everywhere, as in the papers.
+    #[serde(deserialize_with = "world::limits::stream_m_s")]
     pub flow_error_m_s: NonNegative,
     /// How long it lasts along a way, T, s.
+    #[serde(deserialize_with = "world::limits::lasting_s")]
     pub flow_error_s: Positive,
     /// Releases older than this are not looked at, h, s.
+    #[serde(deserialize_with = "world::limits::lasting_s")]
     pub lookback_s: Positive,
     /// Time between two releases, the papers' time unit, s.
+    #[serde(deserialize_with = "world::limits::lasting_s")]
     pub release_period_s: Positive,
     /// Neighbouring releases are taken together while their places differ by less than this share of their
     /// spread (root mean square); 0: never.
@@ -147,6 +160,24 @@ impl TrajectorySpec {
             ));
         }
         Ok(())
+    }
+
+    /// Refuses a look-back that is more than can be remembered in steps of `period_s`, given as `field`.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] with the least legal step.
+    pub(super) fn holds(&self, field: &str, period_s: f64) -> Result<(), RobotError> {
+        let h = self.lookback_s.get();
+        let steps = h / period_s;
+        if steps <= MOST_RELEASES {
+            return Ok(());
+        }
+        let problem = format!(
+            "must be at least {} to look back {h} s in {MOST_RELEASES} steps, got {}",
+            shown(h / MOST_RELEASES),
+            shown(period_s)
+        );
+        Err(invalid(field, &problem))
     }
 
     /// An empty history of the flow, with a mark every `period_s`.

@@ -36,6 +36,7 @@ pub struct Params {
     /// Which costs.
     pub cost: Cost,
     /// Turning radius the path is smoothed to, m.
+    #[serde(deserialize_with = "world::limits::turn_m")]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
     pub clearance_weight: NonNegative,

@@ -3,6 +3,7 @@
 use super::{AStar, Planner, PotentialField};
 use super::{a_star, potential_field};
 use crate::error::RobotError;
+use crate::handoff::BeliefGrid;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
@@ -32,6 +33,17 @@ impl PlannerSpec {
             PlannerSpec::AStar(p) => Box::new(AStar::new(p)?),
             PlannerSpec::PotentialField(p) => Box::new(PotentialField::new(p)?),
         })
+    }
+
+    /// That it fits the room that it shall plan in.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when its steps are too small for the room's cells.
+    pub fn check(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
+        match self {
+            PlannerSpec::AStar(_) => Ok(()),
+            PlannerSpec::PotentialField(p) => p.fits(cells, plane),
+        }
     }
 
     /// It plans in the plane only.

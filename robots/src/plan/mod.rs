@@ -1,6 +1,7 @@
 //! Planners: from where the vehicle is to where it wants to be, round what it knows to be solid. One file each.
 
 mod a_star;
+mod beam;
 mod catalogue;
 mod clearance;
 mod ends;

@@ -12,14 +12,18 @@
 
 use super::{From, NoPath, Path, Planner, Reach, Room};
 use crate::error::RobotError;
+use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
+use world::limits::shown;
 use world::ranges::Positive;
 
 /// Steps over which progress is judged, and the steps that count as progress.
 const JUDGED: (usize, f64) = (30, 3.0);
 /// Nearer to a solid than this the push grows no more, m.
 const NEAREST_M: f64 = 0.1;
+/// Most steps to the room's narrowest cell.
+const STEPS_A_CELL: f64 = 20.0;
 /// Most steps for each cell side of the room's circumference.
 const STEPS: f64 = 8.0;
 
@@ -48,6 +52,30 @@ impl Default for Params {
             push_m: Positive::new(10.0),
             step_m: Positive::new(0.5),
         }
+    }
+}
+
+impl Params {
+    /// That steps are no smaller than the room can tell apart: a descent of many more would only take time.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] with the least step.
+    pub(super) fn fits(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
+        let axes = if plane { 2 } else { 3 };
+        let sides = cells.cell_m[..axes].iter();
+        let narrowest_m = sides.fold(f64::INFINITY, |least, side| side.min(least));
+        let (step, least) = (self.step_m.get(), narrowest_m / STEPS_A_CELL);
+        if step >= least {
+            return Ok(());
+        }
+        Err(RobotError::Invalid {
+            field: "strategy.MapAndPlan.planner.PotentialField.step_m".into(),
+            problem: format!(
+                "must be at least {} (a {STEPS_A_CELL}th of the room's narrowest cell), got {}",
+                shown(least),
+                shown(step)
+            ),
+        })
     }
 }
 

@@ -12,6 +12,7 @@
 //! A cell with an echo counts as solid as a whole. The searcher's chart is what the scenario hands it beforehand; all
 //! else comes from its own ranging, placed by its own navigation.
 
+use super::beam::within;
 use super::clearance::{self, Cells};
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
@@ -127,7 +128,8 @@ impl Room {
         let mut passed = usize::MAX;
         let step = 0.5 * self.narrowest_m();
         let steps = ((to - from).norm() / step).floor() as usize;
-        for k in 0..steps {
+        // What lies beyond the room says nothing of it, however far the beam reaches.
+        for k in within(&self.lattice, from, to, steps) {
             let p = from + (to - from) * (k as f64 / steps as f64);
             match self.lattice.cell(&p) {
                 Some(cell) if cell != passed && Some(cell) != ends_in => {

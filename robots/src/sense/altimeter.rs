@@ -26,10 +26,12 @@ pub struct AltimeterSpec {
     /// Readings a second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
+    #[serde(deserialize_with = "world::limits::error_m")]
     pub noise_m: NonNegative,
     /// Least range, m.
     pub min_range_m: NonNegative,
     /// Greatest range, m.
+    #[serde(deserialize_with = "world::limits::sonar_m")]
     pub max_range_m: Positive,
 }
 

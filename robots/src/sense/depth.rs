@@ -23,6 +23,7 @@ pub struct DepthSpec {
     /// Readings a second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
+    #[serde(deserialize_with = "world::limits::error_m")]
     pub noise_m: NonNegative,
 }
 

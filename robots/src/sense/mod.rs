@@ -5,6 +5,7 @@ mod altimeter;
 pub mod camera;
 mod catalogue;
 mod compass;
+mod cost;
 mod ctd;
 mod depth;
 mod dvl;

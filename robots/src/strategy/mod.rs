@@ -2,12 +2,14 @@
 
 mod amp;
 mod catalogue;
+mod cost;
 mod map_and_plan;
 mod open_loop;
 mod spec;
 mod subregions;
 mod subsumption;
 mod survey;
+mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::CATALOGUE;
@@ -26,3 +28,4 @@ pub use subsumption::{
 pub use survey::{
     AfterDeclaration, CameraPasses, PostDeclaration, Progress, SidescanPasses, SurveySpec, Verify,
 };
+pub use wishes::Wishes;

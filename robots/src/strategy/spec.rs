@@ -58,6 +58,20 @@ impl StrategySpec {
         }
     }
 
+    /// That what it plans in is no more than a planner can have, without making any of it.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when it is.
+    pub fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        match self {
+            StrategySpec::MapAndPlan(spec) => spec.check(setting),
+            StrategySpec::Subregions(spec) => spec.search.check(setting),
+            StrategySpec::Amp(_) | StrategySpec::Subsumption(_) | StrategySpec::OpenLoop(_) => {
+                Ok(())
+            }
+        }
+    }
+
     /// The strategy, ready for its first tick.
     ///
     /// # Errors

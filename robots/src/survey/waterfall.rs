@@ -18,6 +18,8 @@ use world::units::Heading;
 
 /// Most lines of a picture; a pass of 500 m at a cell of 0.25 m has 2000.
 const MOST: usize = 20_000;
+/// Most numbers of a picture: those many lines at a range of 25 m.
+const MOST_NUMBERS: usize = 4_000_000;
 /// A line is full when the vehicle has gone this part of a cell: pings some 0.2 m apart make a line each.
 const FULL: f64 = 0.75;
 /// Half-width of the strip below the vehicle that is left out, in heights above the bed.
@@ -116,7 +118,8 @@ impl Waterfall {
         let Some(altitude_m) = estimate.altitude_m.filter(|a| *a > 0.0) else {
             return;
         };
-        if self.rows.len() >= MOST {
+        let a_line = 2 * (ping.max_m / self.cell_m).floor() as usize;
+        if self.rows.len() >= MOST || (self.rows.len() + 1).saturating_mul(a_line) > MOST_NUMBERS {
             return;
         }
         if let Some(last_s) = self.last_s.replace(estimate.t_s) {

@@ -60,7 +60,7 @@ pub struct Coefficients {
     pub diameter_m: f64,
     /// Density of the water the hull is ballasted for, kg/m³.
     pub ballast_density_kg_m3: f64,
-    /// Mass, kg: that of the water displaced.
+    /// Mass, kg: that of the water displaced, unless a URDF gives another.
     pub mass_kg: f64,
     /// Displaced volume, m³.
     pub volume_m3: f64,

@@ -60,9 +60,10 @@ pub(super) struct Hydrodynamics {
     inverse_mass: Matrix6<f64>,
 }
 
-/// FLU to FRD and back: y and z change sign, of angular vectors too (a half turn about x).
+/// FLU to FRD and back: y and z change sign, of angular vectors too (a half turn about x). A zero becomes +0:
+/// the published model starts from it, and in a following current atan2(±0, −u) is ±π.
 fn flip(v: Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, -v.y, -v.z)
+    Vector3::new(v.x, 0.0 - v.y, 0.0 - v.z)
 }
 
 impl Hydrodynamics {

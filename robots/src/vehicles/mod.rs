@@ -10,7 +10,9 @@ mod mesh;
 mod motion;
 mod spec;
 mod surface;
+mod top_speed;
 mod urdf;
+mod urdf_mass;
 mod urdf_parts;
 #[cfg(test)]
 mod urdf_tests;

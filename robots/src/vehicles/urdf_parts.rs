@@ -12,8 +12,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use urdf_rs::{Geometry, Link, Robot};
+use world::files;
 use world::frames::Pose;
 use world::physics::Shape;
+
+/// Longest file read, bytes: a robot is text of some kilobytes.
+const LONGEST: u64 = 16 << 20;
 
 /// Text and path of a URDF beside the scenario, or of the one built in.
 pub(super) fn open(
@@ -26,7 +30,7 @@ pub(super) fn open(
         return Ok((text.into(), PathBuf::from(format!("built-in {name}"))));
     };
     let path = base_dir.join(name);
-    match std::fs::read_to_string(&path) {
+    match files::read_text(&path, LONGEST) {
         Ok(text) => Ok((text, path)),
         Err(e) => Err(RobotError::File {
             path: path.display().to_string(),

@@ -155,6 +155,109 @@ fn wrong_masses_are_told() {
     );
 }
 
+/// A mass within 1 % of the parameters' is the vehicle's: it weighs that much, and `check` says so.
+#[test]
+fn a_mass_within_the_tolerance_is_used_and_told() {
+    let heavy = |text: &str| parse(text).expect("within 1 %");
+    let built_in = heavy(GOOD);
+    let published = Coefficients::of(ParameterSet::Remus100);
+    assert_eq!(
+        built_in.coefficients, published,
+        "eight digits are no difference"
+    );
+    assert_eq!(built_in.told, [""; 0]);
+
+    let hull = heavy(&GOOD.replace("value=\"31.029385\"", "value=\"31.2\""));
+    assert_eq!(hull.coefficients.mass_kg, 31.2);
+    assert_eq!(hull.coefficients.rigid_mass()[(0, 0)], 31.2);
+    assert_eq!(
+        hull.told,
+        [
+            "weighs 31.2 kg by its URDF, the hull of the hydrodynamic parameters 31.029 kg: the URDF's mass is used; \
+             1.67 N heavier than water of 1026 kg/m3, it sinks"
+        ]
+    );
+    let hull = heavy(
+        &GOOD
+            .replace("iyy=\"4.0277693\"", "iyy=\"4.05\"")
+            .replace("0 0 -0.02", "0.0001 0 -0.0201")
+            .replace("ixy=\"0\"", "ixy=\"0.0005\""),
+    );
+    assert_eq!(hull.coefficients.inertia_kg_m2.y, 4.05);
+    assert_eq!(hull.coefficients.z_g_m, 0.0201);
+    assert_eq!(
+        hull.told,
+        [
+            "iyy is 4.05 kg m2 by its URDF, 4.02777 kg m2 by the hydrodynamic parameters: the URDF's is used",
+            "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is used",
+            "x of the centre of gravity is 0.0001 m by its URDF: left out, the equation of motion has none",
+            "ixy is 0.0005 kg m2 by its URDF: left out, the equation of motion has none",
+        ]
+    );
+}
+
+/// Fins and instruments with a mass of their own add to the body's.
+#[test]
+fn masses_of_all_links_add_up() {
+    let with = |kg: &str| {
+        let fin = format!(
+            "<link name=\"rudder\"><inertial><mass value=\"{kg}\"/>\
+             <inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
+        );
+        parse(&GOOD.replace("<link name=\"rudder\"/>", &fin))
+    };
+    assert_eq!(
+        with("0.5").expect_err("1.6 % more"),
+        "/no/such/place/auv.urdf: link \"base_link\": <mass> is 31.529385 kg, but the hydrodynamic parameters are for 31.029 kg"
+    );
+    assert_eq!(
+        with("-1").expect_err("no mass"),
+        "/no/such/place/auv.urdf: link \"rudder\": <mass> must be >= 0 kg, got -1"
+    );
+    let hull = with("0.005").expect("a small fin");
+    assert!((hull.coefficients.mass_kg - 31.034385).abs() < 1e-12);
+    // 0.005 kg 0.8 m behind the middle, less what that moves the centre of gravity.
+    let more = hull.coefficients.inertia_kg_m2.z - 4.0277693;
+    assert!((more - 0.005 * 0.64).abs() < 1e-5, "{more}");
+}
+
+/// The weight is the URDF's: left alone under water, the vehicle comes to sink as fast as its drag lets it.
+#[test]
+fn a_heavier_hull_sinks() {
+    let start = world::frames::Truth::at_rest(world::frames::Pose::level(
+        Vector3::new(0.0, 0.0, -50.0),
+        world::units::Heading::from_deg(0.0),
+    ));
+    let still = world::fields::WaterSample {
+        velocity: Vector3::zeros(),
+        gradient: nalgebra::Matrix3::zeros(),
+        rate: Vector3::zeros(),
+        density_kg_m3: 1026.0,
+    };
+    let dir = std::env::temp_dir().join(format!("rheotaxis-heavy-{}", std::process::id()));
+    std::fs::create_dir_all(&dir).expect("a directory");
+    let sinks = |kg: &str| {
+        let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
+        std::fs::write(dir.join("auv.urdf"), text).expect("a file");
+        let spec = VehicleSpec::Remus100(RemusSpec {
+            urdf: Some("auv.urdf".into()),
+            ..RemusSpec::default()
+        });
+        let mut vehicle = Vehicle::load(&spec, &dir).expect("a vehicle");
+        let command = crate::handoff::ActuatorCommand::default();
+        vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
+    };
+    let (neutral, heavy) = (sinks("31.029385"), sinks("31.2"));
+    std::fs::remove_dir_all(&dir).expect("cleaned up");
+    assert!(neutral.abs() < 1e-9, "{neutral}");
+    let c = Coefficients::of(ParameterSet::Remus100);
+    let expected = -(31.2 - c.mass_kg) * world::units::GRAVITY_M_S2 / (31.2 + c.added[2]);
+    assert!(
+        (heavy / expected - 1.0).abs() < 2e-3,
+        "{heavy} m/s2, not {expected}"
+    );
+}
+
 #[test]
 fn wrong_geometry_is_told() {
     let hull = "<capsule radius=\"0.095\" length=\"1.41\"/>";

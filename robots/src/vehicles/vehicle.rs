@@ -8,7 +8,7 @@ use super::urdf_parts;
 use crate::error::RobotError;
 use crate::handoff::ActuatorCommand;
 use bevy_ecs::prelude::Component;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -34,8 +34,8 @@ impl Vehicle {
         let (text, path) = urdf_parts::open(remus.urdf.as_deref(), base_dir, built_in)?;
         let hull = urdf::read(&text, &path, &coefficients)?;
         Ok(Self {
+            dynamics: Hydrodynamics::new(hull.coefficients.clone()),
             hull,
-            dynamics: Hydrodynamics::new(coefficients),
             actuators: Actuators::default(),
         })
     }
@@ -44,6 +44,12 @@ impl Vehicle {
     #[must_use]
     pub fn coefficients(&self) -> &Coefficients {
         &self.dynamics.c
+    }
+
+    /// Where the URDF's mass is not that of the hydrodynamic parameters, and what is done about it.
+    #[must_use]
+    pub fn told(&self) -> &[String] {
+        &self.hull.told
     }
 
     /// Where an instrument (a link of the URDF) sits, in body axes.
@@ -67,16 +73,14 @@ impl Vehicle {
     #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
         let c = &self.dynamics.c;
-        let a = &c.added;
+        // FRD to FLU: a half turn about x.
+        let flip = Matrix6::from_diagonal(&Vector6::new(1.0, -1.0, -1.0, 1.0, -1.0, -1.0));
         BodySpec {
             id: id.to_string(),
             truth,
             shapes: self.hull.shapes.clone(),
             p_BG: Vector3::new(0.0, 0.0, -c.z_g_m),
-            mass_kg: c.mass_kg + (a[0] + a[1] + a[2]) / 3.0,
-            inertia_kg_m2: Matrix3::from_diagonal(
-                &(c.inertia_kg_m2 + Vector3::new(a[3], a[4], a[5])),
-            ),
+            mass: flip * (c.rigid_mass() + c.added_mass()) * flip,
         }
     }
 

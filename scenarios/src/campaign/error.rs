@@ -2,6 +2,7 @@
 
 use crate::scenario::ScenarioError;
 use std::path::PathBuf;
+use world::files::OutputError;
 
 /// A campaign cannot be planned, run or read.
 #[derive(Debug, thiserror::Error)]
@@ -70,4 +71,13 @@ pub enum CampaignError {
         /// How many there are.
         runs: u64,
     },
+}
+
+impl From<OutputError> for CampaignError {
+    fn from(error: OutputError) -> Self {
+        CampaignError::Write {
+            path: error.path,
+            problem: error.source.to_string(),
+        }
+    }
 }

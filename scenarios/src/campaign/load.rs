@@ -6,6 +6,10 @@ use super::spec::CampaignSpec;
 use crate::scenario::{ScenarioError, Template, load as load_scenario};
 use std::io::ErrorKind;
 use std::path::Path;
+use world::files;
+
+/// Longest file read, bytes: a campaign is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
 
 macro_rules! catalog {
     ($($name:literal),* $(,)?) => {
@@ -40,7 +44,7 @@ pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
             help,
         })
     };
-    let text = match std::fs::read_to_string(path) {
+    let text = match files::read_text(path, LONGEST) {
         Ok(text) => text,
         Err(e) if e.kind() == ErrorKind::NotFound => {
             let template = CAMPAIGNS.iter().find(|t| t.name == shown);

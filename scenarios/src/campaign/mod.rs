@@ -1,6 +1,8 @@
 //! Thousands of seeded runs: planned, cut into blocks, run on any number of machines, and compared.
 
 mod block;
+mod contained;
+mod cost;
 mod enough;
 mod error;
 mod load;
@@ -12,13 +14,18 @@ mod read;
 pub mod report;
 mod row;
 mod run;
+mod seal;
+mod seeds;
 mod shard;
+mod share;
 mod spec;
 pub mod stats;
 mod status;
 mod table;
+mod work;
 
 pub use block::{BlockState, block_path, read_block};
+pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
 pub use error::CampaignError;
 pub use load::{CAMPAIGNS, load};
@@ -29,7 +36,8 @@ pub use overrides::put;
 pub use plan::{Campaign, Place};
 pub use read::{Merged, merge, read_row, read_rows};
 pub use row::{DeclaredAt, RunRow};
-pub use run::{BLOCK, Event, RunEnded, RunOptions, run};
+pub use run::{Event, RunEnded, RunOptions, run};
+pub use seeds::Seeds;
 pub use shard::Shard;
 pub use spec::{Arm, CampaignSpec, Conditions, Draw, RandomConditions, Until};
 pub use status::{ArmStatus, Status};

@@ -4,6 +4,7 @@
     reason = "wall times are columns of the table; nothing of them enters the run"
 )]
 
+use super::contained::contained;
 use super::row::{DeclaredAt, RunRow};
 use crate::frame::Frame;
 use crate::gantry::GantrySummary;
@@ -16,9 +17,6 @@ use crate::spun_up::SpunUp;
 use crate::system::Dye;
 use crate::trial::{Ended, Trial, Unwatched, Watch};
 use robots::handoff::Verdict;
-use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::sync::Once;
 use std::time::Instant;
 
 /// What names a run in the table.
@@ -66,6 +64,8 @@ fn attempt(
     let mut gatherer = Gatherer {
         builder: SummaryBuilder::new(&RunInfo {
             scenario_name: loaded.name.clone(),
+            title: loaded.scenario.title.clone(),
+            success: loaded.scenario.success.words(),
             scenario_text: String::new(),
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
@@ -96,38 +96,11 @@ fn attempt(
 
 /// Makes a row of `run`, or of the error it returns, or of its panic.
 pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
-    hush();
-    QUIET.set(true);
-    let result = catch_unwind(AssertUnwindSafe(run));
-    QUIET.set(false);
-    match result {
+    match contained(run) {
         Ok(Ok(row)) => row,
         Ok(Err(error)) => failed(name, error),
-        Err(panic) => {
-            let said = (panic.downcast_ref::<&str>().map(|s| (*s).to_string()))
-                .or_else(|| panic.downcast_ref::<String>().cloned())
-                .unwrap_or_else(|| "of unknown cause".to_string());
-            failed(name, format!("panicked: {said}"))
-        }
+        Err(said) => failed(name, format!("panicked: {said}")),
     }
-}
-
-thread_local! {
-    /// Whether this thread is within a run, whose panic is told in its row.
-    static QUIET: Cell<bool> = const { Cell::new(false) };
-}
-
-/// Panics within runs stay off the screen; all others are shown as ever.
-fn hush() {
-    static ONCE: Once = Once::new();
-    ONCE.call_once(|| {
-        let shown = std::panic::take_hook();
-        std::panic::set_hook(Box::new(move |info| {
-            if !QUIET.get() {
-                shown(info);
-            }
-        }));
-    });
 }
 
 struct Gatherer {

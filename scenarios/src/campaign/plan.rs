@@ -3,12 +3,12 @@
 use super::error::CampaignError;
 use super::overrides::put;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
-use crate::scenario::{Loaded, ScenarioError, parse};
+use crate::scenario::{Fault, Loaded, Outline, ScenarioError, parse};
 use rayon::prelude::*;
 use std::path::PathBuf;
 use world::math;
 use world::record::Digest;
-use world::seeds::{Stream, key};
+use world::seeds::Stream;
 
 /// A campaign, read and laid out.
 #[derive(Clone, Debug)]
@@ -17,6 +17,8 @@ pub struct Campaign {
     pub spec: CampaignSpec,
     /// Name: the file's without its ending.
     pub name: String,
+    /// What errors call it: the file as it was asked for.
+    pub shown: String,
     /// The file, word for word.
     pub text: String,
     /// Hash of the text, 32 hexadecimal digits.
@@ -36,7 +38,7 @@ pub struct Place {
     pub seed_index: u64,
     /// Index of its arm.
     pub arm: usize,
-    /// Its seed: the same for every arm (common random numbers).
+    /// Its seed: the same for every arm (common random numbers), that of `rheotaxis run --seed`.
     pub seed: u64,
 }
 
@@ -49,16 +51,25 @@ impl Campaign {
         Ok(Self {
             spec: CampaignSpec::parse(shown, text)?,
             name: name.to_string(),
+            shown: shown.to_string(),
             text: text.to_string(),
             hash: hash(text),
             base,
         })
     }
 
+    /// What should be known of how the file was read: that its seeds are those of version 1.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Fault> {
+        let located =
+            |found| Fault::located(&self.shown, &self.text, &Outline::of(&self.text), found);
+        self.spec.note().map(located).into_iter().collect()
+    }
+
     /// Number of runs.
     #[must_use]
     pub fn n_runs(&self) -> u64 {
-        self.spec.n_conditions() * self.spec.seeds * self.n_arms()
+        self.spec.n_conditions() * self.spec.seeds.count() * self.n_arms()
     }
 
     /// Number of arms.
@@ -82,25 +93,21 @@ impl Campaign {
     /// Where a run stands: arms of one seed are neighbours, then seeds, then conditions.
     #[must_use]
     pub fn place(&self, run: u64) -> Place {
-        let group = run / self.n_arms();
+        let (group, seeds) = (run / self.n_arms(), self.spec.seeds);
         let (condition, seed_index) = match &self.spec.until {
-            None => (group / self.spec.seeds, group % self.spec.seeds),
+            None => (group / seeds.count(), group % seeds.count()),
             // Seed by seed, so that a campaign that ends early has as many of each condition.
             Some(_) => (
                 group % self.spec.n_conditions(),
                 group / self.spec.n_conditions(),
             ),
         };
-        let (entity, purpose) = (
-            format!("condition {condition}"),
-            format!("seed {seed_index}"),
-        );
         Place {
             run,
             condition,
             seed_index,
             arm: (run % self.n_arms()) as usize,
-            seed: key(self.spec.seed, &entity, &purpose),
+            seed: seeds.seed(condition, seed_index),
         }
     }
 
@@ -123,7 +130,7 @@ impl Campaign {
             Conditions::Random(random) => (random.draw.iter())
                 .map(|(path, draw)| {
                     let entity = format!("condition {condition}");
-                    let u = Stream::new(self.spec.seed, &entity, path).uniform();
+                    let u = Stream::new(random.seed.unwrap_or(1), &entity, path).uniform();
                     (path.clone(), drawn(draw, u))
                 })
                 .collect(),
@@ -166,6 +173,29 @@ impl Campaign {
             hash: hash(&text),
             text,
         })
+    }
+
+    /// The time limit of its missions, s; the least, where arms or conditions set it.
+    ///
+    /// # Errors
+    /// If a scenario cannot be made.
+    pub fn limit_s(&self) -> Result<f64, CampaignError> {
+        let set =
+            |paths: &[(String, String)]| paths.iter().any(|(path, _)| path.starts_with("time"));
+        let by_arms = self.spec.arms.iter().any(|a| set(&a.set));
+        let conditions = if set(&self.condition(0)) {
+            self.spec.n_conditions()
+        } else {
+            1
+        };
+        let arms = if by_arms { self.spec.arms.len() } else { 1 };
+        let mut least = f64::INFINITY;
+        for condition in 0..conditions {
+            for arm in 0..arms {
+                least = least.min(self.loaded(condition, arm)?.scenario.time.limit_s.get());
+            }
+        }
+        Ok(least)
     }
 
     /// Reads and checks every arm under every condition, so that nothing starts that cannot end.
@@ -214,14 +244,14 @@ mod tests {
 
     fn campaign(rest: &str) -> Campaign {
         let base = scenario::load(Path::new("uniform_channel")).unwrap();
-        let text = format!("(version: 1, title: \"t\", base: \"uniform_channel\", {rest})");
+        let text = format!("(version: 2, title: \"t\", base: \"uniform_channel\", {rest})");
         Campaign::new("c.ron", "c", &text, base).unwrap()
     }
 
     const ARMS: &str = r#"seeds: 3, arms: [(name: "slow", set: [("robots[0].strategy.speed_m_s", "1")]), (name: "fast")]"#;
 
     #[test]
-    fn arms_share_seeds_and_conditions_do_not() {
+    fn arms_share_seeds_and_so_do_conditions_unless_they_are_hashed() {
         let c = campaign(&format!(
             r#"{ARMS}, conditions: Grid([("time.limit_s", ["10", "20"]), ("sources[0].rate_g_s", ["1", "2"])])"#
         ));
@@ -231,10 +261,18 @@ mod tests {
             assert_eq!(pair[0].seed, pair[1].seed);
             assert_eq!((pair[0].arm, pair[1].arm), (0, 1));
         }
-        let mut seeds: Vec<u64> = places.iter().map(|p| p.seed).collect();
+        // Three seeds under each condition: the first three there are.
+        for (k, place) in places.iter().enumerate() {
+            assert_eq!(place.seed, 1 + k as u64 / 2 % 3);
+        }
+        let hashed = campaign(
+            &format!("{ARMS}, conditions: Grid([(\"time.limit_s\", [\"10\", \"20\"])])")
+                .replace("seeds: 3", "seeds: Hashed(seed: 1, count: 3)"),
+        );
+        let mut seeds: Vec<u64> = (0..12).map(|run| hashed.place(run).seed).collect();
         seeds.sort_unstable();
         seeds.dedup();
-        assert_eq!(seeds.len(), 12);
+        assert_eq!(seeds.len(), 6);
         assert_eq!(
             c.condition_name(1),
             "time.limit_s=10; sources[0].rate_g_s=2"
@@ -263,6 +301,21 @@ mod tests {
         let below = limits.iter().filter(|l| **l < 100.0).count();
         assert!((8..=42).contains(&below), "{below}");
         assert_eq!(c.condition_name(7), c.clone().condition_name(7));
+    }
+
+    #[test]
+    fn the_least_time_limit_counts() {
+        let limit_s = |rest: &str| campaign(rest).limit_s().unwrap();
+        let base = campaign(ARMS).base.scenario.time.limit_s.get();
+        assert_eq!(limit_s(ARMS), base);
+        assert_eq!(
+            limit_s(&format!(
+                r#"{ARMS}, conditions: Grid([("time.limit_s", ["30", "20"])])"#
+            )),
+            20.0
+        );
+        let arm = r#"seeds: 3, arms: [(name: "a"), (name: "b", set: [("time.limit_s", "9")])]"#;
+        assert_eq!(limit_s(arm), 9.0);
     }
 
     #[test]

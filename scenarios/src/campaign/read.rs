@@ -1,14 +1,14 @@
 //! The rows of a campaign's folder.
 
-use super::block::{BlockState, read_block};
+use super::block::{BlockState, present, read_block};
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
 use super::table::{TableWriter, csv_head, csv_line};
-use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
+use world::files::Output;
 
 /// All rows there are, in the order of runs; what is not done yet is left out.
 ///
@@ -28,9 +28,10 @@ fn each_block(
     mut take: impl FnMut(Vec<RunRow>) -> Result<(), CampaignError>,
 ) -> Result<Manifest, CampaignError> {
     let manifest = Manifest::of(dir)?;
-    for block in 0..manifest.n_blocks() {
+    manifest.campaign()?;
+    for block in present(dir, &manifest)? {
         match read_block(dir, &manifest, block) {
-            BlockState::Done(rows) => take(rows)?,
+            BlockState::Done(rows) | BlockState::Part(rows) => take(rows)?,
             BlockState::Missing => {}
             BlockState::Broken(error) => return Err(error),
         }
@@ -44,12 +45,15 @@ fn each_block(
 /// If there is no such run, or its block is not whole.
 pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
     let manifest = Manifest::of(dir)?;
+    manifest.campaign()?;
     let runs = manifest.runs;
     if run >= runs {
         return Err(CampaignError::NoRun { run, runs });
     }
     match read_block(dir, &manifest, run / manifest.block) {
-        BlockState::Done(rows) => Ok(rows.into_iter().find(|r| r.run == run)),
+        BlockState::Done(rows) | BlockState::Part(rows) => {
+            Ok(rows.into_iter().find(|r| r.run == run))
+        }
         BlockState::Missing => Ok(None),
         BlockState::Broken(error) => Err(error),
     }
@@ -70,19 +74,16 @@ pub struct Merged {
 /// # Errors
 /// If a block is not whole, or a file cannot be written; what was there before stays then.
 pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, CampaignError> {
+    if csv == Some(to) {
+        let problem = "the Parquet file and the CSV file would be the same".to_string();
+        let path = to.to_owned();
+        return Err(CampaignError::Write { path, problem });
+    }
     let unwritten = |path: &Path, problem: String| CampaignError::Write {
         path: path.to_owned(),
         problem,
     };
-    let temporary = |path: &Path| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(".tmp");
-        std::path::PathBuf::from(name)
-    };
-    let create = |path: &Path| {
-        let file = File::create(temporary(path)).map_err(|e| unwritten(path, e.to_string()))?;
-        Ok::<_, CampaignError>(BufWriter::new(file))
-    };
+    let create = |path: &Path| Ok::<_, CampaignError>(BufWriter::new(Output::create(path)?));
     let mut table = TableWriter::new(create(to)?, &[]).map_err(|e| unwritten(to, e.to_string()))?;
     let mut lines = csv
         .map(|path| create(path).map(|file| (path, file)))
@@ -103,23 +104,21 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
         }
         Ok(())
     })?;
-    let close = |path: &Path, file: BufWriter<File>| {
+    let close = |path: &Path, file: BufWriter<Output>| {
         let file = file
             .into_inner()
-            .map_err(|e| unwritten(path, e.to_string()))?;
-        file.sync_all()
-            .and_then(|()| std::fs::rename(temporary(path), path))
-            .map_err(|e| unwritten(path, e.to_string()))
+            .map_err(|e| unwritten(path, e.error().to_string()))?;
+        Ok::<_, CampaignError>(file.finish_on_disk()?)
     };
-    close(
-        to,
-        table.finish().map_err(|e| unwritten(to, e.to_string()))?,
-    )?;
+    let table = table.finish().map_err(|e| unwritten(to, e.to_string()))?;
+    // One that cannot be given its name costs the other nothing.
+    let table = close(to, table);
     if let Some((path, file)) = lines {
         close(path, file)?;
     }
+    table?;
     Ok(Merged {
         rows: n,
-        of: wanted(&manifest.campaign()?, dir, &manifest).runs(&manifest),
+        of: wanted(&manifest.campaign()?, dir, &manifest).runs,
     })
 }

@@ -1,28 +1,29 @@
-//! Runs a campaign's blocks: those of this process's share that are not done yet.
+//! Runs a campaign: what is left of this process's share.
 #![allow(
     clippy::disallowed_methods,
-    reason = "the limit of wall time decides when to stop, never what a run does"
+    reason = "wall time decides when rows are written, never what a run does"
 )]
 
-use super::block::{BlockState, read_block, write_block};
+use super::block::{add_to_block, present, read_block};
+use super::cost::block_of;
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
-use super::one_run::{RunName, sharing_run};
 use super::plan::Campaign;
 use super::row::RunRow;
 use super::shard::Shard;
-use crate::scenario::Loaded;
-use crate::spun_up::SpunUp;
-use rayon::prelude::*;
+use super::share::Share;
+use super::work::{Limits, Work};
 use std::collections::BTreeMap;
-use std::collections::btree_map::Entry;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::AtomicBool;
+use std::sync::{Mutex, OnceLock};
+use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
+use world::files::{OutputError, make_folder};
 
-/// Runs in a block, if nothing else is asked for.
-pub const BLOCK: u64 = 256;
+/// Wall time after which rows of a block in hand are written, whole or not: what a kill costs at most.
+const SAVE: Duration = Duration::from_secs(30);
 
 /// How to run a campaign; none of it changes a row.
 #[derive(Clone, Debug, Default)]
@@ -31,7 +32,8 @@ pub struct RunOptions {
     pub shard: Shard,
     /// Runs at a time; 0 for one a core.
     pub jobs: usize,
-    /// Runs in a block, made a multiple of the number of arms; without it the folder's, or [`BLOCK`].
+    /// Runs in a block, made a multiple of the number of arms; without it the folder's, or what
+    /// [`block_of`](super::block_of) makes of the first run's cost.
     pub block: Option<u64>,
     /// Wall time after which to stop.
     pub max_wall: Option<Duration>,
@@ -53,20 +55,20 @@ pub enum Event<'a> {
     Broken(&'a CampaignError),
     /// A run has ended.
     Ran(&'a RunRow),
-    /// A block was written.
+    /// A block was written that has all its rows.
     Wrote(u64),
 }
 
 /// How it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnded {
-    /// Every block of the share is there.
+    /// Every run of the share has its row.
     Complete,
     /// Stopped from outside or by the limit of wall time.
     Stopped {
-        /// Blocks written since the start.
-        written: u64,
-        /// Blocks of the share still to do.
+        /// Runs done since the start; their rows are written.
+        done: u64,
+        /// Runs of the share still to do.
         left: u64,
     },
     /// The share is done as far as is known; whether more runs are needed hangs on blocks of others.
@@ -76,11 +78,11 @@ pub enum RunEnded {
     },
 }
 
-/// Runs what is left of a share of a campaign into `dir`. Once `stop` is set the runs in hand are
-/// finished and no block is written that is not whole.
+/// Runs what is left of a share of a campaign into `dir`. Once `stop` is set the rows that are done are written, those
+/// of the runs in hand when these end, and no run is begun.
 ///
 /// # Errors
-/// If the folder holds another campaign or cannot be written; blocks written before stay as they are.
+/// If the folder holds another campaign or cannot be written; rows written before stay as they are.
 pub fn run(
     campaign: &Campaign,
     dir: &Path,
@@ -88,120 +90,110 @@ pub fn run(
     stop: &AtomicBool,
     tell: &(dyn Fn(Event<'_>) + Sync),
 ) -> Result<RunEnded, CampaignError> {
-    let begun = Instant::now();
-    let manifest = settle(campaign, dir, options)?;
-    let share = Share {
-        campaign,
-        dir,
-        manifest: &manifest,
-        options,
-        begun,
-        stop,
-        tell,
+    let limits = Limits::new(options.max_wall, stop);
+    let threads = match options.jobs {
+        0 => available_parallelism().map_or(1, usize::from),
+        jobs => jobs,
     };
-    let mut written = 0;
+    let work = Work {
+        campaign,
+        limits: &limits,
+        threads: threads.min(usize::try_from(campaign.n_runs()).unwrap_or(threads)),
+        tell,
+        scenarios: Mutex::new(BTreeMap::new()),
+    };
+    let manifest = OnceLock::new();
+    if let Some(settled) = settle(campaign, dir, options)? {
+        let _ = manifest.set(settled);
+    } else if options.shard.count > 1 {
+        // Which runs are this share's hangs on the length of blocks: one run is made to find it out.
+        let row = work.one(0, &mut Vec::new())?;
+        let first = new_manifest(campaign, options, &row).write_first(dir, false)?;
+        if options.shard.has(0) {
+            add_to_block(dir, &first, 0, &[row])?;
+        }
+        let _ = manifest.set(first);
+    }
+    let by_cost = |row: &RunRow| new_manifest(campaign, options, row).write_first(dir, false);
     let mut reached = None;
     loop {
-        let wanted = wanted(campaign, dir, &manifest);
+        // A new folder has no rows, whatever the length of blocks.
+        let stand_in = Manifest::new(campaign, campaign.n_arms());
+        let wanted = wanted(campaign, dir, manifest.get().unwrap_or(&stand_in));
         if reached == Some(wanted) {
-            let there = |b: &u64| matches!(read_block(dir, &manifest, *b), BlockState::Done(_));
-            let missing = (0..wanted.blocks).filter(|b| !there(b)).count() as u64;
+            let known = manifest.get().unwrap_or(&stand_in);
+            let missing = missing_blocks(dir, known, wanted.runs)?;
             return Ok(RunEnded::Waiting { missing });
         }
-        let ended = share.run_to(wanted.blocks, &mut written)?;
-        if wanted.decided || ended != RunEnded::Complete {
-            return Ok(ended);
+        let place = (options.shard, campaign.n_arms(), wanted.runs);
+        let share = Share::look(dir, &manifest, &by_cost, place, tell)?;
+        tell(Event::Begun {
+            runs: share.runs,
+            done: share.done,
+        });
+        let mut saved = Instant::now();
+        let mut stopping = false;
+        let ended = work.go(&|| share.next(), &|row| share.keep(row), &mut |over| {
+            // At once when the end is asked for: whoever asked may ask again, less kindly.
+            if (over && !stopping) || saved.elapsed() > SAVE {
+                stopping = over;
+                saved = Instant::now();
+                return share.write_out();
+            }
+            Ok(())
+        });
+        // What can be kept is kept, whatever went wrong.
+        ended.and(share.write_out())?;
+        let left = share.runs - share.done - share.kept();
+        if left > 0 {
+            return Ok(RunEnded::Stopped {
+                done: share.kept(),
+                left,
+            });
+        }
+        if wanted.decided {
+            return Ok(RunEnded::Complete);
         }
         reached = Some(wanted);
     }
 }
 
-/// A share of a campaign being run.
-struct Share<'a> {
-    campaign: &'a Campaign,
-    dir: &'a Path,
-    manifest: &'a Manifest,
-    options: &'a RunOptions,
-    begun: Instant,
-    stop: &'a AtomicBool,
-    tell: &'a (dyn Fn(Event<'_>) + Sync),
+/// Blocks below a run that lack rows.
+fn missing_blocks(dir: &Path, manifest: &Manifest, end: u64) -> Result<u64, CampaignError> {
+    let whole = |block: &u64| {
+        let runs = manifest.runs_of(*block);
+        let asked = runs.start..runs.end.min(end);
+        let rows = read_block(dir, manifest, *block).rows();
+        let there = rows.iter().filter(|r| asked.contains(&r.run)).count() as u64;
+        !asked.is_empty() && there == asked.end - asked.start
+    };
+    let there = present(dir, manifest)?.iter().filter(|b| whole(b)).count() as u64;
+    Ok(end.div_ceil(manifest.block) - there)
 }
 
-impl Share<'_> {
-    /// Does what is not done of the share's blocks below `end`; counts in `written` those it writes.
-    fn run_to(&self, end: u64, written: &mut u64) -> Result<RunEnded, CampaignError> {
-        let Self {
-            campaign,
-            dir,
-            manifest,
-            options,
-            begun,
-            stop,
-            tell,
-        } = *self;
-        let mut to_do = Vec::new();
-        let (mut runs, mut done) = (0, 0);
-        for block in (0..end).filter(|b| options.shard.has(*b)) {
-            let n = manifest.runs_of(block).count() as u64;
-            runs += n;
-            match read_block(dir, manifest, block) {
-                BlockState::Done(_) => done += n,
-                BlockState::Missing => to_do.push(block),
-                BlockState::Broken(error) => {
-                    tell(Event::Broken(&error));
-                    to_do.push(block);
-                }
-            }
-        }
-        tell(Event::Begun { runs, done });
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(options.jobs)
-            .build()
-            .map_err(|e| CampaignError::Shard(format!("cannot start threads: {e}")))?;
-        let first = Instant::now();
-        for (k, &block) in to_do.iter().enumerate() {
-            let stopped = |written: &u64| RunEnded::Stopped {
-                written: *written,
-                left: (to_do.len() - k) as u64,
-            };
-            // A block that would be cut off is not begun.
-            let expected = first.elapsed().checked_div(k as u32).unwrap_or_default();
-            if (options.max_wall).is_some_and(|max| begun.elapsed() + expected > max) {
-                return Ok(stopped(written));
-            }
-            let going = || {
-                !stop.load(Ordering::Relaxed)
-                    && options.max_wall.is_none_or(|max| begun.elapsed() <= max)
-            };
-            let rows = pool.install(|| block_rows(campaign, manifest, block, &going, tell))?;
-            let Some(rows) = rows else {
-                return Ok(stopped(written));
-            };
-            write_block(dir, block, &rows)?;
-            *written += 1;
-            tell(Event::Wrote(block));
-        }
-        Ok(RunEnded::Complete)
-    }
+fn new_manifest(campaign: &Campaign, options: &RunOptions, first: &RunRow) -> Manifest {
+    let (spin_up_s, mission_s) = (first.spin_up_wall_s, first.mission_wall_s);
+    let block = block_of(campaign, spin_up_s, mission_s, options.shard.count);
+    Manifest::new(campaign, block)
 }
 
-/// Makes the folder the campaign's, or makes sure that it is.
+/// Makes the folder the campaign's, or makes sure that it is. `None`: it is new, and how long blocks are is for the first
+/// run to say.
 fn settle(
     campaign: &Campaign,
     dir: &Path,
     options: &RunOptions,
-) -> Result<Manifest, CampaignError> {
+) -> Result<Option<Manifest>, CampaignError> {
     let found = Manifest::find(dir)?;
-    let block = (options.block)
-        .or(found.as_ref().map(|m| m.block))
-        .unwrap_or(BLOCK)
-        .max(1)
-        .next_multiple_of(campaign.n_arms());
-    let ours = Manifest::new(campaign, block);
+    let asked = (options.block)
+        .map(|block| block.max(1).next_multiple_of(campaign.n_arms()))
+        .or(found.as_ref().map(|m| m.block));
+    let ours = Manifest::new(campaign, asked.unwrap_or(campaign.n_arms()));
     if let Some(there) = &found {
         let what = there.differences(&ours);
         if what.is_empty() {
-            return Ok(there.clone());
+            there.campaign()?;
+            return Ok(Some(there.clone()));
         }
         if !options.force {
             let dir = dir.to_owned();
@@ -209,56 +201,21 @@ fn settle(
         }
     }
     campaign.check()?;
-    std::fs::create_dir_all(dir).map_err(|e| CampaignError::Write {
-        path: dir.to_owned(),
-        problem: e.to_string(),
-    })?;
-    ours.write(dir)?;
-    Ok(ours)
-}
-
-/// The rows of a block, in the order of runs; `None` if it was stopped before it was whole.
-fn block_rows(
-    campaign: &Campaign,
-    manifest: &Manifest,
-    block: u64,
-    going: &(dyn Fn() -> bool + Sync),
-    tell: &(dyn Fn(Event<'_>) + Sync),
-) -> Result<Option<Vec<RunRow>>, CampaignError> {
-    let runs = manifest.runs_of(block);
-    let mut scenarios: BTreeMap<u64, Vec<Loaded>> = BTreeMap::new();
-    for run in runs.clone() {
-        let condition = campaign.place(run).condition;
-        if let Entry::Vacant(place) = scenarios.entry(condition) {
-            let arms = (0..campaign.spec.arms.len()).map(|arm| campaign.loaded(condition, arm));
-            place.insert(arms.collect::<Result<_, _>>()?);
+    make_folder(dir).map_err(|e| OutputError::new(dir, e))?;
+    let Some(there) = found else {
+        if !present(dir, &ours)?.is_empty() {
+            return Err(CampaignError::NoCampaign {
+                dir: dir.to_owned(),
+                problem: "there are blocks in it, but nothing says of what".to_string(),
+            });
         }
-    }
-    let n_arms = campaign.n_arms();
-    let groups: Option<Vec<Vec<RunRow>>> = (runs.start / n_arms..runs.end.div_ceil(n_arms))
-        .into_par_iter()
-        .map(|group| {
-            // The arms of a seed, one after the other, so that they can share a spun-up state.
-            let mut spun: Vec<SpunUp> = Vec::new();
-            let mut rows = Vec::new();
-            for run in group * n_arms..(group + 1) * n_arms {
-                if !going() {
-                    return None;
-                }
-                let place = campaign.place(run);
-                let name = RunName {
-                    run,
-                    arm: campaign.arm(place.arm).name.clone(),
-                    condition: campaign.condition_name(place.condition),
-                    seed_index: place.seed_index,
-                    seed: place.seed,
-                };
-                let row = sharing_run(&scenarios[&place.condition][place.arm], &name, &mut spun);
-                tell(Event::Ran(&row));
-                rows.push(row);
-            }
-            Some(rows)
-        })
-        .collect();
-    Ok(groups.map(|groups| groups.into_iter().flatten().collect()))
+        return asked.map(|_| ours.write_first(dir, true)).transpose();
+    };
+    let ours = Manifest {
+        block: ours.block.next_multiple_of(campaign.n_arms()),
+        sealed: there.sealed,
+        ..ours
+    };
+    ours.write(dir)?;
+    Ok(Some(ours))
 }

@@ -1,15 +1,14 @@
 //! What a campaign file says.
 
-use crate::scenario::{Fault, Found, Outline, ScenarioError, explain};
-use ron::extensions::Extensions;
+use super::seeds::{Asked, MOST, Seeds};
+use crate::scenario::{Fault, Found, Outline, ScenarioError, read};
 use serde::{Deserialize, Serialize};
 
-/// Version of the campaign files this program reads.
-const VERSION: u32 = 1;
+/// Version of the campaign files this program writes; it reads version 1, too.
+const VERSION: u32 = 2;
 
 /// A campaign: one scenario, several arms, many seeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct CampaignSpec {
     /// Version of the file.
     pub version: u32,
@@ -17,19 +16,32 @@ pub struct CampaignSpec {
     pub title: String,
     /// Scenario: a file, relative to the campaign's, or the name of one that comes with the program.
     pub base: String,
-    /// Seed that all runs' seeds are made from.
-    #[serde(default = "one")]
-    pub seed: u64,
     /// Seeds for each condition; every arm runs with each of them.
-    pub seeds: u64,
+    pub seeds: Seeds,
     /// Stop before that, once every success share is known well enough.
-    #[serde(default)]
     pub until: Option<Until>,
     /// What is compared.
     pub arms: Vec<Arm>,
     /// Circumstances in which it is compared.
-    #[serde(default)]
     pub conditions: Conditions,
+}
+
+/// The file, field by field.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename = "CampaignSpec")]
+struct File {
+    version: u32,
+    title: String,
+    base: String,
+    /// Of version 1: what seeds and drawn conditions are made from.
+    #[serde(default)]
+    seed: Option<u64>,
+    seeds: Asked,
+    #[serde(default)]
+    until: Option<Until>,
+    arms: Vec<Arm>,
+    #[serde(default)]
+    conditions: Conditions,
 }
 
 /// When enough is known.
@@ -38,10 +50,6 @@ pub struct CampaignSpec {
 pub struct Until {
     /// Greatest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
     pub half_width: f64,
-}
-
-fn one() -> u64 {
-    1
 }
 
 /// One of the things compared: the scenario with some values changed.
@@ -53,6 +61,19 @@ pub struct Arm {
     /// Changes: path in the scenario and the new value as RON.
     #[serde(default)]
     pub set: Vec<(String, String)>,
+}
+
+impl Arm {
+    /// What it sets, `path=value` joined by `; `.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let set: Vec<String> = self.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
+        if set.is_empty() {
+            "as it is".to_string()
+        } else {
+            set.join("; ")
+        }
+    }
 }
 
 /// Circumstances, the same for every arm.
@@ -71,8 +92,11 @@ pub enum Conditions {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomConditions {
-    /// How many conditions.
+    /// How many conditions, 1 to 2^40.
     pub n: u64,
+    /// What they are drawn from; without it 1. In a file of version 1 its own `seed`.
+    #[serde(default)]
+    pub seed: Option<u64>,
     /// Which values vary, and how.
     pub draw: Vec<(String, Draw)>,
 }
@@ -94,30 +118,105 @@ impl CampaignSpec {
     /// # Errors
     /// If it is not a campaign, with the place.
     pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
-        let reader = ron::Options::default().with_default_extension(
-            Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES,
-        );
-        let spec: Self = reader.from_str(text).map_err(|e| explain(name, text, &e))?;
+        let meaning = |file: &File| {
+            let (spec, mut found) = Self::of(file.clone());
+            found.extend(spec.check());
+            found
+        };
+        let file: File = read(name, text, &meaning)?;
         let outline = Outline::of(text);
-        let mut faults: Vec<Fault> = (spec.check().into_iter())
+        let (spec, found) = Self::of(file);
+        let faults: Vec<Fault> = (found.into_iter().chain(spec.check()))
             .map(|found| Fault::located(name, text, &outline, found))
             .collect();
-        match faults.len() {
-            0 => Ok(spec),
-            1 => Err(Box::new(faults.remove(0)).into()),
-            _ => Err(ScenarioError::Many {
-                path: name.to_string(),
-                faults,
-            }),
+        if faults.is_empty() {
+            Ok(spec)
+        } else {
+            Err(ScenarioError::of(name, faults))
         }
     }
 
-    /// Number of conditions.
+    /// What a file means, and what of it its version does not know.
+    fn of(file: File) -> (Self, Vec<Found>) {
+        let mut found = Vec::new();
+        let mut conditions = file.conditions;
+        let odd = |found: &mut Vec<Found>, problem| {
+            found.push(Found::error("seeds", problem));
+            Seeds::Literal { first: 1, count: 1 }
+        };
+        let seeds = if file.version == 1 {
+            let seed = file.seed.unwrap_or(1);
+            if let Conditions::Random(random) = &mut conditions {
+                if random.seed.is_some() {
+                    let problem = "a file of version 1 has its seed as a field of its own";
+                    found.push(Found::error("conditions.seed", problem).hint("write `version: 2`"));
+                }
+                random.seed = Some(seed);
+            }
+            match file.seeds {
+                Asked::Number(count) => Seeds::Hashed { seed, count },
+                Asked::Form(seeds) => {
+                    let problem = "a file of version 1 has a number here";
+                    found.push(Found::error("seeds", problem).hint("write `version: 2`"));
+                    seeds
+                }
+                Asked::Odd(problem) => odd(&mut found, problem),
+            }
+        } else {
+            if let Some(seed) = file.seed {
+                let problem = "a file of version 2 has no field `seed`";
+                let help = format!(
+                    "`seeds: 20` is seeds 1 to 20, `seeds: Hashed(seed: {seed}, count: 20)` what version 1 meant; \
+                     drawn conditions have their own: `Random(n: 20, seed: {seed}, draw: [...])`"
+                );
+                found.push(Found::error("seed", problem).hint(help));
+            }
+            match file.seeds {
+                Asked::Number(count) => Seeds::Literal { first: 1, count },
+                Asked::Form(seeds) => seeds,
+                Asked::Odd(problem) => odd(&mut found, problem),
+            }
+        };
+        let spec = Self {
+            version: file.version,
+            title: file.title,
+            base: file.base,
+            seeds,
+            until: file.until,
+            arms: file.arms,
+            conditions,
+        };
+        (spec, found)
+    }
+
+    /// What a file of version 1 means and how version 2 writes it; nothing of one of version 2.
+    pub(super) fn note(&self) -> Option<Found> {
+        let (1, Seeds::Hashed { seed, count }) = (self.version, self.seeds) else {
+            return None;
+        };
+        let problem = format!(
+            "a file of version 1: its seeds are hashed from {seed}, as was meant, and are not those of \
+             `rheotaxis run --seed N`"
+        );
+        let drawn = match &self.conditions {
+            Conditions::Random(_) => format!(" and `Random(seed: {seed}, ...)`"),
+            _ => String::new(),
+        };
+        let help = format!(
+            "in version 2 the same is `seeds: Hashed(seed: {seed}, count: {count})`{drawn}, without `seed`; \
+             `seeds: {count}` is seeds 1 to {count}, which pair with published runs"
+        );
+        Some(Found::warning("version", problem).hint(help))
+    }
+
+    /// Number of conditions; at most 2^64 - 1.
     #[must_use]
     pub fn n_conditions(&self) -> u64 {
         match &self.conditions {
             Conditions::Single => 1,
-            Conditions::Grid(axes) => axes.iter().map(|(_, values)| values.len() as u64).product(),
+            Conditions::Grid(axes) => (axes.iter()).fold(1, |n: u64, (_, values)| {
+                n.saturating_mul(values.len() as u64)
+            }),
             Conditions::Random(random) => random.n,
         }
     }
@@ -125,15 +224,15 @@ impl CampaignSpec {
     fn check(&self) -> Vec<Found> {
         let mut found = Vec::new();
         let mut wrong = |path: &str, problem: String| found.push(Found::error(path, problem));
-        if self.version != VERSION {
+        if !(1..=VERSION).contains(&self.version) {
             let got = self.version;
             wrong(
                 "version",
-                format!("this program reads version {VERSION}, got {got}"),
+                format!("this program reads versions 1 and {VERSION}, got {got}"),
             );
         }
-        if self.seeds == 0 {
-            wrong("seeds", "must be at least 1, got 0".to_string());
+        if let Some((field, problem)) = self.seeds.fault() {
+            wrong("seeds", format!("{field} {problem}"));
         }
         if let Some(until) = &self.until
             && !(until.half_width > 0.0 && until.half_width < 0.5)
@@ -173,8 +272,12 @@ impl CampaignSpec {
                 axes.iter().map(|(path, _)| path).collect()
             }
             Conditions::Random(random) => {
-                if random.n == 0 {
-                    wrong("conditions.n", "must be at least 1, got 0".to_string());
+                if !(1..=MOST).contains(&random.n) {
+                    let got = random.n;
+                    wrong(
+                        "conditions.n",
+                        format!("must be from 1 to {MOST}, got {got}"),
+                    );
                 }
                 for (i, (_, draw)) in random.draw.iter().enumerate() {
                     if let Err(problem) = draw.check() {
@@ -195,10 +298,13 @@ impl CampaignSpec {
             }
         }
         let runs = (self.n_conditions())
-            .checked_mul(self.seeds)
+            .checked_mul(self.seeds.count())
             .and_then(|n| n.checked_mul(self.arms.len() as u64));
-        if runs.is_none_or(|n| n > 1 << 40) {
-            wrong("seeds", "the campaign has more than 2^40 runs".to_string());
+        if runs.is_none_or(|n| n > MOST) {
+            wrong(
+                "seeds",
+                format!("the campaign has more than {MOST} runs (arms x conditions x seeds)"),
+            );
         }
         found
     }
@@ -222,47 +328,4 @@ impl Draw {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn faults(text: &str) -> Vec<String> {
-        CampaignSpec::parse("c.ron", text).unwrap_err().lines()
-    }
-
-    #[test]
-    fn mistakes_are_located() {
-        let good =
-            "(version: 1, title: \"t\", base: \"duck_st\", seeds: 3,\n arms: [(name: \"a\")])";
-        assert_eq!(
-            CampaignSpec::parse("c.ron", good).unwrap().n_conditions(),
-            1
-        );
-        assert_eq!(
-            faults(&good.replace("seeds: 3", "seeds: 0")),
-            ["c.ron:1:43: seeds: must be at least 1, got 0"]
-        );
-        let wide = good.replace("seeds: 3", "seeds: 3, until: (half_width: 0.5)");
-        assert_eq!(
-            faults(&wide),
-            ["c.ron:1:61: until.half_width: must be above 0 and below 0.5, got 0.5"]
-        );
-        let twins = good.replace("(name: \"a\")", "(name: \"a\"), (name: \"a\")");
-        assert_eq!(
-            faults(&twins),
-            ["c.ron:2:23: arms[1].name: \"a\" is taken by another arm"]
-        );
-        let said = faults(&good.replace("seeds", "seed_s"));
-        assert!(said[0].contains("there is no field `seed_s`"), "{said:?}");
-    }
-
-    #[test]
-    fn an_arm_cannot_set_what_the_conditions_vary() {
-        let text = "(version: 1, title: \"t\", base: \"b\", seeds: 1, arms: [(name: \"a\", set: [(\"x\", \"1\")])], \
-            conditions: Random(n: 2, draw: [(\"x\", Uniform(0, 1))]))";
-        let said = faults(text);
-        assert!(
-            said[0].contains("`x` is set by the conditions too"),
-            "{said:?}"
-        );
-    }
-}
+mod tests;

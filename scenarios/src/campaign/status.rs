@@ -1,9 +1,11 @@
 //! How far a campaign has come.
 
-use super::block::{BlockState, read_block};
+use super::block::{BlockState, present, read_block};
 use super::enough::{Wanted, wanted};
 use super::error::CampaignError;
 use super::manifest::Manifest;
+use super::row::RunRow;
+use super::seeds::Seeds;
 use std::path::Path;
 
 /// How an arm stands, over all conditions.
@@ -26,14 +28,18 @@ pub struct Status {
     pub wanted: Wanted,
     /// What the folder was made from.
     pub manifest: Manifest,
-    /// Blocks that are done.
+    /// Blocks that hold all that is wanted of them.
     pub blocks_done: u64,
     /// Blocks whose file is not whole.
     pub broken: Vec<CampaignError>,
-    /// Runs in the blocks that are done.
+    /// Runs that have a row.
     pub runs_done: u64,
+    /// Of the runs wanted, those that have none.
+    pub missing: u64,
     /// The first run that failed, with its error.
     pub first_error: Option<(u64, String)>,
+    /// The runs' seeds.
+    pub seeds: Seeds,
     /// Each arm.
     pub arms: Vec<ArmStatus>,
 }
@@ -50,41 +56,51 @@ impl Status {
             name: name.clone(),
             ..ArmStatus::default()
         };
+        let wanted = wanted(&campaign, dir, &manifest);
         let mut status = Self {
             arms: campaign.spec.arms.iter().map(|a| named(&a.name)).collect(),
-            wanted: wanted(&campaign, dir, &manifest),
             blocks_done: 0,
             broken: Vec::new(),
             runs_done: 0,
+            missing: wanted.runs,
             first_error: None,
+            seeds: campaign.spec.seeds,
+            wanted,
             manifest,
         };
-        for block in 0..status.manifest.n_blocks() {
+        for block in present(dir, &status.manifest)? {
             match read_block(dir, &status.manifest, block) {
                 BlockState::Missing => {}
                 BlockState::Broken(error) => status.broken.push(error),
-                BlockState::Done(rows) => {
-                    status.blocks_done += 1;
-                    status.runs_done += rows.len() as u64;
-                    for row in rows {
-                        if let Some(arm) = status.arms.iter_mut().find(|a| a.name == row.arm) {
-                            arm.runs += 1;
-                            arm.successes += u64::from(row.success);
-                            arm.failed += u64::from(row.error.is_some());
-                        }
-                        if let Some(error) = row.error {
-                            status.first_error.get_or_insert((row.run, error));
-                        }
-                    }
-                }
+                BlockState::Done(rows) | BlockState::Part(rows) => status.add(block, rows),
             }
         }
         Ok(status)
     }
 
-    /// Whether every block is there and whole.
+    fn add(&mut self, block: u64, rows: Vec<RunRow>) {
+        let asked = self.manifest.runs_of(block);
+        let asked = asked.start..asked.end.min(self.wanted.runs);
+        let there = rows.iter().filter(|r| asked.contains(&r.run)).count() as u64;
+        let enough = !asked.is_empty() && there == asked.end - asked.start;
+        self.blocks_done += u64::from(enough);
+        self.missing -= there;
+        self.runs_done += rows.len() as u64;
+        for row in rows {
+            if let Some(arm) = self.arms.iter_mut().find(|a| a.name == row.arm) {
+                arm.runs += 1;
+                arm.successes += u64::from(row.success);
+                arm.failed += u64::from(row.error.is_some());
+            }
+            if let Some(error) = row.error {
+                self.first_error.get_or_insert((row.run, error));
+            }
+        }
+    }
+
+    /// Whether every run that is wanted has its row.
     #[must_use]
     pub fn complete(&self) -> bool {
-        self.wanted.decided && self.blocks_done >= self.wanted.blocks
+        self.wanted.decided && self.missing == 0
     }
 }

@@ -140,6 +140,11 @@ impl<W: Write + Send> TableWriter<W> {
         )?))
     }
 
+    /// Puts bytes before the first column; readers pass over them.
+    pub(super) fn before_columns(&mut self, bytes: &[u8]) -> Result<()> {
+        Ok(self.0.write_all(bytes)?)
+    }
+
     /// Adds rows, as a group of their own.
     pub(super) fn rows(&mut self, rows: &[RunRow]) -> Result<()> {
         let mut group = self.0.next_row_group()?;
@@ -207,8 +212,14 @@ fn write_column<W: Write + Send>(
     writer.close()
 }
 
-/// All rows of a table, and the notes in its footer.
-pub(super) fn read<R: ChunkReader + 'static>(from: R) -> Result<(Vec<RunRow>, Vec<KeyValue>)> {
+/// All rows of a table of at most `most` rows, and the notes in its footer. What footer and pages say of themselves is held
+/// against the file and that number first: the library would reserve room for whatever they say.
+pub(super) fn read<R: ChunkReader + 'static>(
+    from: R,
+    most: usize,
+) -> Result<(Vec<RunRow>, Vec<KeyValue>)> {
+    let odd = |what: &str| ParquetError::General(what.to_string());
+    let length = from.len();
     let reader = SerializedFileReader::new(from)?;
     let meta = reader.metadata().file_metadata();
     let names: Vec<&str> = meta
@@ -218,9 +229,31 @@ pub(super) fn read<R: ChunkReader + 'static>(from: R) -> Result<(Vec<RunRow>, Ve
         .map(|f| f.name())
         .collect();
     if !names.iter().eq(COLUMNS.iter().map(|(name, ..)| name)) {
-        return Err(ParquetError::General(
-            "its columns are not those of a campaign".to_string(),
-        ));
+        return Err(odd("its columns are not those of a campaign"));
+    }
+    let fits = |n: i64| usize::try_from(n).is_ok_and(|n| n <= most);
+    let mut n = 0;
+    for (k, group) in reader.metadata().row_groups().iter().enumerate() {
+        if !fits(group.num_rows()) {
+            return Err(odd("it says to hold more rows than a block has"));
+        }
+        n += group.num_rows();
+        if !fits(n) {
+            return Err(odd("it says to hold more rows than a block has"));
+        }
+        let pages = reader.get_row_group(k)?;
+        for (c, column) in group.columns().iter().enumerate() {
+            // Numbers below 0 make the library panic: its caller is ready for that.
+            let (at, size) = column.byte_range();
+            if at.checked_add(size).is_none_or(|end| end > length) || !fits(column.num_values()) {
+                return Err(odd("a column lies outside the file"));
+            }
+            for page in pages.get_column_page_reader(c)? {
+                if !fits(i64::from(page?.num_values())) {
+                    return Err(odd("a page says to hold more values than there are rows"));
+                }
+            }
+        }
     }
     let notes = meta.key_value_metadata().cloned().unwrap_or_default();
     let rows = reader.get_row_iter(None)?;
@@ -319,10 +352,14 @@ mod tests {
         let read_bytes = |bytes: &[u8]| {
             let mut file = tempfile::tempfile().unwrap();
             file.write_all(bytes).unwrap();
-            read(file)
+            read(file, 3)
         };
         let (back, notes) = read_bytes(&bytes).unwrap();
         assert_eq!(back, rows);
+        let mut file = tempfile::tempfile().unwrap();
+        file.write_all(&bytes).unwrap();
+        let said = read(file, 2).unwrap_err().to_string();
+        assert!(said.contains("more rows than a block has"), "{said}");
         assert!(
             notes
                 .iter()

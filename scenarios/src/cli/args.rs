@@ -26,6 +26,28 @@ pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
+    /// Memory that one run may take, such as 500M or 16G: a scenario that needs more is refused before it starts.
+    #[arg(
+        long,
+        global = true,
+        value_name = "SIZE",
+        default_value = "4G",
+        value_parser = bytes
+    )]
+    pub memory: f64,
+}
+
+/// A size of memory: a number of bytes, or of K, M, G or T (thousands).
+fn bytes(s: &str) -> Result<f64, String> {
+    let units = [('K', 1e3), ('M', 1e6), ('G', 1e9), ('T', 1e12)];
+    let last = s.chars().last().map(|c| c.to_ascii_uppercase());
+    let unit = units.into_iter().find(|(name, _)| Some(*name) == last);
+    let (number, times) = unit.map_or((s, 1.0), |(_, times)| (&s[..s.len() - 1], times));
+    match number.trim().parse::<f64>() {
+        Ok(n) if n * times >= 1e6 && (n * times).is_finite() => Ok(n * times),
+        Ok(n) if n >= 0.0 => Err("must be at least 1M".to_string()),
+        _ => Err("must be a size such as 500M, 4G or 1.5T".to_string()),
+    }
 }
 
 const EXAMPLES: &str =
@@ -256,6 +278,25 @@ mod tests {
     fn the_command_line_is_well_formed() {
         use clap::CommandFactory;
         Args::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_of_memory_read_with_their_units() {
+        assert_eq!(bytes("4G"), Ok(4e9));
+        assert_eq!(bytes("500m"), Ok(5e8));
+        assert_eq!(bytes("1.5T"), Ok(1.5e12));
+        assert_eq!(bytes("2000000"), Ok(2e6));
+        for bad in ["", "G", "-4G", "nan", "infG", "4X", "10K", "0"] {
+            assert!(bytes(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn the_memory_allowed_is_that_of_the_library() {
+        let args = Args::try_parse_from(["rheotaxis", "check", "a.ron"]).unwrap();
+        assert_eq!(args.memory, crate::scenario::cost::MEMORY);
+        let args = ["rheotaxis", "run", "a.ron", "--memory", "16G"];
+        assert_eq!(Args::try_parse_from(args).unwrap().memory, 16e9);
     }
 
     #[test]

@@ -9,8 +9,11 @@ use std::time::Duration;
 #[derive(Clone, Debug, clap::Args)]
 #[command(
     long_about = "A campaign file (RON) says which scenario, which arms (values changed by their path in it), \
-        under which conditions and over how many seeds. Every arm runs with the same seeds.\n\n\
-        `run` cuts the runs into blocks, each a Parquet file that appears when it is whole: what exists is \
+        under which conditions and with which seeds. Every arm runs with the same seeds.\n\n\
+        `seeds: 20` is seeds 1 to 20, `seeds: Literal(first: 101, count: 20)` 101 to 120: a row is that of `rheotaxis run \
+        --seed N` of the same scenario, digest and all. `seeds: Hashed(seed: 1, count: 20)` are others under each condition. \
+        (A file of version 1 means hashed seeds by a number; it is read so, and says so.)\n\n\
+        `run` writes blocks of rows, each a Parquet file: what has a row is \
         done, so a campaign goes on after any interruption, and any number of machines share a folder. \
         A run's row does not depend on how the work was dealt out.",
     after_help = AFTER
@@ -24,7 +27,7 @@ pub struct CampaignArgs {
 const AFTER: &str = "\
 Examples:
   rheotaxis campaign plan duck_beta
-  rheotaxis campaign run duck_beta --out beta --block 16
+  rheotaxis campaign run duck_beta --out beta
   rheotaxis campaign status beta
   rheotaxis campaign merge beta -o beta.parquet --csv
   rheotaxis campaign report beta
@@ -55,7 +58,7 @@ pub struct PlanArgs {
     /// Campaign file, or the name of a campaign that comes with the program.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Runs in a block.
+    /// Runs in a block; without it what one thread does in half a minute.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub block: Option<u64>,
     /// Estimate no cost: that takes one run.
@@ -79,7 +82,8 @@ pub struct CampaignRunArgs {
     /// Runs at a time; 0 for one a core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub jobs: usize,
-    /// Runs in a block, made a multiple of the arms; without it the folder's, or 256.
+    /// Runs in a block, made a multiple of the arms; without it the folder's or, in a new one, what a thread does in half
+    /// a minute by the cost of the first run (at most 256).
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub block: Option<u64>,
     /// Stop in time for this limit: 90s, 55m, 1h30m.
@@ -98,8 +102,8 @@ Without --shard the share is read from a Slurm array (SLURM_ARRAY_TASK_ID, _MIN,
 HyperQueue task array counted from 1 (HQ_TASK_ID) or an indexed Kubernetes Job (JOB_COMPLETION_INDEX).
 The latter two do not say how many there are: set RHEOTAXIS_SHARDS (for Kubernetes also JOB_COMPLETIONS).
 
-Ctrl-C, a termination signal and --max-wall let the runs in hand end and leave the block in hand undone:
-choose --block so that a block takes minutes.
+Ctrl-C, a termination signal and --max-wall let the runs in hand end and write every row that is done, of blocks
+that are not whole, too. A kill costs the runs in hand and at most half a minute of rows.
 
 Exit codes: 0 the share is done; 75 stopped, the same command goes on; 1 error; 2 usage.";
 

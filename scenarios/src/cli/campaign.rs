@@ -1,30 +1,24 @@
 //! `rheotaxis campaign`: plans, runs, looks at, merges and repeats campaigns.
 
 use super::args::{RunArgs, Speed};
-use super::args_campaign::{
-    CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, RerunArgs, StatusArgs,
-};
+use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
+use super::campaign_plan::{count, plan};
 use super::campaign_report;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::run::RunError;
-use super::say;
+use super::{say, stop};
 use crate::campaign::{
-    BLOCK, CampaignError, Event, Manifest, RunEnded, RunName, RunOptions, Shard, Status, load,
-    merge, one_run, read_row, run,
+    CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
 };
 use crate::report::RunOutcome;
 use crate::trial::Trial;
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-
-/// Set by Ctrl-C or a termination signal.
-static STOP: AtomicBool = AtomicBool::new(false);
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Does what is asked.
 pub(super) fn campaign(command: &CampaignCommand) -> Exit {
-    // Fails only if a handler is there already, and that one is ours.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    stop::listen();
     let done = match command {
         CampaignCommand::Plan(args) => plan(args),
         CampaignCommand::Run(args) => run_share(args),
@@ -44,7 +38,9 @@ pub(super) fn refused(error: CampaignError) -> Exit {
         CampaignError::Write { .. } => {
             Some("blocks written before are whole; make room or name another folder, and run again")
         }
-        CampaignError::Broken { .. } => Some("`rheotaxis campaign run` does it again"),
+        CampaignError::Broken { .. } => Some(
+            "`rheotaxis campaign run` does it again, unless something else stands in its place",
+        ),
         _ => None,
     };
     match error {
@@ -54,95 +50,13 @@ pub(super) fn refused(error: CampaignError) -> Exit {
     Exit::Error
 }
 
-fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
-    let campaign = load(&args.file)?;
-    campaign.check()?;
-    let (runs, conditions) = (campaign.n_runs(), campaign.spec.n_conditions());
-    let block = args
-        .block
-        .unwrap_or(BLOCK)
-        .next_multiple_of(campaign.n_arms());
-    say::line(format_args!("{}: {}", campaign.name, campaign.spec.title));
-    say::line(format_args!(
-        "  {runs} runs: {} x {} x {} on {}",
-        count(campaign.n_arms(), "arm"),
-        count(conditions, "condition"),
-        count(campaign.spec.seeds, "seed"),
-        campaign.base.name
-    ));
-    if let Some(until) = &campaign.spec.until {
-        say::line(format_args!(
-            "  or fewer: until every success share is known to plus or minus {:.1} %",
-            100.0 * until.half_width
-        ));
-    }
-    say::line(format_args!(
-        "  {} of {block} runs",
-        count(runs.div_ceil(block), "block")
-    ));
-    for arm in &campaign.spec.arms {
-        let set: Vec<String> = arm.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
-        say::line(format_args!(
-            "  arm {}: {}",
-            arm.name,
-            or_as_is(&set.join("; "))
-        ));
-    }
-    let shown = conditions.min(12);
-    for condition in (0..shown).filter(|_| conditions > 1) {
-        say::line(format_args!(
-            "  condition {condition}: {}",
-            campaign.condition_name(condition)
-        ));
-    }
-    if shown < conditions {
-        say::line(format_args!("  and {} more", conditions - shown));
-    }
-    if !args.no_probe {
-        let place = campaign.place(0);
-        let name = RunName {
-            seed: place.seed,
-            ..RunName::default()
-        };
-        let row = one_run(&campaign.loaded(0, 0)?, &name);
-        if let Some(error) = row.error {
-            say::error(format!("the first run fails: {error}"), None);
-            return Ok(Exit::Error);
-        }
-        let (spin_up, mission) = (row.spin_up_wall_s, row.mission_wall_s);
-        let (apart, shared) = (runs as f64, runs as f64 / campaign.n_arms() as f64);
-        say::line(format_args!(
-            "  the first run took {spin_up:.2} s of spin-up and {mission:.2} s of mission; for all about {} on \
-             one core, {} if the arms share their water and sources",
-            hours(apart * (spin_up + mission)),
-            hours(shared * spin_up + apart * mission)
-        ));
-    }
-    Ok(Exit::Success)
-}
-
-fn or_as_is(set: &str) -> &str {
-    if set.is_empty() { "as it is" } else { set }
-}
-
-fn count(n: u64, what: &str) -> String {
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
-}
-
-fn hours(seconds: f64) -> String {
-    match seconds {
-        s if s < 120.0 => format!("{s:.0} s"),
-        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
-        s => format!("{:.1} h", s / 3600.0),
-    }
-}
-
 fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     let shard = match args.shard {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
     let campaign = load(&args.file)?;
+    say::warnings(campaign.notes());
     let bar = if args.quiet {
         ProgressBar::hidden()
     } else {
@@ -179,9 +93,10 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
                 String::new()
             };
             say_so(&format!(
-                "{}{part}: {}{before}",
+                "{}{part}: {}{before}; {}",
                 campaign.name,
-                count(runs, "run")
+                count(runs, "run"),
+                campaign.spec.seeds.words()
             ));
         }
         // Said even with --quiet: something damaged the folder.
@@ -204,7 +119,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         max_wall: args.max_wall,
         force: args.force,
     };
-    let ended = run(&campaign, &args.out, &options, &STOP, &tell);
+    let ended = run(&campaign, &args.out, &options, stop::listen(), &tell);
     bar.finish_and_clear();
     let exit = match ended? {
         RunEnded::Complete => {
@@ -225,15 +140,12 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
             ));
             Exit::Unfinished
         }
-        RunEnded::Stopped { written, left } => {
+        RunEnded::Stopped { done, left } => {
             say_so(&format!(
-                "{}: stopped: {} written now, {left} to do; the same command goes on",
+                "{}: stopped: {} done now and written, {left} to do; the same command goes on",
                 campaign.name,
-                count(written, "block")
+                count(done, "run")
             ));
-            if written == 0 {
-                say_so("  no block came to its end: a smaller --block in a new folder loses less");
-            }
             Exit::Unfinished
         }
     };
@@ -250,16 +162,17 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
 fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
     let status = Status::of(&args.dir)?;
     let manifest = &status.manifest;
-    let adaptive = status.wanted.blocks < manifest.n_blocks();
+    let adaptive = status.wanted.runs < manifest.runs;
     say::line(format_args!(
-        "{}: {} of {}{} done, {} of {}",
+        "{}: {} of {}{} done, {} of {} whole",
         manifest.name,
         status.runs_done,
         if adaptive { "at most " } else { "" },
         count(manifest.runs, "run"),
         status.blocks_done,
-        count(status.wanted.blocks, "block")
+        count(status.wanted.blocks(manifest), "block")
     ));
+    say::line(format_args!("  {}", status.seeds.words()));
     for arm in &status.arms {
         say::line(format_args!(
             "  arm {}: {}, {} successful, {} failed",
@@ -308,13 +221,18 @@ fn rerun(args: &RerunArgs) -> Exit {
         let row = read_row(&args.dir, args.run)?;
         let campaign = manifest.campaign()?;
         let place = campaign.place(args.run);
+        let mut what = format!("arm {}", campaign.arm(place.arm).name);
+        let condition = campaign.condition_name(place.condition);
+        if !condition.is_empty() {
+            what += &format!(", {condition}");
+        }
         Ok((
             campaign.loaded(place.condition, place.arm)?,
             place.seed,
-            row,
+            (what, row),
         ))
     });
-    let (loaded, seed, row) = match found {
+    let (loaded, seed, (what, row)) = match found {
         Ok(found) => found,
         Err(error) => return refused(error),
     };
@@ -336,7 +254,7 @@ fn rerun(args: &RerunArgs) -> Exit {
     };
     let again = || -> Result<(RunOutcome, String), RunError> {
         let mut trial = Trial::assemble(&loaded, seed)?;
-        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, &STOP)?;
+        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, stop::listen())?;
         let ended = trial.run(&mut onlooker);
         Ok((onlooker.finish(&trial, &ended)?, ended.digest))
     };
@@ -349,14 +267,14 @@ fn rerun(args: &RerunArgs) -> Exit {
         Ok((_, digest)) => match row {
             None => {
                 say::line(format_args!(
-                    "run {} has no row yet to compare with",
+                    "run {} ({what}, seed {seed}) has no row yet to compare with",
                     args.run
                 ));
                 Exit::Success
             }
             Some(row) if row.digest == digest => {
                 say::line(format_args!(
-                    "run {}: the same digest as its row, {digest}",
+                    "run {} ({what}, seed {seed}): the same digest as its row, {digest}",
                     args.run
                 ));
                 Exit::Success

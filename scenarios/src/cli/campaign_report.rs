@@ -5,25 +5,35 @@ use super::campaign::refused;
 use super::exit::Exit;
 use super::say;
 use crate::campaign::report::{About, write};
-use crate::campaign::{CampaignError, Manifest, RunRow, read_rows, wanted};
+use crate::campaign::{Arm, Campaign, CampaignError, Manifest, RunRow, read_rows, wanted};
 
 /// Writes the report and prints its tables.
 pub(super) fn report(args: &ReportArgs) -> Exit {
-    let (manifest, planned, arms, rows) = match read(args) {
+    let read = match read(args) {
         Ok(read) => read,
         Err(error) => return refused(error),
     };
+    let spec = &read.campaign.spec;
+    let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
+    let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
     let about = About {
-        name: &manifest.name,
-        scenario: &manifest.scenario_name,
-        hash: &manifest.campaign_hash,
-        version: &manifest.version,
+        name: &read.manifest.name,
+        title: &spec.title,
+        scenario: &read.manifest.scenario_name,
+        hash: &read.manifest.campaign_hash,
+        version: &read.manifest.version,
         arms: &arms,
-        planned,
+        sets: &sets,
+        seeds: &spec.seeds.words(),
+        limit_s: Some(read.limit_s),
+        planned: read.planned,
     };
     let out = args.out.clone().unwrap_or_else(|| args.dir.join("report"));
-    match write(&out, &about, &rows) {
+    match write(&out, &about, &read.rows) {
         Ok(written) => {
+            if let Some(removed) = say::removed(&out, &written.removed) {
+                eprintln!("{removed}");
+            }
             say::line(written.text);
             say::line(format_args!(
                 "results in {}: open report.html",
@@ -38,15 +48,22 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     }
 }
 
-fn read(args: &ReportArgs) -> Result<(Manifest, u64, Vec<String>, Vec<RunRow>), CampaignError> {
+struct Read {
+    manifest: Manifest,
+    campaign: Campaign,
+    planned: u64,
+    limit_s: f64,
+    rows: Vec<RunRow>,
+}
+
+fn read(args: &ReportArgs) -> Result<Read, CampaignError> {
     let manifest = Manifest::of(&args.dir)?;
     let campaign = manifest.campaign()?;
-    let arms = campaign
-        .spec
-        .arms
-        .iter()
-        .map(|a| a.name.to_string())
-        .collect();
-    let planned = wanted(&campaign, &args.dir, &manifest).runs(&manifest);
-    Ok((manifest, planned, arms, read_rows(&args.dir)?))
+    Ok(Read {
+        planned: wanted(&campaign, &args.dir, &manifest).runs,
+        limit_s: campaign.limit_s()?,
+        rows: read_rows(&args.dir)?,
+        manifest,
+        campaign,
+    })
 }

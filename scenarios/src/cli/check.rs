@@ -3,7 +3,7 @@
 use super::args::CheckArgs;
 use super::exit::Exit;
 use super::say;
-use crate::scenario::load;
+use crate::scenario::{cost, load};
 
 /// Checks every file, going on after a broken one.
 pub(super) fn check(args: &CheckArgs) -> Exit {
@@ -22,6 +22,11 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
                     count(s.sources.len(), "source"),
                     count(s.obstacles.len(), "obstacle")
                 ));
+                let cost = cost::cost(s);
+                say::line(format_args!("  a run takes {}", cost::estimate(&cost)));
+                for part in cost::greatest(&cost) {
+                    say::line(format_args!("    {part}"));
+                }
             }
             Err(error) => {
                 say::scenario_error(error);

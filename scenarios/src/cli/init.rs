@@ -4,9 +4,9 @@ use super::args::InitArgs;
 use super::exit::Exit;
 use super::{list, say};
 use crate::scenario::template;
-use std::fs::File;
-use std::io::{ErrorKind, Write};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
+use world::files::write_new;
 
 /// Writes the template, or without one lists what there is.
 pub(super) fn init(args: &InitArgs) -> Exit {
@@ -32,23 +32,24 @@ pub(super) fn init(args: &InitArgs) -> Exit {
     };
     let shown = path.display();
     let folder = path.parent().unwrap_or(Path::new(""));
-    match File::create_new(&path)
-        .and_then(|mut f| f.write_all(found.text.as_bytes()))
-        .and_then(|()| found.write_files(folder))
-    {
+    let written = write_new(&path, found.text.as_bytes());
+    match written.and_then(|_| found.write_files(folder)) {
         Ok(()) => {
             say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
             Exit::Success
         }
-        Err(e) if e.kind() == ErrorKind::AlreadyExists => {
+        Err(e) if e.source.kind() == ErrorKind::AlreadyExists => {
             say::error(
-                format!("{shown}: is there already and is not overwritten"),
+                format!(
+                    "{}: is there already and is not overwritten",
+                    e.path.display()
+                ),
                 Some("name another PATH"),
             );
             Exit::Error
         }
         Err(e) => {
-            say::error(format!("{shown}: cannot be written: {e}"), None);
+            say::error(e, None);
             Exit::Error
         }
     }

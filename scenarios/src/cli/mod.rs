@@ -11,6 +11,7 @@ mod args_picture;
 mod args_reproduce;
 mod args_vision;
 mod campaign;
+mod campaign_plan;
 mod campaign_report;
 mod check;
 mod exit;
@@ -25,6 +26,7 @@ mod say;
 mod score_vision;
 mod segment;
 mod statistics;
+mod stop;
 mod topics;
 
 pub use args::{
@@ -40,6 +42,7 @@ pub use args_reproduce::ReproduceArgs;
 pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;
 
+use crate::scenario::cost;
 use clap::Parser;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
@@ -49,7 +52,8 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     say::set_up();
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
-    let command = Args::parse().command;
+    let Args { command, memory } = Args::parse();
+    cost::set_limit(memory);
     // A broken assumption has said so by now, with its cure: an error like any other to the shell.
     guarded(|| dispatch(command)).into()
 }

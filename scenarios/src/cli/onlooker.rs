@@ -6,6 +6,7 @@
 
 use super::args::{RunArgs, Speed};
 use super::progress::Progress;
+use crate::abnormal::Abnormals;
 use crate::assemble::AssembleError;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use crate::gantry::GantryBlock;
@@ -13,26 +14,32 @@ use crate::live::{Live, LiveMeta, LiveOptions, run_id};
 use crate::report::{
     BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables, Recorder,
     ReportError, RobotInfo, RunEnd, RunInfo, RunOutcome, RunReport, SourceTruth, SummaryBuilder,
-    Totals, TrackTable, write_all,
+    Totals, TrackTable, begin_folder, write_all,
 };
 use crate::scenario::Loaded;
 use crate::system::Dye;
 use crate::trial::{Ended, Trial, Watch};
+use plumes::flow::CurrentSpec;
 use robots::strategy::StrategySpec;
 use robots::vehicles::Gantry;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use world::area::Area;
+use world::files::Folder;
 use world::obstacles::Obstacles;
 use world::ranges::Finite;
 use world::terrain::Terrain;
 
 use super::run::RunError;
+use super::say;
+
+/// Longest time in which Ctrl-C is not heard while a run waits for its pace.
+const NAP: Duration = Duration::from_millis(50);
 
 /// Everyone who watches one run.
 pub(super) struct Onlooker<'a> {
-    out: PathBuf,
+    out: Folder,
     text: String,
     builder: SummaryBuilder,
     track: TrackTable,
@@ -51,6 +58,8 @@ pub(super) struct Onlooker<'a> {
     mission_begun: Instant,
     spin_up_s: f64,
     linger: Duration,
+    permeable: Vec<String>,
+    interfaces: Vec<f64>,
 }
 
 impl<'a> Onlooker<'a> {
@@ -64,14 +73,20 @@ impl<'a> Onlooker<'a> {
         let scenario = &loaded.scenario;
         let run = RunInfo {
             scenario_name: loaded.name.clone(),
+            title: scenario.title.clone(),
+            success: scenario.success.words(),
             scenario_text: loaded.text.clone(),
             seed: args.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
-        std::fs::create_dir_all(out).map_err(|source| ReportError::Folder {
-            path: out.to_owned(),
-            source,
-        })?;
+        let gantries = gantries(loaded)?;
+        let progress = Progress::new(loaded, args);
+        let live = live(args, &run, &progress)?;
+        // Last of all: a run that cannot begin leaves alone what an earlier one left.
+        let out = begin_folder(out, "run")?;
+        if let Some(removed) = say::removed(out.dir(), out.removed()) {
+            progress.say(&removed);
+        }
         let robots = scenario.robots.iter().map(|spec| {
             let dye = spec.sensors.fluorometer.as_ref();
             RobotInfo {
@@ -82,45 +97,22 @@ impl<'a> Onlooker<'a> {
                 layered: matches!(spec.strategy, StrategySpec::Subsumption(_)),
             }
         });
-        let track = TrackTable::create(&out.join("track.csv"), robots.collect())?;
-        let probes = ProbeTables::create(out, gantries(loaded)?)?;
+        let path = out.file("track.csv").map_err(ReportError::from)?;
+        let track = TrackTable::create(&path, robots.collect())?;
+        let probes = ProbeTables::create(&out, gantries)?;
         let recorder = (!args.no_record)
-            .then(|| Recorder::create(&out.join("run.mcap"), &run))
-            .transpose()?
-            .map(|r| r.with_map_period(scenario.record.map_period_s.get()));
-        let progress = Progress::new(loaded, args);
-        let live = if args.no_zenoh {
-            None
-        } else {
-            let mut options = LiveOptions::new(run_id(&loaded.name, args.seed));
-            options.listen = args.zenoh_listen.clone();
-            options.config_file = args.zenoh_config.clone();
-            let meta = LiveMeta {
-                scenario_text: run.scenario_text.clone(),
-                scenario_name: run.scenario_name.clone(),
-                seed: run.seed,
-                version: run.version.clone(),
-            };
-            let live = Live::start(&options, meta)?;
-            progress.say(&format!(
-                "live on {} under rheotaxis/{}",
-                live.endpoint(),
-                options.run_id
-            ));
-            if let Some(notice) = live.notice() {
-                progress.say(notice);
-            }
-            Some(live)
-        };
+            .then(|| recording(&out, &run))
+            .transpose()?;
+        let recorder = recorder.map(|r| r.with_map_period(scenario.record.map_period_s.get()));
         let now = Instant::now();
         Ok(Self {
-            out: out.to_owned(),
             text: loaded.text.clone(),
             builder: SummaryBuilder::new(&run),
             track,
             probes,
             beliefs: BeliefTrack::default(),
-            pictures: Pictures::new(out, scenario.record.pictures),
+            pictures: Pictures::new(&out, scenario.record.pictures),
+            out,
             echoes: Echoes::default(),
             recorder,
             live,
@@ -133,6 +125,15 @@ impl<'a> Onlooker<'a> {
             mission_begun: now,
             spin_up_s: scenario.time.spin_up_s.get(),
             linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
+            permeable: scenario.permeable.clone(),
+            interfaces: (scenario.water.currents.iter())
+                .filter_map(|c| match c {
+                    CurrentSpec::Layered(l) => Some(&l.interfaces),
+                    _ => None,
+                })
+                .flatten()
+                .map(|i| -i.depth_m.get())
+                .collect(),
         })
     }
 
@@ -176,6 +177,7 @@ impl<'a> Onlooker<'a> {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
         };
+        (self.builder).went_wrong(&world.resource::<Abnormals>().0);
         let summary = self.builder.finish(
             RunEnd {
                 outcome,
@@ -205,6 +207,11 @@ impl<'a> Onlooker<'a> {
             .map(|o| ObstacleOutline {
                 id: o.id.clone(),
                 corners: o.outline(),
+                z: {
+                    let (low, high) = o.bounds();
+                    [low.z, high.z]
+                },
+                permeable: self.permeable.contains(&o.id),
             })
             .collect();
         let written = write_all(
@@ -221,20 +228,55 @@ impl<'a> Onlooker<'a> {
                 area: world.resource::<Area>(),
                 terrain: world.resource::<Terrain>(),
                 sources: &sources,
+                interfaces: &self.interfaces,
                 obstacles: &obstacles,
+                solids: Some(world.resource::<Obstacles>()),
                 scenario_text: &self.text,
             },
         );
-        self.progress.finish(&summary, &self.out);
+        self.progress.finish(&summary, self.out.dir());
         if let Some(live) = self.live.take() {
             live.linger(self.linger, || self.stop.load(Ordering::Relaxed));
             live.finish(&ended.digest);
         }
-        match (self.failure, written) {
-            (Some(first), _) | (None, Err(first)) => Err(first),
-            (None, Ok(_)) => Ok(outcome),
-        }
+        let failures = self.failure.into_iter().chain(written.err()).collect();
+        ReportError::of(failures).map_or(Ok(outcome), Err)
     }
+}
+
+/// The recording; should it not come to its end, the next run in that folder knows what it left.
+fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
+    let recorder = Recorder::create(&out.file("run.mcap")?, run)?;
+    if let Some(name) = recorder.temporary().file_name() {
+        out.file(&name.to_string_lossy())?;
+    }
+    Ok(recorder)
+}
+
+/// The run as others see it over zenoh.
+fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Live>, RunError> {
+    if args.no_zenoh {
+        return Ok(None);
+    }
+    let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
+    options.listen = args.zenoh_listen.clone();
+    options.config_file = args.zenoh_config.clone();
+    let meta = LiveMeta {
+        scenario_text: run.scenario_text.clone(),
+        scenario_name: run.scenario_name.clone(),
+        seed: run.seed,
+        version: run.version.clone(),
+    };
+    let live = Live::start(&options, meta)?;
+    progress.say(&format!(
+        "live on {} under rheotaxis/{}",
+        live.endpoint(),
+        options.run_id
+    ));
+    if let Some(notice) = live.notice() {
+        progress.say(notice);
+    }
+    Ok(Some(live))
 }
 
 /// What tables and figures must know of the scenario's gantries.
@@ -327,9 +369,12 @@ impl Watch for Onlooker<'_> {
 
     fn go_on(&mut self, t_s: f64) -> bool {
         if let Speed::Times(speed) = self.speed {
-            let due = Duration::from_secs_f64(t_s / speed);
-            if let Some(early) = due.checked_sub(self.mission_begun.elapsed()) {
-                std::thread::sleep(early);
+            // However slow it shall be, Ctrl-C ends it.
+            let due = Duration::try_from_secs_f64(t_s / speed).unwrap_or(Duration::MAX);
+            while self.going()
+                && let Some(early) = due.checked_sub(self.mission_begun.elapsed())
+            {
+                std::thread::sleep(early.min(NAP));
             }
         }
         self.going()

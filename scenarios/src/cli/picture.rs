@@ -20,6 +20,14 @@ use world::units::Heading;
 
 /// Takes the picture and says where it lies.
 pub(super) fn picture(args: &PictureArgs) -> Exit {
+    if args.truth.as_ref() == Some(&args.out) {
+        let problem = format!(
+            "--out and --truth are the same file, {}",
+            args.out.display()
+        );
+        say::error(problem, Some("name another file for one of them"));
+        return Exit::Error;
+    }
     let checked = load(&args.file).and_then(|mut loaded| {
         if let Some(metres) = args.visibility.and_then(|v| Positive::try_from(v).ok()) {
             loaded.scenario.optics.clarity.visibility_m = metres;
@@ -87,16 +95,17 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         Some((args.out.as_path(), made.image.clone())),
         (args.truth.as_deref()).map(|path| (path, truth(&camera, &made))),
     ];
+    let mut exit = Exit::Success;
     for (path, image) in files.into_iter().flatten() {
         match write_png(path, &image) {
             Ok(()) => say::line(path.display()),
             Err(error) => {
                 say::error(error, None);
-                return Exit::Error;
+                exit = Exit::Error;
             }
         }
     }
-    Exit::Success
+    exit
 }
 
 /// Red: how much the dye changes a pixel; blue: the light of a solid that arrives.

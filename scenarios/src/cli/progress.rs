@@ -3,11 +3,11 @@
 use super::args::RunArgs;
 use crate::frame::Frame;
 use crate::gantry::{GantryFrame, GantrySummary};
-use crate::report::{DeclarationSummary, Summary};
+use crate::report::{DeclarationSummary, DeclaredKind, RobotSummary, Summary};
 use crate::scenario::Loaded;
 use indicatif::{ProgressBar, ProgressStyle};
 use nalgebra::Vector2;
-use robots::handoff::{RegionState, Verdict};
+use robots::handoff::{RegionState, Verdict, region_name};
 use std::path::Path;
 
 /// Resolution of the spin-up's share.
@@ -21,6 +21,8 @@ pub(super) struct Progress {
     limit_s: f64,
     flying: bool,
     detections: u64,
+    /// Events told.
+    told: usize,
     /// Declarations shown last.
     declared: usize,
     /// Where the sources truly are (east, north), m: the onlooker may know.
@@ -45,6 +47,7 @@ impl Progress {
             limit_s: scenario.time.limit_s.get(),
             flying: false,
             detections: 0,
+            told: 0,
             declared: 0,
             sources: (scenario.sources.iter())
                 .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
@@ -80,21 +83,29 @@ impl Progress {
         }
         self.detections += frame.robots.iter().filter(|r| r.detected).count() as u64;
         self.bar.set_position(frame.t_s as u64);
+        for abnormal in frame.abnormal.iter().skip(self.told) {
+            self.say(&format!("  ! {}: {}", abnormal.robot, abnormal.line()));
+        }
+        self.told = frame.abnormal.len();
         let declared = frame.robots.iter().map(|r| r.declarations.len()).sum();
         let stopped = frame.gantries.iter().any(|g| g.decision.stopped.is_some());
         if frame.step.is_multiple_of(50) || declared > self.declared || stopped {
             self.declared = declared;
             let mut doing: Vec<String> = (frame.robots.iter())
                 .map(|r| match r.regions.now {
-                    Some(k) => format!("subregion {}: {}", k + 1, r.behaviour.name()),
+                    Some(k) => format!("subregion {}: {}", region_name(k), r.behaviour.name()),
                     None => r.behaviour.name().to_string(),
                 })
                 .collect();
             if !frame.robots.is_empty() {
                 doing.push(format!("detections {}", self.detections));
             }
-            if declared > 0 {
-                doing.push(format!("declared {declared}"));
+            let all = || frame.robots.iter().flat_map(|r| &r.declarations);
+            let edges = all().filter(|d| d.at_edge()).count();
+            for (words, n) in [("declared", declared - edges), ("edges", edges)] {
+                if n > 0 {
+                    doing.push(format!("{words} {n}"));
+                }
             }
             doing.extend(frame.gantries.iter().map(|g| self.gantry(g)));
             self.bar.set_message(format!("| {}", doing.join(", ")));
@@ -141,17 +152,12 @@ impl Progress {
                     None => String::new(),
                 }
             );
-            if robot.declarations.is_empty() {
-                println!("  {}: declared nothing", robot.id);
+            for line in declared_lines(robot) {
+                println!("  {}: {line}", robot.id);
             }
-            for declared in &robot.declarations {
-                println!("  {}: {}", robot.id, declaration(declared));
-            }
-            for (k, region) in robot.regions.iter().enumerate() {
-                if region.state == RegionState::SourceFree {
-                    println!("  {}: subregion {} held no source", robot.id, k + 1);
-                }
-            }
+        }
+        for abnormal in &summary.abnormal {
+            println!("  ! {}: {}", abnormal.robot, abnormal.line);
         }
         for g in &summary.gantries {
             for line in gantry_lines(g) {
@@ -163,19 +169,44 @@ impl Progress {
     }
 }
 
+/// What a robot declared and how the search of its subregions ended, one subregion after the other, and what to beware of.
+fn declared_lines(robot: &RobotSummary) -> Vec<String> {
+    let of_region = |d: &DeclarationSummary| (d.region.unwrap_or(0), declaration(d));
+    let mut by_region: Vec<(u32, String)> = robot.declarations.iter().map(of_region).collect();
+    let quiet = |state| matches!(state, RegionState::Declared | RegionState::UpFlowEdge);
+    for (k, region) in (0..).zip(&robot.regions) {
+        if !quiet(region.state) {
+            let said = format!("subregion {}: {}", region.name, region.state.words());
+            by_region.push((k, said));
+        }
+    }
+    by_region.sort_by_key(|(k, _)| *k);
+    let none = (robot.sources_declared == 0).then(|| "declared no source".to_string());
+    let remark = robot.map.as_ref().and_then(|m| m.remark.clone());
+    let lines = by_region.into_iter().map(|(_, said)| said);
+    none.into_iter().chain(lines).chain(remark).collect()
+}
+
 /// A declaration, for people.
 fn declaration(d: &DeclarationSummary) -> String {
-    let mut said = match d.region {
-        Some(k) => format!("subregion {}: ", k + 1),
+    let mut said = match &d.region_name {
+        Some(name) => format!("subregion {name}: "),
         None => String::new(),
     };
     let at = d.position;
+    said += match d.kind {
+        DeclaredKind::Source => "declared a source",
+        DeclaredKind::UpFlowEdge => "traced the plume to its up-flow edge",
+    };
     said += &format!(
-        "declared a source at {:.0} m E, {:.0} m N after {:.0} s ({})",
+        " at {:.0} m E, {:.0} m N after {:.0} s ({})",
         at.east_m, at.north_m, d.t_s, d.rule
     );
     if let Some(m) = d.traced_m {
         said += &format!(", {m:.0} m from the first detection");
+    }
+    if d.kind == DeclaredKind::UpFlowEdge {
+        return said;
     }
     if let Some(error) = &d.error {
         said += &format!("; {:.1} m from {}", error.total_m, error.source);

@@ -1,23 +1,20 @@
 //! `rheotaxis reproduce`: our figures beside the papers'.
 
 use super::args_reproduce::ReproduceArgs;
+use super::campaign_plan::count;
 use super::exit::Exit;
-use super::say;
+use super::{say, stop};
 use crate::campaign::RunRow;
 use crate::reproduce::{
     Plan, Reference, ReproduceError, Reproduced, reproduce, table, wanted, write,
 };
 use indicatif::{ProgressBar, ProgressStyle};
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
-
-/// Set by Ctrl-C or a termination signal: the runs in hand end, no more begin.
-static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Runs the rows and shows and writes their tables.
 pub(super) fn run(args: &ReproduceArgs) -> Exit {
-    // Fails only if a handler is there already, and that one is ours.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    stop::listen();
     match all(args) {
         Ok(()) => Exit::Success,
         Err(ReproduceError::Interrupted) => {
@@ -36,9 +33,12 @@ pub(super) fn run(args: &ReproduceArgs) -> Exit {
 }
 
 fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
-    let references = wanted(&args.rows)?;
+    let references = wanted(&args.rows, &args.arms)?;
     // The folder is tried before hours are spent.
     write(&args.out, &[])?;
+    if !args.quiet {
+        eprintln!("{}", trials(&references, args));
+    }
     let mut done = Vec::new();
     for reference in &references {
         let reproduced = one(reference, args, &done)?;
@@ -50,6 +50,25 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         args.out.display()
     ));
     Ok(())
+}
+
+/// What will be run, said before it is.
+fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
+    let most = if args.until_width.is_some() {
+        "at most "
+    } else {
+        ""
+    };
+    let arms: usize = references.iter().map(|r| r.arms.len()).sum();
+    let rows: Vec<String> = (references.iter())
+        .map(|r| match r.arms.len() {
+            1 => r.row.id.clone(),
+            n => format!("{} ({n} arms)", r.row.id),
+        })
+        .collect();
+    let all = (arms as u64).saturating_mul(args.n());
+    let (seeds, all) = (count(args.n(), "seed"), count(all, "trial"));
+    format!("{}: {most}{seeds} each, {most}{all}", rows.join(", "))
 }
 
 fn one(
@@ -86,7 +105,7 @@ fn one(
             found.fetch_add(u64::from(row.success), Ordering::Relaxed) + u64::from(row.success);
         bar.set_message(format!("found {found}"));
     };
-    let reproduced = reproduce(reference, plan, &STOP, heard, |so_far| {
+    let reproduced = reproduce(reference, plan, stop::listen(), heard, |so_far| {
         let mut all = done.to_vec();
         all.push(so_far.clone());
         write(&args.out, &all)?;

@@ -3,17 +3,14 @@
 use super::args::RunArgs;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
-use super::say;
+use super::{say, stop};
 use crate::assemble::AssembleError;
 use crate::live::LiveError;
 use crate::report::{ReportError, RunOutcome};
-use crate::scenario::{Loaded, ScenarioError, load};
+use crate::scenario::{Loaded, ScenarioError, cost, load};
 use crate::trial::Trial;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
-
-/// Set by Ctrl-C or a termination signal; the run in hand then ends as it should.
-static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Why a run could not be made or finished.
 #[derive(Debug, thiserror::Error)]
@@ -26,15 +23,17 @@ pub(super) enum RunError {
     Live(#[from] LiveError),
     #[error(transparent)]
     Report(#[from] ReportError),
+    #[error("{}: another scenario of this command has left its results there", .0.display())]
+    Taken(PathBuf),
 }
 
 /// Runs every file; a broken one is reported and the next one tried.
 pub(super) fn run(args: &RunArgs) -> Exit {
-    // Fails only if a handler is there already, and that one is ours.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    let stop = stop::listen();
     let mut exit = Exit::Success;
+    let mut taken = Vec::new();
     for file in &args.files {
-        exit = exit.worse(match one(file, args) {
+        exit = exit.worse(match one(file, args, &mut taken, stop) {
             Ok(outcome) => code(outcome),
             Err(RunError::Scenario(error)) => {
                 say::scenario_error(error);
@@ -45,7 +44,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
                 Exit::Error
             }
         });
-        if STOP.load(Ordering::Relaxed) {
+        if stop.load(Ordering::Relaxed) {
             break;
         }
     }
@@ -61,11 +60,26 @@ fn code(outcome: RunOutcome) -> Exit {
     }
 }
 
-fn one(file: &Path, args: &RunArgs) -> Result<RunOutcome, RunError> {
+/// Runs one file, if no other of the command has its folder yet.
+fn one(
+    file: &Path,
+    args: &RunArgs,
+    taken: &mut Vec<PathBuf>,
+    stop: &AtomicBool,
+) -> Result<RunOutcome, RunError> {
     let loaded = load(file)?;
     say::warnings(loaded.check()?);
+    let folder = folder(&loaded, args);
+    if taken.contains(&folder) {
+        return Err(RunError::Taken(folder));
+    }
+    taken.push(folder.clone());
+    if !args.quiet {
+        let estimate = cost::estimate(&cost::cost(&loaded.scenario));
+        eprintln!("{}: takes {estimate}, or less", loaded.name);
+    }
     let mut trial = Trial::assemble(&loaded, args.seed)?;
-    let mut onlooker = Onlooker::new(&loaded, args, &folder(&loaded, args), &STOP)?;
+    let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
     let ended = trial.run(&mut onlooker);
     Ok(onlooker.finish(&trial, &ended)?)
 }

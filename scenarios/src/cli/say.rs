@@ -3,6 +3,7 @@
 use crate::scenario::{Fault, ScenarioError};
 use miette::{MietteHandlerOpts, Report};
 use std::io::{IsTerminal, Write};
+use std::path::Path;
 
 /// Width of messages where there is no terminal to ask.
 const WIDTH: usize = 100;
@@ -40,6 +41,17 @@ pub(super) fn scenario_error(error: ScenarioError) {
 /// A line to standard output. Whoever reads it may have heard enough (`| head`): that is no error.
 pub(super) fn line(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{text}");
+}
+
+/// Which files of an earlier run were removed from a folder, in words; none if none were.
+pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
+    (!names.is_empty()).then(|| {
+        format!(
+            "removed from {} what an earlier run left there: {}",
+            folder.display(),
+            names.join(", ")
+        )
+    })
 }
 
 /// What is wrong or odd about a scenario, to standard error.

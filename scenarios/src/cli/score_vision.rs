@@ -2,22 +2,17 @@
 
 use super::args_vision::ScoreVisionArgs;
 use super::exit::Exit;
-use super::say;
-use crate::report::make_folder;
+use super::{say, stop};
+use crate::report::{ReportError, begin_folder};
 use crate::score_vision::{Plan, ScoreError, SizePx, save, score, table, write};
 use indicatif::{ProgressBar, ProgressStyle};
 use robots::vision::VerifierSpec;
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
-
-/// Set by Ctrl-C or a termination signal: the scenes in hand end, no more begin.
-static STOP: AtomicBool = AtomicBool::new(false);
 
 /// Renders, scores, says and writes.
 pub(super) fn score_vision(args: &ScoreVisionArgs) -> Exit {
-    // Fails only if a handler is there already, and that one is ours.
-    let _ = ctrlc::set_handler(|| STOP.store(true, Ordering::Relaxed));
+    stop::listen();
     match all(args) {
         Ok(()) => Exit::Success,
         Err(error) => {
@@ -33,7 +28,10 @@ pub(super) fn score_vision(args: &ScoreVisionArgs) -> Exit {
 
 fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     // The folder is tried before minutes are spent.
-    make_folder(&args.out)?;
+    let out = begin_folder(&args.out, "score-vision")?;
+    if let Some(removed) = say::removed(&args.out, out.removed()) {
+        eprintln!("{removed}");
+    }
     let bar = if args.quiet {
         ProgressBar::hidden()
     } else {
@@ -54,7 +52,7 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
         size_px: [args.width, (3 * args.width).div_ceil(4)],
         verifier: VerifierSpec::default(),
     };
-    let unsaved = Mutex::new(None);
+    let unsaved = Mutex::new(Vec::new());
     let [w, h] = plan.size_px;
     let rows = score(
         args.seed,
@@ -62,26 +60,25 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
         SizePx(w, h),
         &plan.verifier,
         args.jobs,
-        &STOP,
+        stop::listen(),
         |scene, shot| {
             bar.inc(1);
             if scene.n < args.pictures
-                && let Err(error) = save(&args.out, scene, shot)
+                && let Err(error) = save(&out, scene, shot)
             {
-                unsaved
-                    .lock()
-                    .expect("nobody panics with it")
-                    .get_or_insert(error);
+                let mut unsaved = unsaved.lock().expect("nobody panics with it");
+                unsaved.push(error);
             }
         },
     );
     bar.finish_and_clear();
     let rows = rows?;
-    if let Some(error) = unsaved.into_inner().expect("nobody panics with it") {
+    say::line(table(&rows));
+    let mut failures = unsaved.into_inner().expect("nobody panics with it");
+    failures.extend(write(&out, &plan, &rows).err());
+    if let Some(error) = ReportError::of(failures) {
         return Err(error.into());
     }
-    say::line(table(&rows));
-    write(&args.out, &plan, &rows)?;
     say::line(format_args!(
         "results in {}: scores.md, scores.csv, scores.json, scenes.csv, pixels.png, roc.png",
         args.out.display()

@@ -3,6 +3,7 @@
 use super::args_vision::SegmentArgs;
 use super::exit::Exit;
 use super::say;
+use crate::report::begin_folder;
 use crate::segment::{Segmented, read_picture, table, write};
 use std::path::PathBuf;
 
@@ -30,7 +31,13 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
     let folder = args.out.clone().unwrap_or_else(|| {
         PathBuf::from("runs").join(format!("{}-segmented", part(args.image.file_stem())))
     });
-    match write(&folder, &segmented) {
+    let written = begin_folder(&folder, "segment").and_then(|out| {
+        if let Some(removed) = say::removed(&folder, out.removed()) {
+            eprintln!("{removed}");
+        }
+        write(&out, &segmented)
+    });
+    match written {
         Ok(sheet) => {
             say::line(format_args!("all on one sheet: {}", sheet.display()));
             Exit::Success

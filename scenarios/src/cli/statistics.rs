@@ -2,11 +2,12 @@
 
 use super::args::StatisticsArgs;
 use super::exit::Exit;
-use super::say;
+use super::{say, stop};
 use crate::scenario::load;
-use crate::statistics::{self, table, write};
+use crate::statistics::{self, StatisticsError, table, write};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 /// Resolution of the progress.
 const PARTS: u64 = 1000;
@@ -24,6 +25,7 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
             return Exit::Error;
         }
     };
+    let stop = stop::listen();
     let bar = if args.quiet {
         ProgressBar::hidden()
     } else {
@@ -34,13 +36,18 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     bar.set_prefix(loaded.name.clone());
     let measured = statistics::statistics(&loaded, args.seed, args.seconds, |share| {
         bar.set_position((share * PARTS as f64) as u64);
+        !stop.load(Ordering::Relaxed)
     });
     bar.finish_and_clear();
     let measured = match measured {
         Ok(measured) => measured,
         Err(error) => {
+            let exit = match error {
+                StatisticsError::Interrupted => Exit::Interrupted,
+                _ => Exit::Error,
+            };
             say::error(error, None);
-            return Exit::Error;
+            return exit;
         }
     };
     say::line(table(&measured));

@@ -1,11 +1,13 @@
 //! Takes the picture of the run for those who record, publish and draw.
 
 use super::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
+use crate::abnormal::Abnormals;
 use crate::gantry::system::{Pictured, picture};
-use crate::system::{Dye, RobotId};
+use crate::score::Score;
+use crate::system::{Dye, RobotId, Roster, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut, Resource};
 use robots::handoff::{
-    ActuatorCommand, Belief, ChemicalReading, Command, Decision, Declaration, Estimate, Readings,
+    ActuatorCommand, Belief, ChemicalReading, Command, Decision, Estimate, Readings,
 };
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -17,7 +19,6 @@ use world::terrain::Terrain;
 pub struct Log {
     chemical: Option<ChemicalReading>,
     detected: bool,
-    declarations: Vec<Declaration>,
     fix_m: Option<f64>,
     over: bool,
 }
@@ -53,17 +54,26 @@ type Whole<'a> = (
     &'a mut Log,
 );
 
+#[expect(
+    clippy::too_many_arguments,
+    reason = "a frame is a picture of everything"
+)]
 pub(crate) fn take_frame(
     clock: Res<Clock>,
     terrain: Res<Terrain>,
     dye: Res<Dye>,
+    roster: Res<Roster>,
+    score: Res<Score>,
     mut outbox: ResMut<Outbox>,
-    physics: Res<Physics>,
+    (physics, abnormals): (Res<Physics>, Res<Abnormals>),
     mut robots: Query<Whole>,
     gantries: Query<Pictured>,
 ) {
     let mut ends = false;
-    for (id, truth, estimate, readings, decision, _, _, _, mut log) in &mut robots {
+    let mut each = robots.iter_many_mut(&roster.robots);
+    while let Some((id, truth, estimate, readings, decision, _, _, _, mut log)) =
+        each.fetch_next().map(whole)
+    {
         let (t_s, id) = (clock.t_s(), &id.0);
         let picture = readings.picture.as_ref();
         (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, id, p, truth, estimate)));
@@ -72,9 +82,6 @@ pub(crate) fn take_frame(
         if let Some(reading) = readings.chemical {
             log.chemical = Some(reading);
             log.detected |= reading.detected;
-        }
-        if let Some(declared) = decision.declared {
-            declared.join(&mut log.declarations);
         }
         if readings.lbl.is_some() {
             let moved_m = estimate.fix_jump_m();
@@ -88,35 +95,38 @@ pub(crate) fn take_frame(
         .iter()
         .any(|(.., searcher)| searcher.stopped_s == Some(clock.t_s()));
     if ends || outbox.frame_every.due(&clock) {
-        let robots = robots.iter_mut().map(
-            |(id, truth, estimate, _, decision, command, set, belief, mut log)| {
-                let p = truth.pose.p_WB;
-                RobotFrame {
-                    id: id.0.clone(),
-                    truth: *truth,
-                    altitude_m: p.z - terrain.bed_z(p.x, p.y),
-                    estimate: *estimate,
-                    goal: Some(decision.goal),
-                    command: Some(*command),
-                    actuators: *set,
-                    chemical: log.chemical,
-                    detected: std::mem::take(&mut log.detected),
-                    behaviour: decision.behaviour,
-                    layers: decision.layers.clone(),
-                    lost_points: decision.lost_points.clone(),
-                    planned: decision.planned.clone(),
-                    belief: belief.cloned(),
-                    regions: decision.regions.clone(),
-                    declarations: log.declarations.clone(),
-                    fix_m: log.fix_m.take(),
-                }
-            },
-        );
+        let mut pictured = Vec::with_capacity(roster.robots.len());
+        let mut each = robots.iter_many_mut(&roster.robots);
+        while let Some(parts) = each.fetch_next().map(whole) {
+            let (id, truth, estimate, _, decision, command, set, belief, mut log) = parts;
+            let p = truth.pose.p_WB;
+            let scored = &score.searchers[pictured.len()];
+            pictured.push(RobotFrame {
+                id: id.0.clone(),
+                truth: *truth,
+                altitude_m: p.z - terrain.bed_z(p.x, p.y),
+                estimate: *estimate,
+                goal: Some(decision.goal),
+                command: Some(*command),
+                actuators: *set,
+                chemical: log.chemical,
+                detected: std::mem::take(&mut log.detected),
+                behaviour: decision.behaviour,
+                layers: decision.layers.clone(),
+                lost_points: decision.lost_points.clone(),
+                planned: decision.planned.clone(),
+                belief: belief.cloned(),
+                regions: decision.regions.clone(),
+                declarations: scored.declarations.clone(),
+                fix_m: log.fix_m.take(),
+            });
+        }
         outbox.frame = Some(Frame {
             t_s: clock.t_next_s(),
             step: clock.step + 1,
-            robots: robots.collect(),
-            gantries: picture(&physics, &gantries),
+            robots: pictured,
+            gantries: picture(&physics, &roster, &score, &gantries),
+            abnormal: abnormals.0.clone(),
         });
     }
     if outbox.plume_every.due(&clock) {

@@ -3,7 +3,7 @@
 use super::spec::GantryBlock;
 use super::system::{Head, Rig, Searcher};
 use crate::system::RobotId;
-use bevy_ecs::prelude::World;
+use bevy_ecs::prelude::{Entity, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
 use robots::handoff::{
@@ -30,7 +30,7 @@ pub(crate) fn spawn(
     terrain: &Terrain,
     base_dir: &Path,
     seed: u64,
-) -> Result<(), RobotError> {
+) -> Result<Entity, RobotError> {
     let id = block.id.as_str();
     let dt_s = physics.dt_s();
     let gantry = Gantry::load(&block.gantry, base_dir)?;
@@ -41,7 +41,7 @@ pub(crate) fn spawn(
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
     let probes = Probes::new(&block.probes, &names, id, seed, dt_s)?;
     let strategy = block.tracker.build(&layout)?;
-    world.spawn((
+    let gantry = world.spawn((
         RobotId(id.to_string()),
         Rig {
             gantry,
@@ -65,5 +65,5 @@ pub(crate) fn spawn(
             stopped: None,
         },
     ));
-    Ok(())
+    Ok(gantry.id())
 }

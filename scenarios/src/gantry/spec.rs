@@ -36,8 +36,10 @@ pub struct GantryBlock {
 #[serde(deny_unknown_fields)]
 pub struct PlaceSpec {
     /// East of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Where its first axis points: up-stream.
     pub heading_deg: HeadingDeg,

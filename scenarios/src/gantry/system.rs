@@ -1,9 +1,10 @@
 //! The systems of gantries: probes and encoders, the searcher, the drives; and what is seen of them.
 
 use super::frame::GantryFrame;
-use crate::system::{Dye, RobotId, Water};
+use crate::score::{Score, SearcherScore};
+use crate::system::{Dye, RobotId, Roster, Water, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
-use nalgebra::{Vector2, Vector3};
+use nalgebra::Vector3;
 use plumes::filaments::Displaced;
 use robots::handoff::{
     Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
@@ -117,10 +118,11 @@ pub(crate) fn drive_gantries(
 
 pub(crate) fn digest_gantries(
     physics: Res<Physics>,
+    roster: Res<Roster>,
     mut digest: ResMut<Digest>,
     gantries: Query<(&Rig, &Head, &GantryDecision)>,
 ) {
-    for (rig, head, decision) in &gantries {
+    for (rig, head, decision) in gantries.iter_many(&roster.gantries).map(whole) {
         for joint in physics.joints(rig.joints) {
             digest.f64s(&[joint.position_m, joint.speed_m_s]);
         }
@@ -142,15 +144,24 @@ pub(crate) type Pictured<'a> = (
     &'a Searcher,
 );
 
-/// All gantries as they are.
-pub(crate) fn picture(physics: &Physics, gantries: &Query<Pictured>) -> Vec<GantryFrame> {
-    let one = |(id, rig, head, readings, decision, searcher): (
-        &RobotId,
-        &Rig,
-        &Head,
-        &GantryReadings,
-        &GantryDecision,
-        &Searcher,
+/// All gantries as they are, in the scenario's order.
+pub(crate) fn picture(
+    physics: &Physics,
+    roster: &Roster,
+    score: &Score,
+    gantries: &Query<Pictured>,
+) -> Vec<GantryFrame> {
+    let scored = score.searchers[roster.robots.len()..].iter();
+    let one = |((id, rig, head, readings, decision, _), scored): (
+        (
+            &RobotId,
+            &Rig,
+            &Head,
+            &GantryReadings,
+            &GantryDecision,
+            &Searcher,
+        ),
+        &SearcherScore,
     )| {
         let joints = physics.joints(rig.joints);
         let base = &rig.base;
@@ -167,24 +178,27 @@ pub(crate) fn picture(physics: &Physics, gantries: &Query<Pictured>) -> Vec<Gant
             scan: head.latest,
             decision: decision.clone(),
             touching: touching.map(|solid| physics.name(solid).to_string()),
-            declaration: declaration(rig, decision, searcher, &joints, head_W.xy()),
+            declaration: scored.declarations.first().copied(),
         }
     };
-    gantries.iter().map(one).collect()
+    let all = gantries.iter_many(&roster.gantries).map(whole);
+    all.zip(scored).map(one).collect()
 }
 
-/// Where the searcher says the source is: where its encoders have the head.
-fn declaration(
-    rig: &Rig,
-    decision: &GantryDecision,
-    searcher: &Searcher,
-    joints: &[world::physics::JointState; 2],
-    head: Vector2<f64>,
+/// Parts of a gantry that say whether it declares.
+pub(crate) type Declaring<'a> = (&'a Rig, &'a GantryDecision, &'a Searcher);
+
+/// Where the searcher says the source is, once it has stopped there: where its encoders have the head.
+pub(crate) fn declaration(
+    physics: &Physics,
+    (rig, decision, searcher): (&Rig, &GantryDecision, &Searcher),
 ) -> Option<Declaration> {
     let t_s = searcher
         .stopped_s
         .filter(|_| decision.stopped == Some(true))?;
-    let off = rig.gantry.readings(joints).position_m - rig.gantry.head_m(joints);
+    let joints = physics.joints(rig.joints);
+    let head = rig.gantry.head_W(&rig.base, &joints).xy();
+    let off = rig.gantry.readings(&joints).position_m - rig.gantry.head_m(&joints);
     Some(Declaration::first(
         t_s,
         head + (rig.base.R_WB * off.push(0.0)).xy(),

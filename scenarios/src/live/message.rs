@@ -3,8 +3,9 @@
 use super::message_gantry::gantry;
 use super::options::chunk;
 use super::{LiveCounts, Payload, Topic, topics};
+use crate::abnormal::Abnormal;
 use crate::frame::{Frame, PlumeFrame, RobotFrame};
-use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical};
+use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
 use serde_json::{Map, Value, json};
 
 /// A message, by its key below `rheotaxis/<run>/`.
@@ -57,12 +58,12 @@ pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Mes
 
 /// All messages of a state but the clock.
 pub(super) fn state(frame: &Frame) -> Vec<Message> {
-    let robots = frame.robots.iter().flat_map(|r| robot(frame.t_s, r));
+    let robots = (frame.robots.iter()).flat_map(|r| robot(frame.t_s, r, &frame.abnormal));
     let gantries = frame.gantries.iter().flat_map(|g| gantry(frame.t_s, g));
     robots.chain(gantries).collect()
 }
 
-fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
+fn robot(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<Message> {
     let id = chunk(&r.id);
     let mut out = Vec::with_capacity(8);
     let mut say =
@@ -133,7 +134,17 @@ fn robot(t_s: f64, r: &RobotFrame) -> Vec<Message> {
     if let Some(k) = r.regions.now {
         let corners = r.regions.all[k as usize].area.corners();
         let corners = corners.map(|p| [p.x, p.y]);
-        doing = merged(doing, json!({"region": k, "region_m": corners}));
+        doing = merged(
+            doing,
+            json!({"region": k, "region_name": region_name(k), "region_m": corners}),
+        );
+    }
+    let wrong: Vec<&str> = (abnormal.iter())
+        .filter(|a| a.robot == r.id && !a.over)
+        .map(|a| a.what.words())
+        .collect();
+    if !wrong.is_empty() {
+        doing = merged(doing, json!({ "abnormal": wrong }));
     }
     say("behaviour", doing);
     if !r.layers.is_empty() {
@@ -157,7 +168,7 @@ fn declaration(d: &Declaration) -> Value {
         "verdict": d.verdict.name(),
     });
     if let Some(k) = d.region {
-        said = merged(said, json!({ "region": k }));
+        said = merged(said, json!({ "region": k, "region_name": region_name(k) }));
     }
     if let Some(p) = d.surveyed {
         said = merged(said, json!({"surveyed_m": p.as_slice()}));
@@ -219,11 +230,14 @@ fn vertical(v: Vertical) -> (&'static str, f64) {
 pub(super) fn plume(p: &PlumeFrame) -> Message {
     let stride = p.points.len().div_ceil(MOST_FILAMENTS).max(1);
     let shown = p.points.iter().step_by(stride);
+    // What is left out here is stood for by what is shown, as what was left out before.
+    let times = p.points.len() as f32 / shown.len().max(1) as f32;
+    let shown = shown.map(|&[x, y, z, size, mass, n]| [x, y, z, size, mass * times, n * times]);
     let header = json!({
         "t_s": p.t_s, "total": p.total, "shown": shown.len(),
-        "fields": ["x", "y", "z", "size", "mass"], "dtype": "<f4",
+        "fields": ["x", "y", "z", "size", "mass", "stands_for"], "dtype": "<f4",
     });
-    Message::numbers("plume", shown.flatten().copied(), &header)
+    Message::numbers("plume", shown.flatten(), &header)
 }
 
 /// What is known before the run starts: scenario, version and schemas.
@@ -318,6 +332,7 @@ pub(super) mod tests {
             step,
             robots: vec![robot],
             gantries: vec![sample::gantry(1.0, 0.0, GantryBehaviour::StepUp)],
+            abnormal: Vec::new(),
         }
     }
 
@@ -337,7 +352,9 @@ pub(super) mod tests {
     #[test]
     fn a_plume_is_packed_in_order_and_thinned_evenly() {
         let n = 2 * MOST_FILAMENTS + 1;
-        let points = (0..n).map(|i| [i as f32, 1.0, 2.0, 3.0, 4.0]).collect();
+        let points = (0..n)
+            .map(|i| [i as f32, 1.0, 2.0, 3.0, 4.0, 10.0])
+            .collect();
         let message = plume(&PlumeFrame {
             t_s: 1.5,
             total: 99_999,
@@ -347,12 +364,12 @@ pub(super) mod tests {
         let shown = header["shown"].as_u64().unwrap() as usize;
         assert_eq!(shown, n.div_ceil(3));
         assert_eq!(header["total"], 99_999);
-        assert_eq!(message.payload.len(), shown * 20);
+        assert_eq!(message.payload.len(), shown * 24);
         let number =
             |i: usize| f32::from_le_bytes(message.payload[4 * i..4 * i + 4].try_into().unwrap());
-        assert_eq!(
-            [number(0), number(4), number(5), number(6)],
-            [0.0, 4.0, 3.0, 1.0]
-        );
+        assert_eq!([number(0), number(6), number(7)], [0.0, 3.0, 1.0]);
+        // The masses sum to those of all points handed over.
+        let mass: f64 = (0..shown).map(|i| f64::from(number(6 * i + 4))).sum();
+        assert!((mass / (4.0 * n as f64) - 1.0).abs() < 1e-5, "{mass}");
     }
 }

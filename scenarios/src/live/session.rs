@@ -11,6 +11,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
+use world::files;
 use zenoh::config::EndPoint;
 use zenoh::{Config, Session, Wait};
 
@@ -232,10 +233,12 @@ fn configured(
     from_env: Option<PathBuf>,
 ) -> Result<(Config, Option<String>), LiveError> {
     if let Some(path) = options.config_file.clone().or(from_env) {
-        let mut config = Config::from_file(&path).map_err(|e| LiveError::Config {
-            path,
-            why: plain(&e),
-        })?;
+        let unread = |why: String| LiveError::Config {
+            path: path.clone(),
+            why,
+        };
+        files::open(&path).map_err(|e| unread(e.to_string()))?;
+        let mut config = Config::from_file(&path).map_err(|e| unread(plain(&e)))?;
         if let Some(endpoint) = &options.listen {
             free_port_of(endpoint)?;
             set(

@@ -119,7 +119,9 @@ pub(super) const TOPICS: &[Topic] = &[
         always("behaviour", Kind::Behaviour, "Its name."),
         always("lost_points_m", Kind::Points, "Where it lost the plume, as it believes (east, north), m."),
         sometimes("region", Kind::Count, "Subregion it searches, from 0; absent in transits and where the area is one."),
+        sometimes("region_name", Kind::Text, "Its name on maps and in tables: a letter, in the order of search."),
         sometimes("region_m", Kind::Points, "The corners of that subregion (east, north), m."),
+        sometimes("abnormal", Kind::Words, "What is wrong now: left the area, no bottom lock, no altitude, no flow, touched the bed or an obstacle; absent where nothing is."),
     ]),
     json("layers", "auv/<id>/layers", STATE_RATE, "Who holds the vehicle among the layers of its planner; absent for a strategy without layers.", &[
         T,
@@ -127,13 +129,14 @@ pub(super) const TOPICS: &[Topic] = &[
         always("states", Kind::Words, "How each stands: silent, holds (the vehicle), suppressed (its command is replaced by a higher layer's) or inhibited (its input is taken away)."),
         sometimes("holds", Kind::Text, "Name of the one that holds."),
     ]),
-    json("declaration", "auv/<id>/declaration/<number>", "with the state, once made", "A source the vehicle declared; said again under the same number when it was looked at.", &[
+    json("declaration", "auv/<id>/declaration/<number>", "with the state, once made", "A source the vehicle declared, or (rule up_flow_edge) where it traced a plume out of a subregion; said again under the same number when it was looked at.", &[
         always("t_s", Kind::Number, "Simulated time of the declaration, s."),
         always("number", Kind::Count, "Its number among the vehicle's declarations, from 0."),
         always("position_m", E_N, "Where, as the vehicle believes (east, north), m."),
         always("rule", Kind::Text, "By which rule."),
         always("verdict", Kind::Word(&["unchecked", "verified", "rejected"]), "What a look at it said."),
         sometimes("region", Kind::Count, "Subregion in which it was made, from 0; absent where the area is one."),
+        sometimes("region_name", Kind::Text, "The subregion's name: a letter, in the order of search."),
         sometimes("surveyed_m", E_N, "Where the sidescan has the source, as the vehicle believes (east, north), m."),
     ]),
     Topic {
@@ -211,7 +214,7 @@ pub(super) const TOPICS: &[Topic] = &[
     Topic {
         name: "plume",
         key: "plume",
-        what: "Some of the plume's filaments: x y z (m, ENU) size (m) mass (kg) of each, packed little-endian f32.",
+        what: "Some of the plume's filaments: of each x y z (m, ENU), size (m), mass (kg) of all filaments it stands for, how many those are; packed little-endian f32. The masses sum to what is in the water.",
         rate: "at most 2 a second",
         payload: Payload::PackedF32,
         fields: &[

@@ -1,7 +1,8 @@
 //! `report.html`: one file that needs nothing beside it.
 
+use super::ShownPicture;
 use super::figures::escaped;
-use super::summary::{DeclarationSummary, Summary};
+use super::summary::{DeclarationSummary, DeclaredKind, Summary};
 use crate::gantry::GantrySummary;
 use robots::handoff::Verdict;
 use std::fmt::Write as _;
@@ -11,24 +12,44 @@ pub(crate) const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#2
 h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
 table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
 th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f6f6;padding:1em;overflow:auto;font-size:12.5px}\
-.outcome{font-weight:600}code{font-size:.9em}";
+.outcome{font-weight:600}code{font-size:.9em}img{max-width:100%;height:auto}\
+.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.6em}\
+figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}td,th,p{overflow-wrap:anywhere}\
+@media(max-width:600px){body{font-size:14px;margin:1em auto;padding:0 .7em}table.facts td,table.facts th{display:block;padding-right:0}\
+table:not(.facts){display:block;overflow-x:auto}pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
+@media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
+h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
+pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}";
 
 const TEXT: &str = "writing to a String succeeds";
 
-/// The page: summary, figures (SVG or whatever else stands in a page), scenario.
-pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_text: &str) -> String {
+/// The page: summary, figures (title and SVG), a camera's pictures, scenario.
+pub(super) fn page(
+    summary: &Summary,
+    figures: &[(String, String)],
+    pictures: &[ShownPicture],
+    scenario_text: &str,
+) -> String {
     let name = escaped(&summary.scenario);
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
-         <meta name=\"viewport\" content=\"width=device-width\">\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
          <title>{name}, seed {}</title><style>{STYLE}</style></head>\n<body>\n\
-         <h1>{name}</h1>\n<p>Seed {}. Outcome: <span class=\"outcome\">{}</span>.</p>\n",
+         <h1>{}</h1>\n<p>{name}, seed {}. Success: {}.<br>Outcome: <span class=\"outcome\">{}</span>.</p>\n",
         summary.seed,
+        escaped(&summary.title),
         summary.seed,
+        escaped(&summary.success_rule),
         summary.outcome.words()
     );
     if let Some(e) = &summary.error {
         writeln!(out, "<p>Error: {}</p>", escaped(e)).expect(TEXT);
+    }
+    if !summary.abnormal.is_empty() {
+        let rows: Vec<(String, String)> = (summary.abnormal.iter())
+            .map(|a| (escaped(&a.robot), a.line.clone()))
+            .collect();
+        table(&mut out, "What went wrong", &rows);
     }
     for r in &summary.robots {
         table(&mut out, &format!("Robot {}", r.id), &robot_rows(r));
@@ -38,7 +59,19 @@ pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_tex
     }
     table(&mut out, "Run", &run_rows(summary));
     for (title, svg) in figures {
-        writeln!(out, "<h2>{}</h2>\n{svg}", escaped(title)).expect(TEXT);
+        writeln!(out, "<figure><h2>{}</h2>\n{svg}</figure>", escaped(title)).expect(TEXT);
+    }
+    if !pictures.is_empty() {
+        out.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
+        for p in pictures {
+            let (html, title) = (p.html(), escaped(&p.title()));
+            writeln!(
+                out,
+                "<figure>{html}<figcaption>{title}</figcaption></figure>"
+            )
+            .expect(TEXT);
+        }
+        out.push_str("</div>\n");
     }
     writeln!(
         out,
@@ -50,7 +83,7 @@ pub(super) fn page(summary: &Summary, figures: &[(String, String)], scenario_tex
 }
 
 fn table<K: AsRef<str>>(out: &mut String, title: &str, rows: &[(K, String)]) {
-    writeln!(out, "<h2>{}</h2>\n<table>", escaped(title)).expect(TEXT);
+    writeln!(out, "<h2>{}</h2>\n<table class=\"facts\">", escaped(title)).expect(TEXT);
     for (k, v) in rows {
         let (k, v) = (k.as_ref(), escaped(v));
         writeln!(out, "<tr><th>{k}</th><td>{v}</td></tr>").expect(TEXT);
@@ -60,21 +93,31 @@ fn table<K: AsRef<str>>(out: &mut String, title: &str, rows: &[(K, String)]) {
 
 fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(String, String)>) {
     let place = |p: super::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
+    let in_region = d.region_name.as_deref();
+    if d.kind == DeclaredKind::UpFlowEdge {
+        // No source is said to be here: how far one is away would be no error.
+        let what = format!(
+            "the plume leads on over it, {} at {:.0} s",
+            place(d.position),
+            d.t_s
+        );
+        let of = in_region.unwrap_or("the area");
+        rows.push((format!("Up-flow edge of subregion {of}"), what));
+        return;
+    }
     let which = if several {
-        format!(" {}", d.number + 1)
+        d.name.trim_start_matches("source")
     } else {
-        String::new()
+        ""
     };
-    let region = d
-        .region
-        .map_or_else(String::new, |k| format!(", in subregion {}", k + 1));
+    let region = in_region.map_or_else(String::new, |k| format!(", in subregion {k}"));
     let what = format!(
         "{} at {:.0} s ({}){region}",
         place(d.position),
         d.t_s,
         d.rule
     );
-    rows.push((format!("Declared{which}"), what));
+    rows.push((format!("Declared source{which}"), what));
     if d.verdict != Verdict::Unchecked {
         rows.push((format!("Looked at{which}"), d.verdict.name().to_owned()));
     }
@@ -108,19 +151,22 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
 
 fn robot_rows(r: &super::RobotSummary) -> Vec<(String, String)> {
     let mut rows = Vec::new();
-    let several = r.declarations.len() > 1;
-    if r.declarations.is_empty() {
-        rows.push(("Declared".to_owned(), "nothing".to_owned()));
+    let several = r.sources_declared > 1;
+    if r.sources_declared == 0 {
+        rows.push(("Declared source".to_owned(), "none".to_owned()));
     }
     for d in &r.declarations {
         declaration_rows(d, several, &mut rows);
     }
-    for (k, region) in r.regions.iter().enumerate() {
-        let mut what = region.state.name().replace('_', " ");
+    if let Some(remark) = r.map.as_ref().and_then(|m| m.remark.as_ref()) {
+        rows.push(("Beware".to_owned(), remark.clone()));
+    }
+    for region in &r.regions {
+        let mut what = region.state.words().to_owned();
         if let (Some(from), Some(until)) = (region.from_s, region.until_s) {
             write!(what, ", searched from {from:.0} to {until:.0} s").expect(TEXT);
         }
-        rows.push((format!("Subregion {}", k + 1), what));
+        rows.push((format!("Subregion {}", region.name), what));
     }
     rows.extend(way_rows(r).map(|(k, v)| (k.to_owned(), v)));
     rows
@@ -135,7 +181,7 @@ fn way_rows(r: &super::RobotSummary) -> impl Iterator<Item = (&'static str, Stri
     if let Some(m) = r.traced_m {
         rows.push((
             "Traced",
-            format!("{m:.0} m from the first detection to the first declared source"),
+            format!("{m:.0} m from the first detection to the first declaration"),
         ));
     }
     rows.push(("Travelled", format!("{:.0} m", r.travelled_m)));

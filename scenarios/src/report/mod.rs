@@ -5,6 +5,7 @@ mod echoes;
 pub(crate) mod figures;
 mod files;
 pub(crate) mod html;
+mod map_end;
 mod map_record;
 mod odour;
 mod pictures;
@@ -19,13 +20,14 @@ mod write;
 pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
 pub use echoes::{Echoes, RobotEchoes};
 pub use files::ReportError;
-pub(crate) use files::{make_folder, write_whole};
+pub(crate) use files::{Kept, begin_folder, make_folder, write_whole};
+pub use map_end::MapEnd;
 pub use pictures::{Pictures, ShownPicture};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use recorder::{Recorder, RunInfo};
 pub use summary::{
-    DeclarationSummary, MassBalance, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary,
-    SourceError, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary,
+    RobotSummary, RunOutcome, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
 pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
@@ -37,3 +39,5 @@ mod sample;
 mod tests;
 #[cfg(test)]
 mod tests_gantry;
+#[cfg(test)]
+mod tests_words;

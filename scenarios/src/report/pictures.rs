@@ -8,7 +8,7 @@ use image::{ImageError, ImageFormat};
 use nalgebra::Vector3;
 use std::fmt::Write as _;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use world::files::Folder;
 use world::math;
 use world::units::Heading;
 
@@ -29,15 +29,15 @@ pub struct ShownPicture {
 }
 
 impl ShownPicture {
-    /// Heading in the page.
+    /// Words under it in the page.
     pub(super) fn title(&self) -> String {
-        format!("Picture of {} at {:.1} s", self.robot, self.t_s)
+        format!("{} at {:.1} s", self.robot, self.t_s)
     }
 
     /// The picture within a page that needs nothing beside it.
     pub(super) fn html(&self) -> String {
         format!(
-            "<img alt=\"{}\" style=\"max-width:100%\" src=\"data:image/jpeg;base64,{}\">",
+            "<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
             self.file,
             base64(&self.jpeg)
         )
@@ -47,18 +47,18 @@ impl ShownPicture {
 /// Keeps the pictures of a run.
 #[derive(Debug)]
 pub struct Pictures {
-    out: PathBuf,
+    out: Folder,
     most: usize,
     rows: String,
     shown: Vec<ShownPicture>,
 }
 
 impl Pictures {
-    /// Into a folder, which must exist; at most `most` pictures.
+    /// Into a folder; at most `most` pictures.
     #[must_use]
-    pub fn new(out: &Path, most: u32) -> Self {
+    pub fn new(out: &Folder, most: u32) -> Self {
         Self {
-            out: out.to_owned(),
+            out: out.clone(),
             most: most as usize,
             rows: String::from(
                 "file,robot,t_s,camera_east_m,camera_north_m,camera_up_m,look_heading_deg,look_down_deg,view_deg,\
@@ -81,7 +81,7 @@ impl Pictures {
             .filter(|p| p.robot == taken.robot)
             .count();
         let file = format!("picture-{}-{number}.png", file_name(&taken.robot));
-        let path = self.out.join(&file);
+        let path = self.out.file(&file)?;
         let drawn = |e: ImageError| ReportError::Draw {
             path: path.clone(),
             cause: e.to_string(),
@@ -95,7 +95,7 @@ impl Pictures {
             .map_err(drawn)?;
         write_whole(&path, png.get_ref())?;
         self.row(&file, taken);
-        write_whole(&self.out.join("pictures.csv"), self.rows.as_bytes())?;
+        write_whole(&self.out.file("pictures.csv")?, self.rows.as_bytes())?;
         self.shown.push(ShownPicture {
             file,
             robot: taken.robot.clone(),
@@ -155,7 +155,7 @@ fn base64(bytes: &[u8]) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::sample::frames;
+    use super::super::sample::{folder, frames};
     use super::*;
     use image::{Rgb, RgbImage};
     use robots::handoff::Picture;
@@ -182,7 +182,7 @@ mod tests {
     #[test]
     fn pictures_are_files_with_a_line_each_and_no_more_than_asked_for() {
         let dir = tempfile::tempdir().unwrap();
-        let mut kept = Pictures::new(dir.path(), 3);
+        let mut kept = Pictures::new(&folder(dir.path()), 3);
         for (robot, t) in [("a", 1.0), ("b", 2.0), ("a", 3.0), ("a", 4.0)] {
             let file = kept.push(&taken(robot, t)).unwrap();
             assert_eq!(file.is_some(), t < 4.0, "three are enough");

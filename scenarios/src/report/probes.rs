@@ -6,9 +6,8 @@ use crate::frame::Frame;
 use crate::gantry::GantryFrame;
 use robots::handoff::{GantryBehaviour, MAX_PROBES};
 use std::fmt::Write as _;
-use std::fs::File;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use world::files::{Folder, Output};
 
 /// What tables and figures must know of a gantry beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -142,7 +141,7 @@ fn join(kept: &mut GantryRow, left_out: &GantryRow) {
 /// The tables being written: every row is handed to the system at once, so a kill loses nothing computed.
 #[derive(Debug)]
 pub struct ProbeTables {
-    files: Vec<(PathBuf, File)>,
+    files: Vec<Output>,
     line: String,
     tracks: Vec<GantryTrack>,
 }
@@ -152,17 +151,14 @@ impl ProbeTables {
     ///
     /// # Errors
     /// If a file cannot be written.
-    pub fn create(folder: &Path, gantries: Vec<GantryInfo>) -> Result<Self, ReportError> {
+    pub fn create(folder: &Folder, gantries: Vec<GantryInfo>) -> Result<Self, ReportError> {
         let mut files = Vec::with_capacity(gantries.len());
         for info in &gantries {
-            let path = folder.join(format!("probes-{}.csv", file_name(&info.id)));
-            let failed = |source| ReportError::Write {
-                path: path.clone(),
-                source,
-            };
-            let mut file = File::create(&path).map_err(failed)?;
-            file.write_all(header(info).as_bytes()).map_err(failed)?;
-            files.push((path, file));
+            let path = folder.file(&format!("probes-{}.csv", file_name(&info.id)))?;
+            let mut file = Output::create(&path)?;
+            (file.write_all(header(info).as_bytes())).map_err(|e| file.failed(e))?;
+            file.place()?;
+            files.push(file);
         }
         Ok(Self {
             files,
@@ -190,14 +186,10 @@ impl ProbeTables {
                 return Ok(());
             };
             let row = track.push(frame.t_s, g);
-            if let Some((path, file)) = self.files.get_mut(k) {
+            if let Some(file) = self.files.get_mut(k) {
                 self.line.clear();
                 line(&mut self.line, g, &row);
-                file.write_all(self.line.as_bytes())
-                    .map_err(|source| ReportError::Write {
-                        path: path.clone(),
-                        source,
-                    })?;
+                (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
             }
         }
         Ok(())

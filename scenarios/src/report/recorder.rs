@@ -5,7 +5,7 @@ use super::recorder_gantry::{GantryRecorder, frames_of};
 use super::{Echoes, ReportError};
 use crate::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use robots::handoff::{Belief, Command, Declaration, Layer, Vertical};
+use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
 use robots::survey::Row;
 use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
@@ -20,6 +20,10 @@ use world::record::{
 pub struct RunInfo {
     /// Name of the scenario.
     pub scenario_name: String,
+    /// Its title.
+    pub title: String,
+    /// When it counts as a success, in words.
+    pub success: String,
     /// Text of its file.
     pub scenario_text: String,
     /// Seed of the run.
@@ -44,6 +48,26 @@ pub struct Recorder {
     map_period_s: f64,
 }
 
+/// What the numbers of `/plume` mean; the schema has names only.
+const PLUME: [(&str, &str); 7] = [
+    ("topic", "/plume"),
+    ("x, y, z", "middle of a filament (ENU), m"),
+    ("size", "its horizontal size, m"),
+    (
+        "mass",
+        "mass of all filaments that it stands for, kg: the masses of a message sum to what is in the water",
+    ),
+    ("concentration", "at its own middle, of it alone, kg/m3"),
+    (
+        "stands_for",
+        "how many filaments it stands for; its own mass is mass / stands_for",
+    ),
+    (
+        "shown",
+        "at most record.plume_points of the scenario, every k-th of each source",
+    ),
+];
+
 /// Time between two recorded maps where the scenario does not say, s.
 const MAP_PERIOD_S: f64 = 10.0;
 
@@ -59,10 +83,13 @@ impl Recorder {
             "run",
             &[
                 ("scenario", &run.scenario_name),
+                ("title", &run.title),
+                ("success", &run.success),
                 ("seed", &seed),
                 ("version", &run.version),
             ],
         )?;
+        file.metadata("plume", &PLUME)?;
         file.attach("scenario.ron", "text/plain", run.scenario_text.as_bytes())?;
         Ok(Self {
             file,
@@ -74,6 +101,12 @@ impl Recorder {
             maps: Vec::new(),
             map_period_s: MAP_PERIOD_S,
         })
+    }
+
+    /// Where it is written until it is whole.
+    #[must_use]
+    pub fn temporary(&self) -> &Path {
+        self.file.temporary()
     }
 
     /// The same with a period between two recorded maps of where the source may be, s.
@@ -201,7 +234,7 @@ impl Recorder {
         }
         if self.regions[k] != r.regions.now {
             self.regions[k] = r.regions.now;
-            let name = r.regions.now.map_or_else(String::new, |k| k.to_string());
+            let name = r.regions.now.map_or_else(String::new, region_name);
             put("region", Kind::Text, &text(&name))?;
         }
         Ok(())
@@ -232,24 +265,24 @@ impl Recorder {
         self.file.write(&topic, Kind::PointCloud2, t, &cloud)
     }
 
-    /// Records filaments as a cloud; `concentration` is that at a filament's middle, kg/m³,
-    /// `mass` / ((2π)^(3/2) `size`³).
+    /// Records filaments as a cloud; `mass` is that of the filaments one stands for (kg), `concentration` that at a filament's
+    /// own middle, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
         let t = nanoseconds(plume.t_s);
         let shape = (TAU * TAU.sqrt()) as f32;
-        let rows: Vec<[f32; 6]> = plume
+        let rows: Vec<[f32; 7]> = plume
             .points
             .iter()
-            .map(|&[x, y, z, size, mass]| {
+            .map(|&[x, y, z, size, mass, n]| {
                 let volume = shape * size * size * size;
-                let c = if volume > 0.0 { mass / volume } else { 0.0 };
-                [x, y, z, size, mass, c]
+                let c = if volume > 0.0 { mass / n / volume } else { 0.0 };
+                [x, y, z, size, mass, c, n]
             })
             .collect();
-        let names = ["x", "y", "z", "size", "mass", "concentration"];
+        let names = ["x", "y", "z", "size", "mass", "concentration", "stands_for"];
         let cloud = point_cloud(t, WORLD, names, &rows);
         self.file.write("/plume", Kind::PointCloud2, t, &cloud)?;
         Ok(())

@@ -8,12 +8,18 @@ use robots::handoff::{
     FlowEstimate, Layer, LayerState, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
+use std::path::Path;
 use std::sync::Arc;
 use world::area::Area;
+use world::files::Folder;
 use world::frames::{Pose, Truth};
 use world::math;
 use world::terrain::Terrain;
 use world::units::Heading;
+
+pub(super) fn folder(dir: &Path) -> Folder {
+    super::begin_folder(dir, "run").unwrap()
+}
 
 pub(super) fn area() -> Area {
     Area {
@@ -31,6 +37,8 @@ pub(super) fn terrain() -> Terrain {
 pub(super) fn info() -> RunInfo {
     RunInfo {
         scenario_name: "sample <&>".into(),
+        title: "A sample <&>".into(),
+        success: "a source is declared within 20 m of a true one".into(),
         scenario_text: "(version: 1, title: \"a < b\")\n".into(),
         seed: 7,
         version: "0.1.0".into(),
@@ -222,6 +230,7 @@ pub(super) fn frames(seconds: usize) -> Vec<Frame> {
                 step: 5 * k as u64,
                 robots: vec![robot],
                 gantries: Vec::new(),
+                abnormal: Vec::new(),
             }
         })
         .collect()
@@ -239,7 +248,7 @@ pub(super) fn plume() -> PlumeFrame {
             let across = 0.03 * s * math::sin(s / 90.0) + scatter * (1.0 + 0.05 * s);
             let p = source().position.xy() + flow.unit() * s + side * across;
             let size = (0.001 + 0.001 * s / 0.1).sqrt();
-            [p.x as f32, p.y as f32, -5.5, size as f32, 5e-6]
+            [p.x as f32, p.y as f32, -5.5, size as f32, 5e-5, 10.0]
         })
         .collect();
     PlumeFrame {

@@ -1,11 +1,11 @@
 //! What `summary.json` says about a run.
 
-use super::files::{ReportError, write_whole};
+use super::MapEnd;
+use crate::abnormal::{Abnormal, Abnormality};
 use crate::gantry::GantrySummary;
 use crate::scenario::VERSION;
 use robots::handoff::{Evidence, RegionState, Verdict};
 use serde::Serialize;
-use std::path::{Path, PathBuf};
 
 /// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -84,20 +84,36 @@ pub struct SourceError {
     pub north_m: f64,
 }
 
+/// What was declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeclaredKind {
+    /// A source, at the place.
+    Source,
+    /// A plume, traced to where it crosses the up-flow edge of a subregion: its source is beyond.
+    UpFlowEdge,
+}
+
 /// A declaration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DeclarationSummary {
-    /// Its number among the robot's, from 0.
+    /// Its number among the robot's, from 0, edges included.
     pub number: u32,
+    /// Of a source or of an edge.
+    pub kind: DeclaredKind,
+    /// Its name in report and pictures: `source 1` and so on, edges not counted, or `edge of A`.
+    pub name: String,
     /// Subregion in which it was made, from 0; none where the area is one.
     pub region: Option<u32>,
+    /// That subregion's name: a letter.
+    pub region_name: Option<String>,
     /// When, s of mission time.
     pub t_s: f64,
     /// By which rule.
     pub rule: String,
     /// Where.
     pub position: Position,
-    /// How wrong; none in a scenario without a source.
+    /// How wrong, or how far the nearest source is from an edge; none in a scenario without a source.
     pub error: Option<SourceError>,
     /// The last detection points it rests on, where the rule is one on them.
     pub evidence: Option<Evidence>,
@@ -116,6 +132,8 @@ pub struct DeclarationSummary {
 /// A subregion at the end.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RegionSummary {
+    /// Its name: a letter, in the order of search.
+    pub name: String,
     /// Its middle.
     pub centre: Position,
     /// How its search stood.
@@ -133,18 +151,26 @@ pub struct RobotSummary {
     pub id: String,
     /// Its declarations, by number.
     pub declarations: Vec<DeclarationSummary>,
+    /// How many of these are sources.
+    pub sources_declared: usize,
+    /// How many are plumes traced to the up-flow edge of a subregion.
+    pub up_flow_edges: usize,
     /// The subregions of its mission, in the order of their search; none where the area is one.
     pub regions: Vec<RegionSummary>,
+    /// How many of these had their time run out.
+    pub regions_timed_out: usize,
     /// Time of the first detection, s.
     pub first_detection_s: Option<f64>,
     /// Where it truly was then.
     pub first_detection: Option<Position>,
     /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
     pub detections: u64,
-    /// Straight distance from the first detection to the first declared source, m: how far it traced the plume.
+    /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
     pub traced_m: Option<f64>,
     /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
     pub correct_cell_s: Option<f64>,
+    /// What its map came to; none for a robot without.
+    pub map: Option<MapEnd>,
     /// Length of the true path, m.
     pub travelled_m: f64,
     /// Distance between believed and true position at the end, m.
@@ -155,6 +181,42 @@ pub struct RobotSummary {
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.
     pub behaviour_s: Vec<(String, f64)>,
+}
+
+/// Something that went wrong without ending the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AbnormalSummary {
+    /// The robot's id in the scenario.
+    pub robot: String,
+    /// What.
+    pub what: Abnormality,
+    /// Since when, s of mission time.
+    pub t_s: f64,
+    /// How long, s.
+    pub lasted_s: f64,
+    /// It was over before the run.
+    pub over: bool,
+    /// Where it began.
+    pub position: Position,
+    /// How deep below the still surface, m.
+    pub depth_m: f64,
+    /// All that on one line, for people.
+    pub line: String,
+}
+
+impl From<&Abnormal> for AbnormalSummary {
+    fn from(a: &Abnormal) -> Self {
+        Self {
+            robot: a.robot.clone(),
+            what: a.what,
+            t_s: a.t_s,
+            lasted_s: a.lasted_s,
+            over: a.over,
+            position: a.p_W.xy().into(),
+            depth_m: -a.p_W.z,
+            line: a.line(),
+        }
+    }
 }
 
 /// Chemical released and where it went.
@@ -214,7 +276,7 @@ pub struct RunSummary {
     pub real_time_factor_with_spin_up: Option<f64>,
 }
 
-/// Version of rapier3d that the program is built with; its contacts go into the digest.
+/// Version of rapier3d that the program is built with; the joints of gantries, which it moves, go into the digest.
 const RAPIER: &str = "0.36.1";
 
 /// By what a run was made: equal digests are promised for equal versions.
@@ -243,6 +305,10 @@ impl Versions {
 pub struct Summary {
     /// Name of the scenario.
     pub scenario: String,
+    /// Its title.
+    pub title: String,
+    /// When it counts as a success, in words.
+    pub success_rule: String,
     /// Seed.
     pub seed: u64,
     /// What it was run by.
@@ -259,6 +325,8 @@ pub struct Summary {
     pub robots: Vec<RobotSummary>,
     /// Each gantry.
     pub gantries: Vec<GantrySummary>,
+    /// What went wrong without ending the run.
+    pub abnormal: Vec<AbnormalSummary>,
     /// The run itself.
     pub run: RunSummary,
 }
@@ -270,14 +338,6 @@ impl Summary {
         let mut text = serde_json::to_string_pretty(self).expect("plain data becomes JSON");
         text.push('\n');
         text
-    }
-
-    /// Writes `summary.json` whole.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn write_json(&self, path: &Path) -> Result<PathBuf, ReportError> {
-        write_whole(path, self.json().as_bytes())
     }
 }
 

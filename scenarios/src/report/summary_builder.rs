@@ -1,14 +1,18 @@
 //! Gathers a summary from the frames of a run.
 
+use super::MapEnd;
 use super::recorder::RunInfo;
 use super::summary::{
-    DeclarationSummary, Position, RegionSummary, RobotSummary, RunOutcome, RunSummary, SourceError,
-    SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
+    RunOutcome, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
+use crate::abnormal::Abnormal;
 use crate::frame::{Frame, RobotFrame};
 use crate::gantry::GantryPath;
 use nalgebra::{Vector2, Vector3};
-use robots::handoff::{Behaviour, BeliefGrid, Declaration, Regions};
+use robots::handoff::{
+    Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
+};
 use std::collections::VecDeque;
 use std::sync::Arc;
 use world::units::Heading;
@@ -59,9 +63,19 @@ impl DeclarationSummary {
     /// A declaration against the true sources.
     #[must_use]
     pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
+        let region_name = d.region.map(region_name);
+        let (kind, name) = if d.at_edge() {
+            let of = region_name.as_deref().unwrap_or("the area");
+            (DeclaredKind::UpFlowEdge, format!("edge of {of}"))
+        } else {
+            (DeclaredKind::Source, "source".to_owned())
+        };
         Self {
             number: d.number,
+            kind,
+            name,
             region: d.region,
+            region_name,
             t_s: d.t_s,
             rule: d.rule.to_owned(),
             position: d.position.into(),
@@ -129,6 +143,8 @@ struct Robot {
     behaviour_s: Vec<(Behaviour, f64)>,
     /// The likeliest cell of its map and since when, with the map's cells.
     best: Option<(f64, usize, Arc<BeliefGrid>)>,
+    /// The last map.
+    map: Option<Belief>,
 }
 
 impl Robot {
@@ -149,6 +165,7 @@ impl Robot {
             greatest_error_m: 0.0,
             behaviour_s: Vec::new(),
             best: None,
+            map: None,
         }
     }
 
@@ -179,6 +196,10 @@ impl Robot {
                 .is_none_or(|(_, cell, _)| *cell != b.best)
         {
             self.best = Some((b.t_s, b.best, b.grid.clone()));
+        }
+        if let Some(b) = &r.belief {
+            // A copy costs two counts: the cells are shared.
+            self.map = Some(b.clone());
         }
         self.error_m = (r.estimate.position - p.xy()).norm();
         self.greatest_error_m = self.greatest_error_m.max(self.error_m);
@@ -216,17 +237,30 @@ impl Robot {
             .first_detection
             .zip(self.declarations.first())
             .map(|((_, from), d)| (d.said.position - from).norm());
+        let mut declarations: Vec<DeclarationSummary> = (self.declarations.iter())
+            .map(|made| DeclarationSummary {
+                traced_m: made.traced_m,
+                fix_m: made.fix_m,
+                ..DeclarationSummary::of(&made.said, sources)
+            })
+            .collect();
+        let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
+        let sources_declared = found
+            .enumerate()
+            .map(|(k, d)| d.name = format!("source {}", k + 1))
+            .count();
+        let said: Vec<Declaration> = self.declarations.iter().map(|m| m.said).collect();
+        let timed_out = |r: &&Region| r.state == RegionState::TimedOut;
         RobotSummary {
             id: self.id.clone(),
-            declarations: (self.declarations.iter())
-                .map(|made| DeclarationSummary {
-                    traced_m: made.traced_m,
-                    fix_m: made.fix_m,
-                    ..DeclarationSummary::of(&made.said, sources)
-                })
-                .collect(),
-            regions: (self.regions.all.iter())
-                .map(|region| RegionSummary {
+            up_flow_edges: declarations.len() - sources_declared,
+            sources_declared,
+            declarations,
+            regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
+            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &said, sources)),
+            regions: (self.regions.all.iter().zip(0..))
+                .map(|(region, k)| RegionSummary {
+                    name: region_name(k),
                     centre: region.area.centre.into(),
                     state: region.state,
                     from_s: region.from_s,
@@ -261,11 +295,10 @@ impl Robot {
 /// Gathers what a [`Summary`] says; feed it every frame, in order.
 #[derive(Debug)]
 pub struct SummaryBuilder {
-    scenario: String,
-    seed: u64,
-    version: String,
+    run: RunInfo,
     robots: Vec<Robot>,
     gantries: Vec<GantryPath>,
+    abnormal: Vec<Abnormal>,
 }
 
 impl SummaryBuilder {
@@ -273,16 +306,21 @@ impl SummaryBuilder {
     #[must_use]
     pub fn new(run: &RunInfo) -> Self {
         Self {
-            scenario: run.scenario_name.clone(),
-            seed: run.seed,
-            version: run.version.clone(),
+            run: run.clone(),
             robots: Vec::new(),
             gantries: Vec::new(),
+            abnormal: Vec::new(),
         }
+    }
+
+    /// What went wrong up to the end, which may lie between two frames.
+    pub fn went_wrong(&mut self, abnormal: &[Abnormal]) {
+        self.abnormal = abnormal.to_vec();
     }
 
     /// Takes in a frame.
     pub fn observe(&mut self, frame: &Frame) {
+        self.abnormal.clone_from(&frame.abnormal);
         if self.robots.is_empty() {
             let new = |r| Robot::new(frame.t_s, r);
             self.robots = frame.robots.iter().map(new).collect();
@@ -305,9 +343,11 @@ impl SummaryBuilder {
         let t = end.totals;
         let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
         Summary {
-            scenario: self.scenario.clone(),
-            seed: self.seed,
-            versions: Versions::of(&self.version),
+            scenario: self.run.scenario_name.clone(),
+            title: self.run.title.clone(),
+            success_rule: self.run.success.clone(),
+            seed: self.run.seed,
+            versions: Versions::of(&self.run.version),
             digest: end.digest,
             outcome: end.outcome,
             error: end.error,
@@ -322,6 +362,7 @@ impl SummaryBuilder {
                 .collect(),
             robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
             gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
+            abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
             run: RunSummary {
                 totals: t,
                 real_time_factor: ratio(t.mission_wall_s),

@@ -1,6 +1,6 @@
 //! A whole report of a made-up run, and of runs in which little or nothing happened.
 
-use super::sample::{area, frames, info, plume, robots, source, terrain};
+use super::sample::{area, folder, frames, info, plume, robots, source, terrain};
 use super::{
     BeliefTrack, MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder,
     Totals, Track, TrackTable, write_all,
@@ -32,7 +32,7 @@ fn end(outcome: RunOutcome) -> RunEnd {
     }
 }
 
-fn told(frames: &[Frame]) -> (Summary, Track) {
+pub(super) fn told(frames: &[Frame]) -> (Summary, Track) {
     let mut builder = SummaryBuilder::new(&info());
     let mut table = TrackTable::in_memory(robots());
     for f in frames {
@@ -134,7 +134,7 @@ fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaratio
     let text = fs::read_to_string(&path).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].ends_with(",behaviour,region,layer"));
-    assert!(lines[1].contains(",go_to,,") && lines[100].contains(",1,"));
+    assert!(lines[1].contains(",go_to,,") && lines[100].contains(",B,"));
     let summary = builder.finish(end(RunOutcome::Found), &[source()]);
     let of = &summary.robots[0];
     assert_eq!((of.declarations.len(), of.regions.len()), (2, 2));
@@ -198,6 +198,8 @@ fn recording_holds_every_topic() {
         "/auv0/layers",
         "/auv0/map",
         "/plume",
+        "the masses of a message sum to what is in the water",
+        "stands_for",
         "/auv0/camera/compressed",
         "sensor_msgs/msg/CompressedImage",
     ] {
@@ -237,10 +239,12 @@ fn report_of(
         area,
         terrain,
         sources: if plume.is_some() { &sources } else { &[] },
+        interfaces: &[],
         obstacles: &[],
+        solids: None,
         scenario_text: &info.scenario_text,
     };
-    let written = write_all(&out, &run).unwrap();
+    let written = write_all(&folder(&out), &run).unwrap();
     let mut names = Vec::new();
     for path in &written {
         let bytes = fs::read(path).unwrap();

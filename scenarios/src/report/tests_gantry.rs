@@ -1,15 +1,16 @@
 //! Table, recording and figures of a made-up gantry: a sweep, a few steps up a plume, a stop.
 
-use super::sample::info;
+use super::sample::{folder, info};
 use super::{
-    GantryInfo, ProbeTables, Recorder, RunEnd, RunOutcome, RunReport, SourceTruth, Summary,
-    SummaryBuilder, Totals, Track, write_all,
+    GantryInfo, ProbeTables, Recorder, ReportError, RunEnd, RunOutcome, RunReport, SourceTruth,
+    Summary, SummaryBuilder, Totals, Track, write_all,
 };
 use crate::frame::Frame;
 use crate::gantry::sample;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Declaration, GantryBehaviour, MAX_PROBES, ProbeScan};
 use std::fs;
+use std::path::{Path, PathBuf};
 use world::area::Area;
 use world::fields::Concentration;
 use world::math;
@@ -98,6 +99,7 @@ fn frames() -> Vec<Frame> {
                 step: u64::from(k),
                 robots: Vec::new(),
                 gantries: vec![g],
+                abnormal: Vec::new(),
             }
         })
         .collect()
@@ -118,7 +120,7 @@ fn summary(frames: &[Frame]) -> Summary {
 #[test]
 fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
     let dir = tempfile::tempdir().unwrap();
-    let mut tables = ProbeTables::create(dir.path(), gantries()).unwrap();
+    let mut tables = ProbeTables::create(&folder(dir.path()), gantries()).unwrap();
     let run = frames();
     for f in &run {
         tables.push(f).unwrap();
@@ -192,16 +194,16 @@ fn recording_holds_joints_probes_and_decisions() {
     }
 }
 
-fn written(
+fn write_into(
+    dir: &Path,
     frames: &[Frame],
     dye: Option<&dyn Concentration>,
     sources: &[SourceTruth],
-) -> Vec<(String, String)> {
+) -> Result<Vec<PathBuf>, ReportError> {
     let mut tables = ProbeTables::in_memory(gantries());
     frames.iter().for_each(|f| tables.push(f).unwrap());
-    let dir = tempfile::tempdir().unwrap();
-    let files = write_all(
-        dir.path(),
+    write_all(
+        &folder(dir),
         &RunReport {
             pictures: &[],
             echoes: &crate::report::Echoes::default(),
@@ -214,11 +216,22 @@ fn written(
             area: &flume(),
             terrain: &Terrain::Level { depth_m: 0.2 },
             sources,
+            interfaces: &[],
             obstacles: &[],
+            solids: None,
             scenario_text: "()",
         },
-    );
-    let text = |path: &std::path::PathBuf| {
+    )
+}
+
+fn written(
+    frames: &[Frame],
+    dye: Option<&dyn Concentration>,
+    sources: &[SourceTruth],
+) -> Vec<(String, String)> {
+    let dir = tempfile::tempdir().unwrap();
+    let files = write_into(dir.path(), frames, dye, sources);
+    let text = |path: &PathBuf| {
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         let bytes = fs::read(path).unwrap();
         assert!(!bytes.is_empty(), "{name}");
@@ -261,6 +274,34 @@ fn figures_of_a_flume_stand_in_for_the_map() {
     assert!(of("report.html").contains("14.0 cm from nozzle"));
 }
 
+/// A concentration that cannot be asked, as a slip in a figure would be.
+struct Broken;
+
+impl Concentration for Broken {
+    fn at(&self, _: &Vector3<f64>) -> f64 {
+        panic!("no such place")
+    }
+}
+
+#[test]
+fn a_figure_that_fails_is_an_error_of_that_figure_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    let said = write_into(dir.path(), &frames(), Some(&Broken), &[source()]).unwrap_err();
+    let said = said.to_string();
+    assert!(said.starts_with("cannot draw "), "{said}");
+    assert!(said.ends_with("flume-crab0.png: no such place"), "{said}");
+    let there = |name: &str| dir.path().join(name).is_file();
+    for name in [
+        "summary.json",
+        "probes-crab0.png",
+        "approach-crab0.svg",
+        "report.html",
+    ] {
+        assert!(there(name), "{name}");
+    }
+    assert!(!there("flume-crab0.svg") && !there("flume-crab0.png"));
+}
+
 #[test]
 fn a_gantry_of_which_little_is_known_breaks_no_figure() {
     let run = frames();
@@ -273,4 +314,17 @@ fn a_gantry_of_which_little_is_known_breaks_no_figure() {
     written(&run[..1], Some(&Straight), &[source()]);
     let nothing = written(&[], Some(&Straight), &[source()]);
     assert_eq!(nothing.len(), 2, "summary and report");
+}
+
+/// The length of a run taken off its end may be a hair before its beginning.
+#[test]
+fn a_run_shorter_than_the_window_of_its_probes_is_drawn() {
+    let run = frames();
+    let rounded = |w: &&[Frame]| {
+        let (begin, end) = (w[0].t_s, w[w.len() - 1].t_s);
+        end - (end - begin) < begin
+    };
+    let short = run.windows(60).find(rounded).expect("1 of 3 is rounded so");
+    let files = written(short, Some(&Straight), &[source()]);
+    assert!(files.iter().any(|f| f.0 == "probes-crab0.png"));
 }

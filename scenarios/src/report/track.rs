@@ -2,12 +2,12 @@
 
 use super::files::ReportError;
 use crate::frame::{Frame, RobotFrame};
-use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, RegionState, Vertical};
+use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, Vertical, region_name};
 use std::fmt::Write as _;
-use std::fs::File;
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
+use world::files::Output;
 
 /// What tables and figures must know of a robot beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -104,11 +104,7 @@ impl RobotTrack {
 
     /// The same without those on an edge to which a plume was traced.
     pub fn declared_inside(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
-        let at_edge = |d: &Declaration| {
-            let region = d.region.and_then(|k| self.regions.get(k as usize));
-            region.is_some_and(|r| r.state == RegionState::UpFlowEdge)
-        };
-        let inside = self.declarations.iter().filter(move |d| !at_edge(d));
+        let inside = self.declarations.iter().filter(|d| !d.at_edge());
         inside.map(|d| [d.position.x, d.position.y])
     }
 
@@ -177,7 +173,7 @@ const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,headin
 est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
 speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
 
-/// A further column where a robot's mission has subregions: the one it searches, from 0; empty in transits.
+/// A further column where a robot's mission has subregions: the letter of the one it searches; empty in transits.
 const REGION: &str = ",region";
 
 /// And one where its planner has layers: the one that holds the vehicle.
@@ -186,7 +182,7 @@ const LAYER: &str = ",layer";
 /// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
 #[derive(Debug)]
 pub struct TrackTable {
-    file: Option<(PathBuf, File)>,
+    file: Option<Output>,
     layered: bool,
     line: String,
     track: Track,
@@ -195,23 +191,23 @@ pub struct TrackTable {
 }
 
 impl TrackTable {
-    /// A table written to `path` as it grows; the folder must exist.
+    /// A table written to `path` as it grows; the folder must exist. Without robots there is nothing to write, and no file.
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn create(path: &Path, robots: Vec<RobotInfo>) -> Result<Self, ReportError> {
-        let failed = |source| ReportError::Write {
-            path: path.to_owned(),
-            source,
-        };
-        let mut file = File::create(path).map_err(failed)?;
+        if robots.is_empty() {
+            return Ok(Self::in_memory(robots));
+        }
+        let mut file = Output::create(path)?;
         // Only where a robot's planner has layers, or its mission subregions, is there a column for them.
         let mut table = Self::in_memory(robots);
         let region = if table.regions { REGION } else { "" };
         let layer = if table.layered { LAYER } else { "" };
         let header = format!("{HEADER}{region}{layer}\n");
-        file.write_all(header.as_bytes()).map_err(failed)?;
-        table.file = Some((path.to_owned(), file));
+        (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
+        file.place()?;
+        table.file = Some(file);
         Ok(table)
     }
 
@@ -252,7 +248,7 @@ impl TrackTable {
             if self.file.is_some() {
                 row(&mut self.line, frame.t_s, r, &robot.info);
                 if self.regions {
-                    let now = r.regions.now.map_or_else(String::new, |k| k.to_string());
+                    let now = r.regions.now.map_or_else(String::new, region_name);
                     self.line.push(',');
                     self.line.push_str(&now);
                 }
@@ -263,12 +259,8 @@ impl TrackTable {
                 self.line.push('\n');
             }
         }
-        if let Some((path, file)) = &mut self.file {
-            file.write_all(self.line.as_bytes())
-                .map_err(|source| ReportError::Write {
-                    path: path.clone(),
-                    source,
-                })?;
+        if let Some(file) = &mut self.file {
+            (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
         }
         Ok(())
     }

@@ -1,6 +1,6 @@
 //! Everything a run leaves behind, written into one folder.
 
-use super::files::{ReportError, make_folder, write_whole};
+use super::files::{Kept, ReportError, guarded};
 use super::probes::file_name;
 use super::{
     BeliefTrack, Echoes, GantryTrack, ShownPicture, SourceTruth, Summary, Track, belief_track,
@@ -8,9 +8,11 @@ use super::{
 };
 use crate::frame::PlumeFrame;
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use world::area::Area;
 use world::fields::Concentration;
+use world::files::Folder;
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// Outline of something solid, as the map shows it.
@@ -20,6 +22,10 @@ pub struct ObstacleOutline {
     pub id: String,
     /// Corners (east, north) in order, m.
     pub corners: Vec<[f64; 2]>,
+    /// Heights of its lowest and highest point (z, ENU), m.
+    pub z: [f64; 2],
+    /// Water and dye pass through it.
+    pub permeable: bool,
 }
 
 /// What [`write_all`] makes files of.
@@ -47,112 +53,125 @@ pub struct RunReport<'a> {
     pub terrain: &'a Terrain,
     /// True sources and the flow there.
     pub sources: &'a [SourceTruth],
+    /// Mean heights of the interfaces between layers of water, top first (z, ENU), m.
+    pub interfaces: &'a [f64],
     /// Solid things.
     pub obstacles: &'a [ObstacleOutline],
+    /// The same as they are, for sections through them; where it is `None`, outline and heights stand for them.
+    pub solids: Option<&'a Obstacles>,
     /// Text of the scenario's file.
     pub scenario_text: &'a str,
 }
 
-/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder, making it if need be; the paths of what
-/// was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
+/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder; the paths of what was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
 /// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
 /// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`; for those whose map says more
 /// of the odour `odour-<robot>`, with a table; for one whose sidescan surveyed a declared place `sidescan-<robot>`.
 ///
 /// # Errors
-/// If the folder or a file cannot be written.
-pub fn write_all(out_dir: &Path, run: &RunReport<'_>) -> Result<Vec<PathBuf>, ReportError> {
-    make_folder(out_dir)?;
-    let mut written = vec![run.summary.write_json(&out_dir.join("summary.json"))?];
+/// If a file cannot be written or a figure not be drawn, each that could not; all others are.
+pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, ReportError> {
+    let mut kept = Kept::new(out);
+    kept.write("summary.json", run.summary.json().as_bytes());
     if let Some(plume) = run.plume {
-        let path = out_dir.join("plume.csv");
-        written.push(write_whole(&path, plume_csv(plume, run.area).as_bytes())?);
+        kept.write("plume.csv", plume_csv(plume, run.area).as_bytes());
     }
     for robot in &run.beliefs.robots {
-        let path = out_dir.join(format!("belief-{}.csv", file_name(&robot.id)));
+        let name = file_name(&robot.id);
         let csv = belief_track::csv(robot, run.sources);
-        written.push(write_whole(&path, csv.as_bytes())?);
+        kept.write(&format!("belief-{name}.csv"), csv.as_bytes());
         if !robot.odour.is_empty() {
-            let path = out_dir.join(format!("odour-{}.csv", file_name(&robot.id)));
-            written.push(write_whole(&path, odour::csv(&robot.odour).as_bytes())?);
+            let csv = odour::csv(&robot.odour);
+            kept.write(&format!("odour-{name}.csv"), csv.as_bytes());
         }
     }
     let mut shown = Vec::new();
     for (name, title, svg) in figures_of(run) {
-        written.push(write_whole(
-            &out_dir.join(format!("{name}.svg")),
-            svg.as_bytes(),
-        )?);
-        let path = out_dir.join(format!("{name}.png"));
-        let png = figures::png(&svg).map_err(|cause| ReportError::Draw {
-            path: path.clone(),
-            cause,
-        })?;
-        written.push(write_whole(&path, &png)?);
-        shown.push((title, svg));
+        match svg {
+            Ok(svg) => {
+                kept.figure(&name, &svg);
+                shown.push((title, svg));
+            }
+            Err(cause) => kept.draw(&format!("{name}.png"), Err(cause)),
+        }
     }
-    shown.extend(run.pictures.iter().map(|p| (p.title(), p.html())));
-    let page = html::page(run.summary, &shown, run.scenario_text);
-    written.push(write_whole(&out_dir.join("report.html"), page.as_bytes())?);
-    Ok(written)
+    let page = html::page(run.summary, &shown, run.pictures, run.scenario_text);
+    kept.write("report.html", page.as_bytes());
+    kept.done()
 }
 
-/// Name, title and SVG of each.
-fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
-    let mut figures = Vec::new();
+/// A figure's name, title and SVG, or why there is none.
+type Drawn = (String, String, Result<String, String>);
+
+/// Each figure of the run.
+fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
+    let mut figures: Vec<Drawn> = Vec::new();
     // A gantry's own figures show all there is to see of a flume.
     if run.gantries.is_empty() || !run.track.robots.is_empty() {
-        figures.push(("map".to_owned(), "Map".to_owned(), figures::map(run)));
+        figures.push((
+            "map".to_owned(),
+            "Map".to_owned(),
+            guarded(|| figures::map(run)),
+        ));
     }
     for robot in &run.track.robots {
         let id = &robot.info.id;
         figures.push((
             format!("series-{}", file_name(id)),
             format!("Time series of {id}"),
-            figures::series(run, robot),
+            guarded(|| figures::series(run, robot)),
         ));
     }
     for robot in &run.beliefs.robots {
         figures.push((
             format!("belief-{}", file_name(&robot.id)),
             format!("Where {} believed the source", robot.id),
-            figures::belief(run, robot),
+            guarded(|| figures::belief(run, robot)),
         ));
         if !robot.odour.is_empty() {
             figures.push((
                 format!("odour-{}", file_name(&robot.id)),
                 format!("Where {} believed the odour", robot.id),
-                figures::odour(run, robot),
+                guarded(|| figures::odour(run, robot)),
             ));
         }
     }
     for robot in &run.echoes.robots {
-        figures.extend(figures::sidescan(run, robot).map(|svg| {
+        let svg = guarded(|| figures::sidescan(run, robot)).transpose();
+        figures.extend(svg.map(|svg| {
             let name = format!("sidescan-{}", file_name(&robot.id));
             (name, format!("Sidescan of {}", robot.id), svg)
         }));
     }
     if !run.beliefs.robots.is_empty() {
         let title = "Convergence of the maps".to_owned();
-        figures.push(("convergence".to_owned(), title, figures::convergence(run)));
+        figures.push((
+            "convergence".to_owned(),
+            title,
+            guarded(|| figures::convergence(run)),
+        ));
     }
     for t in run.gantries {
         let id = &t.info.id;
         let kinds = [
-            ("flume", "Track over the plume", figures::flume(run, t)),
+            (
+                "flume",
+                "Track over the plume",
+                guarded(|| figures::flume(run, t)),
+            ),
             (
                 "probes",
                 "Probes, thresholds and spikes",
-                figures::probe_records(run, t),
+                guarded(|| figures::probe_records(run, t)),
             ),
             (
                 "approach",
                 "Speed and distance from the centreline",
-                figures::approach(run, t),
+                guarded(|| figures::approach(run, t)),
             ),
         ];
         for (name, title, svg) in kinds {
-            figures.extend(svg.map(|svg| {
+            figures.extend(svg.transpose().map(|svg| {
                 let name = format!("{name}-{}", file_name(id));
                 (name, format!("{title}: {id}"), svg)
             }));
@@ -161,18 +180,19 @@ fn figures_of(run: &RunReport<'_>) -> Vec<(String, String, String)> {
     figures
 }
 
-/// The filaments that the map shows, to the hundredth of a metre, or in a flume of a millimetre.
-fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
+/// The filaments that the map shows: `mass_kg` is that of all filaments one stands for, so that the column sums to what is in
+/// the water, and `stands_for` how many those are. Places to the hundredth of a metre, or in a flume of a millimetre.
+pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
     let (d, d_z, s) = if area.width_m < 10.0 {
         (5, 5, 6)
     } else {
         (2, 3, 4)
     };
-    let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg\n");
-    for [x, y, z, size, mass] in &plume.points {
+    let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg,stands_for\n");
+    for [x, y, z, size, mass, n] in &plume.points {
         writeln!(
             text,
-            "{:.1},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e}",
+            "{:.1},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}",
             plume.t_s
         )
         .expect("writing to a String succeeds");

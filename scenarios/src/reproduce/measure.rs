@@ -135,6 +135,12 @@ impl Measure {
         }
     }
 
+    /// Whether it may be below 0: the others are times, ways, speeds, shares of a way and counts.
+    #[must_use]
+    pub fn is_signed(self) -> bool {
+        matches!(self, Measure::NearGainMS | Measure::OffsetGainM)
+    }
+
     /// Of a run; none where it has none.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<f64> {

@@ -4,7 +4,8 @@ use super::measure::{Event, Measure};
 use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
 use crate::campaign::stats::{
-    Interval, finite_sorted, mean_interval, quantile, quantile_interval, wilson,
+    Interval, LEAST_VALUES, finite_sorted, mean_interval, positive_mean_interval, quantile,
+    quantile_interval, wilson,
 };
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +31,8 @@ pub struct Estimate {
     pub count: Option<u64>,
     /// The figure; none where nothing is behind it.
     pub value: Option<f64>,
-    /// Its 95 % interval: Wilson's for shares, bootstrap's for quantiles, Student's for means.
+    /// Its 95 % interval: Wilson's for shares, bootstrap's for quantiles, for means Student's on the scale of the logarithm or, of
+    /// quantities of either sign, as it is. Of fewer than 5 values there is none, but for shares.
     pub interval: Option<Interval>,
     /// Where 95 % of single runs lie (2.5 % to 97.5 % quantile), but for shares.
     pub spread: Option<Interval>,
@@ -51,8 +53,9 @@ impl Quantity {
     pub fn of(self, rows: &[RunRow]) -> Estimate {
         let quantile_of = |m: Measure, p: f64| {
             of_values(rows, m, |sorted| {
-                let interval = quantile_interval(sorted, p, SEED, "reproduce");
-                (quantile(sorted, p), interval)
+                let enough = sorted.len() >= LEAST_VALUES;
+                let interval = || quantile_interval(sorted, p, SEED, "reproduce");
+                (quantile(sorted, p), enough.then(interval).flatten())
             })
         };
         match self {
@@ -63,7 +66,12 @@ impl Quantity {
             }
             Quantity::Mean(m) => of_values(rows, m, |sorted| {
                 let mean = sorted.iter().sum::<f64>() / sorted.len() as f64;
-                ((!sorted.is_empty()).then_some(mean), mean_interval(sorted))
+                let interval = if m.is_signed() {
+                    mean_interval(sorted)
+                } else {
+                    positive_mean_interval(sorted)
+                };
+                ((!sorted.is_empty()).then_some(mean), interval)
             }),
             Quantity::Median(m) => quantile_of(m, 0.5),
             Quantity::Quantile(m, p) => quantile_of(m, p),
@@ -144,9 +152,28 @@ mod tests {
         assert_eq!(Quantity::Median(Measure::TravelledM).of(&rows).n, 3);
         let mean = Quantity::Mean(Measure::ErrorM).of(&rows);
         assert_eq!(mean.value, Some(27.5));
-        // Two values 45 apart: Student's t for one degree of freedom is 12.706, the standard error 22.5.
-        let i = mean.interval.unwrap();
-        assert!((i.half_width() - 12.706_204_7 * 22.5).abs() < 1e-3, "{i:?}");
+        // Two values say nothing of their spread: Student's interval of them would reach from -258 to 313 m.
+        assert_eq!((mean.n, mean.interval), (2, None));
+        assert_eq!(Quantity::Median(Measure::ErrorM).of(&rows).interval, None);
+    }
+
+    #[test]
+    fn intervals_of_positive_quantities_are_positive() {
+        let gained = |k: u64, gain: f64| RunRow {
+            near_speed_m_s: Some(0.03 + gain),
+            far_speed_m_s: Some(0.03),
+            ..row(k, Some((if k == 0 { 5000.0 } else { 1.0 }, 0.0)))
+        };
+        let rows: Vec<RunRow> = (0..5).map(|k| gained(k, 0.01 * (k as f64 - 2.0))).collect();
+        let interval = |m| Quantity::Mean(m).of(&rows).interval.unwrap();
+        // One of five a thousand times the others: Student's would begin at -1775 m.
+        assert!(interval(Measure::ErrorM).low > 0.0);
+        // A gain may be a loss: the interval about 0 is as wide on both sides.
+        let gain = interval(Measure::NearGainMS);
+        assert!(
+            (gain.low + gain.high).abs() < 1e-12 && gain.low < 0.0,
+            "{gain:?}"
+        );
     }
 
     #[test]

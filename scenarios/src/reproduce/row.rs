@@ -8,7 +8,11 @@ use crate::scenario::{Loaded, ScenarioError, load, parse, template};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use world::files;
 use world::record::Digest;
+
+/// Longest file read, bytes: a row is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
 
 /// A row of the reproduction table.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -95,6 +99,14 @@ pub enum ReproduceError {
         /// Those there are.
         known: String,
     },
+    /// No row asked for has such an arm.
+    #[error("no row asked for has an arm `{name}`; there are: {known}")]
+    Arm {
+        /// As asked.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
     /// A row file that cannot be read.
     #[error("{name}: {problem}")]
     Row {
@@ -168,24 +180,52 @@ pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
         .collect()
 }
 
-/// The rows asked for by name or by file; all of them if none is.
+/// The rows asked for by name or by file, each once; all of them if none is. Of their arms only those named, if any is.
 ///
 /// # Errors
-/// If one is not known, or its file or scenario is broken.
-pub fn wanted(names: &[PathBuf]) -> Result<Vec<Reference>, ReproduceError> {
+/// If one is not known, or its file or scenario is broken, or no row has such an arm.
+pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, ReproduceError> {
+    let mut found: Vec<Reference> = Vec::new();
     if names.is_empty() {
-        return rows();
+        found = rows()?;
     }
-    let found: Vec<Vec<Reference>> = names.iter().map(|n| some(n)).collect::<Result<_, _>>()?;
-    Ok(found.into_iter().flatten().collect())
+    for name in names {
+        for reference in some(name)? {
+            if found.iter().all(|f| f.row != reference.row) {
+                found.push(reference);
+            }
+        }
+    }
+    if arms.is_empty() {
+        return Ok(found);
+    }
+    let known: Vec<String> = (found.iter())
+        .flat_map(|f| f.row.arms.iter().map(|a| format!("`{}`", a.name)))
+        .collect();
+    if let Some(odd) = arms.iter().find(|a| !known.contains(&format!("`{a}`"))) {
+        return Err(ReproduceError::Arm {
+            name: odd.clone(),
+            known: known.join(", "),
+        });
+    }
+    for reference in &mut found {
+        reference.keep(arms);
+    }
+    found.retain(|f| !f.arms.is_empty());
+    Ok(found)
 }
 
-/// A row by its name, all rows whose names begin with that and `_`, or a row file.
+/// A row by its name; where no row has that, all whose names begin with it and `_`; or a row file.
 fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
     let name = path.display().to_string();
+    if let Some((id, text)) = ROWS.iter().find(|(id, _)| *id == name) {
+        return Ok(vec![embedded(id, text)?]);
+    }
     let group = format!("{name}_");
-    let of_group = |id: &str| id == name || id.starts_with(&group);
-    let rows: Vec<_> = ROWS.iter().filter(|(id, _)| of_group(id)).collect();
+    let rows: Vec<_> = ROWS
+        .iter()
+        .filter(|(id, _)| id.starts_with(&group))
+        .collect();
     if !rows.is_empty() {
         return rows.iter().map(|(id, text)| embedded(id, text)).collect();
     }
@@ -196,7 +236,7 @@ fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
             known: known.join(", "),
         });
     }
-    let text = std::fs::read_to_string(path).map_err(|e| ReproduceError::Row {
+    let text = files::read_text(path, LONGEST).map_err(|e| ReproduceError::Row {
         name: name.clone(),
         problem: format!("cannot be read: {e}"),
     })?;
@@ -237,6 +277,18 @@ impl Reference {
             arms.push((row.id.clone(), loaded.clone()));
         }
         Ok(Self { row, loaded, arms })
+    }
+
+    /// Keeps these arms and their figures: each runs as it does with the others beside it.
+    fn keep(&mut self, arms: &[String]) {
+        let asked = |name: &String| arms.contains(name);
+        self.arms.retain(|(name, _)| asked(name));
+        self.row.arms.retain(|a| asked(&a.name));
+        let of = |f: &Figure| f.arm.as_ref().is_some_and(asked);
+        self.row.figures.retain(of);
+        if self.row.arms.is_empty() {
+            self.arms.clear();
+        }
     }
 }
 
@@ -304,57 +356,4 @@ fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../tests/reference/rows");
-        let mut files: Vec<String> = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|f| f.unwrap().file_name().into_string().unwrap())
-            .collect();
-        files.sort();
-        let rows = rows().unwrap();
-        let mut ids: Vec<String> = rows.iter().map(|r| format!("{}.ron", r.row.id)).collect();
-        ids.sort();
-        assert_eq!(files, ids);
-        for r in &rows {
-            assert!(!r.row.source.is_empty() && !r.row.what.is_empty());
-            assert!(r.row.figures.iter().any(|f| f.paper.is_some()));
-            assert!(r.loaded.check().is_ok());
-        }
-    }
-
-    #[test]
-    fn broken_rows_are_named_with_what_is_wrong() {
-        let row = |id: &str, paper: &str| {
-            format!(
-                "(id: \"{id}\", what: \"w\", source: \"s\", scenario: \"duck_st\", \
-                 figures: [(name: \"f\", quantity: Share(success), paper: {paper})])"
-            )
-        };
-        assert!(read("r", &row("a_1", "Count(7, 8)")).is_ok());
-        for (text, says) in [
-            (row("A b", "Count(7, 8)"), "id: must be"),
-            (row("a", "Count(9, 8)"), "a count at most its total"),
-            (row("a", "Count(0, 0)"), "the total > 0"),
-            (row("a", "Value(NaN)"), "must be finite"),
-            (row("a", "Median(3)"), "Median"),
-            (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
-            (
-                row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"),
-                "below 1",
-            ),
-            ("(".to_string(), "r: "),
-        ] {
-            let said = read("r", &text).unwrap_err().to_string();
-            assert!(said.contains(says), "{said}");
-        }
-        let said = wanted(&["nobody".into()]).unwrap_err().to_string();
-        assert!(
-            said.contains("`nobody`") && said.contains("duck_st"),
-            "{said}"
-        );
-    }
-}
+mod tests;

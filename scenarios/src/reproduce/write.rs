@@ -3,7 +3,7 @@
 use super::compare::{Compared, Standing};
 use super::row::Paper;
 use super::run::Reproduced;
-use crate::campaign::report::{Walls, align, csv_field, runs_csv};
+use crate::campaign::report::{Walls, align, csv_field, range, runs_csv};
 use crate::report::{ReportError, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -26,10 +26,10 @@ fn cells(c: &Compared) -> [String; 6] {
         (Some(v), None) => unit.show(v),
         (None, _) => "none".to_string(),
     };
-    let interval = c
-        .ours
-        .interval
-        .map_or("-".to_string(), |i| unit.show_interval(i));
+    let interval = match (c.ours.interval, c.ours.count) {
+        (Some(share), Some(_)) => unit.show_interval(share),
+        (i, _) => range(unit, i, c.ours.n),
+    };
     let mut paper = match c.figure.paper {
         Some(Paper::Value(v)) => unit.show(v),
         Some(Paper::Run(v)) => format!("{}, one run", unit.show(v)),
@@ -88,22 +88,33 @@ pub fn table(r: &Reproduced) -> String {
 /// Writes REPRODUCTION.md, figures.csv and rows.csv into a folder, making it if need be.
 ///
 /// # Errors
-/// If the folder or a file cannot be written.
+/// If the folder or a file cannot be written; all other files are.
 pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
-    Ok(vec![
-        write_whole(&dir.join("REPRODUCTION.md"), markdown(all).as_bytes())?,
-        write_whole(&dir.join("figures.csv"), figures_csv(all).as_bytes())?,
-        write_whole(&dir.join("rows.csv"), runs_csv(&runs).as_bytes())?,
-    ])
+    let files = [
+        ("REPRODUCTION.md", markdown(all)),
+        ("figures.csv", figures_csv(all)),
+        ("rows.csv", runs_csv(&runs)),
+    ];
+    // One that cannot be written costs no other.
+    let mut failures = Vec::new();
+    let mut written = Vec::new();
+    for (name, text) in files {
+        match write_whole(&dir.join(name), text.as_bytes()) {
+            Ok(path) => written.push(path),
+            Err(error) => failures.push(error),
+        }
+    }
+    ReportError::of(failures).map_or(Ok(written), Err)
 }
 
 fn markdown(all: &[Reproduced]) -> String {
     let mut out = format!(
         "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every figure in figures.csv.\n\n\
          Shares come with Wilson's 95 % interval (in brackets the paper's own, from its counts); quantiles (linear \
-         between order statistics) with a 95 % bootstrap interval of the quantile, {} resamples; means with Student's. Errors are of those \
+         between order statistics) with a 95 % bootstrap interval of the quantile (percentile, {} resamples, seed 1); means with Student's, of \
+         quantities that cannot be below 0 on the scale of the logarithm; of fewer than 5 values there is none. Errors are of those \
          runs that declared: n says how many. A paper's figure marked \"one run\" is a single mission: \"among our single \
          runs\" says that 95 % of ours lie about it, though it lies outside the interval of our median.\n",
         env!("CARGO_PKG_VERSION"),

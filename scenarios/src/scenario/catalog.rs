@@ -1,6 +1,7 @@
 //! The scenarios that come with the program, word for word.
 
 use std::path::{Path, PathBuf};
+use world::files::{self, OutputError};
 use world::record::Digest;
 
 /// A scenario that comes with the program.
@@ -19,7 +20,7 @@ impl Template {
     ///
     /// # Errors
     /// If they cannot be written.
-    pub fn unpack(&self) -> std::io::Result<PathBuf> {
+    pub fn unpack(&self) -> Result<PathBuf, OutputError> {
         if self.files.is_empty() {
             return Ok(PathBuf::new());
         }
@@ -32,32 +33,37 @@ impl Template {
         let folder = std::env::temp_dir().join(format!("rheotaxis-{}", digest.hex()));
         for (path, bytes) in self.files {
             let to = folder.join(path);
-            if std::fs::read(&to).is_ok_and(|there| there == *bytes) {
-                continue;
+            if !holds(&to, bytes) {
+                make_parent(&to)?;
+                files::write(&to, bytes)?;
             }
-            self.write_beside(&folder, path, bytes)?;
         }
         Ok(folder)
     }
 
-    /// Writes the files it names into a folder.
+    /// Writes the files it names into a folder, where they are not there already.
     ///
     /// # Errors
-    /// If one cannot be written.
-    pub fn write_files(&self, folder: &Path) -> std::io::Result<()> {
-        (self.files.iter()).try_for_each(|(path, bytes)| self.write_beside(folder, path, bytes))
-    }
-
-    /// Whole or not at all, whoever else writes it at the same time.
-    fn write_beside(&self, folder: &Path, path: &str, bytes: &[u8]) -> std::io::Result<()> {
-        let to = folder.join(path);
-        if let Some(parent) = to.parent() {
-            std::fs::create_dir_all(parent)?;
+    /// If one cannot be written, or another file stands in its place.
+    pub fn write_files(&self, folder: &Path) -> Result<(), OutputError> {
+        for (path, bytes) in self.files {
+            let to = folder.join(path);
+            if !holds(&to, bytes) {
+                make_parent(&to)?;
+                files::write_new(&to, bytes)?;
+            }
         }
-        let part = to.with_extension(format!("part{}", std::process::id()));
-        std::fs::write(&part, bytes)?;
-        std::fs::rename(&part, &to)
+        Ok(())
     }
+}
+
+fn holds(path: &Path, bytes: &[u8]) -> bool {
+    files::read(path, bytes.len() as u64).is_ok_and(|there| there == bytes)
+}
+
+fn make_parent(path: &Path) -> Result<(), OutputError> {
+    let parent = path.parent().unwrap_or(Path::new(""));
+    files::make_folder(parent).map_err(|e| OutputError::new(parent, e))
 }
 
 macro_rules! catalog {

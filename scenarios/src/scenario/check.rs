@@ -2,19 +2,23 @@
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
-use super::{check_berth, check_fitted, check_limits, check_obstacles};
+use super::{
+    check_able, check_berth, check_fitted, check_limits, check_obstacles, check_steps, check_view,
+    cost,
+};
 use crate::gantry;
+use miette::Severity;
 use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::SensorSuite;
 use robots::sense::camera::Optics;
-use robots::strategy::StrategySpec;
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
-use world::obstacles::{ObstacleSpec, Obstacles};
+use world::fields::Flow;
+use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
@@ -27,23 +31,43 @@ const STEP_S: (f64, f64) = (0.001, 0.1);
 /// Everything that is wrong or odd; paths in the scenario are relative to `base_dir`.
 #[must_use]
 pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
+    check_within(scenario, base_dir, cost::limit())
+}
+
+/// The same with so much memory for a run, bytes. What would not fit into it is not built to be looked at either.
+#[must_use]
+pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<Found> {
     let area = scenario.area.build();
     let terrain = scenario.terrain.build(&area);
     let mut found = Vec::new();
     slope(&scenario.terrain, &mut found);
-    // Seed 0: whether water can be made does not depend on its random numbers.
-    match scenario.water.build(&area, &terrain, 0) {
-        Ok(water) => check_limits::speeds(scenario, &water, &terrain, &mut found),
-        Err(PlumeError::Invalid { field, problem }) => found.push(Found::error(field, problem)),
+    let mut fits = check_limits::sizes(scenario, &area, &terrain, &mut found);
+    for (i, robot) in scenario.robots.iter().enumerate() {
+        fits &= check_limits::bounds(i, robot, &area, &terrain, &mut found);
     }
-    check_limits::sizes(scenario, &area, &terrain, &mut found);
+    let cost = cost::cost(scenario);
+    fits = fits && cost::judge(&cost, memory_bytes, &mut found);
+    // Seed 0: whether water can be made does not depend on its random numbers.
+    let water = fits.then(|| scenario.water.build(&area, &terrain, 0));
+    match &water {
+        Some(Ok(water)) => {
+            check_limits::speeds(scenario, water, &terrain, &mut found);
+            check_able::plume(scenario, &area, &terrain, water, &mut found);
+        }
+        Some(Err(PlumeError::Invalid { field, problem })) => {
+            found.push(Found::error(field, problem));
+        }
+        None => {}
+    }
     if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
         found.push(Found::error(field, problem));
     }
     let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
-    let solid = scenario.solid(&obstacles);
-    check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
-    known(
+    let solid = obstacles.without(&scenario.permeable);
+    if fits {
+        check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
+    }
+    check_obstacles::known(
         "permeable",
         &scenario.permeable,
         &scenario.obstacles,
@@ -54,9 +78,26 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
-        parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+        if let Some(vehicle) = parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found) {
+            let place = check_view::Place {
+                area: &area,
+                terrain: &terrain,
+                obstacles: &obstacles,
+            };
+            if fits {
+                check_view::view(i, robot, &vehicle, &place, &mut found);
+            }
+            let p_W = robot.start.p_W(&terrain);
+            let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
+                .map_or(0.0, |w| w.velocity(&p_W, 0.0).norm());
+            check_able::speeds(i, robot, &vehicle, water_m_s, &mut found);
+        }
         let setting = robot.setting(&area, &terrain, &obstacles);
-        mind(i, robot, &setting, &scenario.obstacles, &mut found);
+        let path = format!("robots[{i}].chart");
+        check_obstacles::known(&path, &robot.chart, &scenario.obstacles, &mut found);
+        if fits {
+            mind(i, robot, &setting, &mut found);
+        }
         check_fitted::fitted(i, robot, &mut found);
         check_fitted::blind(i, robot, &mut found);
     }
@@ -74,8 +115,15 @@ pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
             found.push(Found::error(format!("gantries[{i}].id"), problem));
         }
     }
+    check_able::declarations(scenario, &mut found);
     times(scenario, &mut found);
-    purpose(scenario, &mut found);
+    check_able::purpose(scenario, &mut found);
+    if let Some(Ok(water)) = &water
+        && !found.iter().any(|f| f.severity == Severity::Error)
+    {
+        cost::patience(&cost, &mut found);
+        check_steps::steps(scenario, water, &area, &terrain, &mut found);
+    }
     found
 }
 
@@ -203,29 +251,9 @@ fn start(
     }
 }
 
-/// That a list of obstacles' ids names such as there are.
-fn known(list: &str, ids: &[String], obstacles: &[ObstacleSpec], found: &mut Vec<Found>) {
-    for (k, id) in ids.iter().enumerate() {
-        if !obstacles.iter().any(|o| o.id == *id) {
-            let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
-            found.push(Found::error(
-                format!("{list}[{k}]"),
-                format!("the scenario has no obstacle \"{id}\"; it has {known:?}"),
-            ));
-        }
-    }
-}
-
 /// Builds its strategy, on its chart.
-fn mind(
-    i: usize,
-    robot: &RobotSpec,
-    setting: &Setting,
-    obstacles: &[ObstacleSpec],
-    found: &mut Vec<Found>,
-) {
+fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) {
     let path = format!("robots[{i}]");
-    known(&format!("{path}.chart"), &robot.chart, obstacles, found);
     if let Some(map) = &robot.map
         && let Err(e) = map.build(&setting.area, Stream::new(0, "", ""))
     {
@@ -250,22 +278,33 @@ fn mind(
     }
 }
 
-/// Builds what can fail: hull, instruments.
-fn parts(i: usize, robot: &RobotSpec, step_s: f64, base_dir: &Path, found: &mut Vec<Found>) {
+/// Builds what can fail: hull, instruments. The vehicle, if both can be built.
+fn parts(
+    i: usize,
+    robot: &RobotSpec,
+    step_s: f64,
+    base_dir: &Path,
+    found: &mut Vec<Found>,
+) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
     match Vehicle::load(&robot.vehicle, base_dir) {
         Ok(vehicle) => {
+            for told in vehicle.told() {
+                found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));
+            }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();
-            if let Err(e) = SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
-                found.push(robot_error(&path, "sensors", e));
+            match SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+                Ok(_) => return Some(vehicle),
+                Err(e) => found.push(robot_error(&path, "sensors", e)),
             }
         }
         Err(e) => found.push(robot_error(&path, "vehicle", e)),
     }
+    None
 }
 
-fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
+pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
     match error {
         RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
             .hint("paths are relative to the scenario file"),
@@ -298,31 +337,6 @@ fn times(scenario: &Scenario, found: &mut Vec<Found>) {
                 format!("must be at least time.step_s, {step}, got {}", period.get()),
             ));
         }
-    }
-}
-
-/// Whether anything can come of it.
-fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
-    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
-    let declares = scenario.success.declared_within_m().is_some();
-    if scenario.sources.is_empty() {
-        if let Some(i) = scenario.robots.iter().position(seeks) {
-            found.push(Found::warning(
-                format!("robots[{i}].strategy"),
-                "it searches, but the scenario has no source to find",
-            ));
-        } else if declares {
-            found.push(Found::warning(
-                "success",
-                "a declaration near a source is asked for, but the scenario has no source",
-            ));
-        }
-    }
-    if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
-        found.push(Found::warning(
-            "success",
-            "a declaration is asked for, but no robot searches",
-        ));
     }
 }
 

@@ -1,11 +1,14 @@
 //! Numbers that are legal one by one and that no computer, or no sea, could bear.
 
+use super::check::robot_error;
 use super::fault::Found;
-use super::schema::Scenario;
+use super::schema::{RobotSpec, Scenario};
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::{GridShape, Water};
 use world::area::Area;
 use world::fields::Flow;
+use world::limits::shown;
+use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// Most nodes of the grid from which the plume takes its currents: about half a gigabyte.
@@ -16,14 +19,24 @@ const MOST_FILAMENTS: f64 = 5e7;
 const LONGEST_S: f64 = 1e7;
 /// Deepest water, m: the Challenger Deep has 10.9 km.
 const DEEPEST_M: f64 = 12_000.0;
+/// Shallowest water, and narrowest area, m: less than a film.
+const SHALLOWEST_M: f64 = 1e-3;
+/// See above.
+const NARROWEST_M: f64 = 1e-3;
 /// Fastest water, m/s: the strongest tidal streams reach 10 m/s.
 const FASTEST_M_S: f64 = 15.0;
 
-/// Area, depth, durations and filaments.
-pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: &mut Vec<Found>) {
+/// Area, depth, durations and filaments; whether all can be borne.
+pub(super) fn sizes(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    found: &mut Vec<Found>,
+) -> bool {
+    let before = found.len();
     let nodes: f64 = GridShape::fitting(area).nodes(area).iter().product();
     // The cells of a blockage are judged where they are made.
-    if scenario.water.blockage.is_none() && nodes > MOST_NODES {
+    if scenario.water.blockage.is_none() && !(nodes <= MOST_NODES) {
         let problem = format!(
             "its currents would need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e}"
         );
@@ -35,21 +48,36 @@ pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: 
         .map(|p| -terrain.bed_z(p.x, p.y))
         .into_iter()
         .fold(0.0, f64::max);
-    if depth > DEEPEST_M {
+    if !(depth <= DEEPEST_M) {
         let problem = format!("must be at most {DEEPEST_M} m deep, got {depth}");
         found.push(Found::error("terrain", problem));
+    } else if depth < SHALLOWEST_M {
+        let problem = format!(
+            "must be at least {SHALLOWEST_M} m deep, got {}",
+            shown(depth)
+        );
+        found.push(Found::error("terrain", problem));
+    }
+    for (path, extent) in [
+        ("area.length_m", area.length_m),
+        ("area.width_m", area.width_m),
+    ] {
+        if extent < NARROWEST_M {
+            let problem = format!("must be at least {NARROWEST_M} m, got {}", shown(extent));
+            found.push(Found::error(path, problem));
+        }
     }
     let t = &scenario.time;
     let (spin_up_s, limit_s) = (t.spin_up_s.get(), t.limit_s.get());
     for (path, s) in [("time.spin_up_s", spin_up_s), ("time.limit_s", limit_s)] {
-        if s > LONGEST_S {
+        if !(s <= LONGEST_S) {
             let problem = format!("must be at most {LONGEST_S} s, got {s}");
             found.push(Found::error(path, problem));
         }
     }
     for (i, source) in scenario.sources.iter().enumerate() {
         let filaments = source.release.settled().rate_hz.get() * (spin_up_s + limit_s);
-        if filaments > MOST_FILAMENTS {
+        if !(filaments <= MOST_FILAMENTS) {
             let problem = format!(
                 "would give off {filaments:.1e} filaments in spin-up and mission; at most {MOST_FILAMENTS:.0e}"
             );
@@ -57,6 +85,26 @@ pub(super) fn sizes(scenario: &Scenario, area: &Area, terrain: &Terrain, found: 
             found.push(Found::error(path, problem).hint("give a lower rate_hz or less time"));
         }
     }
+    found.len() == before
+}
+
+/// Whether its map and its planner's room are no more than can be made; makes none of it.
+pub(super) fn bounds(
+    i: usize,
+    robot: &RobotSpec,
+    area: &Area,
+    terrain: &Terrain,
+    found: &mut Vec<Found>,
+) -> bool {
+    let path = format!("robots[{i}]");
+    let setting = robot.setting(area, terrain, &Obstacles::default());
+    let map = robot.map.as_ref().map_or(Ok(()), |map| map.check(area));
+    let parts = [("map", map), ("strategy", robot.strategy.check(&setting))];
+    let before = found.len();
+    for (part, checked) in parts {
+        found.extend(checked.err().map(|e| robot_error(&path, part, e)));
+    }
+    found.len() == before
 }
 
 /// The water where something is.
@@ -71,7 +119,8 @@ pub(super) fn speeds(
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
     for p in starts.chain([middle]) {
         let speed = water.velocity(&p, 0.0).norm();
-        if speed > FASTEST_M_S {
+        // Nor what is not a number.
+        if !(speed <= FASTEST_M_S) {
             let problem = format!(
                 "together they flow at {speed} m/s at east {} m, north {} m; at most {FASTEST_M_S} m/s",
                 p.x, p.y

@@ -4,10 +4,11 @@ use super::check::{names, twins, within};
 use super::fault::Found;
 use super::schema::Scenario;
 use plumes::error::PlumeError;
+use plumes::filaments::cut_off;
 use std::path::Path;
 use world::area::Area;
 use world::error::WorldError;
-use world::obstacles::{Obstacle, Obstacles};
+use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::terrain::Terrain;
 
 /// Obstacles that can be built; what is wrong or odd about them is added to `found`.
@@ -74,6 +75,24 @@ pub(super) fn obstacles(
     built
 }
 
+/// That a list of obstacles' ids names such as there are.
+pub(super) fn known(
+    list: &str,
+    ids: &[String],
+    obstacles: &[ObstacleSpec],
+    found: &mut Vec<Found>,
+) {
+    for (k, id) in ids.iter().enumerate() {
+        if !obstacles.iter().any(|o| o.id == *id) {
+            let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
+            found.push(Found::error(
+                format!("{list}[{k}]"),
+                format!("the scenario has no obstacle \"{id}\"; it has {known:?}"),
+            ));
+        }
+    }
+}
+
 /// Whether the water can go round the obstacles.
 pub(super) fn blockage(
     scenario: &Scenario,
@@ -85,7 +104,7 @@ pub(super) fn blockage(
     let Some(spec) = &scenario.water.blockage else {
         return;
     };
-    match spec.unfelt(area, terrain, obstacles) {
+    match spec.unfelt(area, terrain, obstacles, scenario.water.is_walled()) {
         Ok(thin) => {
             for o in thin.iter().filter_map(|n| obstacles.0.get(*n)) {
                 found.push(
@@ -100,7 +119,14 @@ pub(super) fn blockage(
                 );
             }
         }
-        Err(PlumeError::Invalid { field, problem }) => found.push(Found::error(field, problem)),
+        Err(PlumeError::Invalid { field, problem }) => {
+            found.push(Found::error(field, problem));
+            return;
+        }
+    }
+    let dry = cut_off(&scenario.sources, &scenario.water, area, terrain, obstacles);
+    for PlumeError::Invalid { field, problem } in dry.into_iter().flatten() {
+        found.push(Found::error(field, problem));
     }
 }
 
@@ -155,6 +181,29 @@ mod tests {
             ]
         );
         assert_eq!(said(&pile, "blockage: (cell_m: 0.001),").len(), 1);
+    }
+
+    /// The source of the channel stands where a caisson's cell reaches beyond it.
+    #[test]
+    fn a_source_that_no_water_comes_by_is_refused() {
+        let source = parse("channel", CHANNEL).unwrap().sources[0].clone();
+        let (east, north) = (source.east_m.get(), source.north_m.get());
+        let caisson = |away: f64| {
+            format!(
+                "(id: \"caisson\", shape: Box(size_m: (6, 6, 20)), east_m: {}, north_m: {north})",
+                east + 3.0 + away
+            )
+        };
+        let said = |away: f64| said(&caisson(away), "blockage: (cell_m: 5),");
+        let shut = (1..40)
+            .map(|k| said(0.1 * f64::from(k)))
+            .find(|s| !s.is_empty());
+        let shut = shut.expect("some cell reaches beyond the caisson");
+        assert!(
+            shut[0].starts_with("sources[0]: source \"") && shut[0].contains("no water comes by"),
+            "{shut:?}"
+        );
+        assert_eq!(said(9.0), Vec::<String>::new());
     }
 
     #[test]

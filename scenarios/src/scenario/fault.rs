@@ -37,6 +37,18 @@ pub enum ScenarioError {
 }
 
 impl ScenarioError {
+    /// Some mistakes of one text, at least one; in the text's order.
+    pub(crate) fn of(path: &str, mut faults: Vec<Fault>) -> Self {
+        faults.sort_by_key(|f| (f.line, f.column));
+        match faults.len() {
+            1 => Box::new(faults.remove(0)).into(),
+            _ => Self::Many {
+                path: path.to_string(),
+                faults,
+            },
+        }
+    }
+
     /// One line for each mistake, `file:line:column: field: what is wrong`, for logs and tables.
     #[must_use]
     pub fn lines(&self) -> Vec<String> {
@@ -89,7 +101,7 @@ impl Fault {
         let message = if shown {
             found.message
         } else {
-            format!("{} (line {line}, column {column})", found.message)
+            format!("{} ({name}, line {line}, column {column})", found.message)
         };
         Self {
             path: found.path,
@@ -180,6 +192,13 @@ impl Found {
     #[must_use]
     pub fn hint(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
+        self
+    }
+
+    /// The same of another path.
+    #[must_use]
+    pub(super) fn of(mut self, path: &str) -> Self {
+        self.path = path.to_string();
         self
     }
 

@@ -2,15 +2,14 @@
 
 use super::catalog;
 use super::check::check;
-use super::explain::explain;
 use super::fault::{Fault, Found, ScenarioError};
 use super::outline::Outline;
+use super::reader;
 use super::schema::{Scenario, VERSION};
 use miette::Severity;
-use ron::extensions::Extensions;
-use std::fs::File;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
+use world::files;
 use world::record::Digest;
 
 /// Longest file read, bytes: a scenario is text of a few kilobytes.
@@ -42,14 +41,15 @@ impl Loaded {
         let found = check(&self.scenario, &self.base_dir);
         let outline = Outline::of(&self.text);
         let path = self.path.display().to_string();
-        let (mut faults, warnings): (Vec<Fault>, Vec<Fault>) = found
+        let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) = found
             .into_iter()
             .map(|f| Fault::located(&path, &self.text, &outline, f))
             .partition(|f| f.severity == Severity::Error);
-        match faults.len() {
-            0 => Ok(warnings),
-            1 => Err(Box::new(faults.remove(0)).into()),
-            _ => Err(ScenarioError::Many { path, faults }),
+        if faults.is_empty() {
+            warnings.sort_by_key(|f| (f.line, f.column));
+            Ok(warnings)
+        } else {
+            Err(ScenarioError::of(&path, faults))
         }
     }
 }
@@ -57,7 +57,8 @@ impl Loaded {
 /// Reads a scenario: a file or, where there is none, the one of that name that comes with the program.
 ///
 /// # Errors
-/// If it cannot be read or is not a scenario. What it means is checked by [`Loaded::check`].
+/// If it cannot be read or is not a scenario: all its mistakes, those of meaning too. What a scenario means that can
+/// be read is checked by [`Loaded::check`].
 pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     let shown = path.display().to_string();
     let name = path
@@ -96,7 +97,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     let mut digest = Digest::default();
     digest.text(&text);
     Ok(Loaded {
-        scenario: parse(&shown, &text)?,
+        scenario: read_whole(&shown, &text, &|s| check(s, &base_dir))?,
         name,
         base_dir,
         path: path.to_path_buf(),
@@ -108,8 +109,17 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
 /// Reads a scenario from its text; errors call it `name`.
 ///
 /// # Errors
-/// If it is not a scenario.
+/// If it is not a scenario: all mistakes of form.
 pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
+    read_whole(name, text, &|_| Vec::new())
+}
+
+/// Reads a scenario; of one with mistakes of form also those of `meaning` are told that do not follow from them.
+fn read_whole(
+    name: &str,
+    text: &str,
+    meaning: &dyn Fn(&Scenario) -> Vec<Found>,
+) -> Result<Scenario, ScenarioError> {
     let outline = Outline::of(text);
     if outline.nodes.is_empty() {
         return Err(ScenarioError::File {
@@ -120,12 +130,10 @@ pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
             ),
         });
     }
-    let reader = ron::Options::default()
-        .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
     if outline.open.is_empty() {
         version_first(name, text, &outline)?;
     }
-    reader.from_str(text).map_err(|e| explain(name, text, &e))
+    reader::read(name, text, meaning)
 }
 
 /// A file of another version may differ in everything else: say that first.
@@ -175,7 +183,7 @@ fn read(path: &Path) -> Result<String, Unread> {
         ));
     }
     let mut bytes = Vec::new();
-    File::open(path)
+    files::open(path)
         .and_then(|f| f.take(LONGEST + 1).read_to_end(&mut bytes))
         .map_err(other)?;
     if bytes.len() as u64 > LONGEST {

@@ -162,7 +162,7 @@ impl Outline {
     }
 }
 
-fn joined(path: &str, part: &str) -> String {
+pub(super) fn joined(path: &str, part: &str) -> String {
     if path.is_empty() {
         part.to_string()
     } else {
@@ -170,12 +170,12 @@ fn joined(path: &str, part: &str) -> String {
     }
 }
 
-fn is_blank(rest: &str) -> bool {
+pub(super) fn is_blank(rest: &str) -> bool {
     rest.starts_with(char::is_whitespace) || rest.starts_with("//") || rest.starts_with("/*")
 }
 
 /// Length of the token, comment or blank a text begins with; at least one character.
-fn token_len(rest: &str) -> usize {
+pub(super) fn token_len(rest: &str) -> usize {
     let whole = rest.len();
     if rest.starts_with("//") {
         return rest.find('\n').unwrap_or(whole);
@@ -203,10 +203,10 @@ fn token_len(rest: &str) -> usize {
             .map_or(whole, |i| from + i + closing.len());
     }
     let first = rest.chars().next().map_or(1, char::len_utf8);
-    if "()[]{},:".contains(&rest[..first]) || rest.starts_with(char::is_whitespace) {
+    if "()[]{},:=;".contains(&rest[..first]) || rest.starts_with(char::is_whitespace) {
         return first;
     }
-    rest.find(|c: char| c.is_whitespace() || "()[]{},:\"/".contains(c))
+    rest.find(|c: char| c.is_whitespace() || "()[]{},:=;\"/".contains(c))
         .unwrap_or(whole)
         .max(first)
 }

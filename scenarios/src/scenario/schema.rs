@@ -134,10 +134,10 @@ pub struct AreaSpec {
     /// Direction of the axis.
     pub axis_heading_deg: HeadingDeg,
     /// Its centre east of the datum, m.
-    #[serde(default = "zero")]
+    #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
     pub east_m: Finite,
     /// Its centre north of the datum, m.
-    #[serde(default = "zero")]
+    #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
     pub north_m: Finite,
 }
 
@@ -236,15 +236,6 @@ pub struct RobotSpec {
     pub strategy: StrategySpec,
 }
 
-impl Scenario {
-    /// Those of the obstacles that water and dye do not pass through.
-    #[must_use]
-    pub fn solid(&self, obstacles: &Obstacles) -> Obstacles {
-        let solid = |o: &&Obstacle| !self.permeable.contains(&o.id);
-        Obstacles(obstacles.0.iter().filter(solid).cloned().collect())
-    }
-}
-
 impl RobotSpec {
     /// What its mission is told beforehand.
     #[must_use]
@@ -264,8 +255,10 @@ impl RobotSpec {
 #[serde(deny_unknown_fields)]
 pub struct StartSpec {
     /// East of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum, m.
+    #[serde(deserialize_with = "world::limits::place_m")]
     pub north_m: Finite,
     /// Depth below the still surface, m.
     #[serde(default)]
@@ -276,10 +269,10 @@ pub struct StartSpec {
     /// Direction of its nose.
     pub heading_deg: HeadingDeg,
     /// Speed over ground, forward, m/s.
-    #[serde(default = "still")]
+    #[serde(default = "still", deserialize_with = "world::limits::vehicle_m_s")]
     pub speed_m_s: NonNegative,
     /// Standard deviation, east and north, of the fix its navigation starts from, m.
-    #[serde(default = "still")]
+    #[serde(default = "still", deserialize_with = "world::limits::error_m")]
     pub fix_noise_m: NonNegative,
 }
 

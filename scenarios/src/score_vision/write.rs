@@ -7,12 +7,11 @@ use super::pixels::{Counts, Ratio, precision, recall};
 use super::roc::{Roc, Scored};
 use super::run::Row;
 use crate::campaign::stats::Interval;
-use crate::report::figures::png;
-use crate::report::{ReportError, make_folder, write_whole};
+use crate::report::{Kept, ReportError};
 use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::path::Path;
+use world::files::Folder;
 
 /// What was asked for.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -129,18 +128,17 @@ fn percent(r: &Ratio) -> String {
 /// Writes `scores.md`, `scores.csv`, `scores.json`, `scenes.csv` and the figures into a folder.
 ///
 /// # Errors
-/// If the folder or a file cannot be written.
-pub fn write(folder: &Path, plan: &Plan, rows: &[Row]) -> Result<(), ReportError> {
-    make_folder(folder)?;
+/// If a file cannot be written, each that could not; all others are.
+pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError> {
+    let mut kept = Kept::new(out);
     let all = figures(rows);
-    let text = |name: &str, text: &str| write_whole(&folder.join(name), text.as_bytes());
     let head = format!(
         "{} scenes of {} x {} px, seed {}; intervals 95 %\n\n",
         plan.scenes, plan.size_px[0], plan.size_px[1], plan.seed
     );
-    text("scores.md", &(head + &table(rows)))?;
-    text("scores.csv", &scores_csv(&all))?;
-    text("scenes.csv", &scenes_csv(rows))?;
+    kept.write("scores.md", (head + &table(rows)).as_bytes());
+    kept.write("scores.csv", scores_csv(&all).as_bytes());
+    kept.write("scenes.csv", scenes_csv(rows).as_bytes());
     #[derive(Serialize)]
     struct Scores<'a> {
         plan: &'a Plan,
@@ -151,18 +149,11 @@ pub fn write(folder: &Path, plan: &Plan, rows: &[Row]) -> Result<(), ReportError
         figures: &all,
     })
     .expect("plain numbers");
-    text("scores.json", &json)?;
+    kept.write("scores.json", json.as_bytes());
     for (name, canvas) in [("pixels", shares(&all)), ("roc", curves(&all))] {
-        let svg = canvas.svg(name);
-        text(&format!("{name}.svg"), &svg)?;
-        let path = folder.join(format!("{name}.png"));
-        let drawn = png(&svg).map_err(|cause| ReportError::Draw {
-            path: path.clone(),
-            cause,
-        })?;
-        write_whole(&path, &drawn)?;
+        kept.figure(name, &canvas.svg(name));
     }
-    Ok(())
+    kept.done().map(drop)
 }
 
 fn scores_csv(all: &[Figures]) -> String {
@@ -296,7 +287,8 @@ mod tests {
             size_px: [320, 240],
             verifier: VerifierSpec::default(),
         };
-        write(folder.path(), &plan, &rows()).unwrap();
+        let out = crate::report::begin_folder(folder.path(), "score-vision").unwrap();
+        write(&out, &plan, &rows()).unwrap();
         for name in [
             "scores.md",
             "scores.csv",

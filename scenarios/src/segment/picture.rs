@@ -1,9 +1,9 @@
 //! A picture from a file: 8 bits a colour, on white where it is transparent, or why not.
 
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, Rgb, RgbImage};
-use std::fs::File;
 use std::io::{Cursor, Read};
 use std::path::{Path, PathBuf};
+use world::files;
 
 /// Greatest width and height, px.
 pub const MOST_SIDE: u32 = 32_768;
@@ -85,7 +85,7 @@ pub fn read_picture(path: &Path) -> Result<RgbImage, PictureError> {
         what,
     };
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(unreadable)?;
+    let file = files::open(path).map_err(unreadable)?;
     (file.take(MOST_BYTES + 1).read_to_end(&mut bytes)).map_err(unreadable)?;
     if bytes.len() as u64 > MOST_BYTES {
         return Err(too_large(format!("more than {} MB", MOST_BYTES >> 20)));

@@ -3,14 +3,14 @@
 use super::clusters::{clusters, fate};
 use super::overlay::overlay;
 use super::sheet::sheet;
-use crate::report::figures::png;
-use crate::report::{ReportError, make_folder, write_whole};
-use image::{GrayImage, ImageFormat, RgbImage};
+use crate::report::{Kept, ReportError};
+use image::{ImageFormat, ImageResult, RgbImage};
 use robots::vision::{Segmentation, Sighting, Target, Verifier, VerifierSpec};
 use serde::Serialize;
 use std::fmt::Write as _;
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
+use world::files::Folder;
 
 /// A picture taken apart and judged.
 #[derive(Clone, Debug)]
@@ -58,33 +58,24 @@ impl Segmented {
 /// Writes everything into a folder; returns the sheet's path.
 ///
 /// # Errors
-/// If the folder or a file cannot be written.
-pub fn write(folder: &Path, s: &Segmented) -> Result<PathBuf, ReportError> {
-    make_folder(folder)?;
-    let at = |name: &str| folder.join(name);
+/// If a file cannot be written, each that could not; all others are.
+pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
+    let mut kept = Kept::new(out);
     for pass in &s.parts.passes {
         let name = format!("pass-{}.png", pass.number);
-        colours(&at(&name), &s.parts.taken_by(pass.number))?;
+        kept.draw(&name, colours(&s.parts.taken_by(pass.number)));
     }
     for (target, name) in [(Target::Plume, "plume"), (Target::Source, "source")] {
-        let union = |kept| s.parts.union(target, kept);
-        colours(&at(&format!("{name}.png")), &union(false))?;
-        colours(&at(&format!("{name}-kept.png")), &union(true))?;
-        mask(
-            &at(&format!("{name}-mask.png")),
-            &s.parts.mask(target, true),
-        )?;
+        let union = |kept| colours(&s.parts.union(target, kept));
+        kept.draw(&format!("{name}.png"), union(false));
+        kept.draw(&format!("{name}-kept.png"), union(true));
+        let mask = encoded(|bytes| s.parts.mask(target, true).write_to(bytes, ImageFormat::Png));
+        kept.draw(&format!("{name}-mask.png"), mask);
     }
-    colours(&at("left.png"), &s.parts.left())?;
-    colours(&at("overlay.png"), &s.overlay())?;
-    let undrawn = |path: &Path| {
-        let path = path.to_owned();
-        move |cause| ReportError::Draw { path, cause }
-    };
+    kept.draw("left.png", colours(&s.parts.left()));
+    kept.draw("overlay.png", colours(&s.overlay()));
     let svg = clusters(&s.sighting.passes, &s.spec.colours).svg("clusters");
-    write_whole(&at("clusters.svg"), svg.as_bytes())?;
-    let path = at("clusters.png");
-    write_whole(&path, &png(&svg).map_err(undrawn(&path))?)?;
+    kept.figure("clusters", &svg);
     let numbers = Numbers {
         picture: &s.name,
         width: s.picture.width(),
@@ -93,28 +84,20 @@ pub fn write(folder: &Path, s: &Segmented) -> Result<PathBuf, ReportError> {
         sighting: &s.sighting,
     };
     let json = serde_json::to_string_pretty(&numbers).expect("plain numbers");
-    write_whole(&at("segmentation.json"), format!("{json}\n").as_bytes())?;
-    let path = at("sheet.png");
-    colours(&path, &sheet(s).map_err(undrawn(&path))?)
+    kept.write("segmentation.json", format!("{json}\n").as_bytes());
+    kept.draw("sheet.png", sheet(s).and_then(|sheet| colours(&sheet)));
+    kept.done()?;
+    Ok(out.dir().join("sheet.png"))
 }
 
-fn colours(path: &Path, picture: &RgbImage) -> Result<PathBuf, ReportError> {
+fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
+    encoded(|bytes| picture.write_to(bytes, ImageFormat::Png))
+}
+
+fn encoded(write: impl Fn(&mut Cursor<Vec<u8>>) -> ImageResult<()>) -> Result<Vec<u8>, String> {
     let mut bytes = Cursor::new(Vec::new());
-    encoded(path, picture.write_to(&mut bytes, ImageFormat::Png))?;
-    write_whole(path, bytes.get_ref())
-}
-
-fn mask(path: &Path, picture: &GrayImage) -> Result<PathBuf, ReportError> {
-    let mut bytes = Cursor::new(Vec::new());
-    encoded(path, picture.write_to(&mut bytes, ImageFormat::Png))?;
-    write_whole(path, bytes.get_ref())
-}
-
-fn encoded(path: &Path, result: image::ImageResult<()>) -> Result<(), ReportError> {
-    result.map_err(|e| ReportError::Draw {
-        path: path.to_owned(),
-        cause: e.to_string(),
-    })
+    write(&mut bytes).map_err(|e| e.to_string())?;
+    Ok(bytes.into_inner())
 }
 
 /// The passes and the verdict as text.

@@ -11,12 +11,12 @@ use super::expected::Expected;
 use super::figure::{Figure, Statistics};
 use super::series::Series;
 use crate::assemble::AssembleError;
+use crate::ocean::Origin;
 use crate::scenario::Loaded;
 use nalgebra::{Vector2, Vector3};
-use plumes::filaments::{Displaced, Plume, PlumeSettings};
-use plumes::flow::{GridShape, Water};
+use plumes::filaments::{Displaced, Plume};
+use plumes::flow::Water;
 use world::fields::{Concentration, Flow};
-use world::obstacles::{Obstacle, Obstacles};
 
 /// Odour is felt above this part of the time mean on the centreline at the nearest distance.
 const THRESHOLD: f64 = 0.01;
@@ -35,6 +35,9 @@ pub enum StatisticsError {
     /// It cannot be built.
     #[error(transparent)]
     Assemble(#[from] AssembleError),
+    /// Stopped from outside.
+    #[error("interrupted: nothing was written")]
+    Interrupted,
     /// Nothing is released.
     #[error("{0} has no source: there is no plume to measure; add one under `sources`")]
     NoSource(String),
@@ -76,7 +79,7 @@ pub(super) struct Watch {
 
 /// Lets a scenario's plume develop, watches it, and works out its figures.
 ///
-/// `heard` is told the share done.
+/// `heard` is told the share done and ends it by answering `false`.
 ///
 /// # Errors
 /// If the scenario cannot be built or has no plume to measure.
@@ -84,7 +87,7 @@ pub fn statistics(
     loaded: &Loaded,
     seed: u64,
     seconds: Option<f64>,
-    mut heard: impl FnMut(f64),
+    mut heard: impl FnMut(f64) -> bool,
 ) -> Result<Statistics, StatisticsError> {
     let scenario = &loaded.scenario;
     let (mut water, mut plume) = built(loaded, seed)?;
@@ -105,7 +108,9 @@ pub fn statistics(
         let dt = spin_up / before as f64;
         water.advance((n + 1) as f64 * dt);
         plume.drift(&water, n as f64 * dt, (n + 1) as f64 * dt);
-        heard(share(n));
+        if !heard(share(n)) {
+            return Err(StatisticsError::Interrupted);
+        }
     }
     let mut watch = Watch::new(loaded, &water, source, spin_up)?;
     let dt = time.drift_period_s.get();
@@ -118,7 +123,9 @@ pub fn statistics(
         water.advance(t);
         plume.drift(&water, t - dt, t);
         watch.look(&water, &plume, t);
-        heard(share(before + n));
+        if !heard(share(before + n)) {
+            return Err(StatisticsError::Interrupted);
+        }
     }
     let figures = watch.figures(loaded, &water, &plume, watched_s)?;
     Ok(Statistics {
@@ -130,20 +137,9 @@ pub fn statistics(
 }
 
 fn built(loaded: &Loaded, seed: u64) -> Result<(Water, Plume), AssembleError> {
-    let scenario = &loaded.scenario;
-    let area = scenario.area.build();
-    let terrain = scenario.terrain.build(&area);
-    let obstacles = (scenario.obstacles.iter())
-        .map(|spec| Obstacle::build(spec, &terrain, &loaded.base_dir))
-        .collect::<Result<Vec<_>, _>>()?;
-    let water = scenario.water.build(&area, &terrain, seed)?;
-    let settings = PlumeSettings {
-        refresh_s: scenario.time.flow_period_s.get(),
-        grid: GridShape::fitting(&area),
-    };
-    let plume = Plume::new(&scenario.sources, &area, &terrain, seed, settings)?
-        .with_obstacles(Obstacles(obstacles))?;
-    Ok((water, plume))
+    let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+    let ocean = origin.build(&loaded.base_dir)?;
+    Ok((ocean.water, ocean.plume))
 }
 
 impl Watch {
@@ -297,6 +293,7 @@ mod tests {
         let loaded = load(Path::new(name)).unwrap();
         statistics(&loaded, 1, Some(seconds), |share| {
             assert!((0.0..=1.0).contains(&share));
+            true
         })
         .unwrap()
     }
@@ -352,7 +349,7 @@ mod tests {
     fn without_a_source_there_is_nothing_to_measure() {
         let mut loaded = load(Path::new("uniform_channel")).unwrap();
         loaded.scenario.sources.clear();
-        let said = statistics(&loaded, 1, Some(1.0), |_| ()).unwrap_err();
+        let said = statistics(&loaded, 1, Some(1.0), |_| true).unwrap_err();
         assert!(
             said.to_string().contains("uniform_channel has no source"),
             "{said}"

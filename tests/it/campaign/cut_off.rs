@@ -48,6 +48,7 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
             );
         }
         grew += usize::from(now.len() > before.len());
+        let now_whole = now.len() == 200;
         before = now;
         if let Some(status) = over {
             assert!(status.success(), "{status}");
@@ -56,7 +57,13 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
         kills += 1;
         // Killed between making the folder and writing the manifest it has not begun.
         let begun = out.join("campaign.json").exists();
-        let (_, said) = ends(dir, if begun { 75 } else { 1 }, &["status", "out"]);
+        // Killed after its last block, on its way out, it has done all.
+        let code = match (begun, now_whole) {
+            (false, _) => 1,
+            (true, false) => 75,
+            (true, true) => 0,
+        };
+        let (_, said) = ends(dir, code, &["status", "out"]);
         assert!(!said.contains("not whole"), "{said}");
         assert!(kills < 500, "it never comes to its end");
     }
@@ -75,7 +82,7 @@ fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
 
 #[cfg(unix)]
 #[test]
-fn a_termination_signal_ends_it_between_blocks_with_code_75() {
+fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
     let folder = folder(500, "30", "4");
     let dir = folder.path();
     let child = start(dir);
@@ -100,10 +107,81 @@ fn a_termination_signal_ends_it_between_blocks_with_code_75() {
         .count();
     assert_eq!(temporary, 0);
     let done = rows(&dir.join("out")).len();
-    assert!(done >= 8 && done.is_multiple_of(4), "{done}");
+    assert!(done >= 8, "{done}");
     // A limit of wall time ends it the same way.
     let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s"];
     let (_, said) = ends(dir, 75, &args);
     assert!(said.contains("the same command goes on"), "{said}");
     assert!(rows(&dir.join("out")).len() >= done);
+}
+
+#[cfg(unix)]
+#[test]
+fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() {
+    let folder = folder(200, "30", "4");
+    let dir = folder.path();
+    let args = [
+        "campaign", "run", "c.ron", "--out", "out", "--block", "800", "--jobs", "2",
+    ];
+    let out = dir.join("out");
+    let first = Duration::from_millis(100);
+    let mut patience = first;
+    let begun = std::time::Instant::now();
+    let said = loop {
+        let child = scheduler_free(common::command(dir, &args))
+            .stdout(Stdio::null())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("rheotaxis starts");
+        std::thread::sleep(patience);
+        let id = child.id().to_string();
+        // Fails where the command is over already.
+        std::process::Command::new("kill")
+            .args(["-INT", &id])
+            .status()
+            .unwrap();
+        let end = child.wait_with_output().unwrap();
+        // Before it listens to signals it ends by them; too early no run is over, too late all are.
+        if end.status.code() == Some(75) && out.join("part-000000.parquet").exists() {
+            break String::from_utf8(end.stderr).unwrap();
+        }
+        assert!(begun.elapsed() < Duration::from_secs(240), "{end:?}");
+        if end.status.success() {
+            fs::remove_dir_all(&out).unwrap();
+            patience = first;
+        } else {
+            patience = patience.mul_f64(1.3);
+        }
+    };
+    let part = rows(&out);
+    let n = part.len();
+    assert!(
+        said.contains(" done now and written, ") && said.contains("the same command goes on"),
+        "{said}"
+    );
+    assert!(n > 0 && n < 800, "{n} of one block's 800 rows");
+    assert!(said.contains(&format!("{} to do", 800 - n)), "{n}: {said}");
+    let (said, _) = ends(dir, 75, &["status", "out"]);
+    assert!(
+        said.contains(&format!("{n} of 800 runs done, 0 of 1 block whole")),
+        "{said}"
+    );
+    let (said, said_of_missing) = ends(dir, 0, &["merge", "out", "-o", "all.parquet"]);
+    assert!(said.starts_with(&format!("{n} row")), "{said}");
+    assert!(
+        said_of_missing.contains(&format!("{} runs are missing", 800 - n)),
+        "{said_of_missing}"
+    );
+    // What is done is not done again, and all is as if it had never been cut off, by whatever blocks.
+    let walls = |rows: &[rheotaxis::campaign::RunRow]| -> Vec<(u64, f64)> {
+        rows.iter().map(|r| (r.run, r.mission_wall_s)).collect()
+    };
+    let before = walls(&rheotaxis::campaign::read_rows(&out).unwrap());
+    ends(dir, 0, &["run", "c.ron", "--out", "out", "--quiet"]);
+    let after = walls(&rheotaxis::campaign::read_rows(&out).unwrap());
+    assert!(before.iter().all(|row| after.contains(row)));
+    ends(dir, 0, &["run", "c.ron", "--out", "by_cost", "--quiet"]);
+    assert_eq!(rows(&out), rows(&dir.join("by_cost")));
+    assert_eq!(rows(&out).len(), 800);
+    assert!(blocks(&dir.join("by_cost")).len() >= 4);
 }

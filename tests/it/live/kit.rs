@@ -160,6 +160,7 @@ pub(super) fn frame(step: u64) -> Frame {
         step,
         robots: vec![robot],
         gantries: vec![gantry()],
+        abnormal: Vec::new(),
     }
 }
 
@@ -201,7 +202,7 @@ pub(super) fn plume(points: usize) -> PlumeFrame {
     PlumeFrame {
         t_s: 0.5,
         total: 10 * points,
-        points: vec![[1.0, 2.0, -3.0, 0.5, 1e-6]; points],
+        points: vec![[1.0, 2.0, -3.0, 0.5, 1e-5, 10.0]; points],
     }
 }
 

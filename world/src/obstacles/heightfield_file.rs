@@ -11,12 +11,15 @@
 
 use super::mesh_file::{Triangle, Wrong};
 use crate::error::WorldError;
+use crate::files;
 use std::path::Path;
 
 /// How far the solid goes below its lowest height: the flattest field has an inside then.
 pub(super) const SKIRT_M: f64 = 1.0;
 /// Most heights.
 const MOST: usize = 500_000;
+/// Longest file read, bytes: so many heights, each with all its digits.
+const LONGEST: u64 = 32 << 20;
 
 /// Heights on a grid.
 #[derive(Debug, PartialEq)]
@@ -40,7 +43,7 @@ pub(super) fn read(path: &Path) -> Result<Heights, WorldError> {
         let problem = format!("height fields end in .asc (Esri ASCII grid), not \".{ending}\"");
         return Err(fail((String::new(), problem)));
     }
-    let text = std::fs::read_to_string(path).map_err(|e| fail((String::new(), e.to_string())))?;
+    let text = files::read_text(path, LONGEST).map_err(|e| fail((String::new(), e.to_string())))?;
     parse(&text).map_err(fail)
 }
 

@@ -9,6 +9,7 @@
 //! three corners are cut into a fan.
 
 use crate::error::WorldError;
+use crate::files;
 use std::path::Path;
 
 /// A triangle's corners, in units of the file.
@@ -29,7 +30,7 @@ fn open<T>(path: &Path, parse: fn(&[u8], &str) -> Result<T, Wrong>) -> Result<T,
         place,
         problem,
     };
-    let bytes = std::fs::read(path).map_err(|e| fail((String::new(), e.to_string())))?;
+    let bytes = files::read(path, LONGEST).map_err(|e| fail((String::new(), e.to_string())))?;
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     parse(&bytes, &ending.to_lowercase()).map_err(fail)
 }
@@ -88,6 +89,8 @@ pub(super) type Wrong = (String, String);
 
 /// Most triangles of a surface: half a gigabyte with what is built of them.
 const MOST: usize = 2_000_000;
+/// Longest file read, bytes: so many triangles as text.
+const LONGEST: u64 = 512 << 20;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 

@@ -115,9 +115,26 @@ impl ObstacleSpec {
         };
         renamed == *other
     }
+
+    /// The file its shape comes from, as the scenario names it.
+    #[must_use]
+    pub fn file(&self) -> Option<&str> {
+        match &self.shape {
+            ShapeSpec::Mesh(m) => Some(&m.file),
+            ShapeSpec::Heightfield(h) => Some(&h.file),
+            ShapeSpec::Box(_) | ShapeSpec::Cylinder(_) => None,
+        }
+    }
 }
 
 impl Obstacles {
+    /// Those whose ids are not among `ids`.
+    #[must_use]
+    pub fn without(&self, ids: &[String]) -> Self {
+        let stays = |o: &&Obstacle| !ids.contains(&o.id);
+        Self(self.0.iter().filter(stays).cloned().collect())
+    }
+
     /// Whether they leave open water in the area, as far as a closely meshed look shows.
     #[must_use]
     pub fn leave_water(&self, area: &Area, terrain: &Terrain) -> bool {

@@ -13,8 +13,10 @@ pub struct ObstacleSpec {
     /// Its shape.
     pub shape: ShapeSpec,
     /// East of the datum (down-stream in a flume), m.
+    #[serde(deserialize_with = "crate::limits::place_m")]
     pub east_m: Finite,
     /// North of the datum (to the left in a flume), m.
+    #[serde(deserialize_with = "crate::limits::place_m")]
     pub north_m: Finite,
     /// Where its lowest point stands; on the bed unless given.
     #[serde(default)]
@@ -49,6 +51,7 @@ pub enum ShapeSpec {
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     /// Length along x, width along y and height, m.
+    #[serde(deserialize_with = "crate::limits::solid_m")]
     pub size_m: (Positive, Positive, Positive),
 }
 
@@ -57,8 +60,10 @@ pub struct BoxShape {
 #[serde(deny_unknown_fields)]
 pub struct CylinderShape {
     /// Radius, m.
+    #[serde(deserialize_with = "crate::limits::solid_m")]
     pub radius_m: Positive,
     /// Height, m.
+    #[serde(deserialize_with = "crate::limits::solid_m")]
     pub height_m: Positive,
 }
 
@@ -69,7 +74,7 @@ pub struct MeshShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file.
-    #[serde(default = "one")]
+    #[serde(default = "one", deserialize_with = "crate::limits::scale")]
     pub scale: Positive,
 }
 
@@ -81,7 +86,7 @@ pub struct HeightfieldShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file, of `cellsize` and heights alike.
-    #[serde(default = "one")]
+    #[serde(default = "one", deserialize_with = "crate::limits::scale")]
     pub scale: Positive,
 }
 

@@ -10,6 +10,7 @@ pub struct Surface {
     /// Share of red, green and blue light thrown back, evenly to all sides.
     pub albedo: (Fraction, Fraction, Fraction),
     /// Backscatter strength of a square metre at grazing angle 90°, dB.
+    #[serde(deserialize_with = "crate::limits::level_db")]
     pub backscatter_db: Finite,
 }
 

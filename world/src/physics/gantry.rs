@@ -78,21 +78,23 @@ pub struct JointState {
 
 pub(super) struct Gantry {
     pub(super) id: String,
-    base: Pose,
+    pub(super) base: Pose,
     pub(super) base_handle: r::RigidBodyHandle,
     pub(super) slides: [r::RigidBodyHandle; 2],
-    joints: [r::MultibodyJointHandle; 2],
-    along_B: [Vector3<f64>; 2],
-    travel_m: [[f64; 2]; 2],
+    pub(super) joints: [r::MultibodyJointHandle; 2],
+    pub(super) along_B: [Vector3<f64>; 2],
+    pub(super) travel_m: [[f64; 2]; 2],
     mass_kg: [f64; 2],
     drives: [AxisDrive; 2],
-    states: [JointState; 2],
+    pub(super) states: [JointState; 2],
+    /// Where the joints stood before the latest step, m.
+    pub(super) before_m: [f64; 2],
     pub(super) contact: GantryContact,
 }
 
 impl Gantry {
     /// Generalised momentum for given joint speeds, N s.
-    fn momentum(&self, v: [f64; 2]) -> [f64; 2] {
+    pub(super) fn momentum(&self, v: [f64; 2]) -> [f64; 2] {
         let [first, second] = self.mass_kg;
         let shared = second * self.along_B[0].dot(&self.along_B[1]);
         [
@@ -167,6 +169,7 @@ impl Physics {
             mass_kg: spec.axes.each_ref().map(|a| a.mass_kg),
             drives: [AxisDrive::default(); 2],
             states: [start(0), start(1)],
+            before_m: spec.start_m,
             contact: GantryContact::default(),
         });
         let (chain, _) = self.world.multibody_joints.get_mut(joints[1]).expect("new");
@@ -193,7 +196,7 @@ impl Physics {
     }
 
     /// Moves the joints by so much, at once.
-    fn shift(&mut self, gantry: usize, by_m: [f64; 2]) {
+    pub(super) fn shift(&mut self, gantry: usize, by_m: [f64; 2]) {
         let joint = self.gantries[gantry].joints[1];
         let set = &mut self.world.multibody_joints;
         let (chain, _) = set.get_mut(joint).expect("never removed");
@@ -258,6 +261,8 @@ impl Physics {
         for i in 0..self.gantries.len() {
             let touched = self.gantries[i].slides.map(|s| self.touched(s));
             let contact = self.gantry_touch(i, &touched);
+            let gantry = &mut self.gantries[i];
+            gantry.before_m = gantry.states.map(|s| s.position_m);
             let gantry = &self.gantries[i];
             let mut states = gantry.states;
             let mut back = [0.0; 2];

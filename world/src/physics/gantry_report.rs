@@ -1,5 +1,6 @@
 //! What a gantry ran into: which slide, what it met, where and how hard.
 
+use super::convert::from_vector;
 use super::gantry::GantryId;
 use super::solid::{BodyId, ContactReport, Physics};
 use nalgebra::Vector3;
@@ -85,8 +86,30 @@ impl Physics {
             .gantries
             .iter()
             .position(|g| g.base_handle == parent || g.slides.contains(&parent));
-        gantry
-            .map(|i| Solid::Gantry(GantryId(i)))
-            .or_else(|| self.body_of(parent).map(Solid::Body))
+        gantry.map(|i| Solid::Gantry(GantryId(i)))
+    }
+
+    /// What rapier made of the contacts of one of its bodies in the latest step.
+    pub(super) fn touched(&self, of: r::RigidBodyHandle) -> ContactReport {
+        let mut report = ContactReport::default();
+        for &collider in self.world.bodies[of].colliders() {
+            for pair in self.world.contact_pairs_with(collider) {
+                if pair.total_impulse_magnitude() <= 0.0 {
+                    continue;
+                }
+                // rapier's normals point from the first collider of a pair to the second.
+                let sign = if pair.collider1 == collider {
+                    -1.0
+                } else {
+                    1.0
+                };
+                report.touching = true;
+                report.impulse_N_s += from_vector(pair.total_impulse()) * sign;
+                if let Some((_, deepest)) = pair.find_deepest_contact() {
+                    report.max_penetration_m = report.max_penetration_m.max(-deepest.dist);
+                }
+            }
+        }
+        report
     }
 }

@@ -6,7 +6,7 @@ use super::{
 use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
 use crate::units::Heading;
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix6, Vector3, Vector6};
 use rapier3d::geometry::SharedShape;
 
 const STEP_S: f64 = 0.02;
@@ -188,8 +188,7 @@ fn a_body_that_runs_into_the_head_is_named_and_stopped() {
             Shape::Sphere { radius_m: 0.1 },
         )],
         p_BG: Vector3::zeros(),
-        mass_kg: 3.0,
-        inertia_kg_m2: Matrix3::from_diagonal_element(0.01),
+        mass: Matrix6::from_diagonal(&Vector6::new(3.0, 3.0, 3.0, 0.01, 0.01, 0.01)),
     });
     physics.drive(id, at_speed([0.0, 0.0]));
     let mut named = false;

@@ -1,11 +1,19 @@
 //! Rigid bodies and contacts, the only place that touches rapier3d.
 
 mod convert;
+mod course;
 mod gantry;
+mod gantry_meet;
 mod gantry_report;
 #[cfg(test)]
 mod gantry_tests;
+mod gaps;
 mod ground;
+mod impulses;
+mod meet;
+#[cfg(test)]
+mod meet_tests;
+mod rapier_alone;
 mod shape;
 mod solid;
 #[cfg(test)]

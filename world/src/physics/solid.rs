@@ -1,36 +1,35 @@
-//! Moving rigid bodies: each is told where its own equation of motion takes it, and rapier decides
-//! what happens where that meets something solid.
+//! Moving rigid bodies: each is told where its own equation of motion takes it, and gets there unless it meets
+//! something solid on the way.
 //!
 //! *Source:* the force form of added mass needs ρ(M_RB⁻¹ M_A) < 1 to be stable with a lag of one
 //! step, whatever the step; a REMUS hull has 1.09. So the body's own equation, added mass on the left,
-//! is solved by its owner, and rapier gets the force F = m Δv_G / h and torque T = R I Rᵀ Δω / h that
-//! take its (scalar) mass to the same velocities. Contacts come on top of them.
+//! is solved by its owner, and a contact works against the same mass matrix (`meet.rs`): rapier, which moves the
+//! gantries, knows a scalar mass only (`rapier_alone.rs` checks the one against the other).
 //!
-//! *Parameters:* `mass_kg`, `inertia_kg_m2` as rapier sees them: the body's with its added mass.
+//! *Parameters:* `mass`: the body's with its added mass.
 //!
-//! *Deviations:* rapier integrates positions in four sub-steps of first order (6 mm in 230 s of
-//! turning at 0.02 s). A body on which no contact impulse acted is therefore put where its own
-//! equation takes it, and rapier is not asked at all while no body has anything in reach (and there is no
-//! gantry): the result is the same to the last bit, two and a half times as fast.
+//! *Deviations:* a body on which no impulse acts is put where its own equation takes it, and nobody looks for
+//! contacts while no body has anything in reach (and there is no gantry): the result is the same to the last bit.
 
-use super::convert::{from_pose, from_vector, matrix, pose, vector};
+use super::convert::pose;
 use super::gantry::Gantry;
 use super::ground::Fixed;
+use super::rapier_alone::Twin;
 use super::shape::Shape;
 use crate::area::Area;
 use crate::frames::{Pose, Truth};
 use crate::obstacles::Obstacle;
 use crate::terrain::Terrain;
 use bevy_ecs::prelude::{Component, Resource};
-use nalgebra::{Matrix3, UnitQuaternion, Vector3};
+use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use rapier3d::prelude as r;
 
-/// Room round a body's sphere within which the solver is asked, beyond what it moves in two steps, m.
+/// Room round a body's sphere within which contacts are looked for, beyond what it moves in two steps, m.
 const NEAR_M: f64 = 0.1;
 /// Friction coefficient of a hull on sand or concrete.
-const FRICTION: f64 = 0.4;
+pub(super) const FRICTION: f64 = 0.4;
 
-/// Which steps go through rapier's solver.
+/// In which steps contacts are looked for.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
     /// Those in which a body has something in reach.
@@ -38,8 +37,9 @@ pub enum Solver {
     WhenInReach,
     /// All, with the same result.
     Always,
-    /// All, and bodies stay where rapier puts them even if they touch nothing.
-    Alone,
+    /// None: rapier's own rigid bodies go alone, a cross-check (`rapier_alone.rs`). Not together with gantries. To be chosen
+    /// before bodies are added.
+    RapierAlone,
 }
 
 /// A body as the solver needs it.
@@ -53,10 +53,9 @@ pub struct BodySpec {
     pub shapes: Vec<(Pose, Shape)>,
     /// Centre of mass in body axes, m.
     pub p_BG: Vector3<f64>,
-    /// Mass with a third of the trace of the linear added mass, kg.
-    pub mass_kg: f64,
-    /// Inertia about the centre of mass with the added inertia, body axes, kg m².
-    pub inertia_kg_m2: Matrix3<f64>,
+    /// Mass matrix of the velocity of the body's origin and the angular velocity, body axes, with the added mass:
+    /// kg, kg m, kg m²; symmetric and positive definite.
+    pub mass: Matrix6<f64>,
 }
 
 /// Names a body of one [`Physics`].
@@ -68,30 +67,31 @@ pub struct BodyId(pub(super) usize);
 pub struct ContactReport {
     /// Something pushed back.
     pub touching: bool,
-    /// Deepest overlap at the beginning of the step, m.
+    /// Deepest overlap in the step, m.
     pub max_penetration_m: f64,
     /// Impulse on the body, world axes, N s.
     pub impulse_N_s: Vector3<f64>,
 }
 
-struct Body {
+pub(super) struct Body {
     id: String,
-    handle: r::RigidBodyHandle,
-    truth: Truth,
+    pub(super) truth: Truth,
     /// Where its own equation takes it in this step.
-    free: Option<Truth>,
-    p_BG: Vector3<f64>,
-    mass_kg: f64,
-    inertia_kg_m2: Matrix3<f64>,
-    reach_m: f64,
-    /// rapier's copy is older than `truth`.
-    stale: bool,
-    contact: ContactReport,
+    pub(super) free: Option<Truth>,
+    pub(super) p_BG: Vector3<f64>,
+    /// Inverse of the mass matrix about the centre of mass.
+    pub(super) inverse_mass_G: Matrix6<f64>,
+    /// Its shapes in body axes.
+    pub(super) parts: Vec<(r::Pose, r::SharedShape)>,
+    pub(super) reach_m: f64,
+    pub(super) contact: ContactReport,
+    /// Its rigid body in rapier's world, where rapier alone steps it.
+    pub(super) twin: Option<Twin>,
 }
 
 impl Body {
     /// Velocity of the centre of mass in world axes, m/s.
-    fn v_G(&self, t: &Truth) -> Vector3<f64> {
+    pub(super) fn v_G(&self, t: &Truth) -> Vector3<f64> {
         t.pose.R_WB * (t.v_WB_B + t.w_WB_B.cross(&self.p_BG))
     }
 
@@ -113,7 +113,10 @@ impl Body {
 
     /// How far from its origin anything can matter within two steps, m.
     fn near_m(&self, dt_s: f64) -> f64 {
-        self.reach_m + NEAR_M + 2.0 * dt_s * self.truth.v_WB_B.norm()
+        let way_m = self
+            .free
+            .map_or(0.0, |free| (free.pose.p_WB - self.truth.pose.p_WB).norm());
+        self.reach_m + NEAR_M + way_m.max(2.0 * dt_s * self.truth.v_WB_B.norm())
     }
 }
 
@@ -123,7 +126,7 @@ pub struct Physics {
     dt_s: f64,
     solver: Solver,
     pub(super) world: r::PhysicsWorld,
-    bodies: Vec<Body>,
+    pub(super) bodies: Vec<Body>,
     pub(super) gantries: Vec<Gantry>,
     pub(super) fixed: Vec<Fixed>,
 }
@@ -146,7 +149,7 @@ impl Physics {
         }
     }
 
-    /// Chooses which steps go through rapier's solver.
+    /// Chooses in which steps contacts are looked for.
     #[must_use]
     pub fn with_solver(mut self, solver: Solver) -> Self {
         self.solver = solver;
@@ -187,45 +190,43 @@ impl Physics {
     /// Adds a moving body.
     ///
     /// # Panics
-    /// If the points of a hull shape span no volume: whoever read the shape has to check that.
+    /// If the points of a hull shape span no volume, or the mass matrix has no inverse: whoever read them has to
+    /// check that.
     pub fn add_body(&mut self, spec: BodySpec) -> BodyId {
-        let props = r::MassProperties::with_inertia_matrix(
-            vector(&spec.p_BG),
-            spec.mass_kg,
-            matrix(&spec.inertia_kg_m2),
-        );
-        let body = r::RigidBodyBuilder::dynamic()
-            .pose(pose(&spec.truth.pose))
-            .additional_mass_properties(props)
-            .gravity_scale(0.0)
-            .can_sleep(false)
-            .gyroscopic_forces_enabled(false)
-            .ccd_enabled(true);
-        let handle = self.world.insert_body(body);
         let mut reach_m: f64 = 0.0;
+        let mut parts = Vec::with_capacity(spec.shapes.len());
         for (at, shape) in &spec.shapes {
             let shared = shape.shared().unwrap_or_else(|| {
                 panic!("body {}: a hull needs points that span a volume", spec.id)
             });
-            let collider = r::ColliderBuilder::new(shared)
-                .position(pose(at))
-                .density(0.0)
-                .friction(FRICTION);
-            self.world.insert_collider(collider, Some(handle));
+            parts.push((pose(at), shared));
             reach_m = reach_m.max(at.p_WB.norm() + shape.reach_m());
         }
-        self.bodies.push(Body {
+        let inverse = spec.mass.try_inverse().unwrap_or_else(|| {
+            panic!(
+                "body {}: a mass matrix needs to be positive definite",
+                spec.id
+            )
+        });
+        // v_G = v_O + ω × p.
+        let mut to_G = Matrix6::identity();
+        let lever = -spec.p_BG.cross_matrix();
+        to_G.fixed_view_mut::<3, 3>(0, 3).copy_from(&lever);
+        let mut body = Body {
             id: spec.id,
-            handle,
             truth: spec.truth,
             free: None,
             p_BG: spec.p_BG,
-            mass_kg: spec.mass_kg,
-            inertia_kg_m2: spec.inertia_kg_m2,
+            inverse_mass_G: to_G * inverse * to_G.transpose(),
+            parts,
             reach_m,
-            stale: true,
             contact: ContactReport::default(),
-        });
+            twin: None,
+        };
+        if self.solver == Solver::RapierAlone {
+            body.twin = Some(self.add_twin(&body));
+        }
+        self.bodies.push(body);
         BodyId(self.bodies.len() - 1)
     }
 
@@ -240,7 +241,6 @@ impl Physics {
         let body = &mut self.bodies[id.0];
         body.truth = truth;
         body.free = None;
-        body.stale = true;
     }
 
     /// What a body touched in the latest step.
@@ -283,17 +283,42 @@ impl Physics {
                 body.truth
             );
         }
-        // The joints of a gantry are rapier's: it is asked in every step.
-        let always = self.solver != Solver::WhenInReach || !self.gantries.is_empty();
-        if always || self.anything_in_reach() {
-            self.solve();
+        if self.solver == Solver::RapierAlone {
+            self.step_alone();
+            return;
+        }
+        if !self.gantries.is_empty() {
+            self.world.step();
+            self.read_gantries();
+        }
+        let always = self.solver == Solver::Always || !self.gantries.is_empty();
+        if !self.bodies.is_empty() && (always || self.anything_in_reach()) {
+            self.touch();
         }
         for body in &mut self.bodies {
             if let Some(free) = body.free.take() {
                 body.truth = free;
-                body.stale = true;
                 body.contact = ContactReport::default();
             }
+        }
+    }
+
+    /// Puts what met something where that left it.
+    fn touch(&mut self) {
+        let courses = self.meet();
+        let (bodies, gantries) = courses.split_at(self.bodies.len());
+        for (body, course) in self.bodies.iter_mut().zip(bodies).filter(|(_, c)| c.moved) {
+            body.truth = course.truth(&body.p_BG);
+            assert!(
+                body.truth.is_finite(),
+                "body {}: state is no longer finite after a contact; use a shorter time.step_s",
+                body.id
+            );
+            body.contact = course.contact;
+            body.free = None;
+        }
+        for (i, course) in gantries.iter().enumerate().filter(|(_, c)| c.moved) {
+            self.strike_gantry(i, course);
         }
     }
 
@@ -307,82 +332,7 @@ impl Physics {
         })
     }
 
-    /// Lets rapier step; takes its word for bodies that were touched.
-    fn solve(&mut self) {
-        for body in &mut self.bodies {
-            let free = body.free.expect("step() filled it in");
-            let rb = &mut self.world.bodies[body.handle];
-            if body.stale {
-                rb.set_position(pose(&body.truth.pose), false);
-                rb.set_linvel(vector(&body.v_G(&body.truth)), false);
-                rb.set_angvel(vector(&(body.truth.pose.R_WB * body.truth.w_WB_B)), false);
-                body.stale = false;
-            }
-            let dv = body.v_G(&free) - body.v_G(&body.truth);
-            let dw = free.pose.R_WB * free.w_WB_B - body.truth.pose.R_WB * body.truth.w_WB_B;
-            let R = body.truth.pose.R_WB;
-            let torque = R * (body.inertia_kg_m2 * (R.inverse() * dw)) / self.dt_s;
-            rb.reset_forces(false);
-            rb.reset_torques(false);
-            rb.add_force(vector(&(dv * (body.mass_kg / self.dt_s))), false);
-            rb.add_torque(vector(&torque), false);
-        }
-        self.world.step();
-        self.read_gantries();
-        for i in 0..self.bodies.len() {
-            let contact = self.touched(self.bodies[i].handle);
-            let body = &mut self.bodies[i];
-            if !contact.touching && self.solver != Solver::Alone {
-                continue;
-            }
-            let rb = &self.world.bodies[body.handle];
-            let pose = from_pose(rb.position());
-            let w_WB_B = pose.R_WB.inverse() * from_vector(rb.angvel());
-            let v_G = pose.R_WB.inverse() * from_vector(rb.linvel());
-            body.truth = Truth {
-                pose,
-                v_WB_B: v_G - w_WB_B.cross(&body.p_BG),
-                w_WB_B,
-            };
-            assert!(
-                body.truth.is_finite(),
-                "body {}: state is no longer finite after a contact; use a shorter time.step_s",
-                body.id
-            );
-            body.contact = contact;
-            body.free = None;
-        }
-    }
-
     pub(super) fn body_name(&self, id: BodyId) -> &str {
         &self.bodies[id.0].id
-    }
-
-    pub(super) fn body_of(&self, handle: r::RigidBodyHandle) -> Option<BodyId> {
-        let i = self.bodies.iter().position(|b| b.handle == handle)?;
-        Some(BodyId(i))
-    }
-
-    pub(super) fn touched(&self, handle: r::RigidBodyHandle) -> ContactReport {
-        let mut report = ContactReport::default();
-        for &collider in self.world.bodies[handle].colliders() {
-            for pair in self.world.contact_pairs_with(collider) {
-                if pair.total_impulse_magnitude() <= 0.0 {
-                    continue;
-                }
-                // rapier's normals point from the first collider of a pair to the second.
-                let sign = if pair.collider1 == collider {
-                    -1.0
-                } else {
-                    1.0
-                };
-                report.touching = true;
-                report.impulse_N_s += from_vector(pair.total_impulse()) * sign;
-                if let Some((_, deepest)) = pair.find_deepest_contact() {
-                    report.max_penetration_m = report.max_penetration_m.max(-deepest.dist);
-                }
-            }
-        }
-        report
     }
 }

@@ -32,6 +32,11 @@ impl Digest {
         self.hash.update(s.as_bytes());
     }
 
+    /// Takes in bytes as they are; cutting them differently changes nothing.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.hash.update(bytes);
+    }
+
     /// The digest so far, 32 hexadecimal digits.
     #[must_use]
     pub fn hex(&self) -> String {

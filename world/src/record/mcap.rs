@@ -7,12 +7,12 @@
 //! gives it back its index.
 
 use super::ros_messages::Kind;
+use crate::files::Output;
 use ::mcap::records::{MessageHeader, Metadata};
 use ::mcap::{Attachment, McapError, WriteOptions, Writer};
 use std::borrow::Cow;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 
 /// Longest simulated time that a crash can cost, ns: a chunk is closed and handed to the system after it.
@@ -55,14 +55,6 @@ pub fn nanoseconds(t_s: f64) -> u64 {
     (t_s.max(0.0) * 1e9).round() as u64
 }
 
-/// `file.tmp` beside `file`.
-#[must_use]
-pub fn temporary_name(path: &Path) -> PathBuf {
-    let mut name = path.as_os_str().to_owned();
-    name.push(".tmp");
-    name.into()
-}
-
 struct Channel {
     id: u16,
     sequence: u32,
@@ -70,24 +62,23 @@ struct Channel {
 
 /// The file being written.
 pub struct McapFile {
-    writer: Writer<BufWriter<File>>,
-    path: PathBuf,
+    writer: Writer<BufWriter<Output>>,
     temporary: PathBuf,
     channels: BTreeMap<String, Channel>,
     flushed_ns: u64,
 }
 
 impl McapFile {
-    /// Opens `path.tmp`, over a file of that name if one was left.
+    /// Begins the recording that shall be `path`, under a name of its own.
     ///
     /// # Errors
-    /// If the file cannot be made or written.
+    /// If the file cannot be made or written, or something else than a regular file stands there.
     pub fn create(path: &Path, library: &str) -> Result<Self, RecordError> {
-        let temporary = temporary_name(path);
-        let file = File::create(&temporary).map_err(|source| RecordError::Create {
-            path: temporary.clone(),
-            source,
+        let file = Output::create_kept(path).map_err(|e| RecordError::Create {
+            path: e.path,
+            source: e.source,
         })?;
+        let temporary = file.temporary().to_owned();
         let writer = WriteOptions::new()
             .profile("ros2")
             .library(library)
@@ -100,11 +91,16 @@ impl McapFile {
             })?;
         Ok(Self {
             writer,
-            path: path.to_owned(),
             temporary,
             channels: BTreeMap::new(),
             flushed_ns: 0,
         })
+    }
+
+    /// Where it is written until it is whole.
+    #[must_use]
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
     }
 
     fn failed(&self) -> impl Fn(McapError) -> RecordError + use<> {
@@ -198,14 +194,13 @@ impl McapFile {
     pub fn finish(mut self) -> Result<PathBuf, RecordError> {
         let failed = self.failed();
         self.writer.finish().map_err(&failed)?;
-        let mut file = self.writer.into_inner();
-        file.flush().map_err(|e| failed(McapError::Io(e)))?;
-        fs::rename(&self.temporary, &self.path).map_err(|source| RecordError::Rename {
-            from: self.temporary.clone(),
-            to: self.path.clone(),
-            source,
-        })?;
-        Ok(self.path.clone())
+        let file = self.writer.into_inner();
+        let file = (file.into_inner()).map_err(|e| failed(McapError::Io(e.into_error())))?;
+        file.finish().map_err(|e| RecordError::Rename {
+            from: self.temporary,
+            to: e.path,
+            source: e.source,
+        })
     }
 }
 
@@ -213,6 +208,7 @@ impl McapFile {
 mod tests {
     use super::*;
     use crate::record::ros_messages::{clock, float64};
+    use std::fs;
 
     fn messages(bytes: &[u8]) -> Vec<(String, u64)> {
         ::mcap::MessageStream::new_with_options(bytes, ::mcap::read::Options::IgnoreEndMagic.into())
@@ -236,6 +232,7 @@ mod tests {
                 .unwrap();
         }
         assert!(!path.exists());
+        let temporary = f.temporary().to_owned();
         assert_eq!(f.finish().unwrap(), path);
         let bytes = fs::read(&path).unwrap();
         assert_eq!(messages(&bytes).len(), 6);
@@ -243,7 +240,7 @@ mod tests {
         assert_eq!(summary.attachment_indexes[0].name, "scenario.ron");
         assert_eq!(summary.metadata_indexes[0].name, "run");
         assert_eq!(summary.channels.len(), 2);
-        assert!(!temporary_name(&path).exists());
+        assert!(!temporary.exists());
     }
 
     #[test]
@@ -255,10 +252,11 @@ mod tests {
             let t = k * FLUSH_NS / 4;
             f.write("/clock", Kind::Clock, t, &clock(t)).unwrap();
         }
+        let temporary = f.temporary().to_owned();
         // Neither finish nor drop runs, as after a kill.
         std::mem::forget(f);
         assert!(!path.exists());
-        let bytes = fs::read(temporary_name(&path)).unwrap();
+        let bytes = fs::read(temporary).unwrap();
         let last = messages(&bytes).last().unwrap().1;
         assert!(last + FLUSH_NS >= 5 * FLUSH_NS, "last message at {last} ns");
     }
@@ -269,30 +267,17 @@ mod tests {
         let path = dir.path().join("no/run.mcap");
         let said = McapFile::create(&path, "test").err().unwrap().to_string();
         assert!(said.starts_with("cannot create the recording"), "{said}");
-        assert!(said.contains("no/run.mcap.tmp"), "{said}");
+        assert!(said.contains("no/run.mcap"), "{said}");
     }
 
+    #[cfg(unix)]
     #[test]
-    fn full_disk_is_an_error_and_keeps_the_file() {
-        // A device that is always full, where the system has one.
-        let full = Path::new("/dev/full");
-        if !full.exists() {
-            return;
-        }
+    fn a_device_in_its_place_is_refused() {
         let dir = tempfile::tempdir().unwrap();
         let path = dir.path().join("run.mcap");
-        #[cfg(unix)]
-        std::os::unix::fs::symlink(full, temporary_name(&path)).unwrap();
-        let outcome = (|| {
-            let mut f = McapFile::create(&path, "test")?;
-            for k in 0..20u64 {
-                let t = k * FLUSH_NS;
-                f.write("/clock", Kind::Clock, t, &clock(t))?;
-            }
-            f.finish()
-        })();
-        let said = outcome.unwrap_err().to_string();
-        assert!(said.contains("cannot write to the recording"), "{said}");
-        assert!(!path.exists());
+        std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+        let said = McapFile::create(&path, "test").err().unwrap().to_string();
+        assert!(said.contains("a link to a device"), "{said}");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 }

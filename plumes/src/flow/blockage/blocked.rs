@@ -9,7 +9,7 @@
 //! (ω·period)²/8 of itself (meander at 0.02 1/s, 30 s: 4.5 %). Density, diffusivities and the layers' interfaces stay
 //! those of the unblocked water: interfaces do not rise over a block.
 
-use nalgebra::{Matrix3, Vector2, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use world::area::Area;
 use world::fields::Flow;
@@ -21,7 +21,7 @@ use super::solve::{Projector, Solved};
 use super::spec::BlockageSpec;
 use crate::error::PlumeError;
 use crate::flow::ground::{Floor, Ground};
-use crate::flow::water::Water;
+use crate::flow::water::{Column, Water};
 
 /// How long after the latest advance questions may come, s.
 const AHEAD_S: f64 = 1.0;
@@ -43,6 +43,11 @@ pub struct Blocked {
     first: u64,
     period_s: f64,
     solved: Solved,
+    // Stokes' drift of the waves, led round as the currents are: it carries filaments, not hulls.
+    drift: Option<Arc<Faces<f32>>>,
+    // Mean depth of each column, m: that of its four corners.
+    depth: Arc<Vec<f64>>,
+    still_bed: bool,
 }
 
 impl Blocked {
@@ -53,8 +58,15 @@ impl Blocked {
         obstacles: &Obstacles,
         free: Water,
     ) -> Result<Self, PlumeError> {
-        let cells = Cells::new(spec, area, ground, obstacles)?;
+        let walled = free.walls().is_some();
+        let cells = Cells::new(spec, area, ground, obstacles, walled)?;
         let projector = Projector::new(&cells, ground);
+        let [nx, ny, _] = cells.n;
+        let corner = |i: usize, j: usize| -ground.floor(cells.place(i as f64, j as f64)).z;
+        let mean = |i, j| {
+            0.25 * (corner(i, j) + corner(i + 1, j) + corner(i, j + 1) + corner(i + 1, j + 1))
+        };
+        let depth = (0..nx * ny).map(|c| mean(c / ny, c % ny)).collect();
         let mut this = Self {
             phi: Vec::new(),
             fields: [(); 3].map(|()| Arc::new(Faces::default())),
@@ -68,8 +80,12 @@ impl Blocked {
             },
             projector: Some(Arc::new(projector)),
             cells: Arc::new(cells),
+            drift: None,
+            depth: Arc::new(depth),
+            still_bed: free.stands_at_bed(),
             free: Box::new(free),
         };
+        this.drift = this.stokes();
         let now = this.worked_out(0.0);
         if this.free.is_steady() {
             this.fields = [now.clone(), now.clone(), now];
@@ -94,7 +110,7 @@ impl Blocked {
             .clone()
             .expect("unsteady water keeps its projector");
         self.free.advance(t_s);
-        let mut flux = self.incoming(t_s);
+        let mut flux = self.incoming(t_s, |column, z| column.velocity(z));
         self.solved = projector.project(&self.cells, &mut flux, &mut self.phi);
         Arc::new(Projector::velocities(&self.cells, &flux))
     }
@@ -111,8 +127,25 @@ impl Blocked {
         }
     }
 
-    /// Fluxes of the unblocked water, taken in the middle of every face, m³/s.
-    fn incoming(&self, t_s: f64) -> Faces<f64> {
+    /// The waves' drift, if there is any.
+    fn stokes(&self) -> Option<Arc<Faces<f32>>> {
+        let waves = self.free.waves()?;
+        let drift = |z: f64| waves.drift(z);
+        if drift(0.0).norm() == 0.0 {
+            return None;
+        }
+        let projector = self.projector.as_ref()?;
+        let mut flux = self.incoming(0.0, |_, z| drift(z).push(0.0));
+        projector.project(&self.cells, &mut flux, &mut Vec::new());
+        Some(Arc::new(Projector::velocities(&self.cells, &flux)))
+    }
+
+    /// Fluxes of unblocked water, taken in the middle of every face, m³/s.
+    fn incoming(
+        &self,
+        t_s: f64,
+        velocity: impl Fn(&Column<'_>, f64) -> Vector3<f64>,
+    ) -> Faces<f64> {
         let cells = &*self.cells;
         let [nx, ny, nz] = cells.n;
         let mut flux = Faces::default();
@@ -126,7 +159,7 @@ impl Blocked {
                     let column = self.free.column(p, t_s);
                     let bed = column.bed_z();
                     for k in 0..nz {
-                        let u = column.velocity(bed * (1.0 - cells.middle(k))).xy();
+                        let u = velocity(&column, bed * (1.0 - cells.middle(k))).xy();
                         let area = cells.d[1 - d] * -bed * (cells.s[k + 1] - cells.s[k]);
                         all.push(u.dot(&cells.axes[d]) * area);
                     }
@@ -142,7 +175,7 @@ impl Blocked {
                 let floor = self.free.floor(p);
                 flux.s.push(0.0);
                 for s in &cells.s[1..nz] {
-                    let v = column.velocity(floor.z * (1.0 - s));
+                    let v = velocity(&column, floor.z * (1.0 - s));
                     flux.s
                         .push((v.z - v.xy().dot(&floor.slope) * (1.0 - s)) * top);
                 }
@@ -168,27 +201,41 @@ impl Blocked {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
-    /// Velocity for a node of the plume's flow grid: smooth if it is a corner of cells.
-    pub(crate) fn at_node(
-        &self,
-        place: Vector2<f64>,
-        z: f64,
-        floor: &Floor,
-        t_s: f64,
-        still_bed: bool,
-    ) -> Option<Vector3<f64>> {
+    /// Fills in what carries filaments through each cell, as [`Flow::rates`] has it: along, across and upwards the speed at the lower
+    /// and the upper face, in parts of the cell a second. A level that counts as a cell beyond the last is left out of the layout of columns:
+    /// cell (i, j, k) is number (i·(ny + 1) + j)·nz + k, beside the column of the flow grid that is its lower corner.
+    pub(crate) fn rates(&self, t_s: f64, out: &mut Vec<[f32; 6]>) {
+        let cells = &*self.cells;
+        let [nx, ny, nz] = cells.n;
         let between = self.between(t_s);
-        match field::corner(&self.cells, place) {
-            Some(at) => Some(field::at_corner(
-                &self.cells,
-                between,
-                at,
-                z,
-                floor,
-                still_bed,
-            )),
-            None => field::velocity(&self.cells, between, place, z, floor),
+        let drift = self.drift.as_deref();
+        out.resize(nx * (ny + 1) * nz, [0.0; 6]);
+        for i in 0..nx {
+            for j in 0..ny {
+                let depth = self.depth[i * ny + j];
+                let column = &mut out[(i * (ny + 1) + j) * nz..][..nz];
+                for (k, rates) in column.iter_mut().enumerate() {
+                    let ds = cells.s[k + 1] - cells.s[k];
+                    let per = [1.0 / cells.d[0], 1.0 / cells.d[1], 1.0 / ds];
+                    for d in 0..3 {
+                        let mut high = [i, j, k];
+                        high[d] += 1;
+                        for (side, face) in [[i, j, k], high].into_iter().enumerate() {
+                            let at = cells.face(d, face);
+                            let of = |f: &Faces<f32>| f.across(d)[at];
+                            let v =
+                                field::mixed(of, between) + drift.map_or(0.0, |f| f64::from(of(f)));
+                            rates[2 * d + side] = (v * per[d] / depth) as f32;
+                        }
+                    }
+                }
+            }
         }
+    }
+
+    /// Whether the water stands still at the bed.
+    pub(crate) fn still_bed(&self) -> bool {
+        self.still_bed
     }
 
     /// Velocity, its gradient and rate of change; none beyond the cells. The gradient is that between the middles of cells: over half
@@ -220,8 +267,8 @@ impl Blocked {
         Some((here, gradient, (second - first) / self.period_s))
     }
 
-    #[cfg(test)]
-    pub(super) fn cells(&self) -> &Cells {
+    /// The cells.
+    pub(crate) fn cells(&self) -> &Arc<Cells> {
         &self.cells
     }
 

@@ -6,9 +6,11 @@
 //! *Parameters*: those of [`BlockageSpec`]. The cells lie between the nodes of the plume's flow grid of the same shape.
 //!
 //! *Deviations*: a cell is solid if its middle is inside an obstacle: obstacles that overlap are their union, a round
-//! one is a staircase, and one that holds no cell's middle is not felt. Water shut in on all sides counts as solid: it stands still.
+//! one is a staircase. A wall thinner than the cells shuts the faces between the middles that it parts; an obstacle that does neither, and a
+//! pile or a pipe thinner than half a cell, is not felt. Water shut in on all sides counts as solid: it stands still. This is the one geometry of water and dye alike: what an obstacle
+//! fills of an open cell is open to both. In a channel between side walls the outermost faces across are shut.
 
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::obstacles::{Obstacle, Obstacles};
 
@@ -18,7 +20,7 @@ use crate::flow::ground::Ground;
 
 /// Fluxes, velocities or conductances on the faces along (x), across (y) and upwards (s).
 #[derive(Clone, Debug, Default)]
-pub(super) struct Faces<T> {
+pub(crate) struct Faces<T> {
     /// Face i (of nx + 1) of column row j, level k: (i·ny + j)·nz + k.
     pub(super) x: Vec<T>,
     /// Face j (of ny + 1): (i·(ny + 1) + j)·nz + k.
@@ -27,40 +29,68 @@ pub(super) struct Faces<T> {
     pub(super) s: Vec<T>,
 }
 
-/// Where the cells are, and which are open.
+impl<T> Faces<T> {
+    /// Those across a direction.
+    #[inline]
+    pub(super) fn across(&self, d: usize) -> &[T] {
+        [&self.x, &self.y, &self.s][d]
+    }
+
+    fn across_mut(&mut self, d: usize) -> &mut [T] {
+        match d {
+            0 => &mut self.x,
+            1 => &mut self.y,
+            _ => &mut self.s,
+        }
+    }
+}
+
+/// Where the cells are, which are open, and which faces.
 #[derive(Clone, Debug)]
-pub(super) struct Cells {
+pub(crate) struct Cells {
     /// World (east, north) of corner (0, 0), m.
     corner: Vector2<f64>,
     /// Unit vectors (east, north) along and across.
-    pub(super) axes: [Vector2<f64>; 2],
+    pub(crate) axes: [Vector2<f64>; 2],
     /// Sizes along and across, m.
-    pub(super) d: [f64; 2],
+    pub(crate) d: [f64; 2],
     /// Cells along, across, upwards.
-    pub(super) n: [usize; 3],
+    pub(crate) n: [usize; 3],
     stretch: f64,
     /// s of the faces, 0 at the bed to 1 at the surface.
-    pub(super) s: Vec<f64>,
+    pub(crate) s: Vec<f64>,
     /// Cell (i·ny + j)·nz + k is open.
-    pub(super) open: Vec<bool>,
-    /// Which of the obstacles hold the middle of a cell.
+    pub(crate) open: Vec<bool>,
+    // Faces that something may go through.
+    pass: Faces<bool>,
+    /// Which of the obstacles hold the middle of a cell, or part two of them.
     pub(super) felt: Vec<bool>,
 }
 
 impl Cells {
-    pub(super) fn new(
+    pub(crate) fn new(
         spec: &BlockageSpec,
         area: &Area,
         ground: &Ground,
         obstacles: &Obstacles,
+        walled: bool,
     ) -> Result<Self, PlumeError> {
         spec.check()?;
+        if walled && spec.margin_m.get() > 0.0 {
+            let field = "water.blockage.margin_m".to_owned();
+            let problem = format!(
+                "must be 0 in an OpenChannel, whose walls are the sides of the area, got {}",
+                spec.margin_m.get()
+            );
+            return Err(PlumeError::Invalid { field, problem });
+        }
         // As the plume's flow grid places its nodes.
         let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * spec.margin_m.get());
         let count = extent.map(|e| (e / spec.cell_m.get()).ceil().max(1.0));
         let nz = spec.levels as usize - 1;
         let cells = count[0] * count[1] * nz as f64;
-        if cells > MOST_CELLS {
+        // What is not a number is too much.
+        if !(cells <= MOST_CELLS) {
             let problem = format!(
                 "{} m makes {} x {} x {nz} = {cells:.3e} cells over {:.0} x {:.0} m; at most {MOST_CELLS:e} fit: take larger cells, fewer levels or a smaller margin_m",
                 spec.cell_m.get(),
@@ -86,11 +116,16 @@ impl Cells {
             stretch: a,
             s: s.collect(),
             open: vec![true; cells as usize],
+            pass: Faces::default(),
             felt: Vec::new(),
         };
+        this.pass = this.within(walled);
         for obstacle in &obstacles.0 {
             let felt = this.fill(obstacle, ground);
             this.felt.push(felt);
+        }
+        for (n, obstacle) in obstacles.0.iter().enumerate() {
+            this.felt[n] |= this.part(obstacle, ground);
         }
         this.shut_in();
         if !this.open.contains(&true) {
@@ -104,9 +139,28 @@ impl Cells {
         Ok(this)
     }
 
-    /// Makes solid what an obstacle fills; whether that is anything.
-    fn fill(&mut self, obstacle: &Obstacle, ground: &Ground) -> bool {
-        let mut felt = false;
+    /// All faces but bed, surface and, between walls, the sides across.
+    fn within(&self, walled: bool) -> Faces<bool> {
+        let [nx, ny, nz] = self.n;
+        let mut pass = Faces {
+            x: vec![true; (nx + 1) * ny * nz],
+            y: vec![true; nx * (ny + 1) * nz],
+            s: vec![true; nx * ny * (nz + 1)],
+        };
+        for column in pass.s.chunks_exact_mut(nz + 1) {
+            (column[0], column[nz]) = (false, false);
+        }
+        if walled {
+            for row in pass.y.chunks_exact_mut((ny + 1) * nz) {
+                row[..nz].fill(false);
+                row[ny * nz..].fill(false);
+            }
+        }
+        pass
+    }
+
+    /// The columns over which an obstacle stands, and `beside` more on each side.
+    fn under(&self, obstacle: &Obstacle, beside: f64) -> [std::ops::Range<usize>; 2] {
         let (low, high) = obstacle.bounds();
         let corners = [
             (low.x, low.y),
@@ -115,19 +169,26 @@ impl Cells {
             (high.x, high.y),
         ]
         .map(|(x, y)| self.in_cells(Vector2::new(x, y)));
-        let range = |d: usize| {
-            let of = corners.map(|c| c[d].clamp(0.0, self.n[d] as f64));
-            let least = of.iter().fold(f64::INFINITY, |a, b| a.min(*b));
-            let most = of.iter().fold(0.0_f64, |a, b| a.max(*b));
-            least as usize..most.ceil() as usize
-        };
-        for i in range(0) {
-            for j in range(1) {
+        [0, 1].map(|d| {
+            let least = corners.iter().fold(f64::INFINITY, |a, c| a.min(c[d])) - beside;
+            let most = corners.iter().fold(0.0_f64, |a, c| a.max(c[d])) + beside;
+            let [least, most] = [least, most.ceil()].map(|v| v.clamp(0.0, self.n[d] as f64));
+            least as usize..most as usize
+        })
+    }
+
+    /// Makes solid what an obstacle fills; whether that is anything.
+    fn fill(&mut self, obstacle: &Obstacle, ground: &Ground) -> bool {
+        let mut felt = false;
+        let (low, high) = obstacle.bounds();
+        let [along, across] = self.under(obstacle, 0.0);
+        for i in along {
+            for j in across.clone() {
                 let p = self.place(i as f64 + 0.5, j as f64 + 0.5);
                 let bed = ground.floor(p).z;
                 for k in 0..self.n[2] {
                     let z = bed * (1.0 - self.middle(k));
-                    let at = (i * self.n[1] + j) * self.n[2] + k;
+                    let at = self.cell([i, j, k]);
                     let near = z >= low.z && z <= high.z;
                     if near && (self.open[at] || !felt) && obstacle.contains(&p.push(z)) {
                         (self.open[at], felt) = (false, true);
@@ -138,7 +199,72 @@ impl Cells {
         felt
     }
 
-    /// Makes solid what no way through open cells joins to the sides.
+    /// Shuts the faces between open middles that an obstacle parts; whether there are any.
+    fn part(&mut self, obstacle: &Obstacle, ground: &Ground) -> bool {
+        let mut felt = false;
+        let (low, high) = obstacle.bounds();
+        if self.is_rod(low, high, ground) {
+            return felt;
+        }
+        let [along, across] = self.under(obstacle, 1.0);
+        for i in along {
+            for j in across.clone() {
+                // This column and the next along and across.
+                let columns = [[i, j], [i + 1, j], [i, j + 1]].map(|[i, j]| {
+                    let p = self.place(i as f64 + 0.5, j as f64 + 0.5);
+                    (p, ground.floor(p).z)
+                });
+                for k in 0..self.n[2] {
+                    let from = self.centre(columns[0], k);
+                    for d in 0..3 {
+                        let mut next = [i, j, k];
+                        next[d] += 1;
+                        let both = next[d] < self.n[d]
+                            && self.open[self.cell([i, j, k])]
+                            && self.open[self.cell(next)];
+                        if !both {
+                            continue;
+                        }
+                        let to = self.centre(columns[[1, 2, 0][d]], next[2]);
+                        let (least, most) = (from.inf(&to), from.sup(&to));
+                        if (0..3).any(|e| most[e] < low[e] || least[e] > high[e]) {
+                            continue;
+                        }
+                        let way = to - from;
+                        if obstacle.ray(&from, &way, way.norm()).is_some() {
+                            let face = self.face(d, next);
+                            self.pass.across_mut(d)[face] = false;
+                            felt = true;
+                        }
+                    }
+                }
+            }
+        }
+        felt
+    }
+
+    /// Whether a box is thinner than half a cell in two directions: a pile or a pipe, which parts middles and still
+    /// leaves most of a face open. A wall is so in one.
+    fn is_rod(&self, low: Vector3<f64>, high: Vector3<f64>, ground: &Ground) -> bool {
+        let size = high - low;
+        let wide = |d: usize| {
+            let axis = self.axes[d].abs();
+            size.xy().dot(&axis) / self.d[d]
+        };
+        let depth = -ground.floor((low.xy() + high.xy()) / 2.0).z;
+        let s = (1.0 + (low.z + high.z) / 2.0 / depth).clamp(0.0, 1.0);
+        let k = self.level(s);
+        let thick = (self.s[k + 1] - self.s[k]) * depth;
+        let cells = [wide(0), wide(1), size.z / thick];
+        cells.iter().filter(|c| **c < 0.5).count() >= 2
+    }
+
+    /// Middle of a cell of a column: its place and bed.
+    fn centre(&self, (p, bed): (Vector2<f64>, f64), k: usize) -> Vector3<f64> {
+        p.push(bed * (1.0 - self.middle(k)))
+    }
+
+    /// Makes solid what no way through open cells joins to the sides, and shuts the faces of what is solid.
     fn shut_in(&mut self) {
         let [nx, ny, nz] = self.n;
         let mut reached = vec![false; self.open.len()];
@@ -150,35 +276,64 @@ impl Cells {
                 }
             }
         }
-        while let Some([i, j, k]) = todo.pop() {
-            let at = (i * ny + j) * nz + k;
+        // Along the walls of a channel only its ends are open.
+        todo.retain(|c| {
+            (0..2).any(|d| {
+                let mut beyond = *c;
+                beyond[d] += 1;
+                (c[d] == 0 && self.passes(d, *c))
+                    || (beyond[d] == self.n[d] && self.passes(d, beyond))
+            })
+        });
+        while let Some(here) = todo.pop() {
+            let at = self.cell(here);
             if !self.open[at] || reached[at] {
                 continue;
             }
             reached[at] = true;
-            let here = [i, j, k];
             for d in 0..3 {
                 let mut next = here;
-                if here[d] > 0 {
+                if here[d] > 0 && self.passes(d, here) {
                     next[d] = here[d] - 1;
                     todo.push(next);
                 }
-                if here[d] + 1 < self.n[d] {
-                    next[d] = here[d] + 1;
+                next[d] = here[d] + 1;
+                if next[d] < self.n[d] && self.passes(d, next) {
                     todo.push(next);
                 }
             }
         }
         self.open = reached;
+        let mut pass = std::mem::take(&mut self.pass);
+        for d in 0..3 {
+            let n = [0, 1, 2].map(|e| self.n[e] + usize::from(e == d));
+            for i in 0..n[0] {
+                for j in 0..n[1] {
+                    for k in 0..n[2] {
+                        let sides = self.beside(d, [i, j, k]);
+                        if !sides.iter().flatten().all(|c| self.open[*c]) {
+                            pass.across_mut(d)[self.face(d, [i, j, k])] = false;
+                        }
+                    }
+                }
+            }
+        }
+        self.pass = pass;
+    }
+
+    /// Number of a cell.
+    #[inline]
+    pub(crate) fn cell(&self, [i, j, k]: [usize; 3]) -> usize {
+        (i * self.n[1] + j) * self.n[2] + k
     }
 
     /// World (east, north) of a place counted in cells.
-    pub(super) fn place(&self, a: f64, b: f64) -> Vector2<f64> {
+    pub(crate) fn place(&self, a: f64, b: f64) -> Vector2<f64> {
         self.corner + self.axes[0] * (a * self.d[0]) + self.axes[1] * (b * self.d[1])
     }
 
     /// A place (east, north) counted in cells along and across.
-    pub(super) fn in_cells(&self, p: Vector2<f64>) -> [f64; 2] {
+    pub(crate) fn in_cells(&self, p: Vector2<f64>) -> [f64; 2] {
         let q = p - self.corner;
         [0, 1].map(|d| q.dot(&self.axes[d]) / self.d[d])
     }
@@ -190,7 +345,7 @@ impl Cells {
 
     /// Level of an s from 0 to 1.
     #[inline]
-    pub(super) fn level(&self, s: f64) -> usize {
+    pub(crate) fn level(&self, s: f64) -> usize {
         let (a, nz) = (self.stretch, self.n[2]);
         let b = 1.0 - a;
         let xi = 2.0 * s / (b + (b * b + 4.0 * a * s).sqrt());
@@ -205,18 +360,17 @@ impl Cells {
     /// Cells on both sides of an x face, a y face, an s face; none beyond the cells.
     pub(super) fn beside(&self, d: usize, [i, j, k]: [usize; 3]) -> [Option<usize>; 2] {
         let at = [i, j, k];
-        let cell = |c: [usize; 3]| (c[0] * self.n[1] + c[1]) * self.n[2] + c[2];
         let below = (at[d] > 0).then(|| {
             let mut c = at;
             c[d] -= 1;
-            cell(c)
+            self.cell(c)
         });
-        [below, (at[d] < self.n[d]).then(|| cell(at))]
+        [below, (at[d] < self.n[d]).then(|| self.cell(at))]
     }
 
     /// Number of a face across direction d.
     #[inline]
-    pub(super) fn face(&self, d: usize, [i, j, k]: [usize; 3]) -> usize {
+    pub(crate) fn face(&self, d: usize, [i, j, k]: [usize; 3]) -> usize {
         let [_, ny, nz] = self.n;
         match d {
             0 => (i * ny + j) * nz + k,
@@ -237,10 +391,9 @@ impl Cells {
         }
     }
 
-    /// Whether water may go through a face: open on its sides within the cells, and neither bed nor surface.
-    pub(super) fn passes(&self, d: usize, face: [usize; 3]) -> bool {
-        let sides = self.beside(d, face);
-        let inner = d < 2 || sides.iter().all(Option::is_some);
-        inner && sides.iter().flatten().all(|c| self.open[*c])
+    /// Whether water may go through a face: open on its sides within the cells, not parted by a thin wall, and neither bed nor surface.
+    #[inline]
+    pub(crate) fn passes(&self, d: usize, face: [usize; 3]) -> bool {
+        self.pass.across(d)[self.face(d, face)]
     }
 }

@@ -7,10 +7,11 @@ mod multigrid;
 mod solve;
 mod spec;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 #[cfg(test)]
 mod tests_flow;
 
 pub use blocked::Blocked;
+pub(crate) use cells::Cells;
 pub use solve::Solved;
 pub use spec::BlockageSpec;

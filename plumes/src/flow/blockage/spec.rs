@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::cost::{Cost, Part, Times};
 use world::obstacles::Obstacles;
 use world::ranges::{Fraction, NonNegative, Positive};
 use world::terrain::Terrain;
@@ -42,7 +43,13 @@ impl Default for BlockageSpec {
 
 /// Shortest period, s: questions may come a second after the latest advance, and must find a field on both sides.
 const SHORTEST_S: f64 = 2.0;
-/// Most cells: about 200 bytes each while they are solved.
+/// Longest period, s: in an hour the tide turns by 30 degrees.
+const LONGEST_S: f64 = 3600.0;
+/// Memory of a cell while it is solved, bytes, and time, s.
+const CELL_BYTES: f64 = 250.0;
+/// See above.
+const CELL_S: f64 = 2.4e-6;
+/// Most cells.
 pub(super) const MOST_CELLS: f64 = 4e6;
 /// Legal counts of levels.
 const LEVELS: (u32, u32) = (2, 201);
@@ -69,10 +76,29 @@ impl BlockageSpec {
         area: &Area,
         terrain: &Terrain,
         obstacles: &Obstacles,
+        walled: bool,
     ) -> Result<Vec<usize>, PlumeError> {
-        let cells = Cells::new(self, area, &Ground::new(terrain), obstacles)?;
+        let cells = Cells::new(self, area, &Ground::new(terrain), obstacles, walled)?;
         let felt = cells.felt.iter().enumerate();
         Ok(felt.filter(|(_, f)| !**f).map(|(n, _)| n).collect())
+    }
+
+    /// What it takes to lead the water round: in steady water once.
+    #[must_use]
+    pub fn cost(&self, area: &Area, steady: bool, times: &Times) -> Cost {
+        let extent = [area.length_m, area.width_m].map(|e| e + 2.0 * self.margin_m.get());
+        let count = extent.map(|e| (e / self.cell_m.get()).ceil().max(1.0));
+        let cells = count[0] * count[1] * f64::from(self.levels);
+        let times_solved = if steady {
+            1.0
+        } else {
+            3.0 + times.whole_s() / self.period_s.get()
+        };
+        let part = Part::new("cell_m", format!("{cells:.1e} cells round obstacles"))
+            .holds(cells * CELL_BYTES)
+            .takes(cells * CELL_S * times_solved)
+            .by(self.cell_m.get(), -2.0);
+        Cost::of(part)
     }
 
     pub(super) fn check(&self) -> Result<(), PlumeError> {
@@ -102,6 +128,12 @@ impl BlockageSpec {
                     "must be at least {SHORTEST_S} s, got {}",
                     self.period_s.get()
                 ),
+            ));
+        }
+        if self.period_s.get() > LONGEST_S {
+            return Err(wrong(
+                "period_s",
+                format!("must be at most {LONGEST_S} s, got {}", self.period_s.get()),
             ));
         }
         Ok(())

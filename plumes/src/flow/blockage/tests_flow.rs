@@ -141,3 +141,27 @@ fn follows_the_currents_of_the_moment() {
     assert!(wander > 0.02, "{wander}");
     assert!((got - unblocked).norm() < 0.015, "{got} {unblocked}");
 }
+
+/// A wall much thinner than a cell, between the middles of two rows of cells: the water goes round it.
+#[test]
+fn a_thin_wall_is_felt() {
+    let bed = Terrain::Level { depth_m: 6.0 };
+    let solids = solids(&[(block([0.1, 14.0, 6.0]), 4.2, -7.0, 90.0)], &bed);
+    let area = area(40.0, 32.0, 90.0);
+    assert!(
+        spec(2.0, 4, 10.0)
+            .unfelt(&area, &bed, &solids, false)
+            .unwrap()
+            .is_empty()
+    );
+    let water = eastward(0.3, spec(2.0, 4, 10.0))
+        .build_round(&area, &bed, &solids, 1)
+        .unwrap();
+    for north in [-6.0, -3.0, 0.0, 3.0, 5.0] {
+        for east in [2.6, 3.9, 5.9] {
+            let v = water.velocity(&Vector3::new(east, north - 7.0, -3.0), 0.0);
+            assert!(v.x.abs() < 0.22, "{east} {north}: {v}");
+        }
+    }
+    assert!(water.velocity(&Vector3::new(4.0, 2.0, -3.0), 0.0).x > 0.3);
+}

@@ -22,6 +22,7 @@ use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use world::area::Area;
+use world::cost::{Cost, Part};
 use world::fields::WaterSample;
 use world::math;
 use world::seeds::Stream;
@@ -60,6 +61,10 @@ pub struct Eddies {
 static DRAWN: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
 /// More than this many different channels at once are drawn anew.
 const KEPT: usize = 8;
+/// Memory of a node while it is drawn, bytes, and time for it, s.
+const NODE_BYTES: f64 = 40.0;
+/// See above.
+const NODE_S: f64 = 400e-9;
 
 impl EddiesSpec {
     /// The eddies of a channel in an area, checked.
@@ -112,6 +117,21 @@ impl EddiesSpec {
             stretch: drawn(&shape),
             shape,
         })
+    }
+}
+
+impl EddiesSpec {
+    /// What they take in a channel as wide as the area.
+    #[must_use]
+    pub fn cost(&self, area: &Area, depth_m: f64) -> Cost {
+        let up = f64::from(self.cells_a_depth);
+        let across = (area.width_m / depth_m * up).round();
+        let nodes = LENGTH as f64 * (across + 1.0) * (up + 1.0);
+        let part = Part::new("cells_a_depth", format!("{nodes:.1e} nodes of the eddies"))
+            .holds(nodes * NODE_BYTES)
+            .takes(nodes * NODE_S)
+            .by(up, 2.0);
+        Cost::of(part)
     }
 }
 

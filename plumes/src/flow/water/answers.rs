@@ -42,6 +42,11 @@ impl Flow for Water {
         }
     }
 
+    fn rates(&self, t_s: f64, cells: &mut Vec<[f32; 6]>) -> bool {
+        let blocked = self.blocked.as_ref();
+        blocked.inspect(|b| b.rates(t_s, cells)).is_some()
+    }
+
     fn walls(&self) -> Option<SideWalls> {
         self.flume.as_ref().map(|f| f.walls)
     }
@@ -70,10 +75,8 @@ impl Flow for Water {
         for (z, node) in heights_m.iter().zip(out) {
             *node = column.both(*z, u_star);
             if let Some(blocked) = &self.blocked {
-                let still = self.bed.is_some();
-                if let Some(v) = blocked.at_node(place, *z, &column.floor, t_s, still) {
-                    node.0 = v;
-                }
+                let p = Vector3::new(place.x, place.y, *z);
+                node.0 = blocked.velocity(&p, &column.floor, t_s).unwrap_or(node.0);
             }
             if let Some(waves) = &self.waves {
                 let drift = waves.drift(*z);

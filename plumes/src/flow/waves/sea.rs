@@ -46,7 +46,7 @@ pub struct WavesSpec {
     #[serde(default = "yes")]
     pub stokes: bool,
     /// Ichiye's coefficient of the mixing.
-    #[serde(default = "ichiye")]
+    #[serde(default = "ichiye", deserialize_with = "world::limits::wave_mixing")]
     pub mixing: NonNegative,
 }
 
@@ -55,8 +55,10 @@ pub struct WavesSpec {
 #[serde(deny_unknown_fields)]
 pub struct TrainSpec {
     /// From trough to crest, m.
+    #[serde(deserialize_with = "world::limits::wave_m")]
     pub height_m: Positive,
     /// At a fixed place, s.
+    #[serde(deserialize_with = "world::limits::wave_s")]
     pub period_s: Positive,
     /// Where it travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
@@ -158,6 +160,15 @@ impl WavesSpec {
             depth: depth_m,
             waves,
         })
+    }
+}
+
+impl WavesSpec {
+    /// How many waves are summed.
+    #[must_use]
+    pub fn count(&self) -> f64 {
+        let sea = self.spectrum.as_ref().map_or(0, |s| s.components);
+        self.trains.len() as f64 + f64::from(sea)
     }
 }
 

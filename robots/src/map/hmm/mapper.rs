@@ -14,7 +14,7 @@
 //! Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see `adjoint`; cell to cell chances: see `transition`. Shear is
 //! ours.
 
-use super::transition::{Drift, Hops, Transition, spread};
+use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use crate::map::catalogue::Mapper;
@@ -28,6 +28,7 @@ use crate::map::workings::Workings;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
+use world::limits::shown;
 use world::ranges::{Fraction, Positive};
 
 /// Most steps of the path most likely to detect.
@@ -71,6 +72,23 @@ impl Default for HmmSpec {
     }
 }
 
+/// Which number spreads odour too far along an axis (its name and value), and the most it may be, for cells of `cell_m`.
+fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) {
+    let way = &spec.trajectory;
+    let most = widest(cell_m) / spec.step_s.get().sqrt();
+    let (name, sigma) = [
+        ("sigma_x_m_rts", way.sigma_x_m_rts.get()),
+        ("sigma_y_m_rts", way.sigma_y_m_rts.get()),
+        ("sigma_z_m_rts", way.sigma_z_m_rts.get()),
+    ][axis];
+    let lasts = 2.0 * way.flow_error_s.get();
+    if sigma > most || axis == 2 {
+        return ((name, sigma), most);
+    }
+    let left = (most * most - sigma * sigma) / lasts;
+    (("flow_error_m_s", way.flow_error_m_s.get()), left.sqrt())
+}
+
 /// The mapper at work.
 #[derive(Clone, Debug)]
 pub struct Hmm {
@@ -107,6 +125,7 @@ impl Hmm {
     /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without steps.
     pub fn new(spec: &HmmSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
+        spec.trajectory.holds("step_s", step_s)?;
         if h < step_s {
             return Err(invalid(
                 "step_s",
@@ -133,13 +152,30 @@ impl Hmm {
             &spec.doubt,
         )?;
         let grid = with.grid.clone();
+        let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
+        // A single layer keeps all.
+        let axes = if grid.n[2] == 1 { 2 } else { 3 };
+        for (a, aside) in aside.iter_mut().enumerate().take(axes) {
+            let s = sigmas[a] * step_s.sqrt();
+            *aside = spread(s, grid.cell_m[a]).ok_or_else(|| {
+                let (field, most) = wide(spec, a, grid.cell_m[a]);
+                let problem = format!(
+                    "must be at most {} in cells of {} m: odour would spread by {} of them in a step of {step_s} s, got {}",
+                    shown(most),
+                    shown(grid.cell_m[a]),
+                    shown((s / grid.cell_m[a]).round()),
+                    shown(field.1)
+                );
+                invalid(&format!("trajectory.{}", field.0), &problem)
+            })?;
+        }
         Ok(Self {
             with,
             steps: VecDeque::new(),
             most_steps: (h / step_s) as usize,
             assumed: Vec::new(),
             steady_before: trajectory.steady_before,
-            aside: [0, 1, 2].map(|a| spread(sigmas[a] * step_s.sqrt(), grid.cell_m[a])),
+            aside,
             drifts: vec![Drift::default(); grid.n[2]],
             step_s,
             b: trajectory.mu.get(),

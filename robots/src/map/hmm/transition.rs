@@ -16,14 +16,25 @@ use std::sync::Arc;
 
 /// Share of the odour that goes a cell to either side in one part of a step, at most.
 const MOST_ASIDE: f64 = 0.25;
+/// Most such parts of a step: a spread of 32 cells.
+const MOST_PARTS: f64 = 2000.0;
 /// Chances this small would only cost time.
 const SMALL: f64 = 1e-14;
 
+/// Greatest spread in a step over cells of h (m), m: odour that spreads over more of them in one step asks for larger cells.
+pub(super) fn widest(h: f64) -> f64 {
+    (2.0 * MOST_PARTS * MOST_ASIDE).sqrt() * h
+}
+
 /// Chances of −n … n cells for a spread of standard deviation s over cells of h (m): hops of a cell to either side, as many
-/// as give the variance s² exactly; for many the Gaussian.
-pub(super) fn spread(s: f64, h: f64) -> Arc<[f64]> {
+/// as give the variance s² exactly; for many the Gaussian. `None` where s is beyond [`widest`].
+pub(super) fn spread(s: f64, h: f64) -> Option<Arc<[f64]>> {
     let aside = 0.5 * s * s / (h * h);
     let parts = (aside / MOST_ASIDE).ceil().max(1.0);
+    // Nor what is not a number.
+    if !(parts <= MOST_PARTS) {
+        return None;
+    }
     let q = aside / parts;
     let mut p = vec![1.0];
     for _ in 0..parts as usize {
@@ -36,7 +47,7 @@ pub(super) fn spread(s: f64, h: f64) -> Arc<[f64]> {
         let ends = next.iter().take_while(|v| **v < SMALL).count();
         p = next[ends..next.len() - ends].to_vec();
     }
-    p.into()
+    Some(p.into())
 }
 
 /// Whole cells of a displacement, the rest carried on.
@@ -50,7 +61,8 @@ impl Drift {
     pub(super) fn cells(&mut self, u: [f64; 2], cell_m: [f64; 3]) -> [isize; 2] {
         [0, 1].map(|a| {
             let due = self.left_m[a] + u[a];
-            let cells = (due / cell_m[a]).round();
+            // Farther than this is out of any map, and still a number of cells to reckon with.
+            let cells = (due / cell_m[a]).round().clamp(-1e9, 1e9);
             self.left_m[a] = due - cells * cell_m[a];
             cells as isize
         })
@@ -204,7 +216,7 @@ mod tests {
             u in -20.0..20.0f64, s in 0.05..5.0f64, h in 0.5..8.0f64,
         ) {
             let mut drift = Drift::default();
-            let p = spread(s, h);
+            let p = spread(s, h).expect("not beyond the widest");
             let (mut upto, mut asked) = (0.0, 0.0);
             for _ in 0..50 {
                 let [i, _] = drift.cells([u, 0.0], [h; 3]);
@@ -223,8 +235,17 @@ mod tests {
     }
 
     #[test]
+    fn a_spread_over_too_many_cells_is_none() {
+        let h = 2.5;
+        assert!(spread(widest(h) * 0.999, h).is_some());
+        assert!(spread(widest(h) * 1.001, h).is_none());
+        assert!(spread(65_536.0, 1e-6).is_none());
+        assert!(spread(f64::INFINITY, 1.0).is_none());
+    }
+
+    #[test]
     fn mirrors_lose_nothing() {
-        let hops = Hops::new(0, &spread(3.0, 1.0), true);
+        let hops = Hops::new(0, &spread(3.0, 1.0).unwrap(), true);
         for i in 0..5 {
             let total: f64 = (0..5).map(|j| hops.chance(i, j, 5)).sum();
             assert!((total - 1.0).abs() < 1e-12);

@@ -25,10 +25,13 @@ const CONTRAST: f64 = 4.8;
 #[serde(default, deny_unknown_fields)]
 pub struct ClaritySpec {
     /// How far a dark thing is seen on a level line, m.
+    #[serde(deserialize_with = "world::limits::visibility_m")]
     pub visibility_m: Positive,
     /// Absorption of red, green and blue, 1/m, in place of that of the visibility.
+    #[serde(deserialize_with = "world::limits::loss_per_m")]
     pub absorption_per_m: Option<(Positive, Positive, Positive)>,
     /// Scattering of red, green and blue, 1/m, in place of that of the visibility.
+    #[serde(deserialize_with = "world::limits::loss_per_m")]
     pub scattering_per_m: Option<(NonNegative, NonNegative, NonNegative)>,
 }
 

@@ -25,12 +25,15 @@ const HELD: (f64, f64) = (0.25, 3.0);
 #[serde(deny_unknown_fields, default)]
 pub struct EvadeSpec {
     /// Turning radius, m.
+    #[serde(deserialize_with = "world::limits::turn_m")]
     pub turn_radius_m: Positive,
     /// Distance looked ahead, m.
+    #[serde(deserialize_with = "world::limits::look_m")]
     pub look_m: Positive,
     /// How long it backs off when held fast, s.
     pub back_s: NonNegative,
     /// Speed of the propeller then, astern, rpm.
+    #[serde(deserialize_with = "world::limits::rpm_limit")]
     pub back_rpm: Positive,
 }
 
@@ -78,12 +81,12 @@ impl Evade {
         heading: Heading,
         wish: Heading,
     ) -> Heading {
-        let look_m = self.spec.look_m.get();
+        let look_m = self.look_m(room);
         let mut best = (0.0, wish);
         for k in 0..=12 {
             for side in [1.0, -1.0] {
                 let course = wish.turned(side * f64::from(k) * STEP_RAD);
-                let far_m = self.free_m(room, at, heading, course);
+                let far_m = self.free_m(room, at, heading, course, look_m);
                 if far_m >= look_m {
                     return course;
                 }
@@ -95,15 +98,30 @@ impl Evade {
         best.1
     }
 
+    /// How far it looks: no farther than it takes to turn round and leave the room.
+    fn look_m(&self, room: &Room) -> f64 {
+        let g = room.lattice();
+        let across_m: f64 = (0..2).map(|a| g.n[a] as f64 * g.cell_m[a]).sum();
+        let round_m = std::f64::consts::PI * self.spec.turn_radius_m.get();
+        self.spec.look_m.get().min(across_m + round_m)
+    }
+
     /// How far it comes, turning to a course and then straight on, at most as far as it looks, m.
-    fn free_m(&self, room: &Room, at: &Vector3<f64>, heading: Heading, course: Heading) -> f64 {
+    fn free_m(
+        &self,
+        room: &Room,
+        at: &Vector3<f64>,
+        heading: Heading,
+        course: Heading,
+        look_m: f64,
+    ) -> f64 {
         let clear_m = |p: &Vector3<f64>| room.clearance_m(room.nearest_cell(p));
         // Where it is too near already it may come no nearer.
         let least_m = self.hull_m.min(clear_m(at));
         let step_m = 0.5 * room.narrowest_m();
         let most = step_m / self.spec.turn_radius_m.get();
         let (mut p, mut now, mut far_m) = (*at, heading, 0.0);
-        while far_m < self.spec.look_m.get() {
+        while far_m < look_m {
             let turn = now.turn_to(course).clamp(-most, most);
             now = now.turned(turn);
             let d = now.unit() * step_m;

@@ -70,6 +70,7 @@ impl Pilot {
                         .into(),
             });
         }
+        spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
         let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach_m());

@@ -9,10 +9,14 @@ use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Setting};
 use crate::plan::PlannerSpec;
 use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::limits::shown;
 use world::ranges::{NonNegative, Positive};
 
 /// Most cells of a planner's room.
 const MOST_CELLS: f64 = 4e6;
+/// Longest side of a cell over its shortest: what a search sorts its cells by grows with it.
+const FLATTEST: f64 = 100.0;
 
 /// Composition and parameters; a default with a section is the paper's (Wang & Pang), others are ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -74,6 +78,17 @@ impl Default for MapAndPlanSpec {
     }
 }
 
+impl MapAndPlanSpec {
+    /// That room and planner fit each other, without making any of it.
+    ///
+    /// # Errors
+    /// When the cells would be too many, or the planner's steps too small for them.
+    pub(in super::super) fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        let cells = self.room.cells(setting)?;
+        self.planner.check(&cells, self.room.plane())
+    }
+}
+
 /// The planner's cells, over the operating area.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum RoomSpec {
@@ -127,17 +142,15 @@ impl RoomSpec {
     /// # Errors
     /// When they would be too many.
     pub(super) fn cells(&self, setting: &Setting) -> Result<BeliefGrid, RobotError> {
-        let (sides, depth_m) = match self {
-            RoomSpec::Plane(p) => ([p.cell_m.0, p.cell_m.1, Positive::new(1.0)], 1.0),
-            RoomSpec::Space(s) => (
-                [s.cell_m.0, s.cell_m.1, s.cell_m.2],
-                setting.bed.deepest_m(),
-            ),
+        let (counts, _) = self.counts(&setting.area, setting.bed.deepest_m());
+        let depth_m = if self.plane() {
+            1.0
+        } else {
+            setting.bed.deepest_m()
         };
-        let extents = [setting.area.length_m, setting.area.width_m, depth_m];
-        let counts = [0, 1, 2].map(|a| (extents[a] / sides[a].get() - 1e-9).ceil().max(1.0));
         let all: f64 = counts.iter().product();
-        if all > MOST_CELLS {
+        // What is not a number is too much.
+        if !(all <= MOST_CELLS) {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room".into(),
                 problem: format!(
@@ -146,7 +159,33 @@ impl RoomSpec {
             });
         }
         let n = counts.map(|c| c as usize);
-        Ok(BeliefGrid::over(&setting.area, 0.0, depth_m, n))
+        let cells = BeliefGrid::over(&setting.area, 0.0, depth_m, n);
+        let axes = if self.plane() { 2 } else { 3 };
+        let (low, high) = (cells.cell_m[..axes].iter())
+            .fold((f64::INFINITY, 0.0_f64), |(l, h), c| (c.min(l), c.max(h)));
+        if !(high <= FLATTEST * low) {
+            return Err(RobotError::Invalid {
+                field: "strategy.MapAndPlan.room.cell_m".into(),
+                problem: format!(
+                    "must have sides that differ at most {FLATTEST}-fold, got {} and {} m",
+                    shown(low),
+                    shown(high)
+                ),
+            });
+        }
+        Ok(cells)
+    }
+
+    /// Cells along, across and upwards, and their sides as they are wanted, m.
+    pub(in super::super) fn counts(&self, area: &Area, depth_m: f64) -> ([f64; 3], [f64; 3]) {
+        let (sides_m, depth_m) = match self {
+            RoomSpec::Plane(p) => ([p.cell_m.0, p.cell_m.1, Positive::new(1.0)], 1.0),
+            RoomSpec::Space(s) => ([s.cell_m.0, s.cell_m.1, s.cell_m.2], depth_m),
+        };
+        let sides_m = sides_m.map(Positive::get);
+        let extents = [area.length_m, area.width_m, depth_m];
+        let counts = [0, 1, 2].map(|a| (extents[a] / sides_m[a] - 1e-9).ceil().max(1.0));
+        (counts, sides_m)
     }
 
     /// Of the plane.

@@ -5,8 +5,8 @@
 //! *Parameters*: see [`SubregionsSpec`].
 //!
 //! *Deviations*: the paper prints neither the time-out nor where in a subregion its search begins. It names three ends
-//! of a search; a strategy that gives up by itself, going home without a declaration, is a fourth, counted as
-//! source-free like a time-out. A strategy that looks at what it declared (Survey) is let finish; one whose
+//! of a search; a strategy that gives up by itself, going home without a declaration, is a fourth: only that one leaves
+//! the subregion source-free, a time-out leaves it unknown. A strategy that looks at what it declared (Survey) is let finish; one whose
 //! declaration was rejected and that searches on keeps the subregion until one of the ends. The strategy searching sees
 //! the subregion as its area; the cage that the guidance holds the vehicle in stays the whole area.
 
@@ -17,7 +17,7 @@ use super::spec::{EdgeSpec, Entry, SubregionsSpec};
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState,
-    Regions, Setting, Verdict, Vertical, detects, inside,
+    Regions, Setting, UP_FLOW_EDGE, Verdict, Vertical, detects, inside,
 };
 use crate::strategy::StrategySpec;
 use nalgebra::Vector2;
@@ -25,9 +25,6 @@ use std::sync::Arc;
 use world::area::Area;
 use world::seeds::Stream;
 use world::units::Heading;
-
-/// Name of the rule by which a source is declared on an edge.
-const RULE: &str = "up_flow_edge";
 
 /// A search begins so far inside, m: where an edge no longer turns a zig-zag about.
 const MARGIN_M: f64 = 20.0;
@@ -201,7 +198,7 @@ impl Subregions {
             let number = self.declared.len() as u32;
             let at_edge = Declaration {
                 number,
-                ..Declaration::first(seen.t_s, place, RULE)
+                ..Declaration::first(seen.t_s, place, UP_FLOW_EDGE)
             };
             decision.declared = Some(self.declare(k, at_edge));
             self.end_search(k, RegionState::UpFlowEdge, seen);
@@ -209,8 +206,10 @@ impl Subregions {
             let stands = self.declared.iter().any(|d| d.verdict != Verdict::Rejected);
             let state = if stands {
                 RegionState::Declared
-            } else {
+            } else if over {
                 RegionState::SourceFree
+            } else {
+                RegionState::TimedOut
             };
             self.end_search(k, state, seen);
         }

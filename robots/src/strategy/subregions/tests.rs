@@ -162,7 +162,7 @@ fn arrival_of_the_transit_is_none_of_the_search() {
 }
 
 #[test]
-fn a_time_out_leaves_the_region_source_free() {
+fn a_time_out_does_not_call_the_region_source_free() {
     let mut d = Desk::searching();
     d.smell(-100.0);
     let from = d.t_s;
@@ -172,10 +172,7 @@ fn a_time_out_leaves_the_region_source_free() {
     d.t_s += 1.0;
     let over = d.quiet(-100.0);
     assert_eq!((over.declared, over.behaviour), (None, Behaviour::GoTo));
-    assert_eq!(
-        states(&over),
-        [RegionState::SourceFree, RegionState::Waiting]
-    );
+    assert_eq!(states(&over), [RegionState::TimedOut, RegionState::Waiting]);
     assert_eq!(point_of(&over), Vector2::new(0.0, 150.0));
     assert_eq!(over.goal.id, last.goal.id + 1);
     let [first, _] = over.regions.all[..] else {
@@ -258,7 +255,7 @@ fn home_after_the_last_region_and_completed_there() {
     assert_eq!(point_of(&home), Vector2::new(10.0, -250.0));
     assert_eq!(
         states(&home),
-        [RegionState::Declared, RegionState::SourceFree]
+        [RegionState::Declared, RegionState::TimedOut]
     );
     assert_eq!(d.smell(0.0).behaviour, Behaviour::GoHome);
     let done = d.arrive(-250.0);

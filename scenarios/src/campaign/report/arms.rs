@@ -1,8 +1,11 @@
 //! The figures of each arm, over all conditions and in each.
 
+use super::restricted::{Restricted, restricted};
 use super::unit::Unit;
 use crate::campaign::RunRow;
-use crate::campaign::stats::{Interval, finite_sorted, quantile, quantile_interval, wilson};
+use crate::campaign::stats::{
+    Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson,
+};
 
 /// Seed of the bootstrap: a report made again from the same rows is the same.
 pub(super) const SEED: u64 = 1;
@@ -61,7 +64,7 @@ pub struct Measured {
     pub n: u64,
     /// Median.
     pub median: Option<f64>,
-    /// Its 95 % bootstrap interval.
+    /// Its 95 % bootstrap interval; none of too few.
     pub median_interval: Option<Interval>,
     /// 90 % quantile.
     pub q90: Option<f64>,
@@ -102,6 +105,8 @@ pub struct ArmFigures {
     pub failed: u64,
     pub(super) success: Share,
     pub(super) declared: Share,
+    /// Mean time to success, failures at the limit.
+    pub restricted: Restricted,
     /// Time, path and error.
     pub measured: Vec<Measured>,
 }
@@ -131,19 +136,23 @@ pub(super) fn of_arm<'a>(rows: &'a [RunRow], arm: &str) -> Vec<&'a RunRow> {
     rows.iter().filter(|r| r.arm == arm).collect()
 }
 
-pub(super) fn figures(arm: &str, rows: &[&RunRow]) -> ArmFigures {
+pub(super) fn figures(arm: &str, rows: &[&RunRow], limit_s: f64) -> ArmFigures {
     ArmFigures {
         arm: arm.to_string(),
         failed: rows.iter().filter(|r| r.error.is_some()).count() as u64,
         success: Share::of(rows, |r| r.success),
         declared: Share::of(rows, |r| r.declared_s.is_some()),
+        restricted: restricted(rows, limit_s),
         measured: Measure::ALL.map(|m| measured(m, rows)).to_vec(),
     }
 }
 
 fn measured(measure: Measure, rows: &[&RunRow]) -> Measured {
     let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
-    let interval = |p| quantile_interval(&sorted, p, SEED, measure.words());
+    let interval = |p| {
+        let enough = sorted.len() >= LEAST_VALUES;
+        enough.then(|| quantile_interval(&sorted, p, SEED, measure.words()))?
+    };
     Measured {
         measure,
         n: sorted.len() as u64,

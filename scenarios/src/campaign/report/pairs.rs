@@ -1,9 +1,12 @@
 //! Arm against arm on the same seeds and conditions.
 
 use super::arms::{Measure, SEED, of_arm};
+use super::restricted::time_s;
 use super::unit::Unit;
 use crate::campaign::RunRow;
-use crate::campaign::stats::{Better, Difference, paired_median, paired_share};
+use crate::campaign::stats::{
+    Better, Difference, Verdict, paired_mean, paired_median, paired_share,
+};
 use std::collections::BTreeMap;
 
 /// Up to so many arms each is compared with each; of more, each with the first.
@@ -14,14 +17,17 @@ pub(super) const EACH_WITH_EACH: usize = 5;
 pub enum Compares {
     /// Share of successes.
     Success,
+    /// Mean time to success, failures at the limit.
+    Restricted,
     /// Median of the differences of a measure, over pairs where both have it.
     Measure(Measure),
 }
 
 impl Compares {
     /// All of them.
-    pub const ALL: [Compares; 4] = [
+    pub const ALL: [Compares; 5] = [
         Compares::Success,
+        Compares::Restricted,
         Compares::Measure(Measure::Time),
         Compares::Measure(Measure::Path),
         Compares::Measure(Measure::Error),
@@ -32,6 +38,7 @@ impl Compares {
     pub fn words(self) -> &'static str {
         match self {
             Compares::Success => "success",
+            Compares::Restricted => "restricted time",
             Compares::Measure(m) => m.words(),
         }
     }
@@ -41,6 +48,7 @@ impl Compares {
     pub fn unit(self) -> Unit {
         match self {
             Compares::Success => Unit::Share,
+            Compares::Restricted => Unit::Seconds,
             Compares::Measure(m) => m.unit(),
         }
     }
@@ -57,10 +65,14 @@ pub struct Comparison {
     pub by: Compares,
     /// The difference; none without a pair.
     pub difference: Option<Difference>,
+    /// Which pairs it rests on.
+    pub rests_on: String,
+    /// What must be known before it is believed.
+    pub warning: Option<String>,
 }
 
 /// All comparisons of a campaign.
-pub(super) fn comparisons(arms: &[String], rows: &[RunRow]) -> Vec<Comparison> {
+pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64) -> Vec<Comparison> {
     let mut out = Vec::new();
     for (i, first) in arms.iter().enumerate() {
         for (j, second) in arms.iter().enumerate().skip(i + 1) {
@@ -68,27 +80,34 @@ pub(super) fn comparisons(arms: &[String], rows: &[RunRow]) -> Vec<Comparison> {
                 continue;
             }
             debug_assert!(i < j);
-            out.extend(compared(first, second, rows));
+            out.extend(compared(first, second, rows, limit_s));
         }
     }
     out
 }
 
-fn compared(first: &str, second: &str, rows: &[RunRow]) -> Vec<Comparison> {
+type Pair<'a> = (&'a RunRow, &'a RunRow);
+
+fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Comparison> {
     type Key<'a> = (&'a str, u64);
     let others: BTreeMap<Key<'_>, &RunRow> = of_arm(rows, second)
         .into_iter()
         .map(|r| ((r.condition.as_str(), r.seed_index), r))
         .collect();
-    let pairs: Vec<(&RunRow, &RunRow)> = of_arm(rows, first)
+    let pairs: Vec<Pair<'_>> = of_arm(rows, first)
         .into_iter()
         .filter_map(|r| Some((r, *others.get(&(r.condition.as_str(), r.seed_index))?)))
         .collect();
+    let restricted = paired_mean(
+        (pairs.iter()).filter_map(|(a, b)| time_s(a, limit_s).zip(time_s(b, limit_s))),
+        Better::Less,
+    );
     let difference = |by: Compares| match by {
         Compares::Success => paired_share(
             pairs.iter().map(|(a, b)| (a.success, b.success)),
             Better::More,
         ),
+        Compares::Restricted => restricted,
         Compares::Measure(m) => paired_median(
             pairs.iter().filter_map(|(a, b)| m.of(a).zip(m.of(b))),
             Better::Less,
@@ -96,12 +115,59 @@ fn compared(first: &str, second: &str, rows: &[RunRow]) -> Vec<Comparison> {
             m.words(),
         ),
     };
-    Compares::ALL
-        .map(|by| Comparison {
+    let n = pairs.len();
+    let one = |by: Compares| {
+        let difference = difference(by);
+        let k = difference.map_or(0, |d| d.pairs);
+        Comparison {
             first: first.to_string(),
             second: second.to_string(),
             by,
-            difference: difference(by),
-        })
-        .to_vec()
+            difference,
+            rests_on: match by {
+                Compares::Success => format!("all {n} pairs"),
+                Compares::Restricted => {
+                    format!("{k} of {n} pairs; no success counts as {limit_s:.0} s")
+                }
+                Compares::Measure(Measure::Path) => format!("{k} of {n} pairs: both ran"),
+                Compares::Measure(_) => format!("{k} of {n} pairs: both declared"),
+            },
+            warning: (difference.filter(|_| by == Compares::Measure(Measure::Time)))
+                .and_then(|d| looks_faster([first, second], &pairs, d, restricted)),
+        }
+    };
+    Compares::ALL.map(one).to_vec()
+}
+
+/// Where both declared the arm that fails more is the faster: times of declarations that the other arm made in the hard runs
+/// are not in it.
+fn looks_faster(
+    names: [&str; 2],
+    pairs: &[Pair<'_>],
+    by_time: Difference,
+    restricted: Option<Difference>,
+) -> Option<String> {
+    let n = pairs.len();
+    let found = [
+        pairs.iter().filter(|(a, _)| a.success).count(),
+        pairs.iter().filter(|(_, b)| b.success).count(),
+    ];
+    let (fast, slow) = if by_time.estimate < 0.0 {
+        (0, 1)
+    } else {
+        (1, 0)
+    };
+    if by_time.estimate == 0.0 || found[fast] >= found[slow] {
+        return None;
+    }
+    let verdict = match restricted.map(|d| d.verdict) {
+        Some(Verdict::Better) => format!("{} is better", names[0]),
+        Some(Verdict::Worse) => format!("{} is better", names[1]),
+        Some(Verdict::NotSeparable) | None => "they are not separable at this n".to_string(),
+    };
+    Some(format!(
+        "{} looks faster than {} by the time to declaration: that rests on the {} of {n} pairs where both declared; but it \
+         fails more ({} against {} of {n} succeed). Go by the restricted time: by that {verdict}.",
+        names[fast], names[slow], by_time.pairs, found[fast], found[slow]
+    ))
 }

@@ -4,7 +4,7 @@ use super::arms::ArmFigures;
 use super::curves::Curve;
 use super::pairs::{Compares, Comparison};
 use super::unit::Unit;
-use crate::campaign::stats::Interval;
+use crate::campaign::stats::{Interval, LEAST_VALUES};
 use crate::report::figures::canvas::{Anchor, Canvas, Style};
 use crate::report::figures::palette::{GREY, INK};
 use crate::report::figures::panel::{Panel, range_of};
@@ -158,8 +158,8 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
                     c.second,
                     c.difference.map_or(0, |d| d.pairs)
                 ),
-                value: c
-                    .difference
+                value: (c.difference)
+                    .filter(|d| by == Compares::Success || d.pairs >= LEAST_VALUES)
                     .map(|d| (scale * d.estimate, times(d.interval, scale))),
                 colour: if c.difference.is_some_and(|d| !d.interval.contains(0.0)) {
                     INK
@@ -220,12 +220,7 @@ fn list(c: &mut Canvas, top: f64, x: [f64; 2], mark: Option<f64>, entries: &[Ent
         let y = top + LINE * (k as f64 + 0.5) + 4.0;
         c.text([NAMES - 10.0, y + 4.0], 11.0, Anchor::End, &entry.name);
         let Some((value, i)) = entry.value else {
-            c.text(
-                [NAMES + 10.0, y + 4.0],
-                11.0,
-                Anchor::Start,
-                "nothing to show",
-            );
+            c.text([NAMES + 10.0, y + 4.0], 11.0, Anchor::Start, "too few");
             continue;
         };
         let (low, high) = (panel.px(i.low), panel.px(i.high));

@@ -2,10 +2,10 @@
 
 use super::arms::{ArmFigures, ConditionFigures};
 use super::curves::Curve;
-use super::pairs::Comparison;
+use super::pairs::{Compares, Comparison};
 use super::text::csv_field;
 use super::unit::Unit;
-use crate::campaign::stats::Interval;
+use crate::campaign::stats::{Difference, Interval, LEAST_VALUES};
 use std::fmt::Write as _;
 
 const TEXT: &str = "writing to a String succeeds";
@@ -14,8 +14,13 @@ fn shown(unit: Unit, value: Option<f64>) -> String {
     value.map_or("-".to_string(), |v| unit.show(v))
 }
 
-fn range(unit: Unit, interval: Option<Interval>) -> String {
-    interval.map_or("-".to_string(), |i| unit.show_interval(i))
+/// The interval of a figure of `n` values; of too few there is none.
+pub(crate) fn range(unit: Unit, interval: Option<Interval>, n: u64) -> String {
+    match interval {
+        Some(i) if n >= LEAST_VALUES as u64 => unit.show_interval(i),
+        _ if n == 0 => "-".to_string(),
+        _ => format!("too few (n = {n})"),
+    }
 }
 
 pub(super) const SUCCESS: [&str; 7] = [
@@ -64,15 +69,37 @@ pub(super) fn measured(arms: &[ArmFigures]) -> Vec<[String; 7]> {
             m.measure.words().to_string(),
             m.n.to_string(),
             shown(unit, m.median),
-            range(unit, m.median_interval),
+            range(unit, m.median_interval, m.n),
             shown(unit, m.q90),
-            range(unit, m.q90_interval),
+            range(unit, m.q90_interval, m.n),
         ]
     })
     .collect()
 }
 
-pub(super) const PAIRS: [&str; 7] = [
+pub(super) const RESTRICTED: [&str; 5] = [
+    "arm",
+    "n",
+    "of them without success",
+    "mean time to success, at most the limit",
+    "95 % interval",
+];
+
+pub(super) fn restricted(arms: &[ArmFigures]) -> Vec<[String; 5]> {
+    let one = |a: &ArmFigures| {
+        let r = a.restricted;
+        [
+            a.arm.clone(),
+            r.n.to_string(),
+            r.at_limit.to_string(),
+            shown(Unit::Seconds, r.mean_s),
+            range(Unit::Seconds, r.interval, r.n),
+        ]
+    };
+    arms.iter().map(one).collect()
+}
+
+pub(super) const PAIRS: [&str; 8] = [
     "first",
     "second",
     "by",
@@ -80,9 +107,16 @@ pub(super) const PAIRS: [&str; 7] = [
     "first - second",
     "95 % interval",
     "first is",
+    "rests on",
 ];
 
-pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<[String; 7]> {
+/// Of a share it is exact however few the pairs; of a quantity there must be enough.
+fn sound_interval(c: &Comparison) -> Option<Interval> {
+    let enough = |d: &Difference| c.by == Compares::Success || d.pairs >= LEAST_VALUES;
+    c.difference.filter(enough).map(|d| d.interval)
+}
+
+pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<[String; 8]> {
     let one = |c: &Comparison| {
         let d = c.difference;
         [
@@ -91,9 +125,17 @@ pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<[String; 7]> {
             c.by.words().to_string(),
             d.map_or(0, |d| d.pairs).to_string(),
             shown(c.by.unit(), d.map(|d| d.estimate)),
-            range(c.by.unit(), d.map(|d| d.interval)),
+            match (c.by, d) {
+                (Compares::Success, Some(d)) => Unit::Share.show_interval(d.interval),
+                (by, d) => range(
+                    by.unit(),
+                    sound_interval(c),
+                    d.map_or(0, |d| d.pairs as u64),
+                ),
+            },
             d.map_or("not separable: no pairs", |d| d.verdict.words())
                 .to_string(),
+            c.rests_on.clone(),
         ]
     };
     comparisons.iter().map(one).collect()
@@ -135,6 +177,10 @@ pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
             writeln!(out, "{arm},{name},{},{},{value},{i}", share.n, share.count).expect(TEXT);
         }
         writeln!(out, "{arm},failed,{},{},,,", a.success.n, a.failed).expect(TEXT);
+        let r = a.restricted;
+        let (value, i) = (number(r.mean_s), ends(r.interval));
+        let what = format!("time to success at most {} s mean", r.limit_s);
+        writeln!(out, "{arm},{what},{},{},{value},{i}", r.n, r.n - r.at_limit).expect(TEXT);
         for m in &a.measured {
             let what = m.measure.words();
             let (value, i) = (number(m.median), ends(m.median_interval));
@@ -147,19 +193,22 @@ pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
 }
 
 pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
-    let mut out = String::from("first,second,by,pairs,difference,low,high,first_is\n");
+    let mut out =
+        String::from("first,second,by,pairs,difference,low,high,first_is,rests_on,warning\n");
     for c in comparisons {
         let d = c.difference;
         writeln!(
             out,
-            "{},{},{},{},{},{},{}",
+            "{},{},{},{},{},{},{},{},{}",
             csv_field(&c.first),
             csv_field(&c.second),
             c.by.words(),
             d.map_or(0, |d| d.pairs),
             number(d.map(|d| d.estimate)),
-            ends(d.map(|d| d.interval)),
-            d.map_or("", |d| d.verdict.words())
+            ends(sound_interval(c)),
+            d.map_or("", |d| d.verdict.words()),
+            csv_field(&c.rests_on),
+            csv_field(c.warning.as_deref().unwrap_or_default())
         )
         .expect(TEXT);
     }

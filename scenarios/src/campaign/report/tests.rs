@@ -17,6 +17,10 @@ fn arm(name: &str, seeds: u64, error: impl Fn(u64) -> Option<(f64, f64)>) -> Vec
 fn about(planned: u64) -> About<'static> {
     About {
         name: "c<1>",
+        title: "",
+        sets: &[],
+        seeds: "seeds 1 to 40",
+        limit_s: Some(1500.0),
         scenario: "duck_st",
         hash: "00",
         version: "0",
@@ -74,12 +78,30 @@ fn says_which_arm_is_better_and_by_how_much() {
     );
     assert_eq!(of("path")[7], "not separable at this n");
     assert!(
-        written.text.contains("100.0 %") && written.text.contains("80 runs;"),
+        written.text.contains("100.0 %") && written.text.contains("80 runs, seeds 1 to 40;"),
         "{}",
         written.text
     );
     let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
     assert!(html.contains("<h1>c&lt;1&gt;</h1>") && html.matches("<svg").count() == 4);
+    // Restricted time: `far` succeeds in half of its runs, the others count as the limit.
+    let restricted = of("restricted time");
+    assert_eq!(
+        (restricted[3].as_str(), restricted[7].as_str()),
+        ("40", "better")
+    );
+    assert!(
+        written.text.contains("20 of 40 pairs: both declared"),
+        "{}",
+        written.text
+    );
+    assert!(
+        written
+            .text
+            .contains("40 of 40 pairs; no success counts as 1500 s"),
+        "{}",
+        written.text
+    );
 
     // Blocks come in any order: the numbers are the same, and the arms as asked.
     rows.reverse();
@@ -102,6 +124,89 @@ fn says_which_arm_is_better_and_by_how_much() {
         let text = |d: &Path| fs::read_to_string(d.join(file)).unwrap();
         assert_eq!(text(dir.path()), text(other.path()), "{file}");
     }
+}
+
+#[test]
+fn an_arm_that_fails_more_and_looks_faster_is_warned_of() {
+    // `hasty` declares only in the easy half, and there 100 s earlier; `sure` always succeeds.
+    let sure = arm("sure", 40, |_| Some((5.0, 1.0)));
+    let mut hasty = arm("hasty", 40, |k| (k < 20).then_some((5.0, 1.0)));
+    for r in &mut hasty {
+        r.declared_s = r.declared_s.map(|t| t - 100.0);
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let about = About {
+        limit_s: Some(2000.0),
+        ..about(80)
+    };
+    let written = write(dir.path(), &about, &[hasty, sure].concat()).unwrap();
+    sound(dir.path());
+    let says = "Warning: hasty looks faster than sure by the time to declaration: that rests on the 20 of 40 \
+        pairs where both declared; but it fails more (20 against 40 of 40 succeed). Go by the restricted time: by that \
+        sure is better.";
+    assert!(written.text.contains(says), "{}", written.text);
+    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
+    assert!(
+        pairs.contains("hasty,sure,time to declaration,20,-100,-100,-100,better,"),
+        "{pairs}"
+    );
+    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+    assert!(html.contains("Warning: hasty looks faster"));
+}
+
+#[test]
+fn the_page_has_the_campaigns_title_and_what_each_arm_sets() {
+    let rows = [arm("a", 6, |_| Some((1.0, 1.0))), arm("b", 6, |_| None)].concat();
+    let (arms, sets) = (
+        ["a".to_string(), "b".to_string()],
+        ["robots[0].map=Hmm()".to_string(), "as it is".to_string()],
+    );
+    let dir = tempfile::tempdir().unwrap();
+    let about = About {
+        title: "Two maps & no more",
+        arms: &arms,
+        sets: &sets,
+        ..about(12)
+    };
+    let written = write(dir.path(), &about, &rows).unwrap();
+    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+    for says in [
+        "<title>Two maps &amp; no more</title>",
+        "<h1>Two maps &amp; no more</h1>",
+        "<td>a</td><td>robots[0].map=Hmm()</td>",
+        "seeds 1 to 40",
+    ] {
+        assert!(html.contains(says), "{says}: {html}");
+    }
+    assert!(
+        written.text.starts_with("Two maps & no more\n"),
+        "{}",
+        written.text
+    );
+    assert!(
+        written.text.contains("arm a: robots[0].map=Hmm()"),
+        "{}",
+        written.text
+    );
+}
+
+#[test]
+fn few_values_have_no_interval() {
+    let rows = [
+        arm("a", 4, |_| Some((1.0, 1.0))),
+        arm("b", 4, |_| Some((2.0, 1.0))),
+    ]
+    .concat();
+    let dir = tempfile::tempdir().unwrap();
+    let written = write(dir.path(), &about(8), &rows).unwrap();
+    sound(dir.path());
+    assert!(
+        written.text.matches("too few (n = 4)").count() >= 2 * 6 + 2 + 4,
+        "{}",
+        written.text
+    );
+    let csv = fs::read_to_string(dir.path().join("arms.csv")).unwrap();
+    assert!(csv.contains("a,path median,4,,1801.5,,\n"), "{csv}");
 }
 
 #[test]

@@ -4,6 +4,9 @@ use crate::campaign::RunRow;
 use crate::campaign::table::{csv_head, csv_line};
 use std::fmt::Write as _;
 
+/// Widest column, characters: what is longer stands out of line.
+const WIDEST: usize = 200;
+
 const TEXT: &str = "writing to a String succeeds";
 
 /// A table with columns aligned by spaces; the first column of words, as wide as it must be.
@@ -13,6 +16,7 @@ pub(crate) fn align<const N: usize>(head: &[&str; N], rows: &[[String; N]]) -> S
             .chain([head[k].chars().count()])
             .max()
             .unwrap_or(0)
+            .min(WIDEST)
     };
     let widths: [usize; N] = std::array::from_fn(width);
     let mut out = String::new();
@@ -57,6 +61,14 @@ pub(crate) fn runs_csv(rows: &[RunRow]) -> String {
 mod tests {
     use super::super::sample::row;
     use super::*;
+
+    /// The formatter's widest field has 65 535 characters; a row file may name a figure with more.
+    #[test]
+    fn a_cell_of_any_length_is_written_out() {
+        let long = "a".repeat(70_000);
+        let rows = [[long.clone(), "12".to_string()]];
+        assert!(align(&["x", "value"], &rows).contains(&format!("{long}  12\n")));
+    }
 
     #[test]
     fn columns_stand_under_each_other() {

@@ -14,8 +14,13 @@ pub use adaptive::next_n;
 pub use bootstrap::{RESAMPLES, quantile_interval};
 pub use ecdf::Ecdf;
 pub use interval::Interval;
-pub use mean::mean_interval;
-pub use paired::{Better, Difference, LEAST_PAIRS, Verdict, paired_median, paired_share};
+pub use mean::{mean_interval, positive_mean_interval};
+pub use paired::{
+    Better, Difference, LEAST_PAIRS, Verdict, paired_mean, paired_median, paired_share,
+};
 pub use quantile::{finite_sorted, quantile};
 pub use survival::{Survival, SurvivalStep};
 pub use wilson::{Z95, wilson};
+
+/// Values below which a mean or quantile has no interval that is worth saying: "too few".
+pub const LEAST_VALUES: usize = 5;

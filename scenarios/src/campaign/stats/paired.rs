@@ -2,12 +2,12 @@
 //!
 //! *Source*: shares: Agresti & Min, Stat. Med. 24 (2005) 729-740: Wald's interval for matched pairs with 1/2 added to
 //! each of the four cells. Quantities: median of the differences within pairs, bootstrap interval
-//! ([`quantile_interval`](super::quantile_interval)).
+//! ([`quantile_interval`](super::quantile_interval)), or mean of the differences, Student's interval ([`mean_interval`](super::mean_interval)).
 //! *Parameters*: z = 1.96; least pairs for a verdict, [`LEAST_PAIRS`] = 6: with fewer, even pairs that all point one way
 //! come by chance more often than 5 % (2 · 0.5^5 = 6 %).
 //! *Deviations*: none. Each comparison holds for itself; many at once find something by chance.
 
-use super::{Interval, Z95, finite_sorted, quantile, quantile_interval};
+use super::{Interval, Z95, finite_sorted, mean_interval, quantile, quantile_interval};
 
 /// Pairs needed for a verdict.
 pub const LEAST_PAIRS: usize = 6;
@@ -128,6 +128,25 @@ pub fn paired_median(
     Some(Difference::new(sorted.len(), estimate, interval, better))
 }
 
+/// Mean of the differences within pairs of (first, second); pairs with a value that is not finite are left out. Of
+/// fewer pairs than an interval needs the interval is everything.
+#[must_use]
+pub fn paired_mean(
+    pairs: impl IntoIterator<Item = (f64, f64)>,
+    better: Better,
+) -> Option<Difference> {
+    let values = finite_sorted(pairs.into_iter().map(|(a, b)| a - b));
+    if values.is_empty() {
+        return None;
+    }
+    let interval = mean_interval(&values).unwrap_or(Interval {
+        low: f64::NEG_INFINITY,
+        high: f64::INFINITY,
+    });
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    Some(Difference::new(values.len(), mean, interval, better))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,6 +199,17 @@ mod tests {
         );
         let d = paired_median(closer.map(|(a, b)| (b, a)), Better::Less, 1, "x").unwrap();
         assert_eq!(d.verdict, Verdict::Worse);
+    }
+
+    #[test]
+    fn means_of_differences_have_students_interval() {
+        let pairs = (0..9).map(|k| (f64::from(k), 10.0 + 2.0 * f64::from(k % 3)));
+        let d = paired_mean(pairs, Better::Less).unwrap();
+        assert_eq!((d.pairs, d.estimate, d.verdict), (9, -8.0, Verdict::Better));
+        assert!(d.interval.contains(-8.0) && d.interval.high < 0.0, "{d:?}");
+        let few = paired_mean([(1.0, 9.0); 4], Better::Less).unwrap();
+        assert_eq!(few.verdict, Verdict::NotSeparable);
+        assert_eq!(paired_mean([], Better::Less), None);
     }
 
     #[test]

@@ -2,9 +2,12 @@
 
 use super::canvas::{Anchor, Canvas, Style};
 use super::map_layers as layers;
-use super::palette::{self, DETECTION, INK};
+use super::map_legend::short;
+use super::palette::{self, INK};
 use super::panel::{Panel, range_of};
-use crate::report::belief_track::{BeliefSnapshot, RobotBelief};
+use super::room::width_of;
+use super::solids;
+use crate::report::belief_track::{BeliefSnapshot, RobotBelief, off};
 use crate::report::{RobotTrack, RunReport, TrackRow};
 use robots::handoff::{Belief, BeliefGrid};
 use world::math;
@@ -12,13 +15,13 @@ use world::math;
 /// Largest panel, px.
 const LARGEST: [f64; 2] = [560.0, 430.0];
 const LEFT: f64 = 66.0;
-const TOP: f64 = 62.0;
-const GAP: [f64; 2] = [70.0, 78.0];
+const TOP: f64 = 70.0;
+const GAP: [f64; 2] = [70.0, 92.0];
+/// Height of the key, px.
+const KEY: f64 = 58.0;
 /// Probabilities shown: from the largest down to this many decades below it, in so many shades.
 const DECADES: f64 = 4.0;
 const SHADES: usize = 12;
-/// Detections nearer to the last one drawn are left out, px.
-const DOTS_APART_PX: f64 = 8.0;
 /// Planned path.
 const PLAN: &str = "#0072b2";
 
@@ -32,13 +35,18 @@ pub(in super::super) fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> Stri
     let rows = shown.len().div_ceil(2).max(1);
     let mut c = Canvas::new(
         LEFT + columns as f64 * (width.max(250.0) + GAP[0]),
-        TOP + rows as f64 * (height + GAP[1]) + 30.0,
+        TOP + rows as f64 * (height + GAP[1]) + KEY,
     );
     let title = format!(
         "{} · seed {} · {}: where the source may be",
         run.summary.scenario, run.summary.seed, robot.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
+    // What the map came to, where it is sure of a wrong place.
+    if let Some(remark) = remark(run, &robot.id) {
+        let words = format!("Beware: {remark}.");
+        c.text([LEFT, 40.0], 11.0, Anchor::Start, &words);
+    }
     let track = run.track.robots.iter().find(|t| t.info.id == robot.id);
     for (k, (words, snapshot)) in shown.iter().enumerate() {
         let panel = Panel {
@@ -54,18 +62,26 @@ pub(in super::super) fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> Stri
         let caption = format!("t = {:.0} s · {words}", b.t_s);
         c.bold([panel.left, panel.top - 8.0], 11.0, Anchor::Start, &caption);
         let unit = if b.grid.n[2] == 1 { "m²" } else { "m³" };
+        let off = off(&b.grid.centre(b.best), run.sources)
+            .map_or_else(String::new, |m| format!(", {m:.0} m off"));
+        let p = b.p[b.best];
+        let largest = if p < 5e-4 {
+            short(p)
+        } else {
+            format!("{p:.3}")
+        };
         let numbers = format!(
-            "largest {:.3}, entropy {:.2} nat, 95 % in {:.0} {unit}",
-            b.p[b.best], b.entropy_nat, b.credible_95
+            "largest {largest}{off}; entropy {:.2} nat; 95 % in {:.0} {unit}",
+            b.entropy_nat, b.credible_95
         );
         c.text(
-            [panel.left, panel.bottom() + 36.0],
+            [panel.left, panel.bottom() + 48.0],
             10.0,
             Anchor::Start,
             &numbers,
         );
     }
-    let bottom = c.height - 34.0;
+    let bottom = c.height - 60.0;
     key(&mut c, [LEFT, bottom], robot.last.belief.grid.n[2] > 1);
     c.svg(&format!("belief{}", robot.id))
 }
@@ -115,31 +131,20 @@ fn one(
     }
     let corners = run.area.corners().map(|p| [p.x, p.y]);
     c.polygon(panel.all(&corners), &Style::line(INK, 1.2).dashed("7 4"));
-    for o in run.obstacles {
-        let style = Style::fill("#8c6d4f").edged(INK, 1.0);
-        c.polygon(panel.all(&o.corners), &style);
+    for below in [true, false] {
+        solids::draw(c, panel, run.obstacles, run.terrain, below);
     }
     if let Some(t) = track {
         let rows: Vec<_> = t.rows.iter().filter(|r| r.t_s <= s.belief.t_s).collect();
+        let smelt = |r: &&&TrackRow| r.reading.is_some_and(|v| Some(v) > t.info.threshold);
+        let places = rows.iter().filter(smelt).map(|r| [r.p[0], r.p[1]]);
+        layers::detections(c, panel, places);
         let line = rows.iter().map(|r| panel.at([r.p[0], r.p[1]])).collect();
         c.polyline(line, &Style::line("#ffffff", 3.0).faint(0.7));
         let line = rows.iter().map(|r| panel.at([r.p[0], r.p[1]])).collect();
         c.polyline(line, &Style::line(INK, 1.3));
-        let smelt = |r: &&&TrackRow| r.reading.is_some_and(|v| Some(v) > t.info.threshold);
-        let mut last: Option<[f64; 2]> = None;
-        for r in rows.iter().filter(smelt) {
-            let p = panel.at([r.p[0], r.p[1]]);
-            if last.is_none_or(|q| (p[0] - q[0]).abs() + (p[1] - q[1]).abs() >= DOTS_APART_PX) {
-                layers::detection(c, p);
-                last = Some(p);
-            }
-        }
         if let Some(r) = rows.last() {
-            c.circle(
-                panel.at([r.p[0], r.p[1]]),
-                4.0,
-                &Style::fill(PLAN).edged("#ffffff", 1.2),
-            );
+            vehicle(c, panel.at([r.p[0], r.p[1]]));
         }
     }
     let plan: Vec<_> = s.planned.iter().map(|p| panel.at([p.x, p.y])).collect();
@@ -149,8 +154,31 @@ fn one(
     best_cell(c, panel.at([best.x, best.y]));
     c.unclip();
     panel.frame(c, 1.0);
+    axes(c, panel);
+}
+
+/// Ticks and names of the axes of a small map.
+pub(super) fn axes(c: &mut Canvas, panel: &Panel) {
     panel.x_ticks(c, true, 10.0);
     panel.y_ticks(c, 50.0, 10.0);
+    let under = [panel.left + panel.width / 2.0, panel.bottom() + 31.0];
+    c.text(under, 10.5, Anchor::Middle, "East (m)");
+    c.upright(
+        [panel.left - 44.0, panel.top + panel.height / 2.0],
+        10.5,
+        "North (m)",
+    );
+}
+
+/// Where the vehicle truly is.
+pub(super) fn vehicle(c: &mut Canvas, p: [f64; 2]) {
+    c.circle(p, 4.0, &Style::fill(PLAN).edged("#ffffff", 1.2));
+}
+
+/// What the summary remarks of a robot's map.
+pub(super) fn remark<'a>(run: &'a RunReport<'_>, id: &str) -> Option<&'a str> {
+    let of = run.summary.robots.iter().find(|r| r.id == id)?;
+    of.map.as_ref()?.remark.as_deref()
 }
 
 /// A cross at the most probable cell.
@@ -234,23 +262,44 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
         "Probability, share of the largest:"
     };
     scale(c, [x, y], words, x + if space { 330.0 } else { 195.0 });
-    let y = y + 28.0;
-    layers::true_source(c, [x + 6.0, y - 4.0]);
-    c.text([x + 17.0, y], 10.0, Anchor::Start, "source");
-    best_cell(c, [x + 80.0, y - 4.0]);
-    c.text([x + 91.0, y], 10.0, Anchor::Start, "most probable");
-    c.circle(
-        [x + 186.0, y - 4.0],
-        2.8,
-        &Style::fill("#ffffff").edged(DETECTION, 0.8),
-    );
-    c.text([x + 194.0, y], 10.0, Anchor::Start, "detection");
-    c.line(
-        [x + 262.0, y - 4.0],
-        [x + 288.0, y - 4.0],
-        &Style::line(PLAN, 1.6).dashed("5 3"),
-    );
-    c.text([x + 293.0, y], 10.0, Anchor::Start, "planned path");
+    type Draw = fn(&mut Canvas, [f64; 2]);
+    let signs: [(Draw, &str); 7] = [
+        (layers::true_source, "true source"),
+        (best_cell, "most probable cell"),
+        (vehicle, "vehicle"),
+        (
+            |c, p| sample(c, p, &Style::line(INK, 1.3)),
+            "its true track",
+        ),
+        (layers::detection, "detection"),
+        (
+            |c, p| sample(c, p, &Style::line(PLAN, 1.6).dashed("5 3")),
+            "planned path",
+        ),
+        (
+            |c, [x, y]| {
+                for d in [[-6.0, 2.0], [-1.0, -3.0], [5.0, 1.0]] {
+                    c.circle([x + d[0], y + d[1]], 0.8, &Style::fill("#666666"));
+                }
+            },
+            "plume",
+        ),
+    ];
+    let (mut at, y) = (x + 10.0, y + 30.0);
+    for (k, (draw, words)) in signs.into_iter().enumerate() {
+        // Two lines, so that the key of one panel alone has room.
+        let y = y + if k < 3 { 0.0 } else { 17.0 };
+        if k == 3 {
+            at = x + 10.0;
+        }
+        draw(c, [at, y - 4.0]);
+        c.text([at + 17.0, y], 10.0, Anchor::Start, words);
+        at += 17.0 + width_of(words, 10.0) + 24.0;
+    }
+}
+
+fn sample(c: &mut Canvas, [x, y]: [f64; 2], style: &Style<'_>) {
+    c.line([x - 12.0, y], [x + 12.0, y], style);
 }
 
 /// East and north ranges that hold the area.

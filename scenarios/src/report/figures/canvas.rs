@@ -1,5 +1,8 @@
 //! A sheet to draw on, as SVG text.
 
+use super::far::{self, Frame};
+use super::panel::Panel;
+use super::room::Room;
 use std::fmt::Write as _;
 
 /// Where a text stands relative to its point.
@@ -90,6 +93,10 @@ pub(crate) struct Canvas {
     pub(crate) height: f64,
     body: String,
     clips: usize,
+    // Where things show now; what lies far beyond is cut off: the library that makes pixels of it cannot take it.
+    shows: Option<Frame>,
+    /// Room that texts, keys and marks take.
+    taken: Vec<Room>,
 }
 
 impl Canvas {
@@ -99,6 +106,8 @@ impl Canvas {
             height,
             body: String::new(),
             clips: 0,
+            shows: None,
+            taken: Vec::new(),
         }
     }
 
@@ -115,7 +124,12 @@ impl Canvas {
     /// Several lines or rings as one shape; overlapping rings make holes.
     pub(crate) fn lines(&mut self, lines: &[Vec<[f64; 2]>], closed: bool, style: &Style<'_>) {
         let mut d = String::new();
-        for line in lines {
+        let near = far::near(
+            lines,
+            closed,
+            self.shows.unwrap_or([0.0, 0.0, self.width, self.height]),
+        );
+        for line in near.as_deref().unwrap_or(lines) {
             if line.len() < 2 {
                 continue;
             }
@@ -142,11 +156,18 @@ impl Canvas {
 
     pub(crate) fn rect(&mut self, x: f64, y: f64, w: f64, h: f64, style: &Style<'_>) {
         let (w, h) = (w.max(0.0), h.max(0.0));
+        if far::is_far([x, y]) || far::is_far([x + w, y + h]) {
+            let corners = vec![[x, y], [x + w, y], [x + w, y + h], [x, y + h]];
+            return self.polygon(corners, style);
+        }
         let open = format!("<rect x=\"{x:.2}\" y=\"{y:.2}\" width=\"{w:.2}\" height=\"{h:.2}\"");
         self.shape(&open, style);
     }
 
     pub(crate) fn circle(&mut self, [x, y]: [f64; 2], r: f64, style: &Style<'_>) {
+        if far::is_far([x, y]) || far::is_far([r, r]) {
+            return;
+        }
         self.shape(
             &format!("<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{r:.1}\""),
             style,
@@ -188,13 +209,68 @@ impl Canvas {
         self.label(at, size, anchor, s, rim);
     }
 
+    /// Room that labels shall keep free.
+    pub(crate) fn keep_free(&mut self, room: Room) {
+        self.taken.push(room);
+    }
+
+    /// How much of a label would lie on what is there, or outside the panel, px².
+    fn in_the_way(&self, room: &Room, panel: &Panel) -> f64 {
+        let on_others: f64 = self.taken.iter().map(|t| room.shared(t)).sum();
+        on_others + room.outside(panel)
+    }
+
+    /// Rimmed text at the first of several places at which it lies on nothing else and within the panel; where there is
+    /// none, at that at which it hides least, or not at all if it may be left out.
+    pub(crate) fn label_at(
+        &mut self,
+        places: &[([f64; 2], Anchor)],
+        size: f64,
+        s: &str,
+        panel: &Panel,
+        may_be_left_out: bool,
+    ) {
+        let hidden = |(at, anchor): &([f64; 2], Anchor)| {
+            self.in_the_way(&Room::of_text(*at, size, *anchor, s), panel)
+        };
+        let free = places.iter().find(|p| hidden(p) == 0.0).copied();
+        let least = || {
+            places
+                .iter()
+                .copied()
+                .min_by(|a, b| hidden(a).total_cmp(&hidden(b)))
+        };
+        let chosen = if may_be_left_out {
+            free
+        } else {
+            free.or_else(least)
+        };
+        if let Some((at, anchor)) = chosen {
+            self.rimmed(at, size, anchor, s);
+        }
+    }
+
+    /// Room taken so far.
+    #[cfg(test)]
+    pub(crate) fn taken(&self) -> &[Room] {
+        &self.taken
+    }
+
     /// Text turned a quarter left, centred.
     pub(crate) fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
         let turn = format!(" transform=\"rotate(-90 {x:.1} {y:.1})\"");
-        self.label([x, y], size, Anchor::Middle, s, &turn);
+        self.write_text([x, y], size, Anchor::Middle, s, &turn);
     }
 
-    fn label(&mut self, [x, y]: [f64; 2], size: f64, anchor: Anchor, s: &str, more: &str) {
+    fn label(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str, more: &str) {
+        self.taken.push(Room::of_text(at, size, anchor, s));
+        self.write_text(at, size, anchor, s, more);
+    }
+
+    fn write_text(&mut self, [x, y]: [f64; 2], size: f64, anchor: Anchor, s: &str, more: &str) {
+        if far::is_far([x, y]) {
+            return;
+        }
         let anchor = match anchor {
             Anchor::Start => "start",
             Anchor::Middle => "middle",
@@ -211,6 +287,7 @@ impl Canvas {
     /// Everything until [`Canvas::unclip`] shows only inside the rectangle.
     pub(crate) fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
         self.clips += 1;
+        self.shows = Some([x, y, x + w, y + h]);
         let id = self.clips;
         write!(
             self.body,
@@ -220,6 +297,7 @@ impl Canvas {
     }
 
     pub(crate) fn unclip(&mut self) {
+        self.shows = None;
         self.body.push_str("</g>\n");
     }
 

@@ -1,5 +1,6 @@
 //! How the maps drew together: distance to the true source, entropy, credible region; all robots side by side.
 
+use super::belief::remark;
 use super::canvas::{Anchor, Canvas, Style};
 use super::palette::INK;
 use super::panel::{Panel, decade, power_of_ten, range_of};
@@ -32,6 +33,15 @@ pub(in super::super) fn convergence(run: &RunReport<'_>) -> String {
         run.summary.scenario, run.summary.seed
     );
     c.bold([LEFT, 22.0], 13.0, Anchor::Start, &title);
+    // Under the curves' names, a line a robot: which map is sure of a wrong place.
+    let remarks: Vec<String> = (robots.iter())
+        .filter_map(|r| remark(run, &r.id).map(|words| format!("{}: {words}", r.id)))
+        .collect();
+    let top = 48.0 + 16.0 * remarks.len() as f64;
+    c.height += 16.0 * remarks.len() as f64;
+    for (k, words) in remarks.iter().enumerate() {
+        c.text([LEFT, 56.0 + 16.0 * k as f64], 10.5, Anchor::Start, words);
+    }
     let times = robots.iter().flat_map(|r| r.rows.iter().map(|r| r.t_s));
     let t = range_of(times, 0.0).unwrap_or([0.0, 1.0]);
     let x = [t[0], if t[1] > t[0] { t[1] } else { t[0] + 1.0 }];
@@ -64,7 +74,7 @@ pub(in super::super) fn convergence(run: &RunReport<'_>) -> String {
         };
         let panel = Panel {
             left: LEFT,
-            top: 48.0 + k as f64 * (HEIGHT + GAP),
+            top: top + k as f64 * (HEIGHT + GAP),
             width: WIDTH,
             height: HEIGHT,
             x,

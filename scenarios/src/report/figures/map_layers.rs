@@ -5,8 +5,10 @@ use super::map::Bed;
 use super::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
 use super::panel::{Panel, decade, nice_step, number, power_of_ten};
 use super::plume_load::PlumeLoad;
+use super::room::Room;
 use crate::report::{RobotTrack, RunReport};
 use nalgebra::Vector2;
+use robots::handoff::region_name;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
@@ -40,10 +42,21 @@ pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     for &v in &bed.levels {
         let lines = on(panel, bed.grid.lines(v));
         c.lines(&lines, false, &Style::line("#7893a8", 0.7));
+    }
+}
+
+/// The depths of these lines, where nothing else stands.
+pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
+    const PLACES: usize = 12;
+    for &v in &bed.levels {
+        let lines = on(panel, bed.grid.lines(v));
         if let Some(longest) = lines.iter().max_by_key(|l| l.len()) {
-            let [x, y] = longest[longest.len() / 12];
+            let places: Vec<_> = (1..PLACES)
+                .map(|k| longest[k * longest.len() / PLACES])
+                .map(|[x, y]| ([x, y + 3.0], Anchor::Middle))
+                .collect();
             let text = format!("{} m", number(v, bed.step));
-            c.rimmed([x, y + 3.0], 9.0, Anchor::Middle, &text);
+            c.label_at(&places, 9.0, &text, panel, true);
         }
     }
 }
@@ -70,7 +83,7 @@ pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
 
 /// Where it truly was, coloured by what it did.
 pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) {
-    let width = if close { 1.8 } else { 1.5 };
+    let width = if close { 2.2 } else { 1.9 };
     let mut k = 0;
     while k < t.rows.len() {
         let b = t.rows[k].behaviour;
@@ -103,45 +116,43 @@ pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Detections: under the track, so that they do not hide what the robot did there.
-pub(super) fn detections(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
-    const DOTS_APART_PX: f64 = 3.0;
+/// Detections: open rings under the track and apart from each other, so that they do not hide what the robot did there.
+pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<Item = [f64; 2]>) {
+    const APART_PX: f64 = 8.0;
     let mut last: Option<[f64; 2]> = None;
-    for d in &t.detections {
-        let p = panel.at(*d);
+    for d in places {
+        let p = panel.at(d);
         let apart = |q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
-        if last.is_none_or(|q| apart(q) >= DOTS_APART_PX) {
+        if last.is_none_or(|q| apart(q) >= APART_PX) {
             detection(c, p);
             last = Some(p);
         }
     }
 }
 
-/// Start, lost points, declared source.
-pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
+/// Start, lost points, declared sources, plumes at an edge.
+pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     for l in &t.lost_points {
         lost_point(c, panel.at(*l));
     }
     if let Some(r) = t.rows.first() {
         let p = panel.at([r.p[0], r.p[1]]);
         start(c, p);
-        if named {
-            c.rimmed([p[0] + 8.0, p[1] + 4.0], 10.0, Anchor::Start, &t.info.id);
-        }
+        c.keep_free(Room::round(p, 6.0));
     }
-    let several = t.declarations.len() > 1;
     for (d, at) in t.declarations.iter().zip(t.declared()) {
+        let p = panel.at(at);
+        c.keep_free(Room::round(p, 8.0));
+        if d.at_edge() {
+            plume_at_edge(c, p);
+            continue;
+        }
         if let Some(e) = d.evidence {
             let [x, y] = e.middle_m;
             let ends = [panel.at([x, y]), panel.at([x + e.reach_m, y])];
             zone(c, ends[0], ends[1][0] - ends[0][0]);
         }
-        let p = panel.at(at);
         declared(c, p);
-        if several {
-            let number = (d.number + 1).to_string();
-            c.rimmed([p[0] - 9.0, p[1] - 7.0], 10.0, Anchor::End, &number);
-        }
     }
 }
 
@@ -150,9 +161,9 @@ pub(super) fn region_line() -> Style<'static> {
     Style::line(INK, 1.0).dashed("3 3")
 }
 
-/// Outlines of subregions, with the number in the order of search and how the search ended.
-pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool) {
-    for (k, region) in t.regions.iter().enumerate() {
+/// Outlines of subregions.
+pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
+    for region in t.regions.iter() {
         let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
         for (i, a) in corners.iter().enumerate() {
             // From left to right, so that the dashes of an edge that two regions share fall on each other.
@@ -160,19 +171,55 @@ pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack, named: bool
             ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
             c.line(ends[0], ends[1], &region_line());
         }
-        // Towards the middle of the right edge, where tracks are rarer than in the middle.
-        let at = Vector2::new(0.0, 0.32 * region.area.width_m);
-        let p = region.area.world(at);
-        if named {
-            let words = region.state.name().replace('_', " ");
-            let text = format!("{} {words}", k + 1);
-            c.rimmed(panel.at([p.x, p.y]), 9.5, Anchor::Middle, &text);
-        }
     }
 }
 
+/// Names, once all marks are there: a robot's subregions with how their search ended, where it started, what it declared.
+pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robots: bool) {
+    for (region, k) in t.regions.iter().zip(0..) {
+        // Towards the middle of the right edge, where tracks are rarer than in the middle; then all over it.
+        let shares = [0.0, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3, 0.4, -0.4];
+        let places: Vec<_> = [0.32, 0.25, 0.15, 0.0, -0.15, -0.25, -0.32]
+            .into_iter()
+            .flat_map(|across| shares.map(|along| [along, across]))
+            .map(|[l, w]| Vector2::new(l * region.area.length_m, w * region.area.width_m))
+            .map(|at| region.area.world(at))
+            .map(|p| (panel.at([p.x, p.y]), Anchor::Middle))
+            .collect();
+        let text = format!("{}: {}", region_name(k), region.state.words());
+        c.label_at(&places, 9.5, &text, panel, false);
+    }
+    if let Some(r) = t.rows.first().filter(|_| several_robots) {
+        beside(c, panel, [r.p[0], r.p[1]], &t.info.id);
+    }
+    let several = t.declared_inside().count() > 1;
+    for (at, k) in t.declared_inside().zip(1..).filter(|_| several) {
+        beside(c, panel, at, &format!("source {k}"));
+    }
+}
+
+/// A name beside a mark, on whichever side there is room.
+fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
+    const SIZE: f64 = 10.0;
+    let [x, y] = panel.at(at);
+    let places: Vec<_> = [9.0, 14.0, 22.0, 34.0]
+        .into_iter()
+        .flat_map(|r| {
+            [
+                ([x + r, y - 0.5 * r], Anchor::Start),
+                ([x - r, y - 0.5 * r], Anchor::End),
+                ([x + r, y + 0.5 * r + 7.0], Anchor::Start),
+                ([x - r, y + 0.5 * r + 7.0], Anchor::End),
+                ([x, y - r - 1.0], Anchor::Middle),
+                ([x, y + r + 8.0], Anchor::Middle),
+            ]
+        })
+        .collect();
+    c.label_at(&places, SIZE, name, panel, false);
+}
+
 pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {
-    c.circle(p, 2.8, &Style::fill("#ffffff").edged(DETECTION, 0.8));
+    c.circle(p, 2.8, &Style::line(DETECTION, 0.7));
 }
 
 pub(super) fn lost_point(c: &mut Canvas, [x, y]: [f64; 2]) {
@@ -201,6 +248,13 @@ pub(super) fn declared(c: &mut Canvas, [x, y]: [f64; 2]) {
     c.polygon(diamond, &Style::fill(DECLARED).edged(INK, 1.4));
 }
 
+/// Where a plume was traced over a subregion's up-flow edge.
+pub(super) fn plume_at_edge(c: &mut Canvas, [x, y]: [f64; 2]) {
+    const R: f64 = 6.0;
+    let triangle = vec![[x, y - R], [x + R, y + 0.8 * R], [x - R, y + 0.8 * R]];
+    c.polygon(triangle, &Style::fill("#ffffff").edged(INK, 1.4));
+}
+
 /// Of the points that a declaration rests on.
 pub(super) fn zone(c: &mut Canvas, p: [f64; 2], r: f64) {
     c.circle(p, r, &Style::line("#ffffff", 3.2));
@@ -213,19 +267,43 @@ pub(super) fn true_source(c: &mut Canvas, p: [f64; 2]) {
     c.circle(p, 2.0, &Style::fill(INK).edged(TRUE_SOURCE, 0.8));
 }
 
-/// True sources with the flow there; declared ones are drawn with their robot.
+/// True sources; declared ones are drawn with their robot.
 pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     for s in run.sources {
         let p = panel.at([s.position.x, s.position.y]);
         true_source(c, p);
-        if run.sources.len() > 1 {
-            c.rimmed([p[0] + 10.0, p[1] - 6.0], 10.0, Anchor::Start, &s.id);
-        }
+        c.keep_free(Room::round(p, 9.0));
     }
 }
 
-/// A bar of round length, bottom left.
-pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
+/// Names of the true sources, where there are several.
+pub(super) fn source_names(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
+    for s in run.sources.iter().filter(|_| run.sources.len() > 1) {
+        beside(c, panel, [s.position.x, s.position.y], &s.id);
+    }
+}
+
+/// Keeps the room of scale bar and north arrow, which are drawn last, free of names.
+pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
+    let (_, px) = scale_length(panel);
+    let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
+    c.keep_free(Room {
+        left: x - 7.0,
+        top: y - 19.0,
+        right: x + px + 7.0,
+        bottom: y + 7.0,
+    });
+    let x = panel.right() - 20.0;
+    c.keep_free(Room {
+        left: x - 13.0,
+        top: panel.top + 7.0,
+        right: x + 13.0,
+        bottom: panel.top + 60.0,
+    });
+}
+
+/// Length of the scale bar, in the panel's units and px.
+fn scale_length(panel: &Panel) -> (f64, f64) {
     let wanted = (panel.x[1] - panel.x[0]) / 4.0;
     let base = power_of_ten(decade(wanted));
     let length = [5.0, 2.0, 1.0]
@@ -233,7 +311,12 @@ pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
         .into_iter()
         .find(|l| *l <= wanted * 1.001)
         .unwrap_or(base);
-    let px = length * panel.px_per_unit();
+    (length, length * panel.px_per_unit())
+}
+
+/// A bar of round length, bottom left.
+pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
+    let (length, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
     let back = Style {
         fill_opacity: Some(0.8),

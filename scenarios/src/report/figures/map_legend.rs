@@ -1,81 +1,96 @@
-//! The map's column of keys.
+//! The map's keys.
 
 use super::canvas::{Anchor, Canvas, Style};
 use super::map::Bed;
 use super::map_layers as layers;
 use super::palette::{self, BELIEVED, FLOW, INK};
-use super::panel::{decade, number};
+use super::panel::{Panel, decade, number};
 use super::plume_load::PlumeLoad;
+use super::solids::{self, Passage};
 use crate::report::{RobotTrack, RunReport};
-use robots::handoff::Behaviour;
+use robots::handoff::{Behaviour, Declaration};
 use world::units::Heading;
 
 /// Height of a line of keys, px.
 pub(super) const LINE: f64 = 18.0;
 pub(super) const SIZE: f64 = 10.5;
 
-/// Draws the column from `at` down; where it ends.
-pub(super) fn legend(
-    c: &mut Canvas,
-    run: &RunReport<'_>,
-    [x, top]: [f64; 2],
-    bed: &Bed,
-    plume: Option<&PlumeLoad>,
-) -> f64 {
-    let mut y = top + 6.0;
+/// A block of keys: drawn from a place down, it says where it ends.
+pub(super) type Block<'a> = Box<dyn Fn(&mut Canvas, [f64; 2]) -> f64 + 'a>;
+
+/// The blocks of keys of a map that have something to explain: tracks, marks, water.
+pub(super) fn keys<'a>(
+    run: &'a RunReport<'a>,
+    bed: &'a Bed,
+    plume: Option<&'a PlumeLoad>,
+) -> Vec<Block<'a>> {
+    let rows = run.track.robots.iter().flat_map(|t| &t.rows);
     let seen: Vec<Behaviour> = Behaviour::ALL
         .into_iter()
-        .filter(|b| {
-            let rows = run.track.robots.iter().flat_map(|t| &t.rows);
-            rows.into_iter().any(|r| r.behaviour == *b)
-        })
+        .filter(|b| rows.clone().any(|r| r.behaviour == *b))
         .collect();
+    let mut blocks: Vec<Block<'a>> = Vec::new();
     if !seen.is_empty() {
-        heading(c, x, &mut y, "True track, by behaviour");
-        for b in seen {
-            c.line(
-                [x, y],
-                [x + 24.0, y],
-                &Style::line(palette::behaviour(b), 2.6),
-            );
-            entry(c, x, &mut y, palette::words(b));
-        }
-        c.line(
-            [x, y],
-            [x + 24.0, y],
-            &Style::line(BELIEVED, 0.9).dashed("2 2"),
-        );
-        entry(c, x, &mut y, "believed track");
-        y += 6.0;
+        blocks.push(Box::new(move |c, at| tracks(c, &seen, at)));
     }
+    blocks.push(Box::new(|c, at| marks(c, run, at)));
+    blocks.push(Box::new(move |c, [x, top]| {
+        let mut y = top + 6.0;
+        flow(c, run, x, &mut y);
+        depth_key(c, x, &mut y, bed);
+        if let Some(p) = plume {
+            plume_key(c, x, &mut y, p, run.plume.map_or(0.0, |p| p.t_s));
+        }
+        y
+    }));
+    blocks
+}
+
+fn tracks(c: &mut Canvas, seen: &[Behaviour], [x, top]: [f64; 2]) -> f64 {
+    let mut y = top + 6.0;
+    heading(c, x, &mut y, "True track, by behaviour");
+    for b in seen {
+        let style = Style::line(palette::behaviour(*b), 2.6);
+        c.line([x, y], [x + 24.0, y], &style);
+        entry(c, x, &mut y, palette::words(*b));
+    }
+    let style = Style::line(BELIEVED, 0.9).dashed("2 2");
+    c.line([x, y], [x + 24.0, y], &style);
+    entry(c, x, &mut y, "believed track");
+    y
+}
+
+fn marks(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
+    let mut y = top + 6.0;
     let robots = &run.track.robots;
     type Draw = fn(&mut Canvas, [f64; 2]);
-    let zones = |t: &RobotTrack| t.declarations.iter().any(|d| d.evidence.is_some());
-    let marks: [(bool, Draw, &str); 6] = [
+    let any = |of: fn(&RobotTrack) -> bool| robots.iter().any(of);
+    let marks: [(bool, Draw, &str); 7] = [
+        (any(|t| !t.rows.is_empty()), layers::start, "start"),
         (
-            robots.iter().any(|t| !t.rows.is_empty()),
-            layers::start,
-            "start",
-        ),
-        (
-            robots.iter().any(|t| !t.detections.is_empty()),
+            any(|t| !t.detections.is_empty()),
             layers::detection,
             "detection",
         ),
         (
-            robots.iter().any(|t| !t.lost_points.is_empty()),
+            any(|t| !t.lost_points.is_empty()),
             layers::lost_point,
             "plume lost (believed)",
         ),
         (
-            robots.iter().any(|t| !t.declarations.is_empty()),
+            any(|t| t.declarations.iter().any(|d| !d.at_edge())),
             layers::declared,
             "declared source",
         ),
         (
-            robots.iter().any(zones),
+            any(|t| t.declarations.iter().any(|d| d.evidence.is_some())),
             |c, p| layers::zone(c, p, 8.0),
             "round the points it rests on",
+        ),
+        (
+            any(|t| t.declarations.iter().any(Declaration::at_edge)),
+            layers::plume_at_edge,
+            "plume at up-flow edge",
         ),
         (!run.sources.is_empty(), layers::true_source, "true source"),
     ];
@@ -85,27 +100,33 @@ pub(super) fn legend(
     }
     c.line([x, y], [x + 24.0, y], &Style::line(INK, 1.6).dashed("7 4"));
     entry(c, x, &mut y, "operating area");
-    if robots.iter().any(|t| !t.regions.is_empty()) {
+    if any(|t| !t.regions.is_empty()) {
         c.line([x, y], [x + 24.0, y], &layers::region_line());
         entry(c, x, &mut y, "subregion");
     }
-    if !run.obstacles.is_empty() {
-        c.rect(
-            x + 4.0,
-            y - 5.0,
-            16.0,
-            10.0,
-            &Style::fill("#8c6d4f").edged(INK, 1.0),
-        );
-        entry(c, x, &mut y, "obstacle");
-    }
-    y += 6.0;
-    flow(c, run, x, &mut y);
-    depth_key(c, x, &mut y, bed);
-    if let Some(p) = plume {
-        plume_key(c, x, &mut y, p, run.plume.map_or(0.0, |p| p.t_s));
-    }
+    obstacles(c, run, x, &mut y);
     y
+}
+
+/// Which obstacles there are, by the way that water has past them.
+fn obstacles(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
+    let there = |p: &Passage| {
+        let mut all = run.obstacles.iter();
+        all.any(|o| solids::passage(o, run.terrain) == *p)
+    };
+    for passage in Passage::ALL.into_iter().filter(there) {
+        let sign = Panel {
+            left: x + 3.0,
+            top: *y - 6.0,
+            width: 18.0,
+            height: 12.0,
+            x: [0.0, 1.0],
+            y: [0.0, 1.0],
+        };
+        let corners = sign.all(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        solids::solid(c, &sign, &corners, passage);
+        entry(c, x, y, passage.words());
+    }
 }
 
 pub(super) fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
@@ -181,6 +202,11 @@ fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
 fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
     let words = format!("Plume at {t_s:.0} s: load (mg/m²)");
     heading(c, x, y, &words);
+    plume_levels(c, x, y, p);
+}
+
+/// Colours of a plume's levels, each with the amount at which it begins.
+pub(super) fn plume_levels(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad) {
     let n = p.levels.len();
     let w = BAR / n as f64;
     for (k, &v) in p.levels.iter().enumerate() {

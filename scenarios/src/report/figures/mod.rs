@@ -6,21 +6,27 @@ mod belief;
 pub(crate) mod canvas;
 mod contours;
 mod convergence;
+mod far;
 mod flume;
 mod layers_panel;
 mod map;
 mod map_layers;
 mod map_legend;
+mod map_section;
 mod odour;
 pub(crate) mod palette;
 pub(crate) mod panel;
 mod plume_load;
 mod probe_records;
 mod raster;
+pub(crate) mod room;
 mod section;
 mod series;
 mod series_panels;
 mod sidescan;
+mod solids;
+#[cfg(test)]
+mod tests_map;
 
 pub(super) use approach::approach;
 pub(super) use belief::belief;

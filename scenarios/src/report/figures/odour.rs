@@ -1,11 +1,12 @@
 //! Where odour was believed to be met, at chosen times: chance of detection, its way to the vehicle, the vehicle's best way to
 //! it (the products of Farrell, Pang & Li 2003 beside the source map).
 
-use super::belief::{bounds, scale, shades};
+use super::belief::{axes, bounds, scale, shades};
 use super::canvas::{Anchor, Canvas, Style};
 use super::map_layers as layers;
 use super::palette::INK;
 use super::panel::Panel;
+use super::solids;
 use crate::report::RunReport;
 use crate::report::belief_track::RobotBelief;
 use robots::handoff::Odour;
@@ -14,7 +15,7 @@ use robots::handoff::Odour;
 const LARGEST: [f64; 2] = [560.0, 430.0];
 const LEFT: f64 = 66.0;
 const TOP: f64 = 62.0;
-const GAP: [f64; 2] = [70.0, 78.0];
+const GAP: [f64; 2] = [70.0, 92.0];
 /// Most panels.
 const PANELS: usize = 4;
 /// The odour's way, and the vehicle's.
@@ -65,7 +66,7 @@ pub(in super::super) fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> Strin
             1.0 - missed
         );
         c.text(
-            [panel.left, panel.bottom() + 36.0],
+            [panel.left, panel.bottom() + 48.0],
             10.0,
             Anchor::Start,
             &numbers,
@@ -83,6 +84,12 @@ pub(in super::super) fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> Strin
         (0.0, CAME, "way of odour to the vehicle"),
         (190.0, WALK, "way most likely to meet it"),
     ];
+    let x = LEFT + 380.0;
+    let vehicle = Style::fill(WALK).edged("#ffffff", 1.2);
+    c.circle([x, y - 4.0], 4.0, &vehicle);
+    c.text([x + 9.0, y], 10.0, Anchor::Start, "vehicle");
+    layers::true_source(&mut c, [x + 68.0, y - 4.0]);
+    c.text([x + 79.0, y], 10.0, Anchor::Start, "true source");
     for (from, colour, words) in keys {
         let x = LEFT + from;
         c.line([x, y - 4.0], [x + 26.0, y - 4.0], &Style::line(colour, 2.2));
@@ -102,9 +109,8 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     shades(c, panel, &o.grid, &plan);
     let corners = run.area.corners().map(|p| [p.x, p.y]);
     c.polygon(panel.all(&corners), &Style::line(INK, 1.2).dashed("7 4"));
-    for obstacle in run.obstacles {
-        let style = Style::fill("#8c6d4f").edged(INK, 1.0);
-        c.polygon(panel.all(&obstacle.corners), &style);
+    for below in [true, false] {
+        solids::draw(c, panel, run.obstacles, run.terrain, below);
     }
     for (cells, colour) in [(&o.came, CAME), (&o.walk, WALK)] {
         let line = || {
@@ -125,6 +131,5 @@ fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     layers::sources(c, panel, run);
     c.unclip();
     panel.frame(c, 1.0);
-    panel.x_ticks(c, true, 10.0);
-    panel.y_ticks(c, 50.0, 10.0);
+    axes(c, panel);
 }

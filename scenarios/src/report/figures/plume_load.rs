@@ -1,4 +1,4 @@
-//! What the map shows of the plume: chemical above each square metre of bed.
+//! What the map shows of the plume: chemical above each square metre of bed; and levels for what is on any grid.
 
 use super::contours::Grid;
 use super::panel::{Panel, decade, power_of_ten};
@@ -15,7 +15,7 @@ const LEAST_PX: f64 = 3.0;
 /// Where the kernel ends, in spreads; beyond lie 1.1 % of its mass.
 const REACH: f64 = 3.0;
 
-/// Depth-integrated concentration and the levels to draw, mg/m².
+/// Depth-integrated concentration and the levels to draw, mg/m²; or another amount on a grid.
 pub(super) struct PlumeLoad {
     pub(super) grid: Grid,
     pub(super) levels: Vec<f64>,
@@ -39,14 +39,17 @@ impl PlumeLoad {
             step: [cell, cell],
             values: vec![0.0; n[0] * n[1]],
         };
-        // Each filament shown stands for as many of those there are.
-        let share = plume.total.max(plume.points.len()) as f64 / plume.points.len() as f64;
-        for &[x, y, _, size, mass] in &plume.points {
+        for &[x, y, _, size, mass, _] in &plume.points {
             let p = [f64::from(x), f64::from(y)];
             let sd = f64::from(size).max(LEAST_PX * per_px);
-            let load = f64::from(mass) * 1e6 * share / (TAU * sd * sd);
+            let load = f64::from(mass) * 1e6 / (TAU * sd * sd);
             grid.add(p, sd, load);
         }
+        Self::on(grid)
+    }
+
+    /// The levels of what is on a grid; none when there is nothing to show.
+    pub(super) fn on(grid: Grid) -> Option<Self> {
         let max = grid.values.iter().fold(0.0, |m: f64, v| m.max(*v));
         if !(max > 0.0 && max.is_finite()) {
             return None;
@@ -130,7 +133,8 @@ mod tests {
         let plume = PlumeFrame {
             t_s: 0.0,
             total: 20,
-            points: vec![[0.0, 0.0, -5.0, 8.0, 1e-3]; 2],
+            // Two shown, each for ten of a gram.
+            points: vec![[0.0, 0.0, -5.0, 8.0, 1e-2, 10.0]; 2],
         };
         let load = PlumeLoad::of(&plume, &panel()).unwrap();
         let g = &load.grid;
@@ -149,7 +153,7 @@ mod tests {
         let away = PlumeFrame {
             t_s: 0.0,
             total: 1,
-            points: vec![[1e6, 0.0, 0.0, 1.0, 1.0]],
+            points: vec![[1e6, 0.0, 0.0, 1.0, 1.0, 1.0]],
         };
         assert!(PlumeLoad::of(&away, &panel()).is_none());
     }

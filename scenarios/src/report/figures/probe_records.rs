@@ -109,7 +109,7 @@ fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     let (begin, end) = (t.rows[0].t_s, t.rows[t.rows.len() - 1].t_s);
     let length = CLOSER_S.min(end - begin);
     let from = spikes(most)
-        .map(|r| (r.t_s - 0.5 * length).clamp(begin, end - length))
+        .map(|r| (r.t_s - 0.5 * length).clamp(begin, (end - length).max(begin)))
         .map(|s| {
             let inside = spikes(most).filter(|r| (s..s + length).contains(&r.t_s));
             (inside.count(), s)

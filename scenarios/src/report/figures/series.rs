@@ -5,6 +5,7 @@ use super::layers_panel::layers;
 use super::panel::Panel;
 use super::series_panels as panels;
 use crate::report::{RobotTrack, RunReport};
+use robots::handoff::region_name;
 
 const LEFT: f64 = 92.0;
 const WIDTH: f64 = 800.0;
@@ -46,7 +47,12 @@ pub(in super::super) fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
         panel.frame(&mut c, 1.0);
         panel.x_ticks(&mut c, k + 1 == kinds.len(), 11.0);
         for d in &t.declarations {
-            panels::event(&mut c, &panel, d.t_s, if k == 0 { "declared" } else { "" });
+            let words = match (k, d.at_edge(), d.region) {
+                (0, true, Some(of)) => format!("edge of {}", region_name(of)),
+                (0, ..) => "declared".to_owned(),
+                _ => String::new(),
+            };
+            panels::event(&mut c, &panel, d.t_s, &words);
         }
     }
     let below = c.height - 12.0;

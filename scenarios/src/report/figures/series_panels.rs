@@ -3,6 +3,7 @@
 use super::canvas::{Anchor, Canvas, Style};
 use super::palette::{self, DETECTION, GREY, INK};
 use super::panel::{Panel, range_of};
+use super::room::{Room, width_of};
 use crate::report::{RobotTrack, TrackRow};
 use robots::handoff::Behaviour;
 
@@ -30,15 +31,16 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
         [x, panel.bottom()],
         &Style::line(INK, 1.0).dashed("4 3"),
     );
-    let late = x > panel.left + 0.85 * panel.width;
-    let (at, anchor) = if late {
-        (x - 4.0, Anchor::End)
-    } else {
-        (x + 4.0, Anchor::Start)
-    };
-    if !words.is_empty() {
-        c.rimmed([at, panel.top + 12.0], 10.0, anchor, words);
+    if words.is_empty() {
+        return;
     }
+    // On the line's right or left, and line by line further down: where no key and no other event stands.
+    let lines = ((panel.height - 12.0) / 13.0).max(1.0) as usize;
+    let places: Vec<_> = (0..lines)
+        .map(|k| panel.top + 12.0 + 13.0 * k as f64)
+        .flat_map(|y| [([x + 4.0, y], Anchor::Start), ([x - 4.0, y], Anchor::End)])
+        .collect();
+    c.label_at(&places, 10.0, words, panel, false);
 }
 
 fn curve(
@@ -111,7 +113,7 @@ impl Panel {
     pub(super) fn key(&self, c: &mut Canvas, entries: &[(&str, &str)]) {
         let mut x = self.right() - 10.0;
         for (words, colour) in entries.iter().rev() {
-            let width = 6.7 * words.chars().count() as f64;
+            let width = width_of(words, 10.0);
             c.rimmed([x, self.top + 13.0], 10.0, Anchor::End, words);
             let y = self.top + 9.5;
             c.line(
@@ -119,6 +121,12 @@ impl Panel {
                 [x - width - 8.0, y],
                 &Style::line(colour, 2.4),
             );
+            c.keep_free(Room {
+                left: x - width - 27.0,
+                top: self.top,
+                right: x,
+                bottom: self.top + 17.0,
+            });
             x -= width + 40.0;
         }
     }

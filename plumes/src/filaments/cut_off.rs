@@ -1,0 +1,80 @@
+//! Sources that blocked water does not come by: in a closed cell, or on the other side of a thin wall than their cell's middle.
+//!
+//! *Source*: none.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none.
+
+use super::cells::Cells as Lookup;
+use super::room::Room;
+use super::solids::Solids;
+use crate::error::PlumeError;
+use crate::flow::blockage::Cells;
+use crate::flow::grid::FlowGrid;
+use crate::flow::ground::Ground;
+use crate::flow::{BlockageSpec, WaterSpec};
+use crate::release::{Source, SourceSpec, place};
+use std::sync::Arc;
+use world::area::Area;
+use world::obstacles::Obstacles;
+use world::terrain::Terrain;
+
+/// What is wrong with each source whose water is cut off, without solving anything; those that cannot be placed at all are left out.
+///
+/// # Errors
+/// If the cells cannot be made.
+pub fn cut_off(
+    specs: &[SourceSpec],
+    water: &WaterSpec,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+) -> Result<Vec<PlumeError>, PlumeError> {
+    let Some(blockage) = &water.blockage else {
+        return Ok(Vec::new());
+    };
+    let walled = water.is_walled();
+    let cells = Cells::new(blockage, area, &Ground::new(terrain), obstacles, walled)?;
+    let grid = FlowGrid::new(area, terrain, BlockageSpec::grid_shape(blockage));
+    let (mut room, lookup) = (Room::new(&grid), Lookup::new(&grid));
+    room.solids = Solids::new(obstacles.clone());
+    room.lead_round(Arc::new(cells));
+    let placed = specs.iter().enumerate().filter_map(|(n, spec)| {
+        let mut placed = place(std::slice::from_ref(spec), area, terrain).ok()?;
+        Some((n, placed.pop()?))
+    });
+    Ok(placed
+        .filter(|(_, source)| obstacles.containing(&source.p_W).is_none())
+        .filter_map(|(n, source)| problem(&room, &lookup, n, &source))
+        .collect())
+}
+
+/// What is wrong with the n-th source, if anything is.
+pub(super) fn problem(
+    room: &Room,
+    lookup: &Lookup,
+    n: usize,
+    source: &Source,
+) -> Option<PlumeError> {
+    let p = source.p_W.map(|v| v as f32);
+    let at = room.place(lookup, p.into())?;
+    let free = room.open(lookup, &at, true);
+    if free.is_some_and(|free| free.q == at.q) {
+        return None;
+    }
+    let cure = free.map_or("bring it into open water".to_owned(), |free| {
+        let p = room.point(&free);
+        format!(
+            "take a smaller water.blockage.cell_m, or bring it to open water, say east {:.2} m, north {:.2} m, depth {:.2} m",
+            p[0], p[1], -p[2]
+        )
+    });
+    Some(PlumeError::Invalid {
+        field: format!("sources[{n}]"),
+        problem: format!(
+            "source \"{}\" lies in a cell of the blocked water that an obstacle closes or cuts off: no water comes by; {cure}",
+            source.id
+        ),
+    })
+}

@@ -1,0 +1,195 @@
+//! Where dye can be, and the nearest such place to one where it cannot.
+//!
+//! *Source*: none.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: a place in a closed cell is mirrored at the nearest side of an open one; what is parted by a thin wall belongs to the side on
+//! which it is. Obstacles reach into open cells by less than half a cell: there is dye there too, of which nobody asks.
+
+use super::cells::Cells as Lookup;
+use super::room::{Place, Room};
+use crate::flow::blockage::Cells;
+use nalgebra::Vector3;
+
+/// How many cells away an open place is looked for.
+const FAR: usize = 12;
+/// How far inside an open cell what was brought there stays, in cells.
+const INSIDE: f64 = 1e-3;
+
+impl Room {
+    /// A point in the water, or the nearest such.
+    pub(super) fn in_water(&self, lookup: &Lookup, p: [f32; 3]) -> [f32; 3] {
+        if !self.has_solids() {
+            return p;
+        }
+        let open = (self.place(lookup, p))
+            .and_then(|at| Some((at, self.open(lookup, &at, true)?)))
+            .filter(|(at, open)| at.q != open.q);
+        open.map_or(p, |(_, open)| self.point(&open))
+    }
+
+    /// A point outside all obstacles for one in blocked water.
+    pub(super) fn shown(&self, p: [f32; 3]) -> [f32; 3] {
+        if self.cells.is_none() {
+            return p;
+        }
+        let at = Vector3::from(p.map(f64::from));
+        if self.solids.containing(&at).is_none() {
+            return p;
+        }
+        self.solids.way_out(&at).map(|v| v as f32).into()
+    }
+
+    /// Whether dye can be at a place: an open cell, not cut off from its middle by a thin wall; no solid.
+    pub(super) fn is_free(&self, p: &Place) -> bool {
+        let Some(cells) = &self.cells else {
+            return self
+                .solids
+                .containing(&self.horizontal(p.q).push(p.z()))
+                .is_none();
+        };
+        cells.open[cells.cell(p.cell)]
+    }
+
+    /// The nearest place at which dye can be: the place itself, or mirrored at the nearest side of an open cell that is seen from it
+    /// (through nothing but the obstacle it may be in); none if there is none nearby.
+    pub(super) fn open(&self, lookup: &Lookup, p: &Place, looking: bool) -> Option<Place> {
+        let Some(cells) = &self.cells else {
+            if self.is_free(p) {
+                return Some(*p);
+            }
+            let out = self.solids.way_out(&self.horizontal(p.q).push(p.z()));
+            return self.place(lookup, out.map(|v| v as f32).into());
+        };
+        let eye = self.horizontal(p.q).push(p.z());
+        let seen = |cell: [usize; 3]| {
+            !looking || self.solids.is_empty() || self.sees(cells, lookup, &eye, p, cell)
+        };
+        if self.is_free(p) && seen(p.cell) {
+            return Some(*p);
+        }
+        let mut best: Option<(f64, Place)> = None;
+        let size = self.spacing[0].min(self.spacing[1]);
+        let range = |d: usize, r: usize| {
+            let c = p.cell[d];
+            c.saturating_sub(r)..(c + r + 1).min(cells.n[d])
+        };
+        for r in 0..=FAR {
+            if best.is_some_and(|(found, _)| found < (r as f64 - 1.0) * size) {
+                break;
+            }
+            for i in range(0, r) {
+                for j in range(1, r) {
+                    if i.abs_diff(p.cell[0]).max(j.abs_diff(p.cell[1])) != r {
+                        continue;
+                    }
+                    for k in 0..cells.n[2] {
+                        let cell = [i, j, k];
+                        if !cells.open[cells.cell(cell)] {
+                            continue;
+                        }
+                        let (away, place) = self.mirrored(cells, lookup, p, cell);
+                        if best.is_none_or(|(found, _)| away < found) && seen(cell) {
+                            best = Some((away, place));
+                        }
+                    }
+                }
+            }
+        }
+        best.map(|(_, place)| place)
+    }
+
+    /// Whether the middle of a cell is seen from a point: obstacles that hold the point itself are no hindrance.
+    fn sees(
+        &self,
+        cells: &Cells,
+        lookup: &Lookup,
+        eye: &Vector3<f64>,
+        from: &Place,
+        cell: [usize; 3],
+    ) -> bool {
+        let middle = [0, 1].map(|d| (cell[d] as f64 + 0.5) * self.spacing[d]);
+        let Some(at) = self.moved(lookup, from, middle) else {
+            return false;
+        };
+        let s = 0.5 * (cells.s[cell[2]] + cells.s[cell[2] + 1]);
+        let to = self.horizontal(at.q).push(at.bed * (1.0 - s));
+        self.solids.sees(eye, &to)
+    }
+
+    /// Distance (m) from a place to a cell, and the place mirrored into it at its nearest side.
+    fn mirrored(
+        &self,
+        cells: &Cells,
+        lookup: &Lookup,
+        p: &Place,
+        cell: [usize; 3],
+    ) -> (f64, Place) {
+        let mut q = p.q;
+        let mut away = 0.0_f64;
+        for d in 0..3 {
+            let (low, high) = if d == 2 {
+                (cells.s[cell[2]], cells.s[cell[2] + 1])
+            } else {
+                let h = self.spacing[d];
+                (cell[d] as f64 * h, (cell[d] as f64 + 1.0) * h)
+            };
+            let off = (low - q[d]).max(q[d] - high).max(0.0);
+            let metres = if d == 2 { off * -p.bed } else { off };
+            away += metres * metres;
+            let inside = INSIDE * (high - low);
+            if q[d] < low {
+                q[d] = 2.0 * low - q[d];
+            } else if q[d] > high {
+                q[d] = 2.0 * high - q[d];
+            }
+            q[d] = q[d].clamp(low + inside, high - inside);
+        }
+        let bed = self.bed(lookup, q);
+        (away.sqrt(), Place { q, bed, cell })
+    }
+}
+
+/// Columns to the nearest column with a closed face beside bed and surface, up to 255; laid out as the nodes of the flow grid.
+pub(super) fn clearances(cells: &Cells) -> Vec<u8> {
+    let [nx, ny, nz] = cells.n;
+    let mut clear = vec![u8::MAX; (nx + 1) * (ny + 1)];
+    let mut edge = Vec::new();
+    for i in 0..nx {
+        for j in 0..ny {
+            let whole = (0..nz).all(|k| {
+                let c = [i, j, k];
+                let beyond = |d: usize| {
+                    let mut f = c;
+                    f[d] += 1;
+                    f
+                };
+                let sides = (0..2).all(|d| cells.passes(d, c) && cells.passes(d, beyond(d)));
+                sides && (k == 0 || cells.passes(2, c))
+            });
+            if !whole {
+                clear[i * (ny + 1) + j] = 0;
+                edge.push([i, j]);
+            }
+        }
+    }
+    let mut r = 0;
+    while !edge.is_empty() && r < u8::MAX {
+        r += 1;
+        let mut next = Vec::new();
+        for [i, j] in edge {
+            for a in i.saturating_sub(1)..(i + 2).min(nx) {
+                for b in j.saturating_sub(1)..(j + 2).min(ny) {
+                    let c = &mut clear[a * (ny + 1) + b];
+                    if *c == u8::MAX {
+                        *c = r;
+                        next.push([a, b]);
+                    }
+                }
+            }
+        }
+        edge = next;
+    }
+    clear
+}

@@ -1,0 +1,148 @@
+//! What a plume holds: how many filaments, how much dye, each filament, and all of it in a digest.
+//!
+//! A filament that is shown for others (`decimated`) carries the mass of all of them.
+
+use super::plume::Plume;
+use super::store::Store;
+use crate::flow::grid::FlowGrid;
+use crate::release::Source;
+use world::record::Digest;
+
+impl Plume {
+    /// Time of the latest drift's end, s.
+    #[must_use]
+    pub fn now_s(&self) -> f64 {
+        self.now_s
+    }
+
+    /// Filaments in the domain.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.stores.iter().map(Store::len).sum()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Filaments ever released.
+    #[must_use]
+    pub fn released(&self) -> u64 {
+        self.stores.iter().map(|s| s.released).sum()
+    }
+
+    /// Filaments that have left the domain.
+    #[must_use]
+    pub fn left(&self) -> u64 {
+        self.stores.iter().map(|s| s.left).sum()
+    }
+
+    /// How often a filament was turned back at a solid.
+    #[must_use]
+    pub fn turned_back(&self) -> u64 {
+        self.turned_back
+    }
+
+    /// Mass in the domain, kg.
+    #[must_use]
+    pub fn mass_in_kg(&self) -> f64 {
+        self.total(|s| s.len() as f64)
+    }
+
+    /// Mass ever released, kg.
+    #[must_use]
+    pub fn mass_released_kg(&self) -> f64 {
+        self.total(|s| s.released as f64)
+    }
+
+    /// Mass that has left the domain, kg.
+    #[must_use]
+    pub fn mass_left_kg(&self) -> f64 {
+        self.total(|s| s.left as f64)
+    }
+
+    fn total(&self, count: impl Fn(&Store) -> f64) -> f64 {
+        self.stores.iter().map(|s| count(s) * s.filament_kg).sum()
+    }
+
+    /// The sources, as placed.
+    #[must_use]
+    pub fn sources(&self) -> &[Source] {
+        &self.sources
+    }
+
+    /// The flow as the filaments see it.
+    #[must_use]
+    pub fn grid(&self) -> &FlowGrid {
+        &self.grid
+    }
+
+    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked water one in that part of an
+    /// obstacle that its cells leave open is shown at the nearest free place.
+    pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
+        self.stores
+            .iter()
+            .flat_map(move |s| (0..s.len()).map(move |n| self.filament(s, n)))
+    }
+
+    /// Every k-th filament of each source, k the least that leaves at most `max_n` (but one of each source at least); the
+    /// same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it stands for, so that
+    /// the masses of a source sum to what is in the water of it, and how many those are.
+    #[must_use]
+    pub fn decimated(&self, max_n: usize) -> Vec<[f32; 6]> {
+        let shown =
+            |every: usize| -> usize { (self.stores.iter()).map(|s| s.len().div_ceil(every)).sum() };
+        let longest = self.stores.iter().map(Store::len).max().unwrap_or(0);
+        let mut every = self.len().div_ceil(max_n.max(1)).max(1);
+        while shown(every) > max_n && every < longest {
+            every += 1;
+        }
+        let of = |s: &Store| {
+            let stands_for = s.len() as f32 / s.len().div_ceil(every).max(1) as f32;
+            let shown = (0..s.len()).step_by(every);
+            let rows = shown.map(|n| {
+                let [x, y, z, size, mass] = self.filament(s, n);
+                [x, y, z, size, mass * stands_for, stands_for]
+            });
+            rows.collect::<Vec<_>>()
+        };
+        self.stores.iter().flat_map(of).collect()
+    }
+
+    fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
+        let size = s.size.horizontal(self.now_s - s.born_s[n]);
+        let [x, y, z] = self.room.shown([s.x[n], s.y[n], s.z[n]]);
+        [x, y, z, size, s.filament_kg as f32]
+    }
+
+    /// Takes the whole state into a digest.
+    pub fn digest_into(&self, digest: &mut Digest) {
+        for (s, r) in self.stores.iter().zip(&self.releases) {
+            digest.f64s(&[
+                s.released as f64,
+                s.left as f64,
+                r.next_s().unwrap_or(f64::NEG_INFINITY),
+            ]);
+            for v in [&s.x, &s.y, &s.z] {
+                digest.f32s(v);
+            }
+        }
+    }
+
+    /// East, north, up of every filament, as carried.
+    #[cfg(test)]
+    pub(super) fn all(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
+        let of = |s: &Store, n: usize| [s.x[n], s.y[n], s.z[n]];
+        self.stores
+            .iter()
+            .flat_map(move |s| (0..s.len()).map(move |n| of(s, n)))
+    }
+
+    #[cfg(test)]
+    pub(super) fn stores_mut(&mut self) -> &mut [Store] {
+        self.index.take();
+        &mut self.stores
+    }
+}

@@ -1,0 +1,108 @@
+//! What a map of where the source may be will hold and do, before it is made.
+//!
+//! *Source*: the mappers' own loops beside this file; unit costs measured as `world::cost` says.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: sets of releases are counted as if the flow were steady: each set then holds ages that differ by 0.8 κ.
+
+use super::catalogue::MapSpec;
+use super::hmm::HmmSpec;
+use super::spec::{GridSpec, TrajectorySpec};
+use world::cost::{Cost, Part, Times};
+use world::math;
+
+/// Memory of a cell: belief, its logarithm, likelihood, those of the frame and of the recording, bytes.
+const CELL_BYTES: f64 = 80.0;
+/// Time of a cell or particle and a set of releases, s.
+const CELL_S: f64 = 1e-9;
+/// See above.
+const PARTICLE_S: f64 = 2.7e-9;
+/// Time to gather a release, s, and memory of one, bytes.
+const RELEASE: (f64, f64) = (20e-9, 80.0);
+/// Memory of a step of the chain, and of a level in it, bytes; time of a hop of a row's cell, s.
+const STEP_BYTES: (f64, f64) = (400.0, 128.0);
+/// See above.
+const HOP_S: f64 = 0.5e-9;
+/// Most different hops of a step, as the chain is built.
+const HOPS: f64 = 9.0;
+
+impl GridSpec {
+    /// How many cells it asks for.
+    #[must_use]
+    pub fn cells(&self) -> f64 {
+        f64::from(self.along) * f64::from(self.across) * f64::from(self.vertical)
+    }
+
+    fn cost(&self) -> Cost {
+        let cells = self.cells();
+        Cost::of(Part::new("grid", format!("{cells:.0} cells")).holds(cells * CELL_BYTES))
+    }
+}
+
+impl TrajectorySpec {
+    /// Releases of the look-back `period_s` apart, and the sets that they are taken together to.
+    fn releases(&self, period_s: f64) -> [f64; 2] {
+        let all = self.lookback_s.get() / period_s;
+        let grows = math::ln(1.0 + 0.8 * self.merge.get());
+        let sets = 5.0 + 1.3 * math::ln(all.max(1.0)) / grows;
+        // Nothing taken together: no number.
+        [all, if sets < all { sets } else { all }]
+    }
+}
+
+impl MapSpec {
+    /// What it takes; paths below `map`.
+    #[must_use]
+    pub fn cost(&self, times: &Times) -> Cost {
+        let by_kernel = |grid: &GridSpec, way: &TrajectorySpec, period_s: f64, each_s: f64| {
+            let [all, sets] = way.releases(way.release_period_s.get());
+            let updates = times.mission_s / period_s.max(times.step_s);
+            let mut cost = grid.cost();
+            let what = format!("{updates:.1e} updates of the map");
+            let update = Part::new("update_period_s", what)
+                .takes(updates * (sets * each_s + all * RELEASE.0))
+                .by(period_s, -1.0);
+            let what = format!("{all:.1e} releases looked back at");
+            let kept = Part::new("trajectory.release_period_s", what)
+                .holds(all * RELEASE.1)
+                .by(way.release_period_s.get(), -1.0);
+            cost.parts.extend([update, kept]);
+            cost
+        };
+        match self {
+            MapSpec::Pomdp(s) | MapSpec::Bayesian(s) => {
+                let each_s = s.grid.cells() * CELL_S;
+                by_kernel(&s.grid, &s.trajectory, s.update_period_s.get(), each_s)
+            }
+            MapSpec::ParticleFilter(s) => {
+                let each_s = f64::from(s.particles) * PARTICLE_S;
+                by_kernel(&s.grid, &s.trajectory, s.update_period_s.get(), each_s)
+            }
+            MapSpec::Hmm(s) => s.cost(times),
+        }
+    }
+}
+
+impl HmmSpec {
+    fn cost(&self, times: &Times) -> Cost {
+        let step_s = self.step_s.get();
+        let [steps, sets] = self.trajectory.releases(step_s);
+        let (cells, levels) = (self.grid.cells(), f64::from(self.grid.vertical));
+        let rows = f64::from(self.grid.along) + f64::from(self.grid.across) + levels;
+        let hops_s = if self.sheared && levels > 1.0 {
+            3.0 * cells * HOPS * HOP_S
+        } else {
+            rows * HOPS * HOP_S
+        };
+        let updates = times.mission_s / step_s.max(times.step_s);
+        let levels = if self.sheared { levels } else { 1.0 };
+        let mut cost = self.grid.cost();
+        let chain = Part::new("step_s", format!("{steps:.1e} steps of the chain"))
+            .holds(steps * (STEP_BYTES.0 + levels * STEP_BYTES.1))
+            .takes(updates * (steps * hops_s + sets * cells * CELL_S))
+            .by(step_s, -1.0);
+        cost.parts.push(chain);
+        cost
+    }
+}

@@ -1,0 +1,65 @@
+//! The speed that a vehicle makes at full ahead.
+
+use super::vehicle::Vehicle;
+use crate::handoff::ActuatorCommand;
+use nalgebra::{Matrix3, Vector3};
+use world::fields::WaterSample;
+use world::frames::{Pose, Truth};
+use world::units::Heading;
+
+/// Time from rest to a steady speed, s: some ten times a hull's time constant.
+const RUN_UP_S: f64 = 60.0;
+/// Step, s.
+const STEP_S: f64 = 0.02;
+/// Density of sea water, kg/m³.
+const WATER_KG_M3: f64 = 1025.0;
+
+impl Vehicle {
+    /// Greatest speed through still water with the propeller at `rpm` or at its own limit, m/s: where thrust and drag
+    /// balance, found by running the vehicle's own equation from rest.
+    #[must_use]
+    pub fn top_speed_m_s(&self, rpm: f64) -> f64 {
+        let mut vehicle = self.clone();
+        let water = WaterSample {
+            velocity: Vector3::zeros(),
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: WATER_KG_M3,
+        };
+        let ahead = ActuatorCommand {
+            rpm,
+            ..ActuatorCommand::default()
+        };
+        let level = Pose::level(Vector3::new(0.0, 0.0, -10.0), Heading::from_deg(0.0));
+        let mut truth = Truth::at_rest(level);
+        let mut top: f64 = 0.0;
+        for _ in 0..(RUN_UP_S / STEP_S) as u32 {
+            truth = vehicle.step(&truth, &water, &ahead, STEP_S);
+            // On its line: a heel or a turn would cost speed that a helm would not lose.
+            truth.pose = level;
+            truth.v_WB_B = Vector3::new(truth.v_WB_B.x, 0.0, 0.0);
+            truth.w_WB_B = Vector3::zeros();
+            top = top.max(truth.v_WB_B.x);
+        }
+        top
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{RemusSpec, VehicleSpec};
+    use super::*;
+    use std::path::Path;
+
+    /// Full ahead a REMUS 100 of the published model makes some 2.5 m/s: 1000 rpm for 1.674 m/s, 1525 rpm at most.
+    #[test]
+    fn full_ahead_follows_from_thrust_and_drag() {
+        let remus = VehicleSpec::Remus100(RemusSpec::default());
+        let vehicle = Vehicle::load(&remus, Path::new("")).unwrap();
+        let cruise = vehicle.top_speed_m_s(1000.0);
+        assert!((cruise - 1.674).abs() < 0.05, "{cruise}");
+        let top = vehicle.top_speed_m_s(1e6);
+        assert!((top - 1.674 * 1.525).abs() < 0.08, "{top}");
+        assert_eq!(top, vehicle.top_speed_m_s(1525.0));
+    }
+}

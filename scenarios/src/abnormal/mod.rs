@@ -1,0 +1,227 @@
+//! What goes wrong in a run without ending it: a vehicle outside its area, instruments that hear nothing, contacts.
+//!
+//! A watch compares what is with what should be, tick by tick, and keeps an event for each time something went
+//! wrong, with place and duration. Nothing of it reaches the vehicle or the digest. Another kind of event is
+//! another line in [`Abnormality`] and in `system::watch`.
+
+pub(crate) mod system;
+
+use bevy_ecs::prelude::{Component, Resource};
+use nalgebra::Vector3;
+use serde::Serialize;
+
+/// Farther outside the area than this is left, m: a vehicle needs as much to turn round at its edge (R of Pang 2009,
+/// Table 4).
+const OUTSIDE_M: f64 = 10.0;
+/// An instrument that hears nothing for so long is blind, s: in turns and dives it misses a few readings.
+const BLIND_S: f64 = 10.0;
+/// What stops for less than this and comes again is one event, s.
+const CALM_S: f64 = 5.0;
+/// Most events of a kind and robot; later ones are counted into the last.
+const MOST: usize = 20;
+
+/// A kind of event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Abnormality {
+    /// The vehicle was more than 10 m outside the area.
+    LeftArea,
+    /// Its Doppler log heard no bed.
+    NoBottomLock,
+    /// Its altimeter heard no bed.
+    NoAltitude,
+    /// Its current profiler had no water to measure.
+    NoFlow,
+    /// It touched the bed or an obstacle.
+    Touched,
+}
+
+impl Abnormality {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::LeftArea,
+        Self::NoBottomLock,
+        Self::NoAltitude,
+        Self::NoFlow,
+        Self::Touched,
+    ];
+
+    /// In words, for people.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::LeftArea => "left the area",
+            Self::NoBottomLock => "no bottom lock",
+            Self::NoAltitude => "no altitude",
+            Self::NoFlow => "no flow",
+            Self::Touched => "touched the bed or an obstacle",
+        }
+    }
+
+    /// How long it must last to count, s.
+    fn patience_s(self) -> f64 {
+        match self {
+            Self::LeftArea | Self::Touched => 0.0,
+            Self::NoBottomLock | Self::NoAltitude | Self::NoFlow => BLIND_S,
+        }
+    }
+}
+
+/// Something went wrong for a while.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Abnormal {
+    /// Id of the robot in the scenario.
+    pub robot: String,
+    /// What.
+    pub what: Abnormality,
+    /// Since when, s of mission time.
+    pub t_s: f64,
+    /// How long, so far, s.
+    pub lasted_s: f64,
+    /// It is over.
+    pub over: bool,
+    /// Where it began (ENU), m.
+    pub p_W: Vector3<f64>,
+}
+
+impl Abnormal {
+    /// On one line, for people.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let p = &self.p_W;
+        let lasted = match (self.over, self.lasted_s) {
+            (true, s) => format!(", for {s:.1} s"),
+            (false, s) if s >= 1.0 => format!(", for {s:.0} s and still so"),
+            (false, _) => String::new(),
+        };
+        format!(
+            "{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}",
+            self.what.words(),
+            self.t_s,
+            p.x,
+            p.y,
+            -p.z
+        )
+    }
+}
+
+/// All events of a run so far, by their beginning as they came to count.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Abnormals(pub Vec<Abnormal>);
+
+/// One kind of event of one robot, as it goes on.
+#[derive(Clone, Copy, Debug, Default)]
+struct Episode {
+    /// When and where it began.
+    began: Option<(f64, Vector3<f64>)>,
+    last_s: f64,
+    /// Which of the events it is, once it counts.
+    event: Option<usize>,
+    count: usize,
+}
+
+/// A robot's watch.
+#[derive(Component, Clone, Debug, Default)]
+pub struct Lookout([Episode; Abnormality::ALL.len()]);
+
+impl Lookout {
+    /// Takes in whether something is wrong now; `None` where this tick cannot tell.
+    fn see(
+        &mut self,
+        what: Abnormality,
+        wrong: Option<bool>,
+        robot: &str,
+        t_s: f64,
+        p_W: Vector3<f64>,
+        events: &mut Vec<Abnormal>,
+    ) {
+        let episode = &mut self.0[what as usize];
+        match wrong {
+            Some(true) => {
+                let (began_s, place) = *episode.began.get_or_insert((t_s, p_W));
+                episode.last_s = t_s;
+                let lasted_s = t_s - began_s;
+                if let Some(event) = episode.event {
+                    events[event].lasted_s = t_s - events[event].t_s;
+                    events[event].over = false;
+                } else if lasted_s >= what.patience_s() {
+                    episode.event = Some(events.len());
+                    episode.count += 1;
+                    events.push(Abnormal {
+                        robot: robot.to_string(),
+                        what,
+                        t_s: began_s,
+                        lasted_s,
+                        over: false,
+                        p_W: place,
+                    });
+                }
+            }
+            Some(false) if episode.began.is_some() && t_s - episode.last_s >= CALM_S => {
+                episode.began = None;
+                if let Some(event) = episode.event {
+                    events[event].over = true;
+                }
+                if episode.count < MOST {
+                    episode.event = None;
+                }
+            }
+            Some(false) | None => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The events of one kind, seen once a second.
+    fn events(
+        what: Abnormality,
+        wrong: impl Fn(u32) -> Option<bool>,
+        until_s: u32,
+    ) -> Vec<(f64, f64, bool)> {
+        let (mut lookout, mut events) = (Lookout::default(), Vec::new());
+        for t in 0..until_s {
+            let p = Vector3::new(f64::from(t), 0.0, -1.0);
+            lookout.see(what, wrong(t), "auv0", f64::from(t), p, &mut events);
+        }
+        assert!(events.iter().all(|e| e.p_W.x == e.t_s), "where it began");
+        events.iter().map(|e| (e.t_s, e.lasted_s, e.over)).collect()
+    }
+
+    #[test]
+    fn an_event_has_a_beginning_and_a_duration() {
+        let between = |from: u32, to: u32| move |t: u32| Some((from..=to).contains(&t));
+        let left = Abnormality::LeftArea;
+        assert_eq!(events(left, between(3, 40), 100), [(3.0, 37.0, true)]);
+        assert_eq!(events(left, between(90, 200), 100), [(90.0, 9.0, false)]);
+        assert_eq!(events(left, |_| Some(false), 100), []);
+    }
+
+    #[test]
+    fn blindness_counts_only_when_it_lasts_and_from_its_beginning() {
+        let lost = Abnormality::NoBottomLock;
+        assert_eq!(events(lost, |t| Some((3..=9).contains(&t)), 100), []);
+        assert_eq!(
+            events(lost, |t| Some((3..=20).contains(&t)), 100),
+            [(3.0, 17.0, true)]
+        );
+        // Readings that are not due say nothing.
+        let seldom = |t: u32| t.is_multiple_of(4).then_some(t >= 8);
+        assert_eq!(events(lost, seldom, 41), [(8.0, 32.0, false)]);
+    }
+
+    #[test]
+    fn what_comes_and_goes_is_one_event_and_much_of_it_a_few() {
+        let touched = Abnormality::Touched;
+        assert_eq!(
+            events(touched, |t| Some(t < 40 && t % 3 == 0), 100),
+            [(0.0, 39.0, true)]
+        );
+        let often = events(touched, |t| Some(t % 20 == 0), 10_000);
+        assert_eq!(often.len(), MOST);
+        assert_eq!(often[MOST - 1].0, 380.0);
+        assert_eq!(often[MOST - 1].0 + often[MOST - 1].1, 9_980.0);
+    }
+}

@@ -1,0 +1,49 @@
+//! Work whose panic is an answer: kept off the screen and told to whoever asked.
+
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::sync::Once;
+
+/// What `work` returns, or what its panic said.
+pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
+    hush();
+    let before = QUIET.replace(true);
+    let result = catch_unwind(AssertUnwindSafe(work));
+    QUIET.set(before);
+    result.map_err(|panic| {
+        (panic.downcast_ref::<&str>().map(|s| (*s).to_string()))
+            .or_else(|| panic.downcast_ref::<String>().cloned())
+            .unwrap_or_else(|| "of unknown cause".to_string())
+    })
+}
+
+thread_local! {
+    /// Whether this thread is within such work.
+    static QUIET: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Panics of such work stay off the screen; all others are shown as ever.
+fn hush() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        let shown = take_hook();
+        set_hook(Box::new(move |info| {
+            if !QUIET.get() {
+                shown(info);
+            }
+        }));
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_is_told_and_an_answer_is_passed_on() {
+        assert_eq!(contained(|| 3), Ok(3));
+        let said = contained(|| -> u8 { panic!("the hull is {} m long", -1) });
+        assert_eq!(said, Err("the hull is -1 m long".to_string()));
+        assert!(!QUIET.get());
+    }
+}

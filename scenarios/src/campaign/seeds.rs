@@ -1,0 +1,159 @@
+//! Which seeds the runs of a campaign have.
+
+use ron::value::RawValue;
+use serde::{Deserialize, Deserializer};
+use world::seeds::key;
+
+/// Most seeds of a campaign, and most runs.
+pub(super) const MOST: u64 = 1 << 40;
+
+/// The seeds under each condition; every arm runs with each of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Seeds {
+    /// Consecutive ones, the same under each condition: those of `rheotaxis run --seed`.
+    Literal {
+        /// The first.
+        first: u64,
+        /// How many.
+        count: u64,
+    },
+    /// Each a hash of this seed, the condition and its index: others under each condition, and none that anybody
+    /// would give by hand.
+    Hashed {
+        /// What they are made from.
+        seed: u64,
+        /// How many.
+        count: u64,
+    },
+}
+
+impl Seeds {
+    /// How many under each condition.
+    #[must_use]
+    pub fn count(self) -> u64 {
+        match self {
+            Seeds::Literal { count, .. } | Seeds::Hashed { count, .. } => count,
+        }
+    }
+
+    /// The seed of that index, from 0, under a condition.
+    #[must_use]
+    pub fn seed(self, condition: u64, index: u64) -> u64 {
+        match self {
+            Seeds::Literal { first, .. } => first + index,
+            Seeds::Hashed { seed, .. } => key(
+                seed,
+                &format!("condition {condition}"),
+                &format!("seed {index}"),
+            ),
+        }
+    }
+
+    /// For people.
+    #[must_use]
+    pub fn words(self) -> String {
+        match self {
+            Seeds::Literal { first, count: 1 } => format!("seed {first}"),
+            Seeds::Literal { first, count } => format!("seeds {first} to {}", first + (count - 1)),
+            Seeds::Hashed { seed, count } => format!(
+                "{count} seed{} hashed from {seed}, others under each condition: the column `seed` holds them",
+                if count == 1 { "" } else { "s" }
+            ),
+        }
+    }
+
+    /// What is wrong with its numbers: the field within `seeds`, and what.
+    pub(super) fn fault(self) -> Option<(&'static str, String)> {
+        let count = self.count();
+        if !(1..=MOST).contains(&count) {
+            let problem = format!("must be from 1 to {MOST}, got {count}");
+            return Some(("count", problem));
+        }
+        match self {
+            Seeds::Literal { first, .. } if first.checked_add(count - 1).is_none() => {
+                let most = u64::MAX - (count - 1);
+                let problem = format!("of {count} seeds must be from 0 to {most}, got {first}");
+                Some(("first", problem))
+            }
+            _ => None,
+        }
+    }
+}
+
+/// As the file has it: a number means seeds 1 to that number in version 2, hashed ones in version 1.
+#[derive(Clone, Debug)]
+pub(super) enum Asked {
+    Number(u64),
+    Form(Seeds),
+    /// Neither: what is wrong with it.
+    Odd(String),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+enum Form {
+    Literal { first: u64, count: u64 },
+    Hashed { seed: u64, count: u64 },
+}
+
+const FORMS: &str = "must be a number (`20`: seeds 1 to 20), `Literal(first: 101, count: 20)` (101 to 120) or \
+    `Hashed(seed: 1, count: 20)`, all of whole numbers";
+
+impl<'de> Deserialize<'de> for Asked {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let raw = Box::<RawValue>::deserialize(from)?;
+        let text = raw.trim().get_ron();
+        if let Ok(number) = ron::from_str::<u64>(text) {
+            return Ok(Self::Number(number));
+        }
+        let number = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+        Ok(match ron::from_str::<Form>(text) {
+            Ok(Form::Literal { first, count }) => Self::Form(Seeds::Literal { first, count }),
+            Ok(Form::Hashed { seed, count }) => Self::Form(Seeds::Hashed { seed, count }),
+            Err(_) if number => Self::Odd(format!("{FORMS}, got {text}")),
+            Err(e) => Self::Odd(format!("{FORMS}: {}", e.code)),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn literal_seeds_are_consecutive_and_the_same_under_each_condition() {
+        let seeds = Seeds::Literal {
+            first: 101,
+            count: 3,
+        };
+        let all: Vec<u64> = (0..3).map(|k| seeds.seed(7, k)).collect();
+        assert_eq!(all, [101, 102, 103]);
+        assert_eq!(seeds.seed(0, 2), seeds.seed(1, 2));
+        assert_eq!(seeds.words(), "seeds 101 to 103");
+    }
+
+    #[test]
+    fn hashed_seeds_are_those_of_version_1() {
+        let seeds = Seeds::Hashed { seed: 1, count: 2 };
+        assert_eq!(seeds.seed(3, 1), key(1, "condition 3", "seed 1"));
+        assert_ne!(seeds.seed(3, 1), seeds.seed(2, 1));
+    }
+
+    #[test]
+    fn numbers_out_of_range_are_named_with_their_range() {
+        let literal = |first, count| Seeds::Literal { first, count }.fault();
+        assert_eq!(literal(u64::MAX, 1), None);
+        assert_eq!(literal(0, MOST), None);
+        let said = literal(u64::MAX, 2).unwrap();
+        assert_eq!(said.0, "first");
+        assert!(
+            said.1.contains("from 0 to 18446744073709551614"),
+            "{said:?}"
+        );
+        for count in [0, MOST + 1] {
+            let said = Seeds::Hashed { seed: 1, count }.fault().unwrap();
+            assert_eq!(said.0, "count");
+            assert!(said.1.contains("from 1 to 1099511627776"), "{said:?}");
+        }
+    }
+}

@@ -1,0 +1,245 @@
+//! Whether the scenario asks of vehicle and plume what they can do: speeds, declarations, a plume that has come somewhere.
+
+use super::fault::Found;
+use super::schema::{RobotSpec, Scenario};
+use super::success::SuccessSpec;
+use nalgebra::Vector2;
+use plumes::flow::Water;
+use robots::strategy::StrategySpec;
+use robots::vehicles::Vehicle;
+use world::area::Area;
+use world::fields::Flow;
+use world::terrain::Terrain;
+
+/// A speed so much above what is possible is told: drag and thrust are not known better.
+const SLACK: f64 = 1.05;
+/// A plume shorter than this share of the area has hardly left its source.
+const SHORT: f64 = 0.02;
+
+/// Speeds that the vehicle cannot make, with the water's speed where it starts.
+pub(super) fn speeds(
+    i: usize,
+    robot: &RobotSpec,
+    vehicle: &Vehicle,
+    water_m_s: f64,
+    found: &mut Vec<Found>,
+) {
+    let top_m_s = vehicle.top_speed_m_s(robot.autopilot.rpm_limit.get());
+    let limit_m_s = robot.guidance.water_speed_limit_m_s.get();
+    let makes = |m_s: f64| {
+        format!(
+            "it makes at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s where it starts"
+        )
+    };
+    let start_m_s = robot.start.speed_m_s.get();
+    if start_m_s > SLACK * (top_m_s + water_m_s) {
+        let problem = format!(
+            "{start_m_s} m/s is more than the vehicle can do: {}",
+            makes(top_m_s)
+        );
+        found.push(Found::warning(
+            format!("robots[{i}].start.speed_m_s"),
+            problem,
+        ));
+    }
+    for (field, m_s) in robot.strategy.wishes().speeds_m_s {
+        let can_m_s = top_m_s.min(limit_m_s);
+        if m_s > SLACK * (can_m_s + water_m_s) {
+            let by = if limit_m_s < top_m_s {
+                " (guidance.water_speed_limit_m_s)"
+            } else {
+                ""
+            };
+            let problem = format!(
+                "{m_s} m/s is more than the vehicle can do: {}{by}",
+                makes(can_m_s)
+            );
+            found.push(Found::warning(
+                format!("robots[{i}].strategy.{field}"),
+                problem,
+            ));
+        }
+    }
+    if limit_m_s > SLACK * top_m_s {
+        let problem = format!(
+            "{limit_m_s} m/s bounds nothing: full ahead the vehicle makes {top_m_s:.2} m/s"
+        );
+        found.push(Found::warning(
+            format!("robots[{i}].guidance.water_speed_limit_m_s"),
+            problem,
+        ));
+    }
+}
+
+/// Whether as many declarations can stand as there are sources to declare.
+pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
+    let SuccessSpec::AllDeclared(wanted) = &scenario.success else {
+        return;
+    };
+    let within_m = wanted.within_m.get();
+    // One declaration can be near several sources: counted are those that are too far apart for that.
+    let mut apart: Vec<Vector2<f64>> = Vec::new();
+    for source in &scenario.sources {
+        let p = Vector2::new(source.east_m.get(), source.north_m.get());
+        if apart
+            .iter()
+            .all(|other| (p - other).norm() > 2.0 * within_m)
+        {
+            apart.push(p);
+        }
+    }
+    let robots = scenario
+        .robots
+        .iter()
+        .map(|r| r.strategy.declares_at_most());
+    let most = robots.fold(scenario.gantries.len(), usize::saturating_add);
+    if most < apart.len() {
+        let problem = format!(
+            "{} sources are to be declared, and all strategies together end after {most} declaration{}",
+            apart.len(),
+            if most == 1 { "" } else { "s" }
+        );
+        found.push(
+            Found::warning("success", problem).hint("search in Subregions, or with more robots"),
+        );
+    }
+}
+
+/// Whether the plume has come anywhere when the mission starts.
+pub(super) fn plume(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    water: &Water,
+    found: &mut Vec<Found>,
+) {
+    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
+    if !scenario.robots.iter().any(seeks) && scenario.gantries.is_empty() {
+        return;
+    }
+    let spin_up_s = scenario.time.spin_up_s.get();
+    let Ok(placed) = plumes::release::place(&scenario.sources, area, terrain) else {
+        return;
+    };
+    let fastest = placed
+        .iter()
+        .map(|s| water.velocity(&s.p_W, 0.0).xy().norm());
+    let Some(m_s) = fastest.max_by(f64::total_cmp) else {
+        return;
+    };
+    let reach_m = spin_up_s * m_s;
+    let moves = m_s > 1e-3;
+    if spin_up_s <= 0.0 || moves && reach_m < SHORT * area.length_m {
+        let problem = format!(
+            "the plume has come {reach_m:.1} m when the mission starts: there is nothing to find yet"
+        );
+        let hint = if moves {
+            format!(
+                "{:.0} s take it through the area",
+                (area.length_m / m_s).ceil()
+            )
+        } else {
+            "give it time to develop".to_string()
+        };
+        found.push(Found::warning("time.spin_up_s", problem).hint(hint));
+    }
+}
+
+/// Whether anything can come of it.
+pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
+    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
+    let declares = scenario.success.declared_within_m().is_some();
+    if scenario.sources.is_empty() {
+        if let Some(i) = scenario.robots.iter().position(seeks) {
+            found.push(Found::warning(
+                format!("robots[{i}].strategy"),
+                "it searches, but the scenario has no source to find",
+            ));
+        } else if declares {
+            found.push(Found::warning(
+                "success",
+                "a declaration near a source is asked for, but the scenario has no source",
+            ));
+        }
+    }
+    if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
+        found.push(Found::warning(
+            "success",
+            "a declaration is asked for, but no robot searches",
+        ));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::told::told;
+
+    #[test]
+    fn speeds_that_no_thrust_makes_are_told() {
+        let channel = "uniform_channel";
+        assert_eq!(
+            told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 2.0")]),
+            [""; 0]
+        );
+        let fast = told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 15")]);
+        assert_eq!(fast.len(), 1, "{fast:?}");
+        assert!(
+            fast[0].starts_with("robots[0].strategy.speed_m_s: 15 m/s is more than the vehicle can do: it makes at most 2.00 m/s"),
+            "{fast:?}"
+        );
+        let start = told(
+            channel,
+            &[(
+                "heading_deg: 0, speed_m_s: 1.5",
+                "heading_deg: 0, speed_m_s: 15",
+            )],
+        );
+        assert!(
+            start[0].starts_with("robots[0].start.speed_m_s: 15 m/s is more"),
+            "{start:?}"
+        );
+        let limit = "estimator: DeadReckoning(), guidance: (water_speed_limit_m_s: 15)";
+        let limit = told(channel, &[("estimator: DeadReckoning()", limit)]);
+        assert_eq!(limit.len(), 1, "{limit:?}");
+        assert!(
+            limit[0].contains("full ahead the vehicle makes 2.5"),
+            "{limit:?}"
+        );
+    }
+
+    #[test]
+    fn more_sources_than_declarations_are_told() {
+        let three = "(id: \"s2\", east_m: 0, north_m: 0, height_m: 2, rate_g_s: 0.02), \
+            (id: \"s3\", east_m: 100, north_m: 20, height_m: 2, rate_g_s: 0.02), (id: \"s1\"";
+        let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 20)");
+        assert_eq!(
+            told("uniform_channel", &[("(id: \"s1\"", three), all]),
+            [
+                "success: 3 sources are to be declared, and all strategies together end after 1 declaration"
+            ]
+        );
+        // One declaration half-way is near them all.
+        let all = ("Declared(within_m: 20)", "AllDeclared(within_m: 200)");
+        assert_eq!(
+            told("uniform_channel", &[("(id: \"s1\"", three), all]),
+            [""; 0]
+        );
+        assert_eq!(told("duck_mt", &[]), [""; 0]);
+    }
+
+    #[test]
+    fn a_search_for_a_plume_that_has_not_left_its_source_is_told() {
+        let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 0")]);
+        assert_eq!(
+            said,
+            [
+                "time.spin_up_s: the plume has come 0.0 m when the mission starts: there is nothing to find yet"
+            ]
+        );
+        let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 10")]);
+        assert!(
+            said[0].starts_with("time.spin_up_s: the plume has come "),
+            "{said:?}"
+        );
+    }
+}

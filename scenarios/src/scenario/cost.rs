@@ -1,0 +1,205 @@
+//! What a scenario will hold and do, part by part, before any of it is built.
+
+use super::fault::Found;
+use super::schema::{RobotSpec, Scenario, TerrainSpec};
+use robots::strategy::StrategySpec;
+use std::sync::atomic::{AtomicU64, Ordering};
+use world::cost::{Cost, Part, Times, duration, memory};
+use world::limits::shown;
+
+/// Memory that a run may take unless another limit is given, bytes: half of what a common machine has.
+pub const MEMORY: f64 = 4e9;
+/// A run estimated to take longer is warned of, s.
+const LONG_S: f64 = 7200.0;
+/// Parts named in an estimate.
+const NAMED: usize = 3;
+/// Memory of the program with fonts and figures, bytes, and time to start and to draw, s.
+const PROGRAM: (f64, f64) = (50e6, 0.2);
+/// Time of a step of a vehicle with its instruments and its mind, of a surface wave in it, and of a gantry, s.
+const VEHICLE_S: [f64; 3] = [9e-6, 1e-6, 15e-6];
+/// Time of a frame of a robot in all files, s, and memory of its rows, bytes, of at most so many.
+const FRAME_S: f64 = 60e-6;
+/// See above.
+const ROWS: (f64, f64) = (400.0, 40_000.0);
+/// Time of a filament in a picture of the plume, s.
+const POINT_S: f64 = 0.3e-6;
+
+/// Limit of this process, bytes, as bits: memory is the process's, whatever it reads and runs.
+static LIMIT: AtomicU64 = AtomicU64::new(MEMORY.to_bits());
+
+/// Memory that a run of this process may take, bytes.
+#[must_use]
+pub fn limit() -> f64 {
+    f64::from_bits(LIMIT.load(Ordering::Relaxed))
+}
+
+/// Sets [`limit`] for all scenarios that are checked from now on.
+pub fn set_limit(bytes: f64) {
+    LIMIT.store(bytes.to_bits(), Ordering::Relaxed);
+}
+
+/// Its times.
+#[must_use]
+pub fn times(scenario: &Scenario) -> Times {
+    let t = &scenario.time;
+    Times {
+        step_s: t.step_s.get(),
+        spin_up_s: t.spin_up_s.get(),
+        spin_up_period_s: t.spin_up_period_s.get(),
+        mission_s: t.limit_s.get(),
+        drift_period_s: t.drift_period_s.get(),
+        flow_period_s: t.flow_period_s.get(),
+    }
+}
+
+/// What it takes, in plain arithmetic.
+#[must_use]
+pub fn cost(scenario: &Scenario) -> Cost {
+    let (area, times) = (scenario.area.build(), times(scenario));
+    let depth_m = match &scenario.terrain {
+        TerrainSpec::Level(level) => level.depth_m.get(),
+        TerrainSpec::Slope(slope) => slope.deep_m.get().max(slope.shallow_m.get()),
+    };
+    let program = Part::new("", "the program and its figures");
+    let mut cost = Cost::of(program.holds(PROGRAM.0).takes(PROGRAM.1));
+    cost.add(scenario.water.cost(&area, depth_m, &times));
+    let carries_m_s = scenario.water.carries_m_s();
+    for (i, source) in scenario.sources.iter().enumerate() {
+        let own = source.release.cost(&area, carries_m_s, &times);
+        cost.add(own.under(&format!("sources[{i}].release")));
+    }
+    let waves = scenario.water.waves();
+    for (i, robot) in scenario.robots.iter().enumerate() {
+        let path = format!("robots[{i}]");
+        cost.add(robot_cost(robot, scenario, depth_m, waves, &times).under(&path));
+    }
+    let steps = times.mission_s / times.step_s;
+    for i in 0..scenario.gantries.len() {
+        let part = Part::new(format!("gantries[{i}]"), "its steps");
+        cost.parts.push(part.takes(steps * VEHICLE_S[2]));
+    }
+    cost.parts.extend(recording(scenario, &times));
+    cost
+}
+
+fn robot_cost(
+    robot: &RobotSpec,
+    scenario: &Scenario,
+    depth_m: f64,
+    waves: f64,
+    times: &Times,
+) -> Cost {
+    let area = scenario.area.build();
+    let steps = times.mission_s / times.step_s;
+    let hull = Part::new("", format!("{steps:.1e} steps of a vehicle"));
+    let mut cost = Cost::of(hull.takes(steps * (VEHICLE_S[0] + waves * VEHICLE_S[1])));
+    let looks = robot.strategy.flies_for().contains(&true);
+    let obstacles = scenario.obstacles.len();
+    cost.add((robot.sensors.cost(obstacles, looks, times)).under("sensors"));
+    if let Some(map) = &robot.map {
+        cost.add(map.cost(times).under("map"));
+    }
+    if !matches!(robot.strategy, StrategySpec::OpenLoop(_)) {
+        let own = robot
+            .strategy
+            .cost(&area, depth_m, robot.chart.len(), times);
+        cost.add(own.under("strategy"));
+    }
+    cost
+}
+
+/// Frames and pictures of the plume.
+fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
+    let r = &scenario.record;
+    let n = (scenario.robots.len() + scenario.gantries.len()) as f64;
+    let frames = n * times.mission_s / r.frame_period_s.get();
+    let shown = times.mission_s / r.plume_period_s.get();
+    let points = f64::from(r.plume_points);
+    [
+        Part::new("record.frame_period_s", format!("{frames:.1e} frames"))
+            .holds(frames.min(n * ROWS.1) * ROWS.0)
+            .takes(frames * FRAME_S)
+            .by(r.frame_period_s.get(), -1.0),
+        Part::new(
+            "record.plume_period_s",
+            format!("{shown:.1e} pictures of the plume"),
+        )
+        .takes(shown * points.min(1e6) * POINT_S)
+        .by(r.plume_period_s.get(), -1.0),
+    ]
+}
+
+/// "about 12 s, 60 MB".
+#[must_use]
+pub fn estimate(cost: &Cost) -> String {
+    format!(
+        "about {}, {}",
+        duration(cost.seconds()),
+        memory(cost.bytes())
+    )
+}
+
+/// The parts that take most time and memory, greatest first: "8 s 1.6e4 nodes of the plume's flow (area)".
+#[must_use]
+pub fn greatest(cost: &Cost) -> Vec<String> {
+    let share =
+        |p: &Part| (p.seconds / cost.seconds().max(1e-9)).max(p.bytes / cost.bytes().max(1.0));
+    let mut parts: Vec<&Part> = cost.parts.iter().filter(|p| share(p) > 0.05).collect();
+    parts.sort_by(|a, b| share(b).total_cmp(&share(a)));
+    let said = |p: &&Part| {
+        let path = if p.path.is_empty() {
+            String::new()
+        } else {
+            format!(" ({})", p.path)
+        };
+        format!(
+            "{}{path}: {}, {}",
+            p.what,
+            duration(p.seconds),
+            memory(p.bytes)
+        )
+    };
+    parts.iter().take(NAMED).map(said).collect()
+}
+
+/// What is too much of it: memory beyond `limit` is an error, hours are a warning. Whether it can be built at all.
+pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
+    if !cost.fits(limit) {
+        let Some(part) = cost.largest() else {
+            return false;
+        };
+        let room = limit - (cost.bytes() - part.bytes);
+        let room = if room.is_nan() { 0.5 * limit } else { room };
+        let legal = (room > 0.0).then(|| part.legal(room)).flatten();
+        let problem = format!(
+            "{}would take {} ({}), the whole run {}; at most {} are allowed",
+            legal.map_or_else(String::new, |l| {
+                let got = part.rule.map_or(f64::NAN, |r| r.value);
+                format!("{l}, got {}: ", shown(got))
+            }),
+            memory(part.bytes),
+            part.what,
+            memory(cost.bytes()),
+            memory(limit)
+        );
+        found.push(Found::error(&part.path, problem).hint("or allow more, as in `--memory 16G`"));
+        return false;
+    }
+    true
+}
+
+/// Whether a run of it takes hours: told of a scenario that could run.
+pub(super) fn patience(cost: &Cost, found: &mut Vec<Found>) {
+    // Not a number is long.
+    if !(cost.seconds() <= LONG_S)
+        && let Some(part) = cost.slowest()
+    {
+        let problem = format!(
+            "the run is estimated to take {}, most of it for {}: {}",
+            duration(cost.seconds()),
+            part.what,
+            duration(part.seconds)
+        );
+        found.push(Found::warning(&part.path, problem));
+    }
+}

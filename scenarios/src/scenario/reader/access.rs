@@ -1,0 +1,118 @@
+//! Fields, elements and choices of a value, one after the other.
+
+use super::fail::{Fail, What};
+use super::tree::{Item, Kind};
+use super::value::Value;
+use serde::de::value::StrDeserializer;
+use serde::de::{DeserializeSeed, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
+
+/// Fields, by their names.
+pub(super) struct Fields<'a, 'b> {
+    pub of: Value<'a, 'b>,
+    pub items: std::vec::IntoIter<Item>,
+    pub value: Option<Item>,
+}
+
+impl MapAccess<'static> for Fields<'_, '_> {
+    type Error = Fail;
+
+    fn next_key_seed<K: DeserializeSeed<'static>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, Fail> {
+        self.value = self.items.next();
+        let Some(item) = &self.value else {
+            return Ok(None);
+        };
+        let name = item.key.as_deref().unwrap_or_default();
+        let key = seed.deserialize(StrDeserializer::<Fail>::new(name));
+        key.map(Some).map_err(|e| e.at(self.of.id))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'static>>(&mut self, seed: V) -> Result<V::Value, Fail> {
+        let id = self
+            .value
+            .as_ref()
+            .expect("its name was asked for before")
+            .node;
+        seed.deserialize(self.of.kid(id)).map_err(|e| e.at(id))
+    }
+}
+
+/// Elements, in their order.
+pub(super) struct Elements<'a, 'b> {
+    pub of: Value<'a, 'b>,
+    pub elements: std::vec::IntoIter<usize>,
+}
+
+impl SeqAccess<'static> for Elements<'_, '_> {
+    type Error = Fail;
+
+    fn next_element_seed<T: DeserializeSeed<'static>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, Fail> {
+        let next = self.elements.next();
+        next.map(|id| seed.deserialize(self.of.kid(id)).map_err(|e| e.at(id)))
+            .transpose()
+    }
+}
+
+/// A choice by its name, and what stands in its parentheses.
+pub(super) struct Choice<'a, 'b> {
+    pub of: Value<'a, 'b>,
+    pub name: String,
+}
+
+impl<'b, 'a> EnumAccess<'static> for Choice<'a, 'b> {
+    type Error = Fail;
+    type Variant = Self;
+
+    fn variant_seed<V: DeserializeSeed<'static>>(self, seed: V) -> Result<(V::Value, Self), Fail> {
+        let variant = seed.deserialize(StrDeserializer::<Fail>::new(&self.name));
+        Ok((variant.map_err(|e| e.at(self.of.id))?, self))
+    }
+}
+
+impl<'a, 'b> Choice<'a, 'b> {
+    /// What stands in its parentheses.
+    fn content(&self) -> Result<Value<'a, 'b>, Fail> {
+        match self.of.node().kind {
+            Kind::Hole(_) => Ok(self.of.hole_kid(&self.name)),
+            Kind::Group(group) if group.bracket == '(' => Ok(Value {
+                unwrapped: true,
+                ..self.of
+            }),
+            _ => self.of.fail(What::Parentheses(self.name.clone())),
+        }
+    }
+}
+
+impl VariantAccess<'static> for Choice<'_, '_> {
+    type Error = Fail;
+
+    fn unit_variant(self) -> Result<(), Fail> {
+        match self.of.node().kind {
+            Kind::Group(_) => self.of.fail(What::Bare(self.name)),
+            _ => Ok(()),
+        }
+    }
+
+    fn newtype_variant_seed<T: DeserializeSeed<'static>>(self, seed: T) -> Result<T::Value, Fail> {
+        let content = self.content()?;
+        let at = content.inner().map_or(content.id, |v| v.id);
+        seed.deserialize(content).map_err(|e| e.at(at))
+    }
+
+    fn tuple_variant<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {
+        self.content()?.tuple(len, visitor)
+    }
+
+    fn struct_variant<V: Visitor<'static>>(
+        self,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fail> {
+        self.content()?.fields("", legal, visitor)
+    }
+}

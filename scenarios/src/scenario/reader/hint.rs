@@ -1,0 +1,185 @@
+//! How to put a mistake right: the nearest name, what to write, the legal range.
+
+use super::tree::{Hole, Kind, Placed, Tree, Wanted};
+use crate::scenario::fault::Found;
+use std::ops::Range;
+
+/// A mistake; its hint is known only when the whole has been read.
+pub(super) struct Told {
+    pub at: Range<usize>,
+    pub found: Found,
+    pub form: Form,
+}
+
+/// What its hint is made from.
+pub(super) enum Form {
+    /// It has it, or needs none.
+    Whole,
+    /// A field and the stand-in in its place.
+    Missing(&'static str, usize),
+    /// The stand-in in place of something of another kind.
+    Kind(usize),
+    /// A choice and the parentheses it got.
+    Parentheses(String, usize),
+}
+
+impl Told {
+    pub(super) fn with_hint(&self, tree: &Tree) -> Placed {
+        let hint = match &self.form {
+            Form::Whole => None,
+            Form::Missing(field, id) => {
+                let hole = hole(tree, *id);
+                let legal = hole
+                    .and_then(legal)
+                    .map_or(String::new(), |l| format!(": {l}"));
+                Some(format!("add `{field}: {}`{legal}", shape(tree, *id)))
+            }
+            Form::Kind(id) => match hole(tree, *id) {
+                Some(Hole {
+                    wanted: Some(Wanted::Fields | Wanted::Tuple(_)),
+                    ..
+                }) => Some(format!("write `{}`", shape(tree, *id))),
+                Some(Hole {
+                    wanted: Some(Wanted::Whole(..)),
+                    ..
+                }) => hole(tree, *id).and_then(legal),
+                Some(Hole {
+                    range: Some(range), ..
+                }) if range != FINITE => Some(range.clone()),
+                _ => None,
+            },
+            Form::Parentheses(name, id) => Some(format!("write `{name}{}`", shape(tree, *id))),
+        };
+        let found = self.found.clone();
+        (
+            self.at.clone(),
+            match hint {
+                Some(hint) => found.hint(hint),
+                None => found,
+            },
+        )
+    }
+}
+
+/// What a number without a narrower range says.
+const FINITE: &str = "must be a finite number";
+
+fn hole(tree: &Tree, id: usize) -> Option<&Hole> {
+    match &tree.nodes[id].kind {
+        Kind::Hole(hole) => Some(hole),
+        _ => None,
+    }
+}
+
+/// What to write in a place: its parentheses and the fields it cannot do without.
+fn shape(tree: &Tree, id: usize) -> String {
+    let field = |name: &str, id: usize| format!("{name}: {}", shape(tree, id));
+    match &tree.nodes[id].kind {
+        Kind::Group(group) => {
+            let fields = group.items.iter().map(|i| match &i.key {
+                Some(name) => field(name, i.node),
+                None => shape(tree, i.node),
+            });
+            format!("({})", fields.collect::<Vec<_>>().join(", "))
+        }
+        Kind::Hole(Hole {
+            wanted: Some(Wanted::Fields),
+            kids,
+            fields,
+            ..
+        }) => {
+            let fields = fields
+                .iter()
+                .map(|f| kids.get(*f).map_or(format!("{f}: ..."), |id| field(f, *id)));
+            format!("({})", fields.collect::<Vec<_>>().join(", "))
+        }
+        Kind::Hole(Hole {
+            wanted: Some(Wanted::Tuple(n)),
+            ..
+        }) => format!("({})", vec!["..."; *n].join(", ")),
+        _ => "...".to_string(),
+    }
+}
+
+/// What is legal in a place, in words.
+fn legal(hole: &Hole) -> Option<String> {
+    let range = hole.range.as_ref().filter(|r| *r != FINITE);
+    let kind = match hole.wanted.as_ref()? {
+        Wanted::Plain(words) => (*words).to_string(),
+        Wanted::Whole(0, most) if *most == u64::MAX.into() => {
+            "a whole number, 0 or greater".to_string()
+        }
+        Wanted::Whole(least, most) => format!("a whole number from {least} to {most}"),
+        Wanted::List => "a list in square brackets".to_string(),
+        Wanted::Choice(choices) => format!("one of {}", choices.join(", ")),
+        Wanted::Fields | Wanted::Tuple(_) => return None,
+    };
+    Some(range.map_or(kind.clone(), |range| format!("{kind}, {range}")))
+}
+
+/// "did you mean" with what there is to choose from.
+pub(super) fn choose(given: &str, legal: &[&str], what: &str) -> String {
+    let all = legal.join(", ");
+    let near = (legal.iter())
+        .map(|l| (distance(given, l), l))
+        .min_by_key(|(d, _)| *d)
+        .filter(|(d, l)| !given.is_empty() && *d <= 1 + l.len() / 3);
+    match near {
+        _ if legal.is_empty() => format!("there are no {what} here"),
+        Some((_, l)) => format!("did you mean `{l}`? {what} here: {all}"),
+        None => format!("{what} here: {all}"),
+    }
+}
+
+/// The one that is surely meant: two edits away at most, and no other so near.
+pub(super) fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
+    let mut near: Vec<(usize, &str)> = legal.iter().map(|l| (distance(given, l), *l)).collect();
+    near.sort_unstable();
+    match near.as_slice() {
+        [(d, l)] | [(d, l), ..] if *d > 2 || *d >= l.len() => None,
+        [(d, _), (e, _), ..] if d == e => None,
+        [(_, l), ..] => Some(*l),
+        [] => None,
+    }
+}
+
+/// Edits (insert, delete, replace) between two words, case ignored.
+fn distance(a: &str, b: &str) -> usize {
+    let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
+    let mut row: Vec<usize> = (0..=b.chars().count()).collect();
+    for (i, ca) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, cb) in b.chars().enumerate() {
+            let replaced = diagonal + usize::from(ca != cb);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[row.len() - 1]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn edit_distance_counts_edits() {
+        assert_eq!(distance("lenght_m", "length_m"), 2);
+        assert_eq!(distance("Zigzag", "ZigZag"), 0);
+        assert_eq!(distance("", "abc"), 3);
+    }
+
+    #[test]
+    fn only_a_near_name_is_proposed() {
+        let legal = ["length_m", "width_m"];
+        assert!(choose("lenght_m", &legal, "fields").starts_with("did you mean `length_m`?"));
+        assert_eq!(
+            choose("colour", &["length_m"], "fields"),
+            "fields here: length_m"
+        );
+        assert_eq!(nearest("lenght_m", &legal), Some("length_m"));
+        assert_eq!(nearest("n", &["x", "y"]), None);
+        assert_eq!(nearest("east", &["east_m", "east_n"]), None);
+    }
+}

@@ -1,0 +1,356 @@
+//! Reads a value to its end: what cannot be read is told and replaced, until nothing is left to tell.
+
+use super::fail::{Fail, What};
+use super::hint::{Form, Told, choose, nearest};
+use super::scalar;
+use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
+use super::value::{Reading, Value};
+use crate::scenario::fault::Found;
+use crate::scenario::outline::{Outline, joined};
+use serde::de::DeserializeOwned;
+use std::cell::RefCell;
+use std::ops::Range;
+
+/// Most rounds of one reading; each tells a mistake or gives a stand-in another value.
+const ROUNDS: usize = 4000;
+/// Most mistakes told of one text.
+const MOST: usize = 200;
+/// Most values that a stand-in tries.
+const TRIES: usize = 12;
+/// Longest value repeated in a message, bytes.
+pub(super) const SHORT: usize = 40;
+
+/// A text in reading.
+pub(super) struct Mender<'a> {
+    pub(super) reading: Reading<'a>,
+    told: Vec<Told>,
+}
+
+impl<'a> Mender<'a> {
+    pub(super) fn new(text: &'a str, tree: Tree) -> Self {
+        let tree = RefCell::new(tree);
+        let reading = Reading {
+            text,
+            tree,
+            filling: 0,
+        };
+        Self {
+            reading,
+            told: Vec::new(),
+        }
+    }
+
+    /// Reads the whole, with one of the sets of stand-ins. `None` where none of them fits.
+    pub(super) fn read<T: DeserializeOwned>(&mut self, filling: usize) -> Option<T> {
+        self.reading.filling = filling;
+        for node in &mut self.tree().nodes {
+            if let Kind::Hole(hole) = &mut node.kind {
+                *hole = Hole {
+                    absent: filling == 2,
+                    ..Hole::default()
+                };
+            }
+        }
+        for _ in 0..ROUNDS {
+            let id = self.tree().root;
+            let root = Value {
+                reading: &self.reading,
+                id,
+                unwrapped: false,
+            };
+            match T::deserialize(root) {
+                Ok(value) if self.settled() => return Some(value),
+                Ok(_) => {}
+                Err(fail) => {
+                    if self.told.len() > MOST || !self.mend(fail) {
+                        return None;
+                    }
+                }
+            }
+        }
+        None
+    }
+
+    /// All mistakes so far.
+    pub(super) fn told(&mut self) -> Vec<Placed> {
+        let tree = self.reading.tree.get_mut();
+        let mut found = std::mem::take(&mut tree.faults);
+        found.extend(self.told.iter().map(|told| told.with_hint(tree)));
+        found
+    }
+
+    /// Whether a path leads to, or into, what could not be read.
+    pub(super) fn in_hole(&self, path: &str) -> bool {
+        self.reading.tree.borrow().nodes.iter().any(|n| {
+            let within = path.strip_prefix(n.path.as_str());
+            matches!(n.kind, Kind::Hole(_))
+                && within.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        })
+    }
+
+    /// Where a path stands in the text.
+    pub(super) fn place(&self, path: &str) -> Range<usize> {
+        let outline = Outline::of(self.reading.text);
+        outline.find(path).map_or(0..0, |n| n.whole.clone())
+    }
+
+    pub(super) fn tree(&mut self) -> &mut Tree {
+        self.reading.tree.get_mut()
+    }
+
+    pub(super) fn node(&mut self, id: usize) -> &mut Node {
+        &mut self.tree().nodes[id]
+    }
+
+    pub(super) fn group(&mut self, id: usize) -> Option<&mut Group> {
+        match &mut self.node(id).kind {
+            Kind::Group(group) => Some(group),
+            _ => None,
+        }
+    }
+
+    /// Whether no stand-in is left that is no number: what a type says to such a one has been heard.
+    fn settled(&mut self) -> bool {
+        let mut settled = true;
+        for node in &mut self.tree().nodes {
+            if let Kind::Hole(hole) = &mut node.kind
+                && hole.wanted == Some(Wanted::Plain("a number"))
+                && hole.refused == 0
+                && !hole.absent
+            {
+                hole.refused = 1;
+                settled = false;
+            }
+        }
+        settled
+    }
+
+    pub(super) fn tell(&mut self, at: Range<usize>, found: Found, form: Form) {
+        self.told.push(Told { at, found, form });
+    }
+
+    pub(super) fn dig(&mut self, id: usize) {
+        let node = self.node(id);
+        node.kind = Kind::Hole(Hole::default());
+    }
+
+    /// Tells a failure and puts something readable in its place; `false` where that cannot be done.
+    fn mend(&mut self, fail: Fail) -> bool {
+        let root = self.tree().root;
+        let id = fail.at.unwrap_or(root);
+        let node = self.node(id).clone();
+        match (&node.kind, fail.what) {
+            (Kind::Hole(_), what) => self.refill(id, what),
+            (Kind::Group(_), What::Missing(field)) => self.missing(id, &node, field),
+            (Kind::Group(group), What::Field(name, legal)) => {
+                let known: Vec<&str> = group
+                    .items
+                    .iter()
+                    .filter_map(|i| i.key.as_deref())
+                    .collect();
+                let free: Vec<&str> = legal
+                    .iter()
+                    .copied()
+                    .filter(|l| !known.contains(l))
+                    .collect();
+                let Some(i) = group
+                    .items
+                    .iter()
+                    .position(|i| i.key.as_ref() == Some(&name))
+                else {
+                    return false;
+                };
+                let found = Found::error(&node.path, format!("there is no field `{name}`"))
+                    .hint(choose(&name, legal, "fields"));
+                let at = group.items[i].key_at.clone();
+                let meant = nearest(&name, &free).map(str::to_string);
+                let group = self.group(id).expect("it is one");
+                match meant {
+                    Some(meant) => group.items[i].key = Some(meant),
+                    None => drop(group.items.remove(i)),
+                }
+                self.tell(at, found, Form::Whole);
+                true
+            }
+            (Kind::Group(group), What::Twice(field)) => {
+                let Some(i) = group
+                    .items
+                    .iter()
+                    .rposition(|i| i.key.as_deref() == Some(field))
+                else {
+                    return false;
+                };
+                let found = Found::error(&node.path, format!("the field `{field}` is given twice"));
+                self.group(id).expect("it is one").items.remove(i);
+                self.tell(group.items[i].key_at.clone(), found, Form::Whole);
+                true
+            }
+            (_, What::Variant(name, legal)) => {
+                let found = Found::error(&node.path, format!("there is no choice `{name}`"))
+                    .hint(choose(&name, legal, "choices"));
+                let at = node.value.start..node.value.start + name.len();
+                match (nearest(&name, legal), self.group(id)) {
+                    (Some(meant), Some(group)) => group.name = Some(meant.to_string()),
+                    _ => self.dig(id),
+                }
+                self.tell(at, found, Form::Whole);
+                true
+            }
+            (_, What::Unnamed(legal)) => {
+                let found = self.got(&node, "expected the name of a choice".to_string());
+                let found = found.hint(choose("", legal, "choices"));
+                self.tell(node.value.clone(), found, Form::Whole);
+                self.dig(id);
+                true
+            }
+            (kind, What::Parentheses(name)) => {
+                let (problem, form) = match kind {
+                    Kind::Group(g) => (
+                        format!("expected `(` after `{name}`, got `{}`", g.bracket),
+                        Form::Whole,
+                    ),
+                    _ => (
+                        format!("`{name}` needs parentheses"),
+                        Form::Parentheses(name.clone(), id),
+                    ),
+                };
+                self.tell(node.value.clone(), Found::error(&node.path, problem), form);
+                self.node(id).silent = true;
+                match self.group(id) {
+                    Some(group) if group.bracket == '{' => group.bracket = '(',
+                    Some(_) => self.dig(id),
+                    None => {
+                        self.node(id).kind = Kind::Group(Group {
+                            name: Some(name),
+                            bracket: '(',
+                            items: Vec::new(),
+                        })
+                    }
+                }
+                true
+            }
+            (_, What::Bare(name)) => {
+                let found = Found::error(&node.path, format!("`{name}` has no parentheses"))
+                    .hint(format!("write `{name}`"));
+                self.tell(node.value.clone(), found, Form::Whole);
+                self.dig(id);
+                true
+            }
+            (Kind::Group(_), What::Nameless { place, legal }) => {
+                self.nameless(id, &node, place, legal)
+            }
+            (_, What::Named(name)) => {
+                let groups = |n: &&mut Node| matches!(&n.kind, Kind::Group(g) if g.items.iter().any(|i| i.node == id));
+                let around = self.tree().nodes.iter_mut().find(groups);
+                let Some(Kind::Group(group)) = around.map(|n| &mut n.kind) else {
+                    return false;
+                };
+                group.items.iter_mut().for_each(|i| i.key = None);
+                let found = Found::error(
+                    &node.path,
+                    format!("the values here have no names, got `{name}:`"),
+                )
+                .hint("write the values alone");
+                self.tell(node.whole.clone(), found, Form::Whole);
+                true
+            }
+            (_, What::Wanted(words)) => self.another_kind(id, &node, words),
+            (_, What::Refused(message)) => {
+                let odd = ["NaN", "inf"].iter().any(|w| message.contains(w));
+                let found = Found::error(&node.path, message);
+                let found = if odd {
+                    found.hint("give a finite number")
+                } else {
+                    found
+                };
+                self.tell(node.value.clone(), found, Form::Whole);
+                self.dig(id);
+                true
+            }
+            (Kind::Word, _) => false,
+        }
+    }
+
+    /// A stand-in was refused, or learns what must be in it.
+    fn refill(&mut self, id: usize, what: What) -> bool {
+        let Kind::Hole(hole) = &mut self.node(id).kind else {
+            return false;
+        };
+        match what {
+            What::Missing(field) if !hole.fields.contains(&field) => {
+                hole.fields.push(field);
+                return true;
+            }
+            What::Refused(message) | What::Wanted(message) => {
+                let legal = message
+                    .rsplit_once(", got ")
+                    .map_or(message.as_str(), |(legal, _)| legal);
+                match scalar::bounds(legal) {
+                    Some(bounds) => {
+                        hole.bounds = Some(bounds);
+                        hole.range = Some(legal.to_string());
+                    }
+                    None => drop(hole.range.get_or_insert(legal.to_string())),
+                }
+            }
+            _ => {}
+        }
+        hole.refused += 1;
+        hole.refused < TRIES
+    }
+
+    /// A field is missing: it is told, and a stand-in takes its place.
+    fn missing(&mut self, id: usize, node: &Node, field: &'static str) -> bool {
+        let Kind::Group(group) = &node.kind else {
+            return false;
+        };
+        // `0`: the value of a choice.
+        let key = (field != "0").then(|| field.to_string());
+        if let Some(item) = group.items.iter().find(|i| key.is_some() && i.key == key) {
+            // Left out for its default, and it has none.
+            let Kind::Hole(hole) = &mut self.node(item.node).kind else {
+                return false;
+            };
+            return std::mem::take(&mut hole.absent);
+        }
+        let path = key
+            .as_deref()
+            .map_or(node.path.clone(), |k| joined(&node.path, k));
+        let hole = self.tree().hole(&path, node.whole.end);
+        self.group(id).expect("it is one").items.push(Item {
+            key: key.clone(),
+            key_at: 0..0,
+            node: hole,
+        });
+        if !node.silent {
+            let (problem, at, form) = match key {
+                Some(_) => (
+                    format!("the field `{field}` is missing"),
+                    node.whole.clone(),
+                    Form::Missing(field, hole),
+                ),
+                None => (
+                    "expected a value in the parentheses".to_string(),
+                    node.value.clone(),
+                    Form::Kind(hole),
+                ),
+            };
+            self.tell(at, Found::error(&node.path, problem), form);
+        }
+        true
+    }
+
+    /// With what was given, where that is short.
+    pub(super) fn got(&self, node: &Node, wanted: String) -> Found {
+        let given = &self.reading.text[node.value.clone()];
+        let short = (1..=SHORT).contains(&given.len()) && !given.contains('\n');
+        Found::error(
+            &node.path,
+            if short {
+                format!("{wanted}, got {given}")
+            } else {
+                wanted
+            },
+        )
+    }
+}

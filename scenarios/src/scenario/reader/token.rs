@@ -1,0 +1,109 @@
+//! The tokens of a RON text: brackets, separators, words and texts in quotes; blanks and comments are read over.
+
+use crate::scenario::outline::{is_blank, token_len};
+use std::ops::Range;
+
+/// A token.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Token {
+    /// Its place, in bytes.
+    pub at: Range<usize>,
+    /// Its first character: what it is.
+    pub first: char,
+}
+
+/// The tokens of a text, and where a text in quotes is not closed.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Tokens {
+    /// In the text's order.
+    pub all: Vec<Token>,
+    /// Texts in quotes that their line does not close, but the file goes on.
+    pub unclosed: Vec<Range<usize>>,
+    /// The file ends within a text in quotes.
+    pub cut: bool,
+}
+
+impl Tokens {
+    /// Of a text. One quote too few turns all later texts inside out; then a text is taken to end with its line.
+    pub(super) fn of(text: &str) -> Self {
+        let whole = scan(text, false);
+        if !whole.cut {
+            return whole;
+        }
+        let lines = scan(text, true);
+        if lines.unclosed.is_empty() {
+            whole
+        } else {
+            lines
+        }
+    }
+}
+
+fn scan(text: &str, by_line: bool) -> Tokens {
+    let end = text.trim_end().len();
+    let mut tokens = Tokens::default();
+    let mut at = 0;
+    while at < text.len() {
+        let rest = &text[at..];
+        let mut len = token_len(rest);
+        let first = rest.chars().next().unwrap_or(' ');
+        if first == '"' {
+            let closed = len > 1 && rest[..len].ends_with('"') && ends_its_text(&rest[..len]);
+            let line = rest.find('\n').unwrap_or(rest.len());
+            if by_line && (!closed || len > line) {
+                len = rest[..line].trim_end().len();
+                if at + len < end {
+                    len = meant(&rest[..len]);
+                    tokens.unclosed.push(at..at + len);
+                } else {
+                    tokens.cut = true;
+                }
+            } else if !closed {
+                tokens.cut = true;
+            }
+        }
+        if !is_blank(rest) {
+            let at = at..at + len;
+            tokens.all.push(Token { at, first });
+        }
+        at += len;
+    }
+    tokens
+}
+
+/// Where a text that its line does not close ends, most likely: before the next field, or before the brackets and the
+/// comma at the end of the line.
+fn meant(line: &str) -> usize {
+    let next_field = line.match_indices(',').find(|(i, _)| {
+        let rest = line[i + 1..].trim_start();
+        let name = rest.trim_start_matches(|c: char| c.is_alphanumeric() || c == '_');
+        name.len() < rest.len() && name.starts_with(':')
+    });
+    let end = line.trim_end_matches([')', ']', '}', ',', ' ']).len();
+    next_field.map_or(end, |(i, _)| i).max(1)
+}
+
+/// Whether the last quote is not an escaped one.
+fn ends_its_text(token: &str) -> bool {
+    let body = &token[1..token.len() - 1];
+    (body.len() - body.trim_end_matches('\\').len()).is_multiple_of(2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_quote_too_few_ends_with_its_line() {
+        let text = "(a: \"one,\n b: \"two\", c: 3)";
+        let tokens = Tokens::of(text);
+        let unclosed: Vec<&str> = (tokens.unclosed.iter()).map(|r| &text[r.clone()]).collect();
+        assert_eq!(unclosed, ["\"one"]);
+        assert_eq!(meant("\"eel, n: 1)"), 4);
+        assert_eq!(meant("\"one, two)],"), 9);
+        assert!(!tokens.cut);
+        let cut = Tokens::of("(a: \"one\", b: \"tw");
+        assert!(cut.cut && cut.unclosed.is_empty());
+        assert!(!Tokens::of("(a: \"one\ntwo\", b: \"\\\\\")").cut);
+    }
+}

@@ -1,0 +1,246 @@
+//! The tree of a text as what serde reads from; each error knows the value that it is about.
+
+use super::access::{Elements, Fields};
+use super::fail::{Fail, What};
+use super::scalar;
+use super::tree::{Group, Item, Kind, Node, Tree, Wanted};
+use serde::de::Visitor;
+use std::cell::RefCell;
+
+/// A text that is read, and which of the stand-ins take the place of what could not be read.
+pub(super) struct Reading<'a> {
+    /// The text.
+    pub text: &'a str,
+    /// Its values; stand-ins learn what is asked of them.
+    pub tree: RefCell<Tree>,
+    /// Which set of stand-ins.
+    pub filling: usize,
+}
+
+/// A value that is read.
+#[derive(Clone, Copy)]
+pub(super) struct Value<'a, 'b> {
+    /// All of them.
+    pub reading: &'b Reading<'a>,
+    /// Its index.
+    pub id: usize,
+    /// It is what stands in the parentheses of a choice, whose name has been read.
+    pub unwrapped: bool,
+}
+
+impl<'a, 'b> Value<'a, 'b> {
+    pub(super) fn node(&self) -> Node {
+        self.reading.tree.borrow().nodes[self.id].clone()
+    }
+
+    pub(super) fn kid(&self, id: usize) -> Self {
+        Self {
+            reading: self.reading,
+            id,
+            unwrapped: false,
+        }
+    }
+
+    pub(super) fn fail<T>(&self, what: What) -> Result<T, Fail> {
+        Err(Fail {
+            at: Some(self.id),
+            what,
+        })
+    }
+
+    pub(super) fn wanted<T>(&self, words: impl Into<String>) -> Result<T, Fail> {
+        self.fail(What::Wanted(words.into()))
+    }
+
+    pub(super) fn word(&self) -> Option<&'a str> {
+        let tree = self.reading.tree.borrow();
+        let node = &tree.nodes[self.id];
+        matches!(node.kind, Kind::Word).then(|| &self.reading.text[node.value.clone()])
+    }
+
+    pub(super) fn group(&self) -> Option<Group> {
+        match self.node().kind {
+            Kind::Group(group) => Some(group),
+            _ => None,
+        }
+    }
+
+    /// Whether a stand-in is read, which is told what belongs here.
+    pub(super) fn asks(&self, wanted: Wanted) -> bool {
+        match &mut self.reading.tree.borrow_mut().nodes[self.id].kind {
+            Kind::Hole(hole) => {
+                hole.wanted.get_or_insert(wanted);
+                hole.absent = false;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Answers of a stand-in that were refused so far.
+    pub(super) fn refused(&self) -> usize {
+        match &self.reading.tree.borrow().nodes[self.id].kind {
+            Kind::Hole(hole) => hole.refused,
+            _ => 0,
+        }
+    }
+
+    /// A stand-in within a stand-in.
+    pub(super) fn hole_kid(&self, name: &str) -> Self {
+        self.kid(self.reading.tree.borrow_mut().hole_kid(self.id, name))
+    }
+
+    /// The one value in the parentheses of a choice.
+    pub(super) fn inner(&self) -> Result<Self, Fail> {
+        let Some(group) = self.group().filter(|_| self.unwrapped) else {
+            return Ok(*self);
+        };
+        match group.items.as_slice() {
+            [
+                Item {
+                    key: None, node, ..
+                },
+            ] => Ok(self.kid(*node)),
+            [] => self.fail(What::Missing("0")),
+            _ => self.wanted("expected one value in the parentheses"),
+        }
+    }
+
+    /// The elements between parentheses or brackets, all without names.
+    pub(super) fn elements(&self, group: &Group) -> Result<Vec<usize>, Fail> {
+        if let Some(item) = group.items.iter().find(|i| i.key.is_some()) {
+            let name = item.key.clone().unwrap_or_default();
+            return self.kid(item.node).fail(What::Named(name));
+        }
+        Ok(group.items.iter().map(|i| i.node).collect())
+    }
+
+    pub(super) fn visit_fields<V: Visitor<'static>>(
+        self,
+        group: &Group,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fail> {
+        if let Some(place) = group.items.iter().position(|i| i.key.is_none()) {
+            return self.fail(What::Nameless { place, legal });
+        }
+        let tree = self.reading.tree.borrow();
+        let there = |i: &&Item| !matches!(&tree.nodes[i.node].kind, Kind::Hole(h) if h.absent);
+        let items: Vec<Item> = group.items.iter().filter(there).cloned().collect();
+        drop(tree);
+        visitor
+            .visit_map(Fields {
+                of: self,
+                items: items.into_iter(),
+                value: None,
+            })
+            .map_err(|e| e.at(self.id))
+    }
+
+    pub(super) fn visit_elements<V: Visitor<'static>>(
+        self,
+        elements: Vec<usize>,
+        visitor: V,
+    ) -> Result<V::Value, Fail> {
+        visitor
+            .visit_seq(Elements {
+                of: self,
+                elements: elements.into_iter(),
+            })
+            .map_err(|e| e.at(self.id))
+    }
+
+    pub(super) fn fields<V: Visitor<'static>>(
+        self,
+        name: &str,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fail> {
+        if self.asks(Wanted::Fields) {
+            let Kind::Hole(hole) = self.node().kind else {
+                unreachable!("it was one just now")
+            };
+            let item = |f: &&str| Item {
+                key: Some((*f).to_string()),
+                key_at: 0..0,
+                node: self.hole_kid(f).id,
+            };
+            let items: Vec<Item> = hole.fields.iter().map(item).collect();
+            return visitor
+                .visit_map(Fields {
+                    of: self,
+                    items: items.into_iter(),
+                    value: None,
+                })
+                .map_err(|e| e.at(self.id));
+        }
+        let Some(group) = self.group().filter(|g| g.bracket == '(') else {
+            return self.wanted("expected fields in parentheses");
+        };
+        match &group.name {
+            Some(given) if !self.unwrapped && given != name => self.wanted(format!(
+                "expected fields in parentheses without the name `{given}`"
+            )),
+            _ => self.visit_fields(&group, legal, visitor),
+        }
+    }
+
+    pub(super) fn tuple<V: Visitor<'static>>(
+        self,
+        len: usize,
+        visitor: V,
+    ) -> Result<V::Value, Fail> {
+        if self.asks(Wanted::Tuple(len)) {
+            let kids = (0..len).map(|i| self.hole_kid(&i.to_string()).id).collect();
+            return self.visit_elements(kids, visitor);
+        }
+        let Some(group) = self
+            .group()
+            .filter(|g| g.bracket == '(' && (self.unwrapped || g.name.is_none()))
+        else {
+            return self.wanted(format!("expected {len} values in parentheses"));
+        };
+        let elements = self.elements(&group)?;
+        if elements.len() != len {
+            return self.wanted(format!(
+                "expected {len} values in parentheses, not {}",
+                elements.len()
+            ));
+        }
+        self.visit_elements(elements, visitor)
+    }
+
+    pub(super) fn float(self) -> Result<f64, Fail> {
+        if self.asks(Wanted::Plain("a number")) {
+            let bounds = match &self.reading.tree.borrow().nodes[self.id].kind {
+                Kind::Hole(hole) => hole.bounds,
+                _ => None,
+            };
+            return Ok(scalar::stand_in(
+                self.reading.filling,
+                self.refused(),
+                bounds,
+            ));
+        }
+        match self.word().and_then(scalar::number) {
+            Some(v) => Ok(v),
+            None => self.wanted("expected a number"),
+        }
+    }
+
+    pub(super) fn whole(self, least: i128, most: i128) -> Result<i128, Fail> {
+        if self.asks(Wanted::Whole(least, most)) {
+            return Ok(
+                scalar::stand_in_whole(self.reading.filling, self.refused()).clamp(least, most)
+            );
+        }
+        match self.word().map(|w| (scalar::whole(w), scalar::number(w))) {
+            Some((Some(v), _)) if (least..=most).contains(&v) => Ok(v),
+            Some((Some(_), _)) => {
+                self.wanted(format!("must be a whole number from {least} to {most}"))
+            }
+            Some((None, Some(_))) => self.wanted("must be a whole number"),
+            _ => self.wanted("expected a whole number"),
+        }
+    }
+}

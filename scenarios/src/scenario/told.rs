@@ -1,0 +1,19 @@
+//! What `check` says of a scenario of the catalogue with some things changed.
+
+use super::{check, parse, template};
+use std::path::Path;
+
+/// Lines of path and message.
+pub(super) fn told(name: &str, changes: &[(&str, &str)]) -> Vec<String> {
+    let mut text = template(name).expect("in the catalogue").text.to_string();
+    for (from, to) in changes {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        text = text.replace(from, to);
+    }
+    let scenario = parse("changed", &text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
+    let found = check(&scenario, Path::new(""));
+    found
+        .iter()
+        .map(|f| format!("{}: {}", f.path, f.message))
+        .collect()
+}

@@ -1,0 +1,147 @@
+//! Hulls in still water, and what stands in their way.
+
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use robots::handoff::ActuatorCommand;
+use robots::vehicles::{Vehicle, VehicleSpec};
+use std::path::Path;
+use world::fields::WaterSample;
+use world::frames::{Pose, Truth};
+use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
+use world::physics::{BodyId, Physics};
+use world::ranges::{Finite, HeadingDeg, Positive};
+use world::terrain::Terrain;
+use world::units::Heading;
+
+/// The usual, a middling and the longest legal step, s.
+pub(super) const STEPS_S: [f64; 3] = [0.02, 0.05, 0.1];
+pub(super) const SEA: Terrain = Terrain::Level { depth_m: 40.0 };
+/// Half of the hull, a capsule: its straight part, and its radius, m.
+pub(super) const HALF_M: f64 = 0.705;
+pub(super) const RADIUS_M: f64 = 0.095;
+
+pub(super) fn solid(shape: ShapeSpec, dir: &Path) -> Obstacle {
+    let spec = ObstacleSpec {
+        surface: Default::default(),
+        id: "solid".into(),
+        shape,
+        east_m: Finite::new(0.0),
+        north_m: Finite::new(0.0),
+        base: Base::OnBed,
+        heading_deg: HeadingDeg::new(90.0),
+    };
+    Obstacle::build(&spec, &SEA, dir).expect("a solid")
+}
+
+/// A plate of this thickness across the way east, its middle at x = 0.
+pub(super) fn plate(thick_m: f64) -> Obstacle {
+    let size_m = [thick_m, 30.0, 39.0].map(Positive::new).into();
+    solid(ShapeSpec::Box(BoxShape { size_m }), Path::new("."))
+}
+
+/// At x = `east_m`, heading as given, moving over ground at `v_W`.
+pub(super) fn moving(east_m: f64, heading_deg: f64, v_W: Vector3<f64>) -> Truth {
+    let at = Vector3::new(east_m, 0.0, -20.0);
+    let mut truth = Truth::at_rest(Pose::level(at, Heading::from_deg(heading_deg)));
+    truth.v_WB_B = truth.pose.R_WB.inverse() * v_W;
+    truth
+}
+
+/// Ends of the hull's axis.
+pub(super) fn ends(t: &Truth) -> [Vector3<f64>; 2] {
+    [HALF_M, -HALF_M].map(|x| t.pose.point(Vector3::new(x, 0.0, 0.0)))
+}
+
+/// Greatest x of the hull.
+pub(super) fn front_m(t: &Truth) -> f64 {
+    let [a, b] = ends(t);
+    a.x.max(b.x) + RADIUS_M
+}
+
+/// FLU and FRD, either way.
+pub(super) fn flip(v: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, -v.y, -v.z)
+}
+
+pub(super) fn join(a: Vector3<f64>, b: Vector3<f64>) -> Vector6<f64> {
+    Vector6::new(a.x, a.y, a.z, b.x, b.y, b.z)
+}
+
+pub(super) fn nu(t: &Truth) -> Vector6<f64> {
+    join(flip(t.v_WB_B), flip(t.w_WB_B))
+}
+
+pub(super) fn mass(vehicle: &Vehicle) -> Matrix6<f64> {
+    vehicle.coefficients().rigid_mass() + vehicle.coefficients().added_mass()
+}
+
+/// Hulls in still water among solids.
+pub(super) struct Water {
+    pub(super) physics: Physics,
+    pub(super) hulls: Vec<(Vehicle, BodyId)>,
+    pub(super) command: ActuatorCommand,
+}
+
+impl Water {
+    pub(super) fn new(step_s: f64, obstacle: Option<&Obstacle>, starts: &[Truth]) -> Self {
+        let mut physics = Physics::new(step_s);
+        if let Some(obstacle) = obstacle {
+            physics.add_obstacle(obstacle);
+        }
+        let hulls = (starts.iter())
+            .map(|start| {
+                let vehicle = Vehicle::load(&VehicleSpec::default(), Path::new("."));
+                let vehicle = vehicle.expect("built-in vehicle");
+                let id = physics.add_body(vehicle.body_spec("auv", *start));
+                (vehicle, id)
+            })
+            .collect();
+        Self {
+            physics,
+            hulls,
+            command: ActuatorCommand::default(),
+        }
+    }
+
+    pub(super) fn truth(&self) -> Truth {
+        self.physics.truth(self.hulls[0].1)
+    }
+
+    /// No water: straight on.
+    pub(super) fn glide(&mut self) -> bool {
+        self.physics.step();
+        self.hulls
+            .iter()
+            .any(|(_, id)| self.physics.contacts(*id).touching)
+    }
+
+    /// By the hull's own equation.
+    pub(super) fn step(&mut self) -> bool {
+        let still = WaterSample {
+            velocity: Vector3::zeros(),
+            gradient: Matrix3::zeros(),
+            rate: Vector3::zeros(),
+            density_kg_m3: 1026.0,
+        };
+        let step_s = self.physics.dt_s();
+        for (vehicle, id) in &mut self.hulls {
+            let free = vehicle.step(&self.physics.truth(*id), &still, &self.command, step_s);
+            self.physics.push(*id, free);
+        }
+        self.glide()
+    }
+
+    pub(super) fn impulse(&self) -> Vector3<f64> {
+        self.physics.contacts(self.hulls[0].1).impulse_N_s
+    }
+
+    /// Kinetic energy with the water's, and that of the low centre of gravity, J.
+    pub(super) fn energy(&self) -> f64 {
+        let of = |(vehicle, id): &(Vehicle, BodyId)| {
+            let (t, c) = (self.physics.truth(*id), vehicle.coefficients());
+            let upright = (t.pose.R_WB * Vector3::z()).z;
+            0.5 * nu(&t).dot(&(mass(vehicle) * nu(&t)))
+                + c.mass_kg * 9.81 * c.z_g_m * (1.0 - upright)
+        };
+        self.hulls.iter().map(of).sum()
+    }
+}

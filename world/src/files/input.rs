@@ -1,0 +1,117 @@
+//! Reading: regular files only, and no more of them than is said.
+
+use std::fs::{self, File, FileType};
+use std::io::{self, ErrorKind, Read};
+use std::path::Path;
+
+/// What stands in the place of a file, in words; none of a regular file.
+pub(super) fn special(kind: FileType) -> Option<&'static str> {
+    if kind.is_file() {
+        return None;
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        if kind.is_fifo() {
+            return Some("a pipe");
+        }
+        if kind.is_socket() {
+            return Some("a socket");
+        }
+        if kind.is_char_device() || kind.is_block_device() {
+            return Some("a device");
+        }
+    }
+    Some(if kind.is_dir() {
+        "a folder"
+    } else {
+        "no regular file"
+    })
+}
+
+/// Whether something that is no regular file stands there: nothing of ours, so nothing to replace.
+#[must_use]
+pub fn is_special(path: &Path) -> bool {
+    fs::metadata(path).is_ok_and(|m| special(m.file_type()).is_some())
+}
+
+/// Opens a regular file, or what a link to one leads to. A pipe could keep a reader waiting for ever, a device never end.
+///
+/// # Errors
+/// As the system says; of what is no regular file, what it is.
+pub fn open(path: &Path) -> io::Result<File> {
+    if let Some(what) = special(fs::metadata(path)?.file_type()) {
+        let problem = format!("it is {what}, not a file");
+        return Err(io::Error::new(ErrorKind::InvalidInput, problem));
+    }
+    File::open(path)
+}
+
+/// Reads a regular file of at most `most` bytes.
+///
+/// # Errors
+/// As [`open`]; or if it is longer.
+pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    open(path)?
+        .take(most.saturating_add(1))
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let problem = format!("it is longer than {} MiB", most.div_ceil(1 << 20));
+        return Err(io::Error::new(ErrorKind::FileTooLarge, problem));
+    }
+    Ok(bytes)
+}
+
+/// The same of UTF-8 text.
+///
+/// # Errors
+/// As [`read`]; or if it is not UTF-8, with the line.
+pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
+    String::from_utf8(read(path, most)?).map_err(|e| {
+        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
+        let line = 1 + good.iter().filter(|&&b| b == b'\n').count();
+        let problem = format!("it is not UTF-8 text: line {line}, byte {}", good.len());
+        io::Error::new(ErrorKind::InvalidData, problem)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::process::Command;
+
+    #[test]
+    fn no_more_is_read_than_is_said() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("a");
+        fs::write(&path, "abc\n\u{e9}").unwrap();
+        assert_eq!(read(&path, 6).unwrap().len(), 6);
+        assert_eq!(read(&path, 5).unwrap_err().kind(), ErrorKind::FileTooLarge);
+        assert_eq!(read_text(&path, 6).unwrap(), "abc\né");
+        fs::write(&path, b"abc\n\xff").unwrap();
+        let said = read_text(&path, 6).unwrap_err().to_string();
+        assert_eq!(said, "it is not UTF-8 text: line 2, byte 4");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn what_is_no_file_is_named_and_not_waited_for() {
+        let dir = tempfile::tempdir().unwrap();
+        let pipe = dir.path().join("pipe");
+        assert!(
+            Command::new("mkfifo")
+                .arg(&pipe)
+                .status()
+                .unwrap()
+                .success()
+        );
+        let said = |path: &Path| read(path, 9).unwrap_err().to_string();
+        assert_eq!(said(&pipe), "it is a pipe, not a file");
+        assert_eq!(said(Path::new("/dev/zero")), "it is a device, not a file");
+        assert_eq!(said(dir.path()), "it is a folder, not a file");
+        let link = dir.path().join("link");
+        std::os::unix::fs::symlink(&pipe, &link).unwrap();
+        assert_eq!(said(&link), "it is a pipe, not a file");
+    }
+}

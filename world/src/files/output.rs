@@ -1,0 +1,248 @@
+//! Writing: a file is made under a new name beside the one it is for, and gets that name when it is whole.
+//!
+//! What is replaced is a regular file and nothing else: a folder, a pipe, a socket or a device of that name, or a link to
+//! one, is an error. A link to a regular file, or to nothing, is replaced itself: what it leads to stays as it is.
+//! The new name is made with `O_EXCL`, so nothing that exists under it is opened, followed or overwritten; it is
+//! removed when the file does not come to its end. It ends in `.tmp`, after the process's number and a count.
+
+use super::input::special;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+/// A file could not be written: its folder may not be written to, the disk is full, or something is in its place.
+#[derive(Debug, thiserror::Error)]
+#[error("cannot write {}: {source}", path.display())]
+pub struct OutputError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the system said, or what is in its place.
+    pub source: io::Error,
+}
+
+impl OutputError {
+    /// Of a file and what went wrong with it.
+    pub fn new(path: &Path, source: io::Error) -> Self {
+        let path = path.to_owned();
+        Self { path, source }
+    }
+}
+
+/// A file being written. Dropped before it has its name it is removed.
+#[derive(Debug)]
+pub struct Output {
+    file: File,
+    path: PathBuf,
+    temporary: PathBuf,
+    placed: bool,
+    kept: bool,
+}
+
+/// Bytes of a file's name that its temporary name keeps: a name may have 255 in all.
+const NAME: usize = 200;
+/// Names tried before giving up: others make theirs in the same folder at the same time.
+const TRIES: u32 = 10_000;
+
+impl Output {
+    /// Begins the file that shall be `path`; the folder must exist.
+    ///
+    /// # Errors
+    /// If it cannot be made, or `path` is something else than a regular file.
+    pub fn create(path: &Path) -> Result<Self, OutputError> {
+        static COUNT: AtomicU64 = AtomicU64::new(0);
+        let failed = |source| OutputError::new(path, source);
+        replaceable(path).map_err(failed)?;
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let end = name.floor_char_boundary(NAME);
+        for _ in 0..TRIES {
+            let count = COUNT.fetch_add(1, Ordering::Relaxed);
+            let unique = format!("{}.{}-{count}.tmp", &name[..end], std::process::id());
+            let temporary = path.with_file_name(unique);
+            match File::create_new(&temporary) {
+                Ok(file) => {
+                    return Ok(Self {
+                        file,
+                        path: path.to_owned(),
+                        temporary,
+                        placed: false,
+                        kept: false,
+                    });
+                }
+                Err(e) if e.kind() == ErrorKind::AlreadyExists => {}
+                Err(e) => return Err(failed(e)),
+            }
+        }
+        let problem = "every temporary name tried is taken";
+        Err(failed(io::Error::new(ErrorKind::AlreadyExists, problem)))
+    }
+
+    /// The same, but what was written so far stays under the temporary name if it does not come to its end.
+    ///
+    /// # Errors
+    /// As [`Output::create`].
+    pub fn create_kept(path: &Path) -> Result<Self, OutputError> {
+        let mut output = Self::create(path)?;
+        output.kept = true;
+        Ok(output)
+    }
+
+    /// Where it is written until it has its name.
+    #[must_use]
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
+    /// The error of this file.
+    #[must_use]
+    pub fn failed(&self, source: io::Error) -> OutputError {
+        OutputError::new(&self.path, source)
+    }
+
+    /// Gives it its name now, whatever is still to be written: for a table that others read as it grows.
+    ///
+    /// # Errors
+    /// If something else than a regular file has come to stand there, or the system refuses.
+    pub fn place(&mut self) -> Result<(), OutputError> {
+        if !self.placed {
+            replaceable(&self.path)
+                .and_then(|()| fs::rename(&self.temporary, &self.path))
+                .map_err(|e| self.failed(e))?;
+            self.placed = true;
+        }
+        Ok(())
+    }
+
+    /// Ends it: it has its name.
+    ///
+    /// # Errors
+    /// As [`Output::place`].
+    pub fn finish(mut self) -> Result<PathBuf, OutputError> {
+        self.place()?;
+        Ok(self.path.clone())
+    }
+
+    /// The same once it is on the disk, its name too: it outlives a power cut.
+    ///
+    /// # Errors
+    /// As [`Output::place`]; or if it cannot be brought to the disk.
+    pub fn finish_on_disk(self) -> Result<PathBuf, OutputError> {
+        self.file.sync_all().map_err(|e| self.failed(e))?;
+        let path = self.finish()?;
+        // Where a folder cannot be synced, the system sees to it.
+        let folder = match path.parent() {
+            Some(folder) if folder != Path::new("") => folder,
+            _ => Path::new("."),
+        };
+        if let Ok(folder) = File::open(folder) {
+            let _ = folder.sync_all();
+        }
+        Ok(path)
+    }
+}
+
+impl Drop for Output {
+    fn drop(&mut self) {
+        if !self.placed && !self.kept {
+            // Half a file is of no use, and on a full disk in the way.
+            let _ = fs::remove_file(&self.temporary);
+        }
+    }
+}
+
+impl Write for Output {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Output {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.file.seek(to)
+    }
+}
+
+/// Whether a new file may take the place of what is there.
+fn replaceable(path: &Path) -> io::Result<()> {
+    let refuse = |problem: String| Err(io::Error::new(ErrorKind::AlreadyExists, problem));
+    if path.file_name().is_none() {
+        return refuse("that names a folder, not a file".to_string());
+    }
+    let there = match fs::symlink_metadata(path) {
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(()),
+        there => there?.file_type(),
+    };
+    let (link, kind) = if there.is_symlink() {
+        // `/dev/stdout` and the like are not to be replaced, wherever they lead.
+        if fs::read_link(path)?.starts_with("/proc") {
+            return refuse("it is a link to an open file of a process".to_string());
+        }
+        match fs::metadata(path) {
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(()),
+            there => ("a link to ", there?.file_type()),
+        }
+    } else {
+        ("", there)
+    };
+    match special(kind) {
+        None => Ok(()),
+        Some(what) => refuse(format!(
+            "it is {link}{what}, and only a regular file is replaced"
+        )),
+    }
+}
+
+/// Writes a file whole or not at all.
+///
+/// # Errors
+/// If it cannot be written; what was there before stays then.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
+    written(path, bytes)?.finish()
+}
+
+/// The same, and makes sure that it is on the disk.
+///
+/// # Errors
+/// As [`write()`].
+pub fn write_on_disk(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
+    written(path, bytes)?.finish_on_disk()
+}
+
+fn written(path: &Path, bytes: &[u8]) -> Result<Output, OutputError> {
+    let mut output = Output::create(path)?;
+    output.write_all(bytes).map_err(|e| output.failed(e))?;
+    Ok(output)
+}
+
+/// Writes a file whole or not at all where there is none, not even a link; of kind `AlreadyExists` if there is one. Of
+/// several processes that do so at once the first one's stays.
+///
+/// # Errors
+/// If it cannot be written, or something is there.
+pub fn write_new(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
+    let failed = |e| OutputError::new(path, e);
+    if fs::symlink_metadata(path).is_ok() {
+        return Err(failed(ErrorKind::AlreadyExists.into()));
+    }
+    let output = written(path, bytes)?;
+    output.file.sync_all().map_err(failed)?;
+    // A second name, unlike a new one, fails where there is a file; dropped, the output loses its first.
+    match fs::hard_link(&output.temporary, path) {
+        Ok(()) => Ok(path.to_owned()),
+        Err(e) if e.kind() == ErrorKind::AlreadyExists => Err(failed(e)),
+        // A file system without links: the last one's stays.
+        Err(_) => output.finish(),
+    }
+}
+
+/// Makes a folder and those above it.
+///
+/// # Errors
+/// If one of them cannot be made, or something else stands there.
+pub fn make_folder(path: &Path) -> io::Result<()> {
+    fs::create_dir_all(path)
+}

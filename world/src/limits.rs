@@ -1,0 +1,250 @@
+//! Ranges that physics sets to a field, stated where the field is declared:
+//! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader then says place, value and range, as for the types of
+//! [`crate::ranges`], which keep the sign.
+//!
+//! A limit is no judgement of a good value. It is where the models stop: beyond it there is no such water, instrument or hull.
+
+use crate::ranges::{Finite, Fraction, NonNegative, Positive};
+use serde::{Deserialize, Deserializer, de::Error};
+
+/// What a field with a limit holds: a number, or several.
+pub trait Limited: Sized {
+    /// As it is read.
+    type Raw;
+
+    /// Takes it if all numbers lie in a range, ends included.
+    ///
+    /// # Errors
+    /// Says the range and the number that does not; of a wrong sign, or no number, what its own type says.
+    fn limited(raw: Self::Raw, range: &Range) -> Result<Self, String>;
+}
+
+/// A legal range, ends included, with its unit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Range(pub f64, pub f64, pub &'static str);
+
+impl Range {
+    fn refuses(&self, v: f64) -> Option<String> {
+        let Range(low, high, unit) = self;
+        // Not `v < low || v > high`, which lets pass what is not a number.
+        if v >= *low && v <= *high {
+            return None;
+        }
+        let space = if unit.is_empty() { "" } else { " " };
+        Some(format!(
+            "must be from {} to {}{space}{unit}, got {}",
+            shown(*low),
+            shown(*high),
+            shown(v)
+        ))
+    }
+}
+
+macro_rules! one {
+    ($($type:ty),*) => {$(
+        impl Limited for $type {
+            type Raw = f64;
+            fn limited(raw: f64, range: &Range) -> Result<Self, String> {
+                let typed = Self::try_from(raw);
+                // Too large or too small for its type, but of the right sign: the narrower range is what helps.
+                let signed = raw.is_finite() && Self::try_from(raw.signum()).is_ok();
+                match (range.refuses(raw), typed) {
+                    (Some(said), Ok(_)) => Err(said),
+                    (Some(said), Err(_)) if signed && raw != 0.0 => Err(said),
+                    (_, typed) => typed,
+                }
+            }
+        }
+    )*};
+}
+
+one!(Finite, Fraction, NonNegative, Positive);
+
+impl<T: Limited> Limited for Option<T> {
+    type Raw = Option<T::Raw>;
+    fn limited(raw: Self::Raw, range: &Range) -> Result<Self, String> {
+        raw.map(|raw| T::limited(raw, range)).transpose()
+    }
+}
+
+impl<T: Limited> Limited for (T, T) {
+    type Raw = (T::Raw, T::Raw);
+    fn limited((a, b): Self::Raw, range: &Range) -> Result<Self, String> {
+        Ok((T::limited(a, range)?, T::limited(b, range)?))
+    }
+}
+
+impl<T: Limited> Limited for (T, T, T) {
+    type Raw = (T::Raw, T::Raw, T::Raw);
+    fn limited((a, b, c): Self::Raw, range: &Range) -> Result<Self, String> {
+        Ok((
+            T::limited(a, range)?,
+            T::limited(b, range)?,
+            T::limited(c, range)?,
+        ))
+    }
+}
+
+/// A number as a person writes it.
+#[must_use]
+pub fn shown(v: f64) -> String {
+    let size = v.abs();
+    if size != 0.0 && !(1e-4..1e7).contains(&size) {
+        format!("{v:e}")
+    } else {
+        format!("{v}")
+    }
+}
+
+macro_rules! limits {
+    ($($(#[$doc:meta])* $name:ident: $low:expr, $high:expr, $unit:literal;)*) => {$(
+        $(#[$doc])*
+        ///
+        /// # Errors
+        /// When it is none, or out of range.
+        pub fn $name<'de, D, T>(from: D) -> Result<T, D::Error>
+        where
+            D: Deserializer<'de>,
+            T: Limited<Raw: Deserialize<'de>>,
+        {
+            let raw = T::Raw::deserialize(from)?;
+            T::limited(raw, &Range($low, $high, $unit)).map_err(D::Error::custom)
+        }
+    )*};
+}
+
+limits! {
+    /// East or north of the datum, m: half way round the Earth. Filaments know their place to 2 m there, to 1 mm 10 km from the datum.
+    place_m: -2e7, 2e7, "m";
+    /// Size of something solid, m: from a pebble to an island.
+    solid_m: 1e-3, 1e6, "m";
+    /// Metres in one unit of a file.
+    scale: 1e-9, 1e9, "m";
+    /// A depth, height or thickness in the sea, m: the Challenger Deep has 10.9 km.
+    depth_m: 1e-4, 12_000.0, "m";
+    /// Roughness length of a bed, m.
+    roughness_m: 1e-9, 10.0, "m";
+    /// The same where zero is a smooth bed, m.
+    sand_m: 0.0, 10.0, "m";
+    /// Density of water, kg/m³: the Dead Sea has 1240, brines 1300; the lightest, hot and fresh, 950.
+    density_kg_m3: 900.0, 1400.0, "kg/m3";
+    /// Kinematic viscosity of water, m²/s: 0.3e-6 when it boils, 1.8e-6 at the freezing point; 1e-4 is oil.
+    viscosity_m2_s: 1e-7, 1e-4, "m2/s";
+    /// Speed of a stream, m/s: the strongest tidal streams reach 10.
+    stream_m_s: 0.0, 15.0, "m/s";
+    /// The same of a component that has a sign.
+    component_m_s: -15.0, 15.0, "m/s";
+    /// Speed of a stream that runs, m/s.
+    running_m_s: 1e-4, 15.0, "m/s";
+    /// Standard deviation of a current, m/s.
+    std_m_s: 0.0, 5.0, "m/s";
+    /// Frequency of a current's wandering, rad/s: from months to a second.
+    wander_rad_s: 1e-7, 6.0, "rad/s";
+    /// Damping ratio of an oscillation.
+    damping: 1e-3, 1.0, "";
+    /// Horizontal diffusivity, m²/s: ocean eddies reach 1e4.
+    diffusivity_m2_s: 0.0, 1e5, "m2/s";
+    /// Vertical diffusivity, m²/s: deep convection reaches 10.
+    vertical_m2_s: 0.0, 100.0, "m2/s";
+    /// Diffusivity in units of friction velocity times depth: 0.15 in straight channels, 3 in rivers that bend.
+    transverse: 0.0, 100.0, "";
+    /// Height of surface waves, m: the highest measured had 30.
+    wave_m: 1e-4, 40.0, "m";
+    /// Period of surface waves, s: from ripples to the longest swell.
+    wave_s: 0.05, 60.0, "s";
+    /// Peak enhancement of a wave spectrum: 1 to 7 are measured.
+    peakedness: 0.1, 20.0, "";
+    /// Directional spreading of waves: 10 in a wind sea, 75 in swell.
+    spreading: 0.0, 1000.0, "";
+    /// Mixing by waves, in units of height squared by period.
+    wave_mixing: 0.0, 10.0, "";
+    /// Amplitude of an internal wave, m.
+    internal_m: 0.0, 1000.0, "m";
+    /// Length of an internal wave, m.
+    internal_length_m: 0.01, 1e7, "m";
+    /// Period of an internal wave, s.
+    internal_s: 0.01, 1e8, "s";
+    /// Period of a tide, h.
+    tide_h: 0.01, 1e6, "h";
+    /// Mass that a source gives off, g/s: from a picogram to a tonne.
+    source_g_s: 1e-12, 1e6, "g/s";
+    /// Size of a filament or of what releases it, m.
+    filament_m: 1e-5, 1000.0, "m";
+    /// Growth of a filament's squared size, m²/s.
+    growth_m2_s: 0.0, 1000.0, "m2/s";
+    /// Diameter of a nozzle, m.
+    nozzle_m: 1e-5, 10.0, "m";
+    /// Speed of what leaves a nozzle, m/s.
+    nozzle_m_s: 1e-4, 100.0, "m/s";
+    /// Speed of a vehicle under water, m/s.
+    vehicle_m_s: 0.0, 15.0, "m/s";
+    /// Error of a place, m.
+    error_m: 0.0, 1e5, "m";
+    /// Range of a sonar, m.
+    sonar_m: 0.01, 5000.0, "m";
+    /// Turning radius of a vehicle, m.
+    turn_m: 0.0, 10_000.0, "m";
+    /// How far a planner looks, m.
+    look_m: 0.01, 1e5, "m";
+    /// Spread of dye in a second, m/√s: 100 make a kilometre in two minutes.
+    spread_m_rts: 1e-6, 100.0, "m/s^0.5";
+    /// How long something lasts, s: from a millisecond to 30 years.
+    lasting_s: 1e-3, 1e9, "s";
+    /// Speed of a propeller, rpm.
+    rpm: -10_000.0, 10_000.0, "rpm";
+    /// Greatest speed of a propeller, rpm.
+    rpm_limit: 1.0, 10_000.0, "rpm";
+    /// Angle of a fin, °.
+    fin_deg: -90.0, 90.0, "degrees";
+    /// Level of sound, dB.
+    level_db: -300.0, 300.0, "dB";
+    /// Distance that can be seen in water, m.
+    visibility_m: 0.01, 1000.0, "m";
+    /// Loss of light on its way, 1/m.
+    loss_per_m: 0.0, 1000.0, "1/m";
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SPEED: Range = Range(0.0, 15.0, "m/s");
+    const SIZE: Range = Range(1e-3, 1e6, "m");
+
+    #[test]
+    fn ends_are_legal_and_what_is_no_number_is_not() {
+        let speed = |v: f64| NonNegative::limited(v, &SPEED).map(NonNegative::get);
+        assert_eq!(speed(0.0), Ok(0.0));
+        assert_eq!(speed(15.0), Ok(15.0));
+        assert_eq!(
+            speed(1e6),
+            Err("must be from 0 to 15 m/s, got 1000000".into())
+        );
+        assert_eq!(speed(f64::NAN), Err("must be >= 0, got NaN".into()));
+    }
+
+    #[test]
+    fn a_wrong_sign_is_said_by_the_type_and_a_wrong_size_by_the_limit() {
+        let size = |v: f64| Positive::limited(v, &SIZE).unwrap_err();
+        assert_eq!(size(1e200), "must be from 0.001 to 1000000 m, got 1e200");
+        assert_eq!(size(5e-324), "must be from 0.001 to 1000000 m, got 5e-324");
+        assert_eq!(size(-1.0), "must be > 0, got -1");
+        assert_eq!(size(0.0), "must be > 0, got 0");
+        assert_eq!(size(f64::INFINITY), "must be > 0, got inf");
+    }
+
+    #[test]
+    fn every_number_of_a_pair_is_looked_at() {
+        type Pair = (Positive, Positive);
+        assert!(Pair::limited((1.0, 2.0), &SIZE).is_ok());
+        assert!(Pair::limited((1.0, 1e9), &SIZE).is_err());
+        assert!(<Option<Finite>>::limited(Some(3e7), &SIZE).is_err());
+        assert_eq!(<Option<Positive>>::limited(None, &SIZE), Ok(None));
+    }
+
+    #[test]
+    fn numbers_are_shown_as_people_write_them() {
+        let all = [0.0, 15.0, 1e-6, 0.05, 1e154, -2e7].map(shown);
+        assert_eq!(all, ["0", "15", "1e-6", "0.05", "1e154", "-2e7"]);
+    }
+}

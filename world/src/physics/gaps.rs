@@ -1,0 +1,153 @@
+//! How far two solids are from each other, and the points where they touch.
+//!
+//! *Source:* parry's closest points (GJK; EPA where they overlap) and contact manifolds, as rapier's narrow phase uses them.
+//!
+//! *Parameters:* none.
+//!
+//! *Deviations:* a surface without inside (bed, mesh) is met from both sides. GJK loses curved surfaces that just touch:
+//! distances of a capsule are measured from its axis, and a body with edges has a skin of 1 mm.
+
+use super::convert::from_vector;
+use nalgebra::Vector3;
+use rapier3d::math as r;
+use rapier3d::parry::bounding_volume::{Aabb, BoundingVolume};
+use rapier3d::parry::query::{
+    self, ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher,
+};
+use rapier3d::parry::shape::SharedShape;
+
+/// How far the surface of a body with edges is from its shape, m: distances near zero are unsure.
+const SKIN_M: f64 = 1e-3;
+
+/// A point where two solids are next to each other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    /// Between the two surfaces, world axes, m.
+    pub(super) at_W: Vector3<f64>,
+    /// Towards the first solid, of length 1.
+    pub(super) normal_W: Vector3<f64>,
+    /// Distance, m; negative where they overlap.
+    pub(super) gap_m: f64,
+}
+
+impl Point {
+    /// Where an axis lies in a face or two axes cross there is no direction between the surfaces: such a solid is pushed up.
+    /// `None` where parry finds no number at all, as for a triangle without area.
+    fn new(on_W: [r::Vector; 2], normal_W: Vector3<f64>, gap_m: f64) -> Option<Self> {
+        let at_W = from_vector((on_W[0] + on_W[1]) * 0.5);
+        let unit = (normal_W.norm() - 1.0).abs() < 1e-3;
+        let normal_W = if unit { normal_W } else { Vector3::z() };
+        let known = at_W.iter().all(|x| x.is_finite()) && gap_m.is_finite();
+        known.then_some(Self {
+            at_W,
+            normal_W,
+            gap_m,
+        })
+    }
+}
+
+/// A shape where it is.
+#[derive(Clone)]
+pub(super) struct Placed {
+    pose: r::Pose,
+    shape: SharedShape,
+    /// What the distance is measured from, and how far its surface is from that, m.
+    core: SharedShape,
+    margin_m: f64,
+    /// How far its surface is from `shape`, m.
+    skin_m: f64,
+    bounds: Aabb,
+}
+
+impl Placed {
+    /// Something that stands where it is, or a part of a gantry.
+    pub(super) fn new(pose: r::Pose, shape: &SharedShape) -> Self {
+        Self {
+            pose,
+            shape: shape.clone(),
+            core: shape.clone(),
+            margin_m: 0.0,
+            skin_m: 0.0,
+            bounds: shape.compute_aabb(&pose),
+        }
+    }
+
+    /// A part of a body: never nearer to anything than its margin, where distances are sure.
+    pub(super) fn body(pose: r::Pose, shape: &SharedShape) -> Self {
+        let plain = Self::new(pose, shape);
+        if let Some(capsule) = shape.as_capsule() {
+            let axis = capsule.segment;
+            Self {
+                core: SharedShape::segment(axis.a, axis.b),
+                margin_m: capsule.radius,
+                ..plain
+            }
+        } else if shape.as_ball().is_some() {
+            plain
+        } else {
+            Self {
+                margin_m: SKIN_M,
+                skin_m: SKIN_M,
+                bounds: plain.bounds.loosened(SKIN_M),
+                ..plain
+            }
+        }
+    }
+
+    /// The nearest point, if it is within `reach_m`.
+    pub(super) fn nearest(&self, other: &Placed, reach_m: f64) -> Option<Point> {
+        if !self.bounds.loosened(reach_m).intersects(&other.bounds) {
+            return None;
+        }
+        let (a, b) = (self.core.as_ref(), other.core.as_ref());
+        let margin_m = self.margin_m + other.margin_m;
+        let found = query::contact(&self.pose, a, &other.pose, b, reach_m + margin_m)
+            .expect("parry knows the distance between any shapes that it can collide")?;
+        let on = [
+            found.point1 + found.normal1 * self.margin_m,
+            found.point2 - found.normal1 * other.margin_m,
+        ];
+        let gap_m = found.dist - margin_m;
+        Point::new(on, from_vector(-found.normal1), gap_m)
+    }
+
+    /// Every point within `reach_m`, `nearest` among them.
+    pub(super) fn points(&self, other: &Placed, nearest: Point, reach_m: f64) -> Vec<Point> {
+        let skin_m = self.skin_m + other.skin_m;
+        let mut manifolds: Vec<ContactManifold<(), ()>> = Vec::new();
+        DefaultQueryDispatcher
+            .contact_manifolds(
+                &self.pose.inv_mul(&other.pose),
+                self.shape.as_ref(),
+                other.shape.as_ref(),
+                reach_m + skin_m,
+                &mut manifolds,
+                &mut None,
+            )
+            .expect("parry can touch any shapes that it can collide");
+        let mut points = Vec::new();
+        for manifold in &manifolds {
+            let part = |p: Option<&r::Pose>| p.copied().unwrap_or(r::Pose::IDENTITY);
+            let first = self.pose * part(manifold.subshape_pos1());
+            let second = other.pose * part(manifold.subshape_pos2());
+            let normal_W = from_vector(-(first.rotation * manifold.local_n1));
+            for point in manifold
+                .points
+                .iter()
+                .filter(|p| p.dist <= reach_m + skin_m)
+            {
+                let on = [
+                    first.transform_point(point.local_p1),
+                    second.transform_point(point.local_p2),
+                ];
+                points.extend(Point::new(on, normal_W, point.dist - skin_m));
+            }
+        }
+        // Manifolds of meshes leave out what they take for an inner edge; the nearest point is never left out.
+        let least = points.iter().map(|p| p.gap_m).fold(f64::INFINITY, f64::min);
+        if least > nearest.gap_m + 1e-4 {
+            points.push(nearest);
+        }
+        points
+    }
+}

@@ -1,0 +1,260 @@
+//! Bodies among what is solid: each goes where its own equation of motion takes it, up to where it touches.
+//!
+//! *Source:* conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems,
+//! PhD thesis, Berkeley 1996, ch. 2): nothing moves further in a sub-step than its distance from what it could meet;
+//! impulses as in `impulses.rs`.
+//!
+//! *Parameters:* the coefficient of friction.
+//!
+//! *Deviations:* the end that a body's own equation gives is taken to the last bit where nothing touched it. What
+//! an impulse changes is kept beside that motion to the end of the step; the forces of the water follow in the next.
+
+use super::convert::pose;
+use super::course::{Course, Who, note};
+use super::gaps::{Placed, Point};
+use super::impulses::{Row, solve};
+use super::solid::{FRICTION, Physics};
+use nalgebra::{Vector3, Vector6};
+
+/// Solids this close touch, m.
+const TOUCH_M: f64 = 1e-4;
+/// What is closer than this is watched point by point, and moves by this at most in a sub-step, m.
+const CREEP_M: f64 = 2e-3;
+/// Overlap that is left alone, m.
+const SLACK_M: f64 = 1e-6;
+/// Fastest undoing of an overlap, m/s.
+const UNDO_M_S: f64 = 0.5;
+
+/// A shape that may be met.
+struct Thing {
+    placed: Placed,
+    /// Index among the courses, and which slide of a gantry; `None` stands fast.
+    on: Option<(usize, usize)>,
+}
+
+/// Two things within reach.
+struct Near {
+    things: [usize; 2],
+    nearest: Point,
+    /// Fastest approach, m/s.
+    fastest_m_s: f64,
+}
+
+impl Physics {
+    /// Where all bodies and then all gantries get in this step.
+    pub(super) fn meet(&self) -> Vec<Course> {
+        let mut courses = self.courses();
+        let still = self.still();
+        let mut left_s = self.dt_s();
+        while left_s > 0.0 {
+            let things = self.things(&courses);
+            let near = self.near(&courses, &things, &still, left_s);
+            let mut h = left_s;
+            for n in &near {
+                let allowed_m = (n.nearest.gap_m - TOUCH_M / 2.0).max(CREEP_M);
+                h = h.min(allowed_m / n.fastest_m_s);
+            }
+            // A remainder of rounding is no sub-step.
+            if left_s - h < 1e-9 * self.dt_s() {
+                h = left_s;
+            }
+            let mut rows = self.rows(&courses, &things, &still, &near, 2.0 * CREEP_M);
+            rows.extend(self.stops(&courses, h));
+            let undo = self.resolve(&mut courses, &rows, h);
+            for (course, undo) in courses.iter_mut().zip(undo) {
+                course.go(h, &undo);
+            }
+            left_s -= h;
+        }
+        if courses.iter().any(|c| c.moved) {
+            self.settle(&mut courses, &still);
+        }
+        courses
+    }
+
+    /// Takes the impulses of a sub-step; returns the velocities that undo overlaps, which change places only.
+    fn resolve(&self, courses: &mut [Course], rows: &[Row], h: f64) -> Vec<Vector6<f64>> {
+        let mut undo = vec![Vector6::zeros(); courses.len()];
+        if rows.is_empty() {
+            return undo;
+        }
+        let inverse = self.inverse_masses(courses);
+        let mut rates: Vec<_> = courses.iter().map(Course::rate).collect();
+        let impulses = solve(rows, &inverse, &mut rates, |row| row.gap_m.max(0.0) / h);
+        note(courses, rows, &impulses, &inverse);
+        if rows.iter().any(|row| row.gap_m < -SLACK_M) {
+            let smooth: Vec<_> = rows
+                .iter()
+                .map(|r| Row {
+                    friction: 0.0,
+                    ..r.clone()
+                })
+                .collect();
+            let pushes = solve(&smooth, &inverse, &mut undo, |row| {
+                (row.gap_m / h).max(-UNDO_M_S)
+            });
+            for (row, push) in rows.iter().zip(pushes) {
+                for (m, _) in row.on.iter().flatten() {
+                    courses[*m].moved |= push[0] > 0.0;
+                }
+            }
+        }
+        undo
+    }
+
+    /// What touches at the end of the step does not approach any more.
+    fn settle(&self, courses: &mut [Course], still: &[Placed]) {
+        let things = self.things(courses);
+        let near = self.near(courses, &things, still, 0.0);
+        let rows = self.rows(courses, &things, still, &near, TOUCH_M);
+        let inverse = self.inverse_masses(courses);
+        let mut rates: Vec<_> = courses.iter().map(|c| c.end + c.gained).collect();
+        let impulses = solve(&rows, &inverse, &mut rates, |_| 0.0);
+        note(courses, &rows, &impulses, &inverse);
+    }
+
+    /// What stands fast.
+    fn still(&self) -> Vec<Placed> {
+        let fixed = self.fixed.iter().map(|f| Placed::new(f.pose, &f.shape));
+        let bases =
+            (self.gantries.iter()).flat_map(|g| self.shapes_of(g.base_handle, g, [0.0; 2], 0));
+        fixed.chain(bases).collect()
+    }
+
+    /// What moves, bodies first.
+    fn things(&self, courses: &[Course]) -> Vec<Thing> {
+        let mut things = Vec::new();
+        for (m, course) in courses.iter().enumerate() {
+            match course.who {
+                Who::Body(i) => {
+                    let at = pose(&course.pose(&self.bodies[i].p_BG));
+                    things.extend(self.bodies[i].parts.iter().map(|(local, shape)| Thing {
+                        placed: Placed::body(at * *local, shape),
+                        on: Some((m, 0)),
+                    }));
+                }
+                Who::Gantry(i) => {
+                    let g = &self.gantries[i];
+                    for k in 0..2 {
+                        let shapes = self.shapes_of(g.slides[k], g, course.joints_m, k + 1);
+                        things.extend(shapes.into_iter().map(|placed| Thing {
+                            placed,
+                            on: Some((m, k)),
+                        }));
+                    }
+                }
+            }
+        }
+        things
+    }
+
+    /// Pairs of which one is a body that could meet within `left_s`; the second index counts on through what stands fast.
+    fn near(
+        &self,
+        courses: &[Course],
+        things: &[Thing],
+        still: &[Placed],
+        left_s: f64,
+    ) -> Vec<Near> {
+        let speed = |thing: &Thing| thing.on.map_or(0.0, |(m, _)| self.fastest_m_s(&courses[m]));
+        let body = |thing: &Thing| {
+            thing
+                .on
+                .is_some_and(|(m, _)| matches!(courses[m].who, Who::Body(_)))
+        };
+        let mut near = Vec::new();
+        for (i, first) in things.iter().enumerate().filter(|(_, t)| body(t)) {
+            let own_m_s = speed(first);
+            let others = things[i + 1..].iter().map(|t| (&t.placed, t.on, speed(t)));
+            let fast = still.iter().map(|placed| (placed, None, 0.0));
+            for (k, (placed, on, other_m_s)) in others.chain(fast).enumerate() {
+                if on.map(|(m, _)| m) == first.on.map(|(m, _)| m) {
+                    continue;
+                }
+                let fastest_m_s = own_m_s + other_m_s;
+                let reach_m = fastest_m_s * left_s + 2.0 * CREEP_M;
+                if let Some(nearest) = first.placed.nearest(placed, reach_m) {
+                    near.push(Near {
+                        things: [i, i + 1 + k],
+                        nearest,
+                        fastest_m_s,
+                    });
+                }
+            }
+        }
+        near
+    }
+
+    fn rows(
+        &self,
+        courses: &[Course],
+        things: &[Thing],
+        still: &[Placed],
+        near: &[Near],
+        reach_m: f64,
+    ) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for n in near.iter().filter(|n| n.nearest.gap_m <= reach_m) {
+            let [a, b] = n.things;
+            let first = &things[a];
+            let (second, on) = match things.get(b) {
+                Some(thing) => (&thing.placed, thing.on),
+                None => (&still[b - things.len()], None),
+            };
+            let slides = on.is_some_and(|(m, _)| matches!(courses[m].who, Who::Gantry(_)));
+            for point in first.placed.points(second, n.nearest, reach_m) {
+                let axes_W = axes(&point.normal_W);
+                let share = |on: Option<(usize, usize)>, sign: f64| {
+                    on.map(|(m, k)| {
+                        (
+                            m,
+                            axes_W.map(|a| self.share(&courses[m], k, &point.at_W, &(a * sign))),
+                        )
+                    })
+                };
+                rows.push(Row {
+                    on: [share(first.on, 1.0), share(on, -1.0)],
+                    axes_W,
+                    at_W: point.at_W,
+                    gap_m: point.gap_m,
+                    friction: if slides { 0.0 } else { FRICTION },
+                });
+            }
+        }
+        rows
+    }
+
+    /// The ends of the gantries' travel that could be met within `h`, s.
+    fn stops(&self, courses: &[Course], h: f64) -> Vec<Row> {
+        let mut rows = Vec::new();
+        for (m, course) in courses.iter().enumerate() {
+            let Who::Gantry(i) = course.who else { continue };
+            for k in 0..2 {
+                let [low, high] = self.gantries[i].travel_m[k];
+                let q = course.joints_m[k];
+                for (gap_m, sign) in [(q - low, 1.0), (high - q, -1.0)] {
+                    if gap_m > h * self.fastest_m_s(course) + 2.0 * CREEP_M {
+                        continue;
+                    }
+                    let mut by = [Vector6::zeros(); 3];
+                    by[0][k] = sign;
+                    rows.push(Row {
+                        on: [Some((m, by)), None],
+                        axes_W: [Vector3::zeros(); 3],
+                        at_W: Vector3::zeros(),
+                        gap_m: gap_m.max(0.0),
+                        friction: 0.0,
+                    });
+                }
+            }
+        }
+        rows
+    }
+}
+
+/// A unit normal with two tangents.
+fn axes(normal: &Vector3<f64>) -> [Vector3<f64>; 3] {
+    let least = normal.iamin();
+    let first = normal.cross(&Vector3::ith(least, 1.0)).normalize();
+    [*normal, first, normal.cross(&first)]
+}
