@@ -7,6 +7,7 @@ pub mod area;
 pub mod catalogue;
 pub mod clock;
 pub mod cost;
+pub mod digest;
 pub mod error;
 pub mod fields;
 pub mod files;
@@ -16,7 +17,7 @@ pub mod math;
 pub mod obstacles;
 pub mod physics;
 pub mod ranges;
-pub mod record;
+
 pub mod seeds;
 pub mod stage;
 pub mod terrain;

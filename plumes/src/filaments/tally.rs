@@ -6,7 +6,7 @@ use super::plume::Plume;
 use super::store::Store;
 use crate::flow::grid::FlowGrid;
 use crate::release::Source;
-use world::record::Digest;
+use world::digest::Digest;
 
 impl Plume {
     /// Time of the latest drift's end, s.

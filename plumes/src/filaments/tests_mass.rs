@@ -2,8 +2,8 @@
 
 use super::tests_water::{Water, plume, pour, source};
 use nalgebra::Vector3;
+use world::digest::Digest;
 use world::fields::Concentration;
-use world::record::Digest;
 use world::terrain::Terrain;
 
 /// Integral of the concentration of one filament of the given age over the whole water column, over its mass.

@@ -1,0 +1,296 @@
+//! `rheotaxis campaign`: plans, runs, looks at, merges and repeats campaigns.
+
+use super::args::{RunArgs, Speed};
+use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
+use super::campaign_plan::{count, plan};
+use super::campaign_report;
+use super::exit::Exit;
+use super::onlooker::Onlooker;
+use super::run::RunError;
+use super::{say, stop};
+use indicatif::{ProgressBar, ProgressStyle};
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::Trial;
+use std::sync::atomic::{AtomicU64, Ordering};
+use studies::campaign::{
+    CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
+};
+
+/// Does what is asked.
+pub(super) fn campaign(command: &CampaignCommand) -> Exit {
+    stop::listen();
+    let done = match command {
+        CampaignCommand::Plan(args) => plan(args),
+        CampaignCommand::Run(args) => run_share(args),
+        CampaignCommand::Status(args) => status(args),
+        CampaignCommand::Merge(args) => merge_rows(args),
+        CampaignCommand::Report(args) => return campaign_report::report(args),
+        CampaignCommand::Rerun(args) => return rerun(args),
+    };
+    done.unwrap_or_else(refused)
+}
+
+pub(super) fn refused(error: CampaignError) -> Exit {
+    let help = match &error {
+        CampaignError::Differs { .. } => Some(
+            "give another --out; or --force, which goes on here and keeps the blocks that are done",
+        ),
+        CampaignError::Write { .. } => {
+            Some("blocks written before are whole; make room or name another folder, and run again")
+        }
+        CampaignError::Broken { .. } => Some(
+            "`rheotaxis campaign run` does it again, unless something else stands in its place",
+        ),
+        _ => None,
+    };
+    match error {
+        CampaignError::Scenario(error) => say::scenario_error(error),
+        error => say::error(error, help),
+    }
+    Exit::Error
+}
+
+fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
+    let shard = match args.shard {
+        Some(shard) => shard,
+        None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
+    };
+    let campaign = load(&args.file)?;
+    say::warnings(campaign.notes());
+    let bar = if args.quiet {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(0)
+    };
+    bar.set_style(
+        ProgressStyle::with_template(
+            "{prefix} {pos} of {len} runs [{bar:30}] {per_sec}, {eta} left{msg}",
+        )
+        .expect("the template is well formed")
+        .progress_chars("=> "),
+    );
+    bar.set_prefix(campaign.name.clone());
+    let (failed, share) = (AtomicU64::new(0), AtomicU64::new(0));
+    let say_so = |line: &str| {
+        if !args.quiet {
+            bar.suspend(|| eprintln!("{line}"));
+        }
+    };
+    let tell = |event: Event<'_>| match event {
+        Event::Begun { runs, done } => {
+            share.store(runs, Ordering::Relaxed);
+            bar.set_length(runs);
+            bar.set_position(done);
+            bar.reset_eta();
+            let part = if shard.count > 1 {
+                format!(", share {shard}")
+            } else {
+                String::new()
+            };
+            let before = if done > 0 {
+                format!(", {done} done before")
+            } else {
+                String::new()
+            };
+            say_so(&format!(
+                "{}{part}: {}{before}; {}",
+                campaign.name,
+                count(runs, "run"),
+                campaign.spec.seeds.words()
+            ));
+        }
+        // Said even with --quiet: something damaged the folder.
+        Event::Broken(error) => bar.suspend(|| eprintln!("{error}; it is done again")),
+        Event::Ran(row) => {
+            bar.inc(1);
+            if let Some(error) = &row.error
+                && failed.fetch_add(1, Ordering::Relaxed) == 0
+            {
+                say_so(&format!("run {} failed: {error}", row.run));
+                bar.set_message(", some failed");
+            }
+        }
+        Event::Wrote(_) => {}
+    };
+    let options = RunOptions {
+        shard,
+        jobs: args.jobs,
+        block: args.block,
+        max_wall: args.max_wall,
+        force: args.force,
+    };
+    let ended = run(&campaign, &args.out, &options, stop::listen(), &tell);
+    bar.finish_and_clear();
+    let exit = match ended? {
+        RunEnded::Complete => {
+            say_so(&format!(
+                "{}: done, {} in {}",
+                campaign.name,
+                count(share.load(Ordering::Relaxed), "run"),
+                args.out.display()
+            ));
+            Exit::Success
+        }
+        RunEnded::Waiting { missing } => {
+            say_so(&format!(
+                "{}: this share is done so far; {} of other shares will say whether more runs are needed: \
+                 run the same command again then",
+                campaign.name,
+                count(missing, "missing block")
+            ));
+            Exit::Unfinished
+        }
+        RunEnded::Stopped { done, left } => {
+            say_so(&format!(
+                "{}: stopped: {} done now and written, {left} to do; the same command goes on",
+                campaign.name,
+                count(done, "run")
+            ));
+            Exit::Unfinished
+        }
+    };
+    let failed = failed.load(Ordering::Relaxed);
+    if failed > 0 {
+        say_so(&format!(
+            "  {} failed: their rows say why",
+            count(failed, "run")
+        ));
+    }
+    Ok(exit)
+}
+
+fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
+    let status = Status::of(&args.dir)?;
+    let manifest = &status.manifest;
+    let adaptive = status.wanted.runs < manifest.runs;
+    say::line(format_args!(
+        "{}: {} of {}{} done, {} of {} whole",
+        manifest.name,
+        status.runs_done,
+        if adaptive { "at most " } else { "" },
+        count(manifest.runs, "run"),
+        status.blocks_done,
+        count(status.wanted.blocks(manifest), "block")
+    ));
+    say::line(format_args!("  {}", status.seeds.words()));
+    for arm in &status.arms {
+        say::line(format_args!(
+            "  arm {}: {}, {} successful, {} failed",
+            arm.name,
+            count(arm.runs, "run"),
+            arm.successes,
+            arm.failed
+        ));
+    }
+    if let Some((run, error)) = &status.first_error {
+        say::line(format_args!(
+            "  the first that failed is run {run}: {error}"
+        ));
+    }
+    for error in &status.broken {
+        say::line(format_args!(
+            "  {error}; `rheotaxis campaign run` does it again"
+        ));
+    }
+    Ok(if status.complete() {
+        Exit::Success
+    } else {
+        Exit::Unfinished
+    })
+}
+
+fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
+    let csv = args.csv.then(|| args.out.with_extension("csv"));
+    let merged = merge(&args.dir, &args.out, csv.as_deref())?;
+    say::line(format_args!(
+        "{} in {}",
+        count(merged.rows, "row"),
+        args.out.display()
+    ));
+    if merged.rows < merged.of {
+        eprintln!(
+            "the campaign is not done: {} are missing",
+            count(merged.of - merged.rows, "run")
+        );
+    }
+    Ok(Exit::Success)
+}
+
+fn rerun(args: &RerunArgs) -> Exit {
+    let found = Manifest::of(&args.dir).and_then(|manifest| {
+        let row = read_row(&args.dir, args.run)?;
+        let campaign = manifest.campaign()?;
+        let place = campaign.place(args.run);
+        let mut what = format!("arm {}", campaign.arm(place.arm).name);
+        let condition = campaign.condition_name(place.condition);
+        if !condition.is_empty() {
+            what += &format!(", {condition}");
+        }
+        Ok((
+            campaign.loaded(place.condition, place.arm)?,
+            place.seed,
+            (what, row),
+        ))
+    });
+    let (loaded, seed, (what, row)) = match found {
+        Ok(found) => found,
+        Err(error) => return refused(error),
+    };
+    let out = args
+        .out
+        .clone()
+        .unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
+    let as_run = RunArgs {
+        files: Vec::new(),
+        seed,
+        out: Some(out.clone()),
+        speed: Speed::Max,
+        no_zenoh: true,
+        no_record: !args.record,
+        quiet: args.quiet,
+        zenoh_config: None,
+        zenoh_listen: None,
+        zenoh_linger: 0.0,
+    };
+    let again = || -> Result<(RunOutcome, String), RunError> {
+        let mut trial = Trial::assemble(&loaded, seed)?;
+        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, stop::listen())?;
+        let ended = trial.run(&mut onlooker);
+        Ok((onlooker.finish(&trial, &ended)?, ended.digest))
+    };
+    match again() {
+        Err(error) => {
+            say::error(error, None);
+            Exit::Error
+        }
+        Ok((RunOutcome::Interrupted, _)) => Exit::Interrupted,
+        Ok((_, digest)) => match row {
+            None => {
+                say::line(format_args!(
+                    "run {} ({what}, seed {seed}) has no row yet to compare with",
+                    args.run
+                ));
+                Exit::Success
+            }
+            Some(row) if row.digest == digest => {
+                say::line(format_args!(
+                    "run {} ({what}, seed {seed}): the same digest as its row, {digest}",
+                    args.run
+                ));
+                Exit::Success
+            }
+            Some(row) => {
+                let theirs = if row.digest.is_empty() {
+                    "none"
+                } else {
+                    &row.digest
+                };
+                say::error(
+                    format!("run {} has digest {digest}, its row {theirs}", args.run),
+                    Some("was the campaign run by another version of the program?"),
+                );
+                Exit::Error
+            }
+        },
+    }
+}

@@ -1,0 +1,107 @@
+//! `rheotaxis campaign plan`: what a campaign is and what it will cost.
+
+use super::args_campaign::PlanArgs;
+use super::exit::Exit;
+use super::say;
+use studies::campaign::{Campaign, CampaignError, LONGEST, RunName, block_of, load, one_run};
+
+/// Checks a campaign, counts its runs and, unless told otherwise, makes the first one to see what it costs.
+pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
+    let campaign = load(&args.file)?;
+    say::warnings(campaign.notes());
+    campaign.check()?;
+    let (runs, conditions) = (campaign.n_runs(), campaign.spec.n_conditions());
+    let seeds = campaign.spec.seeds;
+    say::line(format_args!("{}: {}", campaign.name, campaign.spec.title));
+    say::line(format_args!(
+        "  {runs} runs: {} x {} x {} on {}",
+        count(campaign.n_arms(), "arm"),
+        count(conditions, "condition"),
+        count(seeds.count(), "seed"),
+        campaign.base.name
+    ));
+    if let Some(until) = &campaign.spec.until {
+        say::line(format_args!(
+            "  or fewer: until every success share is known to plus or minus {:.1} %",
+            100.0 * until.half_width
+        ));
+    }
+    if let Some(block) = args.block {
+        blocks(runs, block.next_multiple_of(campaign.n_arms()));
+    }
+    say::line(format_args!("  {}", seeds.words()));
+    for arm in &campaign.spec.arms {
+        say::line(format_args!("  arm {}: {}", arm.name, arm.words()));
+    }
+    let shown = conditions.min(12);
+    for condition in (0..shown).filter(|_| conditions > 1) {
+        say::line(format_args!(
+            "  condition {condition}: {}",
+            campaign.condition_name(condition)
+        ));
+    }
+    if shown < conditions {
+        say::line(format_args!("  and {} more", conditions - shown));
+    }
+    let place = campaign.place(0);
+    say::line(format_args!(
+        "  run 0 is `rheotaxis run --seed {}` of {} with what arm {} and its condition set",
+        place.seed,
+        campaign.base.name,
+        campaign.arm(place.arm).name
+    ));
+    if args.no_probe {
+        if args.block.is_none() {
+            say::line(format_args!(
+                "  blocks of what one thread does in half a minute, at most {LONGEST} runs"
+            ));
+        }
+        return Ok(Exit::Success);
+    }
+    cost(&campaign, args.block.is_none())
+}
+
+/// Makes the first run and says what all will cost, and how long blocks will be if that hangs on it.
+fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
+    let name = RunName {
+        seed: campaign.place(0).seed,
+        ..RunName::default()
+    };
+    let row = one_run(&campaign.loaded(0, 0)?, &name);
+    if let Some(error) = row.error {
+        say::error(format!("the first run fails: {error}"), None);
+        return Ok(Exit::Error);
+    }
+    let runs = campaign.n_runs();
+    let (spin_up, mission) = (row.spin_up_wall_s, row.mission_wall_s);
+    if by_cost {
+        blocks(runs, block_of(campaign, spin_up, mission, 1));
+    }
+    let (apart, shared) = (runs as f64, runs as f64 / campaign.n_arms() as f64);
+    say::line(format_args!(
+        "  the first run took {spin_up:.2} s of spin-up and {mission:.2} s of mission; for all about {} on \
+         one core, {} if the arms share their water and sources",
+        hours(apart * (spin_up + mission)),
+        hours(shared * spin_up + apart * mission)
+    ));
+    Ok(Exit::Success)
+}
+
+fn blocks(runs: u64, block: u64) {
+    say::line(format_args!(
+        "  {} of {block} runs",
+        count(runs.div_ceil(block), "block")
+    ));
+}
+
+pub(super) fn count(n: u64, what: &str) -> String {
+    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+}
+
+fn hours(seconds: f64) -> String {
+    match seconds {
+        s if s < 120.0 => format!("{s:.0} s"),
+        s if s < 7200.0 => format!("{:.0} min", s / 60.0),
+        s => format!("{:.1} h", s / 3600.0),
+    }
+}

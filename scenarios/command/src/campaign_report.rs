@@ -1,0 +1,69 @@
+//! `rheotaxis campaign report`: the arms of a campaign against each other.
+
+use super::args_campaign::ReportArgs;
+use super::campaign::refused;
+use super::exit::Exit;
+use super::say;
+use studies::campaign::report::{About, write};
+use studies::campaign::{Arm, Campaign, CampaignError, Manifest, RunRow, read_rows, wanted};
+
+/// Writes the report and prints its tables.
+pub(super) fn report(args: &ReportArgs) -> Exit {
+    let read = match read(args) {
+        Ok(read) => read,
+        Err(error) => return refused(error),
+    };
+    let spec = &read.campaign.spec;
+    let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
+    let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
+    let about = About {
+        name: &read.manifest.name,
+        title: &spec.title,
+        scenario: &read.manifest.scenario_name,
+        hash: &read.manifest.campaign_hash,
+        version: &read.manifest.version,
+        arms: &arms,
+        sets: &sets,
+        seeds: &spec.seeds.words(),
+        limit_s: Some(read.limit_s),
+        planned: read.planned,
+    };
+    let out = args.out.clone().unwrap_or_else(|| args.dir.join("report"));
+    match write(&out, &about, &read.rows) {
+        Ok(written) => {
+            if let Some(removed) = say::removed(&out, &written.removed) {
+                eprintln!("{removed}");
+            }
+            say::line(written.text);
+            say::line(format_args!(
+                "results in {}: open report.html",
+                out.display()
+            ));
+            Exit::Success
+        }
+        Err(error) => {
+            say::error(error, None);
+            Exit::Error
+        }
+    }
+}
+
+struct Read {
+    manifest: Manifest,
+    campaign: Campaign,
+    planned: u64,
+    limit_s: f64,
+    rows: Vec<RunRow>,
+}
+
+fn read(args: &ReportArgs) -> Result<Read, CampaignError> {
+    let manifest = Manifest::of(&args.dir)?;
+    let campaign = manifest.campaign()?;
+    Ok(Read {
+        planned: wanted(&campaign, &args.dir, &manifest).runs,
+        limit_s: campaign.limit_s()?,
+        rows: read_rows(&args.dir)?,
+        manifest,
+        campaign,
+    })
+}

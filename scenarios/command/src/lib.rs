@@ -1,0 +1,92 @@
+//! The command `rheotaxis`: what it is asked, and what it answers.
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a command speaks through standard output and error"
+)]
+
+mod args;
+mod args_campaign;
+mod args_picture;
+mod args_reproduce;
+mod args_vision;
+mod campaign;
+mod campaign_plan;
+mod campaign_report;
+mod check;
+mod exit;
+mod init;
+mod list;
+mod onlooker;
+mod picture;
+mod progress;
+mod reproduce;
+mod run;
+mod say;
+mod score_vision;
+mod segment;
+mod shown;
+mod statistics;
+mod stop;
+mod topics;
+
+pub use args::{
+    Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
+    TopicsArgs,
+};
+pub use args_campaign::{
+    CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
+    StatusArgs,
+};
+pub use args_picture::{Numbers, PictureArgs};
+pub use args_reproduce::ReproduceArgs;
+pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
+pub use exit::Exit;
+
+use clap::Parser;
+use rheotaxis::scenario::cost;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::process::ExitCode;
+
+/// The whole command, from its arguments to its exit code.
+#[must_use]
+pub fn main() -> ExitCode {
+    say::set_up();
+    // clap ends the process itself for `--help` (0) and for wrong usage (2).
+    let Args { command, memory } = Args::parse();
+    cost::set_limit(memory);
+    // A broken assumption has said so by now, with its cure: an error like any other to the shell.
+    guarded(|| dispatch(command)).into()
+}
+
+fn guarded(work: impl FnOnce() -> Exit) -> Exit {
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Error)
+}
+
+fn dispatch(command: Command) -> Exit {
+    match command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::Init(args) => init::init(&args),
+        Command::List(args) => list::list(&args),
+        Command::Topics(args) => topics::topics(&args),
+        Command::Campaign(args) => campaign::campaign(&args.command),
+        Command::Reproduce(args) => reproduce::run(&args),
+        Command::Statistics(args) => statistics::statistics(&args),
+        Command::Picture(args) => picture::picture(&args),
+        Command::Segment(args) => segment::segment(&args),
+        Command::ScoreVision(args) => score_vision::score_vision(&args),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_broken_assumption_is_an_error_to_the_shell() {
+        assert_eq!(guarded(|| Exit::NotFound), Exit::NotFound);
+        let broken = guarded(|| panic!("the hull is {} m long", -1));
+        assert_eq!(broken, Exit::Error);
+    }
+}

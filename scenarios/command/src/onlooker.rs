@@ -1,0 +1,385 @@
+//! Who watches a run from the command: recording, table, live state, progress, pace, and the report.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "pace and wall time are shown to people; nothing of them enters the run"
+)]
+
+use super::args::{RunArgs, Speed};
+use super::progress::Progress;
+use output::files::{ReportError, begin_folder};
+use output::live::{Live, LiveMeta, LiveOptions, run_id};
+use output::record::Recorder;
+use output::report::write_all;
+use output::results::{
+    BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables,
+    RobotInfo, RunEnd, RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
+};
+use plumes::flow::CurrentSpec;
+use rheotaxis::abnormal::Abnormals;
+use rheotaxis::assemble::AssembleError;
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::gantry::GantryBlock;
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::Loaded;
+use rheotaxis::system::Dye;
+use rheotaxis::trial::{Ended, Trial, Watch};
+use robots::strategy::StrategySpec;
+use robots::vehicles::Gantry;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+use world::area::Area;
+use world::files::Folder;
+use world::obstacles::Obstacles;
+use world::ranges::Finite;
+use world::terrain::Terrain;
+
+use super::run::RunError;
+use super::say;
+
+/// Longest time in which Ctrl-C is not heard while a run waits for its pace.
+const NAP: Duration = Duration::from_millis(50);
+
+/// Everyone who watches one run.
+pub(super) struct Onlooker<'a> {
+    out: Folder,
+    text: String,
+    builder: SummaryBuilder,
+    track: TrackTable,
+    probes: ProbeTables,
+    beliefs: BeliefTrack,
+    pictures: Pictures,
+    echoes: Echoes,
+    recorder: Option<Recorder>,
+    live: Option<Live>,
+    progress: Progress,
+    speed: Speed,
+    stop: &'a AtomicBool,
+    failure: Option<ReportError>,
+    last_plume: Option<PlumeFrame>,
+    begun: Instant,
+    mission_begun: Instant,
+    spin_up_s: f64,
+    linger: Duration,
+    permeable: Vec<String>,
+    interfaces: Vec<f64>,
+}
+
+impl<'a> Onlooker<'a> {
+    /// Opens folder, files and port; whatever is wrong with them is said before the run starts.
+    pub(super) fn new(
+        loaded: &Loaded,
+        args: &RunArgs,
+        out: &Path,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, RunError> {
+        let scenario = &loaded.scenario;
+        let run = RunInfo {
+            scenario_name: loaded.name.clone(),
+            title: scenario.title.clone(),
+            success: scenario.success.words(),
+            scenario_text: loaded.text.clone(),
+            seed: args.seed,
+            version: env!("CARGO_PKG_VERSION").to_string(),
+        };
+        let gantries = gantries(loaded)?;
+        let progress = Progress::new(loaded, args);
+        let live = live(args, &run, &progress)?;
+        // Last of all: a run that cannot begin leaves alone what an earlier one left.
+        let out = begin_folder(out, "run")?;
+        if let Some(removed) = say::removed(out.dir(), out.removed()) {
+            progress.say(&removed);
+        }
+        let robots = scenario.robots.iter().map(|spec| {
+            let dye = spec.sensors.fluorometer.as_ref();
+            RobotInfo {
+                id: spec.id.as_str().to_string(),
+                full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
+                threshold: dye.map(|f| f.threshold.get()),
+                regions: matches!(spec.strategy, StrategySpec::Subregions(_)),
+                layered: matches!(spec.strategy, StrategySpec::Subsumption(_)),
+            }
+        });
+        let path = out.file("track.csv").map_err(ReportError::from)?;
+        let track = TrackTable::create(&path, robots.collect())?;
+        let probes = ProbeTables::create(&out, gantries)?;
+        let recorder = (!args.no_record)
+            .then(|| recording(&out, &run))
+            .transpose()?;
+        let recorder = recorder.map(|r| r.with_map_period(scenario.record.map_period_s.get()));
+        let now = Instant::now();
+        Ok(Self {
+            text: loaded.text.clone(),
+            builder: SummaryBuilder::new(&run),
+            track,
+            probes,
+            beliefs: BeliefTrack::default(),
+            pictures: Pictures::new(&out, scenario.record.pictures),
+            out,
+            echoes: Echoes::default(),
+            recorder,
+            live,
+            progress,
+            speed: args.speed,
+            stop,
+            failure: None,
+            last_plume: None,
+            begun: now,
+            mission_begun: now,
+            spin_up_s: scenario.time.spin_up_s.get(),
+            linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
+            permeable: scenario.permeable.clone(),
+            interfaces: (scenario.water.currents.iter())
+                .filter_map(|c| match c {
+                    CurrentSpec::Layered(l) => Some(&l.interfaces),
+                    _ => None,
+                })
+                .flatten()
+                .map(|i| -i.depth_m.get())
+                .collect(),
+        })
+    }
+
+    fn going(&self) -> bool {
+        self.failure.is_none() && !self.stop.load(Ordering::Relaxed)
+    }
+
+    /// Keeps the first thing that could not be written; the run then ends, with what it has.
+    fn note(&mut self, result: Result<(), ReportError>) {
+        if let Err(error) = result {
+            self.failure.get_or_insert(error);
+        }
+    }
+
+    /// Writes everything that is written at the end and says where it lies.
+    pub(super) fn finish(
+        mut self,
+        trial: &Trial,
+        ended: &Ended,
+    ) -> Result<RunOutcome, ReportError> {
+        let mission_wall = self.mission_begun.elapsed();
+        let spin_up_wall = self.mission_begun - self.begun;
+        if let Some(live) = &self.live {
+            live.end(&ended.digest);
+        }
+        if let Some(recorder) = self.recorder.take() {
+            let closed = recorder.finish(&ended.digest).map(drop);
+            self.note(closed);
+        }
+        let world = &trial.simulation.world;
+        let plume = &world.resource::<Dye>().plume;
+        let sources: Vec<SourceTruth> = (plume.sources().iter())
+            .zip(&ended.flow_at_sources)
+            .map(|(s, flow)| SourceTruth {
+                id: s.id.clone(),
+                position: s.p_W,
+                flow: flow.xy(),
+            })
+            .collect();
+        let outcome = match self.failure {
+            Some(_) => RunOutcome::Failed,
+            None => ended.outcome,
+        };
+        (self.builder).went_wrong(&world.resource::<Abnormals>().0);
+        let summary = self.builder.finish(
+            RunEnd {
+                outcome,
+                error: self.failure.as_ref().map(ToString::to_string),
+                digest: ended.digest.clone(),
+                totals: Totals {
+                    mission_s: ended.t_s,
+                    spin_up_s: self.spin_up_s,
+                    mission_wall_s: mission_wall.as_secs_f64(),
+                    spin_up_wall_s: spin_up_wall.as_secs_f64(),
+                    steps: ended.steps,
+                    filaments: plume.len(),
+                    mass: (!sources.is_empty()).then(|| {
+                        MassBalance::new(
+                            plume.mass_released_kg(),
+                            plume.mass_in_kg(),
+                            plume.mass_left_kg(),
+                        )
+                    }),
+                },
+            },
+            &sources,
+        );
+        let track = self.track.finish();
+        let gantries = self.probes.finish();
+        let obstacles: Vec<ObstacleOutline> = (world.resource::<Obstacles>().0.iter())
+            .map(|o| ObstacleOutline {
+                id: o.id.clone(),
+                corners: o.outline(),
+                z: {
+                    let (low, high) = o.bounds();
+                    [low.z, high.z]
+                },
+                permeable: self.permeable.contains(&o.id),
+            })
+            .collect();
+        let written = write_all(
+            &self.out,
+            &RunReport {
+                pictures: self.pictures.shown(),
+                echoes: &self.echoes,
+                summary: &summary,
+                track: &track,
+                gantries: &gantries,
+                beliefs: &self.beliefs,
+                plume: self.last_plume.as_ref(),
+                dye: (!sources.is_empty()).then_some(plume),
+                area: world.resource::<Area>(),
+                terrain: world.resource::<Terrain>(),
+                sources: &sources,
+                interfaces: &self.interfaces,
+                obstacles: &obstacles,
+                solids: Some(world.resource::<Obstacles>()),
+                scenario_text: &self.text,
+            },
+        );
+        self.progress.finish(&summary, self.out.dir());
+        if let Some(live) = self.live.take() {
+            live.linger(self.linger, || self.stop.load(Ordering::Relaxed));
+            live.finish(&ended.digest);
+        }
+        let failures = self.failure.into_iter().chain(written.err()).collect();
+        ReportError::of(failures).map_or(Ok(outcome), Err)
+    }
+}
+
+/// The recording; should it not come to its end, the next run in that folder knows what it left.
+fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
+    let recorder = Recorder::create(&out.file("run.mcap")?, run)?;
+    if let Some(name) = recorder.temporary().file_name() {
+        out.file(&name.to_string_lossy())?;
+    }
+    Ok(recorder)
+}
+
+/// The run as others see it over zenoh.
+fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Live>, RunError> {
+    if args.no_zenoh {
+        return Ok(None);
+    }
+    let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
+    options.listen = args.zenoh_listen.clone();
+    options.config_file = args.zenoh_config.clone();
+    let meta = LiveMeta {
+        scenario_text: run.scenario_text.clone(),
+        scenario_name: run.scenario_name.clone(),
+        seed: run.seed,
+        version: run.version.clone(),
+    };
+    let live = Live::start(&options, meta)?;
+    progress.say(&format!(
+        "live on {} under rheotaxis/{}",
+        live.endpoint(),
+        options.run_id
+    ));
+    if let Some(notice) = live.notice() {
+        progress.say(notice);
+    }
+    Ok(Some(live))
+}
+
+/// What tables and figures must know of the scenario's gantries.
+fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
+    let scenario = &loaded.scenario;
+    // The strongest, if there are several.
+    let effluent = (scenario.sources.iter())
+        .filter_map(|s| Some(1e-3 * s.rate_g_s.get() / s.release.nozzle.as_ref()?.volume_m3_s()))
+        .max_by(f64::total_cmp);
+    let info = |block: &GantryBlock| {
+        let id = block.id.as_str().to_string();
+        let gantry = Gantry::load(&block.gantry, &loaded.base_dir).map_err(|source| {
+            AssembleError::Robot {
+                id: id.clone(),
+                source,
+            }
+        })?;
+        let range_v = block.probes.range_v.map(Finite::get);
+        let layout = gantry.layout(block.probes.rate_hz.get(), range_v);
+        Ok(GantryInfo {
+            id,
+            probes: layout.probes.into_iter().map(|p| p.name).collect(),
+            range_v,
+            full_scale_kg_m3: block.probes.full_scale_kg_m3.get(),
+            effluent_kg_m3: effluent,
+        })
+    };
+    scenario.gantries.iter().map(info).collect()
+}
+
+impl Watch for Onlooker<'_> {
+    fn spun_up(&mut self, share: f64) -> bool {
+        self.progress.spun_up(share);
+        self.mission_begun = Instant::now();
+        self.going()
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        self.builder.observe(frame);
+        let rows = self.track.push(frame);
+        self.note(rows);
+        let scans = self.probes.push(frame);
+        self.note(scans);
+        self.beliefs.push(frame);
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.frame(frame);
+            self.note(recorded);
+        }
+        if let Some(live) = &self.live {
+            live.publish(frame);
+        }
+        self.progress.frame(frame);
+    }
+
+    fn plume(&mut self, plume: &PlumeFrame) {
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.plume(plume);
+            self.note(recorded);
+        }
+        if let Some(live) = &self.live {
+            live.plume(plume);
+        }
+        self.beliefs.plume(plume);
+        self.last_plume = Some(plume.clone());
+    }
+
+    fn picture(&mut self, picture: &PictureFrame) {
+        if let Some(live) = &self.live {
+            live.picture(picture);
+        }
+        let kept = self.pictures.push(picture);
+        if let (Ok(Some(png)), Some(recorder)) = (&kept, &mut self.recorder) {
+            let recorded = recorder.picture(picture, png);
+            self.note(recorded);
+        }
+        self.note(kept.map(drop));
+    }
+
+    fn ping(&mut self, ping: &PingFrame) {
+        if let Some(live) = &self.live {
+            live.ping(ping);
+        }
+        if let Some(line) = self.echoes.push(ping)
+            && let Some(recorder) = &mut self.recorder
+        {
+            let recorded = recorder.echo(&ping.robot, line);
+            self.note(recorded);
+        }
+    }
+
+    fn go_on(&mut self, t_s: f64) -> bool {
+        if let Speed::Times(speed) = self.speed {
+            // However slow it shall be, Ctrl-C ends it.
+            let due = Duration::try_from_secs_f64(t_s / speed).unwrap_or(Duration::MAX);
+            while self.going()
+                && let Some(early) = due.checked_sub(self.mission_begun.elapsed())
+            {
+                std::thread::sleep(early.min(NAP));
+            }
+        }
+        self.going()
+    }
+}

@@ -1,0 +1,131 @@
+//! `rheotaxis picture`: one picture of a scenario's plume from anywhere.
+
+use super::args_picture::PictureArgs;
+use super::exit::Exit;
+use super::say;
+use image::{ImageFormat, RgbImage};
+use nalgebra::Vector3;
+use output::files::{ReportError, write_whole};
+use rheotaxis::scenario::load;
+use rheotaxis::system::Dye;
+use rheotaxis::trial::{Trial, Unwatched};
+use robots::sense::camera::{CameraModel, Optics, Rendered, Scene, looking, render};
+use std::io::Cursor;
+use std::path::Path;
+use world::obstacles::Obstacles;
+use world::ranges::Positive;
+use world::seeds;
+use world::terrain::Terrain;
+use world::units::Heading;
+
+/// Takes the picture and says where it lies.
+pub(super) fn picture(args: &PictureArgs) -> Exit {
+    if args.truth.as_ref() == Some(&args.out) {
+        let problem = format!(
+            "--out and --truth are the same file, {}",
+            args.out.display()
+        );
+        say::error(problem, Some("name another file for one of them"));
+        return Exit::Error;
+    }
+    let checked = load(&args.file).and_then(|mut loaded| {
+        if let Some(metres) = args.visibility.and_then(|v| Positive::try_from(v).ok()) {
+            loaded.scenario.optics.clarity.visibility_m = metres;
+        }
+        loaded.check().map(|odd| (loaded, odd))
+    });
+    let loaded = match checked {
+        Ok((loaded, odd)) => {
+            say::warnings(odd);
+            loaded
+        }
+        Err(error) => {
+            say::scenario_error(error);
+            return Exit::Error;
+        }
+    };
+    if let Some(wrong) = args.visibility.filter(|v| Positive::try_from(*v).is_err()) {
+        say::error(format!("--visibility must be > 0, got {wrong}"), None);
+        return Exit::Error;
+    }
+    let mut trial = match Trial::assemble(&loaded, args.seed) {
+        Ok(trial) => trial,
+        Err(error) => {
+            say::error(error, None);
+            return Exit::Error;
+        }
+    };
+    let world_of = |trial: &Trial| {
+        let world = &trial.simulation.world;
+        let [east, north, up] = args.at.0;
+        let bed = world.resource::<Terrain>().bed_z(east, north);
+        if up > 0.0 || up < bed {
+            return Err(format!(
+                "the camera must be in the water: up from {bed:.2} to 0 m at that place, got {up}"
+            ));
+        }
+        let p = Vector3::new(east, north, up);
+        match world.resource::<Obstacles>().containing(&p) {
+            Some(solid) => Err(format!("the camera would be inside \"{}\"", solid.id)),
+            None => Ok(p),
+        }
+    };
+    let p_W = match world_of(&trial) {
+        Ok(p_W) => p_W,
+        Err(problem) => {
+            say::error(problem, None);
+            return Exit::Error;
+        }
+    };
+    trial.spin_up(&mut Unwatched);
+    let world = &trial.simulation.world;
+    let scene = Scene {
+        terrain: world.resource(),
+        obstacles: world.resource(),
+        dye: &world.resource::<Dye>().plume,
+        optics: world.resource::<Optics>(),
+    };
+    let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.camera.clone());
+    let camera = CameraModel::new(&spec.unwrap_or_default());
+    let [heading, down] = args.look.0;
+    let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());
+    let noise = seeds::key(args.seed, "picture", "camera");
+    let made = render(&camera, &pose_WC, &scene, noise);
+    let files = [
+        Some((args.out.as_path(), made.image.clone())),
+        (args.truth.as_deref()).map(|path| (path, truth(&camera, &made))),
+    ];
+    let mut exit = Exit::Success;
+    for (path, image) in files.into_iter().flatten() {
+        match write_png(path, &image) {
+            Ok(()) => say::line(path.display()),
+            Err(error) => {
+                say::error(error, None);
+                exit = Exit::Error;
+            }
+        }
+    }
+    exit
+}
+
+/// Red: how much the dye changes a pixel; blue: the light of a solid that arrives.
+fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
+    let byte = |share: f32| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u8;
+    let bytes = (made.seen.iter()).flat_map(|s| {
+        let solid = s.obstacle.map_or(0.0, |_| s.clear);
+        [byte(s.plume), 0, byte(solid)]
+    });
+    RgbImage::from_raw(camera.width, camera.height, bytes.collect())
+        .expect("the truth is told for every pixel")
+}
+
+fn write_png(path: &Path, image: &RgbImage) -> Result<(), ReportError> {
+    let mut png = Cursor::new(Vec::new());
+    image
+        .write_to(&mut png, ImageFormat::Png)
+        .map_err(|e| ReportError::Draw {
+            path: path.to_owned(),
+            cause: e.to_string(),
+        })?;
+    write_whole(path, png.get_ref()).map(drop)
+}

@@ -1,0 +1,268 @@
+//! The line that moves while a run goes on, and the words at its end.
+
+use super::args::RunArgs;
+use indicatif::{ProgressBar, ProgressStyle};
+use nalgebra::Vector2;
+use output::results::GantrySummary;
+use output::results::{DeclarationSummary, DeclaredKind, RobotSummary, Summary};
+use rheotaxis::frame::Frame;
+use rheotaxis::gantry::GantryFrame;
+use rheotaxis::scenario::Loaded;
+use robots::handoff::{RegionState, Verdict, region_name};
+use std::path::Path;
+
+/// Resolution of the spin-up's share.
+const PARTS: u64 = 1000;
+
+/// Progress of one run; silent with `--quiet` and off a terminal (but for the words).
+pub(super) struct Progress {
+    bar: ProgressBar,
+    quiet: bool,
+    name: String,
+    limit_s: f64,
+    flying: bool,
+    detections: u64,
+    /// Events told.
+    told: usize,
+    /// Declarations shown last.
+    declared: usize,
+    /// Where the sources truly are (east, north), m: the onlooker may know.
+    sources: Vec<Vector2<f64>>,
+}
+
+impl Progress {
+    pub(super) fn new(loaded: &Loaded, args: &RunArgs) -> Self {
+        let scenario = &loaded.scenario;
+        let bar = if args.quiet {
+            ProgressBar::hidden()
+        } else {
+            ProgressBar::new(PARTS)
+        };
+        bar.set_style(style(
+            "{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left",
+        ));
+        let progress = Self {
+            bar,
+            quiet: args.quiet,
+            name: loaded.name.clone(),
+            limit_s: scenario.time.limit_s.get(),
+            flying: false,
+            detections: 0,
+            told: 0,
+            declared: 0,
+            sources: (scenario.sources.iter())
+                .map(|s| Vector2::new(s.east_m.get(), s.north_m.get()))
+                .collect(),
+        };
+        progress.bar.set_prefix(progress.name.clone());
+        progress.say(&format!(
+            "{}: {}, seed {}",
+            progress.name, scenario.title, args.seed
+        ));
+        progress
+    }
+
+    /// One line that stays.
+    pub(super) fn say(&self, line: &str) {
+        if !self.quiet {
+            self.bar.suspend(|| eprintln!("{line}"));
+        }
+    }
+
+    pub(super) fn spun_up(&mut self, share: f64) {
+        self.bar.set_position((share * PARTS as f64) as u64);
+    }
+
+    pub(super) fn frame(&mut self, frame: &Frame) {
+        if !self.flying {
+            self.flying = true;
+            self.bar.reset();
+            self.bar.set_length(self.limit_s.ceil() as u64);
+            self.bar.set_style(style(
+                "{prefix} {pos:>5} s of at most {len} s [{bar:30}] {per_sec} {msg}",
+            ));
+        }
+        self.detections += frame.robots.iter().filter(|r| r.detected).count() as u64;
+        self.bar.set_position(frame.t_s as u64);
+        for abnormal in frame.abnormal.iter().skip(self.told) {
+            self.say(&format!("  ! {}: {}", abnormal.robot, abnormal.line()));
+        }
+        self.told = frame.abnormal.len();
+        let declared = frame.robots.iter().map(|r| r.declarations.len()).sum();
+        let stopped = frame.gantries.iter().any(|g| g.decision.stopped.is_some());
+        if frame.step.is_multiple_of(50) || declared > self.declared || stopped {
+            self.declared = declared;
+            let mut doing: Vec<String> = (frame.robots.iter())
+                .map(|r| match r.regions.now {
+                    Some(k) => format!("subregion {}: {}", region_name(k), r.behaviour.name()),
+                    None => r.behaviour.name().to_string(),
+                })
+                .collect();
+            if !frame.robots.is_empty() {
+                doing.push(format!("detections {}", self.detections));
+            }
+            let all = || frame.robots.iter().flat_map(|r| &r.declarations);
+            let edges = all().filter(|d| d.at_edge()).count();
+            for (words, n) in [("declared", declared - edges), ("edges", edges)] {
+                if n > 0 {
+                    doing.push(format!("{words} {n}"));
+                }
+            }
+            doing.extend(frame.gantries.iter().map(|g| self.gantry(g)));
+            self.bar.set_message(format!("| {}", doing.join(", ")));
+        }
+    }
+
+    fn gantry(&self, g: &GantryFrame) -> String {
+        let d = &g.decision;
+        let away = (self.sources.iter().map(|s| (s - g.head_W.xy()).norm())).min_by(f64::total_cmp);
+        let away = away.map_or_else(String::new, |m| format!(", {:.0} cm away", 100.0 * m));
+        format!(
+            "{}{away}, {:.1} spikes/s",
+            d.behaviour.name(),
+            d.working.spike_hz
+        )
+    }
+
+    /// Takes the bar away and says how it ended and where the results lie.
+    pub(super) fn finish(&self, summary: &Summary, out: &Path) {
+        self.bar.finish_and_clear();
+        if self.quiet {
+            return;
+        }
+        let run = &summary.run;
+        println!(
+            "{}: {} after {:.0} s ({} filaments, {})",
+            self.name,
+            summary.outcome.words(),
+            run.totals.mission_s,
+            run.totals.filaments,
+            match run.real_time_factor_with_spin_up {
+                Some(x) => format!("{x:.0} x real time, spin-up included"),
+                None => "no time at all".to_string(),
+            }
+        );
+        for robot in &summary.robots {
+            println!(
+                "  {}: travelled {:.0} m, {} detections{}",
+                robot.id,
+                robot.travelled_m,
+                robot.detections,
+                match robot.first_detection_s {
+                    Some(t) => format!(", the first after {t:.0} s"),
+                    None => String::new(),
+                }
+            );
+            for line in declared_lines(robot) {
+                println!("  {}: {line}", robot.id);
+            }
+        }
+        for abnormal in &summary.abnormal {
+            println!("  ! {}: {}", abnormal.robot, abnormal.line);
+        }
+        for g in &summary.gantries {
+            for line in gantry_lines(g) {
+                println!("  {}: {line}", g.id);
+            }
+        }
+        println!("  digest {}", summary.digest);
+        println!("  results in {}: open report.html", out.display());
+    }
+}
+
+/// What a robot declared and how the search of its subregions ended, one subregion after the other, and what to beware of.
+fn declared_lines(robot: &RobotSummary) -> Vec<String> {
+    let of_region = |d: &DeclarationSummary| (d.region.unwrap_or(0), declaration(d));
+    let mut by_region: Vec<(u32, String)> = robot.declarations.iter().map(of_region).collect();
+    let quiet = |state| matches!(state, RegionState::Declared | RegionState::UpFlowEdge);
+    for (k, region) in (0..).zip(&robot.regions) {
+        if !quiet(region.state) {
+            let said = format!("subregion {}: {}", region.name, region.state.words());
+            by_region.push((k, said));
+        }
+    }
+    by_region.sort_by_key(|(k, _)| *k);
+    let none = (robot.sources_declared == 0).then(|| "declared no source".to_string());
+    let remark = robot.map.as_ref().and_then(|m| m.remark.clone());
+    let lines = by_region.into_iter().map(|(_, said)| said);
+    none.into_iter().chain(lines).chain(remark).collect()
+}
+
+/// A declaration, for people.
+fn declaration(d: &DeclarationSummary) -> String {
+    let mut said = match &d.region_name {
+        Some(name) => format!("subregion {name}: "),
+        None => String::new(),
+    };
+    let at = d.position;
+    said += match d.kind {
+        DeclaredKind::Source => "declared a source",
+        DeclaredKind::UpFlowEdge => "traced the plume to its up-flow edge",
+    };
+    said += &format!(
+        " at {:.0} m E, {:.0} m N after {:.0} s ({})",
+        at.east_m, at.north_m, d.t_s, d.rule
+    );
+    if let Some(m) = d.traced_m {
+        said += &format!(", {m:.0} m from the first detection");
+    }
+    if d.kind == DeclaredKind::UpFlowEdge {
+        return said;
+    }
+    if let Some(error) = &d.error {
+        said += &format!("; {:.1} m from {}", error.total_m, error.source);
+        if let (Some(along), Some(across)) = (error.along_flow_m, error.across_flow_m) {
+            said += &format!(" ({along:+.1} m along the flow, {across:+.1} m across)");
+        }
+    }
+    if d.verdict != Verdict::Unchecked {
+        said += &format!("; {}", d.verdict.name());
+    }
+    said
+}
+
+/// What a gantry came to, for people.
+fn gantry_lines(g: &GantrySummary) -> Vec<String> {
+    let [steps, casts, sweeps] = g.moves;
+    let mut lines = vec![format!(
+        "travelled {:.2} m in {steps} steps, {casts} casts and {sweeps} sweeps; {} scans with a spike{}",
+        g.travelled_m,
+        g.spikes,
+        match g.first_spike_s {
+            Some(t) => format!(", the first after {t:.1} s"),
+            None => String::new(),
+        }
+    )];
+    if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
+        lines.push(format!(
+            "from the first step up-stream: {:.1} cm/s, straight way over path (NGDR) {ngdr:.2}",
+            100.0 * v
+        ));
+    }
+    match (&g.declaration, g.stopped) {
+        (Some(d), _) => {
+            let error = d.error.as_ref();
+            let off = error.map_or_else(String::new, |e| {
+                format!(", {:.1} cm from {}", 100.0 * e.total_m, e.source)
+            });
+            let parts = error.and_then(|e| Some((e.along_flow_m?, e.across_flow_m?)));
+            let parts = parts.map_or_else(String::new, |(along, across)| {
+                let (along, across) = (100.0 * along, 100.0 * across);
+                format!(" ({along:+.1} cm along the flow, {across:+.1} cm across)")
+            });
+            lines.push(format!("stopped after {:.1} s{off}{parts}", d.t_s));
+        }
+        (None, Some(_)) => lines.push("gave up".to_string()),
+        (None, None) => lines.push("did not stop".to_string()),
+    }
+    if g.blocked {
+        lines.push("a drive gave up against something in the way".to_string());
+    }
+    lines
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template)
+        .expect("the template is well formed")
+        .progress_chars("=> ")
+}

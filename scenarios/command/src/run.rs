@@ -1,0 +1,95 @@
+//! `rheotaxis run`: runs scenarios, shows them, and leaves a folder for each.
+
+use super::args::RunArgs;
+use super::exit::Exit;
+use super::onlooker::Onlooker;
+use super::{say, stop};
+use output::files::ReportError;
+use output::live::LiveError;
+use rheotaxis::assemble::AssembleError;
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
+use rheotaxis::trial::Trial;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Why a run could not be made or finished.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum RunError {
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Assemble(#[from] AssembleError),
+    #[error(transparent)]
+    Live(#[from] LiveError),
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    #[error("{}: another scenario of this command has left its results there", .0.display())]
+    Taken(PathBuf),
+}
+
+/// Runs every file; a broken one is reported and the next one tried.
+pub(super) fn run(args: &RunArgs) -> Exit {
+    let stop = stop::listen();
+    let mut exit = Exit::Success;
+    let mut taken = Vec::new();
+    for file in &args.files {
+        exit = exit.worse(match one(file, args, &mut taken, stop) {
+            Ok(outcome) => code(outcome),
+            Err(RunError::Scenario(error)) => {
+                say::scenario_error(error);
+                Exit::Error
+            }
+            Err(error) => {
+                say::error(error, None);
+                Exit::Error
+            }
+        });
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+    }
+    exit
+}
+
+fn code(outcome: RunOutcome) -> Exit {
+    match outcome {
+        RunOutcome::Found | RunOutcome::Completed => Exit::Success,
+        RunOutcome::NotFound | RunOutcome::Aborted | RunOutcome::TimeOut => Exit::NotFound,
+        RunOutcome::Interrupted => Exit::Interrupted,
+        RunOutcome::Failed => Exit::Error,
+    }
+}
+
+/// Runs one file, if no other of the command has its folder yet.
+fn one(
+    file: &Path,
+    args: &RunArgs,
+    taken: &mut Vec<PathBuf>,
+    stop: &AtomicBool,
+) -> Result<RunOutcome, RunError> {
+    let loaded = load(file)?;
+    say::warnings(loaded.check()?);
+    let folder = folder(&loaded, args);
+    if taken.contains(&folder) {
+        return Err(RunError::Taken(folder));
+    }
+    taken.push(folder.clone());
+    if !args.quiet {
+        let estimate = cost::estimate(&cost::cost(&loaded.scenario));
+        eprintln!("{}: takes {estimate}, or less", loaded.name);
+    }
+    let mut trial = Trial::assemble(&loaded, args.seed)?;
+    let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
+    let ended = trial.run(&mut onlooker);
+    Ok(onlooker.finish(&trial, &ended)?)
+}
+
+/// Where the results go: as asked, or `runs/<scenario>-<seed>`.
+fn folder(loaded: &Loaded, args: &RunArgs) -> PathBuf {
+    match &args.out {
+        Some(out) if args.files.len() == 1 => out.clone(),
+        Some(out) => out.join(&loaded.name),
+        None => Path::new("runs").join(format!("{}-{}", loaded.name, args.seed)),
+    }
+}

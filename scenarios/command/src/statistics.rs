@@ -1,0 +1,67 @@
+//! `rheotaxis statistics`: a plume's figures beside published ones.
+
+use super::args::StatisticsArgs;
+use super::exit::Exit;
+use super::{say, stop};
+use indicatif::{ProgressBar, ProgressStyle};
+use rheotaxis::scenario::load;
+use std::path::PathBuf;
+use std::sync::atomic::Ordering;
+use studies::statistics::{self, StatisticsError, table, write};
+
+/// Resolution of the progress.
+const PARTS: u64 = 1000;
+
+/// Watches the plume, prints the table and writes the CSV.
+pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
+    let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
+    let loaded = match checked {
+        Ok((loaded, odd)) => {
+            say::warnings(odd);
+            loaded
+        }
+        Err(error) => {
+            say::scenario_error(error);
+            return Exit::Error;
+        }
+    };
+    let stop = stop::listen();
+    let bar = if args.quiet {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(PARTS)
+    };
+    let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
+    bar.set_style(style.expect("the template is well formed"));
+    bar.set_prefix(loaded.name.clone());
+    let measured = statistics::statistics(&loaded, args.seed, args.seconds, |share| {
+        bar.set_position((share * PARTS as f64) as u64);
+        !stop.load(Ordering::Relaxed)
+    });
+    bar.finish_and_clear();
+    let measured = match measured {
+        Ok(measured) => measured,
+        Err(error) => {
+            let exit = match error {
+                StatisticsError::Interrupted => Exit::Interrupted,
+                _ => Exit::Error,
+            };
+            say::error(error, None);
+            return exit;
+        }
+    };
+    say::line(table(&measured));
+    let folder = args.out.clone().unwrap_or_else(|| {
+        PathBuf::from("runs").join(format!("{}-{}-statistics", loaded.name, args.seed))
+    });
+    match write(&folder, &measured) {
+        Ok(path) => {
+            say::line(format_args!("as CSV in {}", path.display()));
+            Exit::Success
+        }
+        Err(error) => {
+            say::error(error, None);
+            Exit::Error
+        }
+    }
+}

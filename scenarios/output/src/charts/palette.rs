@@ -1,0 +1,120 @@
+//! Colours that the colour-blind can tell apart (Okabe & Ito 2008), and ramps that also differ in lightness.
+
+use robots::handoff::{Behaviour, GantryBehaviour};
+
+/// Ink of axes and frames.
+pub const INK: &str = "#222222";
+/// Ink of what stands back.
+pub const GREY: &str = "#7f7f7f";
+/// Grid lines.
+pub const GRID: &str = "#e3e3e3";
+/// A true source.
+pub const TRUE_SOURCE: &str = "#ffffff";
+/// A declared source.
+pub const DECLARED: &str = "#f0e442";
+/// A detection.
+pub const DETECTION: &str = "#7a0c2e";
+/// The believed track.
+pub const BELIEVED: &str = "#555555";
+/// The flow.
+pub const FLOW: &str = "#1f4e79";
+
+/// Colour of a behaviour.
+pub fn behaviour(b: Behaviour) -> &'static str {
+    match b {
+        Behaviour::Idle => "#bbbbbb",
+        Behaviour::OpenLoop => "#0072b2",
+        Behaviour::GoTo => "#56b4e9",
+        Behaviour::Find => "#0072b2",
+        Behaviour::TrackIn => "#d55e00",
+        Behaviour::TrackOut => "#e69f00",
+        Behaviour::Reacquire => "#cc79a7",
+        Behaviour::GoHome => "#000000",
+        Behaviour::Done => "#888888",
+        Behaviour::FollowPath => "#009e73",
+        Behaviour::Avoid => "#f0e442",
+        Behaviour::Survey => "#6a3d9a",
+    }
+}
+
+/// Name of a behaviour for people.
+pub fn words(b: Behaviour) -> &'static str {
+    match b {
+        Behaviour::Idle => "Idle",
+        Behaviour::OpenLoop => "Open loop",
+        Behaviour::GoTo => "Go-To",
+        Behaviour::Find => "Find",
+        Behaviour::TrackIn => "Track-In",
+        Behaviour::TrackOut => "Track-Out",
+        Behaviour::Reacquire => "Reacquire",
+        Behaviour::GoHome => "Go-Home",
+        Behaviour::Done => "Done",
+        Behaviour::FollowPath => "Follow path",
+        Behaviour::Avoid => "Avoid",
+        Behaviour::Survey => "Survey",
+    }
+}
+
+/// Colour of a gantry's behaviour.
+pub fn gantry_behaviour(b: GantryBehaviour) -> &'static str {
+    match b {
+        GantryBehaviour::Idle => "#bbbbbb",
+        GantryBehaviour::Sweep => "#0072b2",
+        GantryBehaviour::ToBest => "#56b4e9",
+        GantryBehaviour::StepUp => "#d55e00",
+        GantryBehaviour::Cast => "#cc79a7",
+        GantryBehaviour::Done => "#888888",
+    }
+}
+
+/// Name of a gantry's behaviour for people.
+pub fn gantry_words(b: GantryBehaviour) -> &'static str {
+    match b {
+        GantryBehaviour::Idle => "Idle",
+        GantryBehaviour::Sweep => "Full sweep",
+        GantryBehaviour::ToBest => "To best place",
+        GantryBehaviour::StepUp => "Step up-stream",
+        GantryBehaviour::Cast => "Cast",
+        GantryBehaviour::Done => "Stopped",
+    }
+}
+
+fn mix(a: [u8; 3], b: [u8; 3], share: f64) -> String {
+    let c = |k: usize| {
+        let (a, b) = (f64::from(a[k]), f64::from(b[k]));
+        (a + (b - a) * share.clamp(0.0, 1.0)).round() as u8
+    };
+    format!("#{:02x}{:02x}{:02x}", c(0), c(1), c(2))
+}
+
+/// Depth, from shallow (0) to deep (1).
+pub fn depth(share: f64) -> String {
+    mix([0xf6, 0xf9, 0xfb], [0xb9, 0xcf, 0xdf], share)
+}
+
+/// Plume, from thin (0) to dense (1).
+pub fn plume(share: f64) -> String {
+    if share < 0.5 {
+        mix([0xd3, 0xe8, 0xa8], [0x5a, 0xae, 0x61], 2.0 * share)
+    } else {
+        mix([0x5a, 0xae, 0x61], [0x00, 0x44, 0x1b], 2.0 * share - 1.0)
+    }
+}
+
+/// Chance that the source is there, from small (0) to the largest (1).
+pub fn likelihood(share: f64) -> String {
+    if share < 0.5 {
+        mix([0xff, 0xf7, 0xec], [0xfc, 0x8d, 0x59], 2.0 * share)
+    } else {
+        mix([0xfc, 0x8d, 0x59], [0x7f, 0x00, 0x00], 2.0 * share - 1.0)
+    }
+}
+
+/// Echo of a sidescan, from none (0) to strong (1): the copper of paper records.
+pub fn echo(share: f64) -> String {
+    if share < 0.5 {
+        mix([0x08, 0x06, 0x04], [0x9a, 0x5f, 0x22], 2.0 * share)
+    } else {
+        mix([0x9a, 0x5f, 0x22], [0xff, 0xf3, 0xd2], 2.0 * share - 1.0)
+    }
+}

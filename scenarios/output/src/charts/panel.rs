@@ -1,0 +1,211 @@
+//! One pair of axes: from values to pixels, ticks, frame.
+
+use super::canvas::{Anchor, Canvas, Style};
+use super::palette::{GRID, INK};
+use world::math;
+
+/// A rectangle of the sheet that shows a rectangle of values; `y` up unless `y_lo > y_hi`.
+#[derive(Clone, Copy, Debug)]
+pub struct Panel {
+    /// Left edge, px.
+    pub left: f64,
+    /// Upper edge, px.
+    pub top: f64,
+    /// Width, px.
+    pub width: f64,
+    /// Height, px.
+    pub height: f64,
+    /// Values at left and right.
+    pub x: [f64; 2],
+    /// Values at bottom and top.
+    pub y: [f64; 2],
+}
+
+impl Panel {
+    /// Pixels from the left of a value of x.
+    pub fn px(&self, x: f64) -> f64 {
+        self.left + (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width
+    }
+
+    /// Pixels from the top of a value of y.
+    pub fn py(&self, y: f64) -> f64 {
+        self.top + self.height - (y - self.y[0]) / (self.y[1] - self.y[0]) * self.height
+    }
+
+    /// Place of a pair of values, px.
+    pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [self.px(x), self.py(y)]
+    }
+
+    /// Places of pairs of values, px.
+    pub fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
+        points.iter().map(|p| self.at(*p)).collect()
+    }
+
+    /// Its lower edge, px.
+    pub fn bottom(&self) -> f64 {
+        self.top + self.height
+    }
+
+    /// Its right edge, px.
+    pub fn right(&self) -> f64 {
+        self.left + self.width
+    }
+
+    /// Pixels for one unit of x.
+    pub fn px_per_unit(&self) -> f64 {
+        self.width / (self.x[1] - self.x[0])
+    }
+
+    /// Hides what is drawn outside it until the next unclip.
+    pub fn clip(&self, c: &mut Canvas) {
+        c.clip(self.left, self.top, self.width, self.height);
+    }
+
+    /// Draws its edge.
+    pub fn frame(&self, c: &mut Canvas, width: f64) {
+        c.rect(
+            self.left,
+            self.top,
+            self.width,
+            self.height,
+            &Style::line(INK, width),
+        );
+    }
+
+    /// Ticks and numbers along the bottom.
+    pub fn x_ticks(&self, c: &mut Canvas, numbers: bool, size: f64) {
+        let step = nice_step((self.x[1] - self.x[0]).abs(), self.width / 90.0);
+        for v in ticks(self.x, step) {
+            let x = self.px(v);
+            c.line(
+                [x, self.bottom()],
+                [x, self.bottom() + 4.0],
+                &Style::line(INK, 0.8),
+            );
+            if numbers {
+                let at = [x, self.bottom() + 6.0 + size];
+                c.text(at, size, Anchor::Middle, &number(v, step));
+            }
+        }
+    }
+
+    /// Ticks and numbers along the left.
+    pub fn y_ticks(&self, c: &mut Canvas, apart_px: f64, size: f64) {
+        let step = nice_step((self.y[1] - self.y[0]).abs(), self.height / apart_px);
+        for v in ticks(self.y, step) {
+            let y = self.py(v);
+            c.line([self.left - 4.0, y], [self.left, y], &Style::line(INK, 0.8));
+            let at = [self.left - 7.0, y + 0.36 * size];
+            c.text(at, size, Anchor::End, &number(v, step));
+        }
+    }
+
+    /// Faint lines at the ticks of both axes.
+    pub fn grid(&self, c: &mut Canvas, apart_px: f64) {
+        let step = nice_step((self.x[1] - self.x[0]).abs(), self.width / 90.0);
+        for v in ticks(self.x, step) {
+            let x = self.px(v);
+            c.line([x, self.top], [x, self.bottom()], &Style::line(GRID, 0.7));
+        }
+        let step = nice_step((self.y[1] - self.y[0]).abs(), self.height / apart_px);
+        for v in ticks(self.y, step) {
+            let y = self.py(v);
+            c.line([self.left, y], [self.right(), y], &Style::line(GRID, 0.7));
+        }
+    }
+}
+
+/// 10 to the power of an integer.
+pub fn power_of_ten(n: i32) -> f64 {
+    10f64.powi(n)
+}
+
+/// Greatest n with 10ⁿ ≤ x.
+pub fn decade(x: f64) -> i32 {
+    (math::ln(x) / std::f64::consts::LN_10 + 1e-12).floor() as i32
+}
+
+/// 1, 2 or 5 times a power of ten, for about `wanted` steps over `span`.
+pub fn nice_step(span: f64, wanted: f64) -> f64 {
+    let raw = span.max(1e-9) / wanted.max(1.0);
+    let base = power_of_ten(decade(raw));
+    let times = [1.0, 2.0, 5.0, 10.0];
+    base * times
+        .into_iter()
+        .find(|t| t * base >= raw * 0.999)
+        .unwrap_or(10.0)
+}
+
+/// Multiples of `step` within the range, which may run either way.
+pub fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
+    let (lo, hi) = (range[0].min(range[1]), range[0].max(range[1]));
+    let first = (lo / step - 1e-9).ceil() as i64;
+    let last = (hi / step + 1e-9).floor() as i64;
+    (first..=last).map(|k| k as f64 * step).collect()
+}
+
+/// A number with the decimals its step asks for and a true minus sign.
+pub fn number(v: f64, step: f64) -> String {
+    let decimals = usize::try_from(-decade(step)).unwrap_or(0);
+    let text = format!("{:.decimals$}", v.abs());
+    let zero = text.chars().all(|c| matches!(c, '0' | '.'));
+    if v < 0.0 && !zero {
+        format!("−{text}")
+    } else {
+        text
+    }
+}
+
+/// A range that contains every number given, widened by a share and never empty.
+pub fn range_of(values: impl Iterator<Item = f64>, widen: f64) -> Option<[f64; 2]> {
+    let mut range: Option<[f64; 2]> = None;
+    for v in values.filter(|v| v.is_finite()) {
+        let r = range.get_or_insert([v, v]);
+        *r = [r[0].min(v), r[1].max(v)];
+    }
+    let [lo, hi] = range?;
+    let span = (hi - lo).max(1e-6 * hi.abs().max(lo.abs())).max(1e-6);
+    Some([lo - widen * span, hi + widen * span])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_are_one_two_or_five() {
+        assert_eq!(nice_step(1000.0, 5.0), 200.0);
+        assert_eq!(nice_step(1.0, 10.0), 0.1);
+        assert_eq!(nice_step(7.0, 3.0), 5.0);
+        assert_eq!(ticks([0.5, -0.2], 0.2).len(), 4);
+    }
+
+    #[test]
+    fn numbers_carry_their_decimals_and_no_minus_zero() {
+        assert_eq!(number(-200.0, 100.0), "−200");
+        assert_eq!(number(0.25, 0.05), "0.25");
+        assert_eq!(number(-1e-12, 0.1), "0.0");
+    }
+
+    #[test]
+    fn reversed_axis_points_down() {
+        let p = Panel {
+            left: 0.0,
+            top: 0.0,
+            width: 10.0,
+            height: 10.0,
+            x: [0.0, 1.0],
+            y: [8.0, 0.0],
+        };
+        assert_eq!(p.py(8.0), 10.0);
+        assert_eq!(p.py(0.0), 0.0);
+    }
+
+    #[test]
+    fn range_of_one_value_is_not_empty_and_of_none_is_none() {
+        let r = range_of([3.0, f64::NAN].into_iter(), 0.1).unwrap();
+        assert!(r[0] < 3.0 && r[1] > 3.0);
+        assert!(range_of(std::iter::empty(), 0.1).is_none());
+    }
+}

@@ -1,0 +1,67 @@
+//! SVG to PNG, with the font the program carries (a part of DejaVu Sans, see `font/LICENSE`).
+
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree};
+
+/// Pixels for each pixel of the SVG: sharp in print at its natural size.
+const SCALE: f32 = 2.0;
+
+const FONTS: [&[u8]; 2] = [
+    include_bytes!("font/DejaVuSans.ttf"),
+    include_bytes!("font/DejaVuSans-Bold.ttf"),
+];
+
+/// A figure as PNG bytes.
+pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+    let mut options = Options::default();
+    let fonts = options.fontdb_mut();
+    for font in FONTS {
+        fonts.load_font_data(font.to_vec());
+    }
+    let tree = Tree::from_str(svg, &options).map_err(|e| e.to_string())?;
+    let size = tree.size();
+    let (w, h) = (size.width() * SCALE, size.height() * SCALE);
+    let mut pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32)
+        .ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
+    resvg::render(
+        &tree,
+        Transform::from_scale(SCALE, SCALE),
+        &mut pixels.as_mut(),
+    );
+    pixels.encode_png().map_err(|e| e.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::charts::canvas::{Anchor, Canvas};
+
+    fn dark_pixels(c: &Canvas) -> usize {
+        let png = png(&c.svg("t")).unwrap();
+        let p = Pixmap::decode_png(&png).unwrap();
+        assert_eq!((p.width(), p.height()), (120, 60));
+        p.pixels().iter().filter(|p| p.red() < 128).count()
+    }
+
+    #[test]
+    fn text_comes_from_the_font_inside() {
+        let mut c = Canvas::new(60.0, 30.0);
+        assert_eq!(dark_pixels(&c), 0);
+        c.text([5.0, 20.0], 14.0, Anchor::Start, "µ° −2²");
+        assert!(dark_pixels(&c) > 50);
+    }
+
+    /// Every character the figures use beside plain ASCII has a glyph.
+    #[test]
+    fn font_holds_the_signs_we_use() {
+        let mut options = Options::default();
+        options.fontdb_mut().load_font_data(FONTS[0].to_vec());
+        let db = &options.fontdb;
+        let id = db.faces().next().unwrap().id;
+        for c in "µ°²³×−–·≥≤…→".chars() {
+            let mut one = Canvas::new(60.0, 30.0);
+            one.text([5.0, 20.0], 14.0, Anchor::Start, &c.to_string());
+            assert!(dark_pixels(&one) > 0, "{c} has no glyph in {id}");
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! A gantry's track over an instantaneous field of concentration at the height of its probes.
+//!
+//! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 2 (field) and Fig. 9 (tracks), drawn over each other.
+
+use super::map_layers as layers;
+use super::map_legend::{BAR, LINE, SIZE, entry, heading, short};
+use super::section::{Axes, Section};
+use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::palette::{self, FLOW, INK};
+use crate::charts::panel::Panel;
+use crate::results::{GantryTrack, RunReport};
+use robots::handoff::GantryBehaviour;
+
+/// Largest size of the panel, px.
+const LARGEST: [f64; 2] = [820.0, 700.0];
+const COLUMN: f64 = 250.0;
+/// Distance between the nodes of the field, px.
+const CELL_PX: f64 = 2.0;
+const PLUME_OPACITY: f64 = 0.75;
+
+/// The figure as SVG; none for a gantry that was never seen.
+pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
+    let axes = Axes::of(run, t)?;
+    let panel = place(&axes);
+    let mut c = Canvas::new(panel.right() + COLUMN, (panel.bottom() + 60.0).max(470.0));
+    // The height at which most probes are: of the built-in head, both outer ones.
+    let z = height(t);
+    let n = [panel.width, panel.height].map(|px| (px / CELL_PX).ceil() as usize + 1);
+    let at_height = |z: f64| {
+        run.dye
+            .and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye))
+    };
+    let section = z.and_then(at_height);
+    // Below the probes, where the plume is.
+    let below = run.sources.first().and_then(|s| at_height(s.position.z));
+    panel.clip(&mut c);
+    if let Some(section) = &section {
+        let last = (section.levels.len() - 1) as f64;
+        for (k, level) in section.levels.iter().enumerate() {
+            let colour = palette::plume(k as f64 / last);
+            let style = Style::fill(&colour).faint(PLUME_OPACITY);
+            c.lines(&on(&panel, section.rings(*level)), true, &style);
+        }
+    }
+    if let Some(below) = &below {
+        let edge = on(&panel, below.rings(below.edge()));
+        c.lines(&edge, true, &edge_style());
+    }
+    if let Some([right, left]) = axes.sides {
+        let (right, left) = (panel.py(right), panel.py(left));
+        let outside = Style::fill("#eeeeee");
+        c.rect(
+            panel.left,
+            right,
+            panel.width,
+            panel.bottom() - right,
+            &outside,
+        );
+        c.rect(
+            panel.left,
+            panel.top,
+            panel.width,
+            left - panel.top,
+            &outside,
+        );
+        for y in [right, left] {
+            c.line([panel.left, y], [panel.right(), y], &Style::line(INK, 2.4));
+        }
+    }
+    for o in run.obstacles {
+        let corners: Vec<_> = o.corners.iter().map(|p| panel.at(axes.cm(*p))).collect();
+        c.polygon(corners, &Style::fill("#8c6d4f").edged(INK, 1.0));
+    }
+    for s in run.sources {
+        layers::true_source(&mut c, panel.at(axes.cm([s.position.x, s.position.y])));
+    }
+    track(&mut c, &panel, &axes, t);
+    marks(&mut c, &panel, &axes, t);
+    c.unclip();
+    panel.frame(&mut c, 1.2);
+    panel.x_ticks(&mut c, true, 11.0);
+    panel.y_ticks(&mut c, 60.0, 11.0);
+    layers::scale_bar(&mut c, &panel, "cm");
+    let origin = if run.sources.is_empty() {
+        "start"
+    } else {
+        "source"
+    };
+    let under = [panel.left + panel.width / 2.0, panel.bottom() + 40.0];
+    c.text(
+        under,
+        12.0,
+        Anchor::Middle,
+        &format!("Down-stream of the {origin} (cm)"),
+    );
+    let beside = [22.0, panel.top + panel.height / 2.0];
+    c.upright(
+        beside,
+        12.0,
+        &format!("Left of the {origin}, looking down-stream (cm)"),
+    );
+    let summary = run.summary;
+    let title = format!(
+        "{} · seed {} · {}",
+        summary.scenario, summary.seed, t.info.id
+    );
+    c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
+    let at = [panel.right() + 22.0, panel.top];
+    let y = legend(&mut c, run, t, at);
+    plume_key(
+        &mut c,
+        run,
+        t,
+        [section.as_ref(), below.as_ref()],
+        z,
+        [at[0], y],
+    );
+    Some(c.svg(&format!("flume{}", t.info.id)))
+}
+
+/// A panel with one scale both ways.
+fn place(axes: &Axes) -> Panel {
+    let (dx, dy) = (axes.x[1] - axes.x[0], axes.y[1] - axes.y[0]);
+    let scale = (LARGEST[0] / dx).min(LARGEST[1] / dy);
+    Panel {
+        left: 74.0,
+        top: 40.0,
+        width: dx * scale,
+        height: dy * scale,
+        x: axes.x,
+        y: axes.y,
+    }
+}
+
+/// The commonest height of the probes' tips, the lowest of those (ENU), m.
+fn height(t: &GantryTrack) -> Option<f64> {
+    let shared = |z: f64| t.tips.iter().filter(|p| (p[2] - z).abs() < 1e-3).count();
+    (t.tips.iter().map(|p| p[2])).max_by(|a, b| shared(*a).cmp(&shared(*b)).then(b.total_cmp(a)))
+}
+
+/// The head's way by what the searcher did, and where each motion ended.
+fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
+    let at = |k: usize| panel.at(axes.cm(t.rows[k].head));
+    let all = layers::thinned((0..t.rows.len()).map(at));
+    c.polyline(all, &Style::line("#ffffff", 4.4).faint(0.8));
+    let mut k = 0;
+    while k < t.rows.len() {
+        let b = t.rows[k].behaviour;
+        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
+        // One point into the next stretch, so that the line has no gaps.
+        let end = (k + run + 1).min(t.rows.len());
+        let points = layers::thinned((k..end).map(at));
+        c.polyline(points, &Style::line(palette::gantry_behaviour(b), 2.2));
+        k += run;
+    }
+    for (k, pair) in t.rows.windows(2).enumerate() {
+        if pair[0].command != pair[1].command && k > 0 {
+            halt(c, at(k));
+        }
+    }
+}
+
+fn on(panel: &Panel, rings: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+    rings.iter().map(|r| panel.all(r)).collect()
+}
+
+fn edge_style() -> Style<'static> {
+    Style::line("#3b6e8f", 0.8).dashed("3 2")
+}
+
+fn halt(c: &mut Canvas, p: [f64; 2]) {
+    c.circle(p, 2.4, &Style::fill("#ffffff").edged(INK, 1.0));
+}
+
+fn probe(c: &mut Canvas, p: [f64; 2]) {
+    c.circle(p, 3.0, &Style::fill(INK).edged("#ffffff", 1.0));
+}
+
+fn marks(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
+    for tip in &t.tips {
+        probe(c, panel.at(axes.cm([tip[0], tip[1]])));
+    }
+    if let Some(first) = t.rows.first() {
+        layers::start(c, panel.at(axes.cm(first.head)));
+    }
+    if let Some(d) = t.declared {
+        layers::declared(c, panel.at(axes.cm(d)));
+    }
+}
+
+fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 2]) -> f64 {
+    let mut y = top + 6.0;
+    heading(c, x, &mut y, "Track of the head");
+    let seen = |b: &GantryBehaviour| t.rows.iter().any(|r| r.behaviour == *b);
+    // Idle and stopped it does not move: there is no line to explain.
+    let moving = (GantryBehaviour::ALL.into_iter())
+        .filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
+    for b in moving.filter(seen) {
+        let colour = palette::gantry_behaviour(b);
+        c.line([x, y], [x + 24.0, y], &Style::line(colour, 2.6));
+        entry(c, x, &mut y, palette::gantry_words(b));
+    }
+    type Draw = fn(&mut Canvas, [f64; 2]);
+    let marks: [(bool, Draw, &str); 5] = [
+        (true, halt, "end of a motion"),
+        (true, layers::start, "start"),
+        (!t.tips.is_empty(), probe, "probes at the end"),
+        (
+            t.declared.is_some(),
+            layers::declared,
+            "stopped: source declared",
+        ),
+        (!run.sources.is_empty(), layers::true_source, "true source"),
+    ];
+    for (_, draw, words) in marks.iter().filter(|m| m.0) {
+        draw(c, [x + 12.0, y]);
+        entry(c, x, &mut y, words);
+    }
+    y += 10.0;
+    for s in run.sources.iter().take(1).filter(|s| s.flow.norm() > 1e-6) {
+        let along = -nalgebra::Vector2::from(t.forward).dot(&s.flow);
+        let (a, b) = ([x, y], [x + 24.0, y]);
+        let (a, b) = if along >= 0.0 { (a, b) } else { (b, a) };
+        c.arrow(a, b, FLOW, 2.0);
+        let words = format!("flow at the source, {:.1} cm/s", 100.0 * s.flow.norm());
+        entry(c, x, &mut y, &words);
+    }
+    y + 10.0
+}
+
+/// Keys of the section at the probes' height and of the plume's edge at the source's.
+fn plume_key(
+    c: &mut Canvas,
+    run: &RunReport<'_>,
+    t: &GantryTrack,
+    [section, below]: [Option<&Section>; 2],
+    z: Option<f64>,
+    [x, mut y]: [f64; 2],
+) {
+    let [head_x, head_y] = t.rows.last().map_or([0.0, 0.0], |r| r.head);
+    let up_cm = |z: f64| 100.0 * (z - run.terrain.bed_z(head_x, head_y));
+    if let (Some(section), Some(z)) = (section, z) {
+        let end_s = run.summary.run.totals.mission_s;
+        let words = format!("Concentration ({}) at {end_s:.0} s,", section.unit);
+        c.bold([x, y + 4.0], SIZE, Anchor::Start, &words);
+        y += LINE - 3.0;
+        let words = format!("{:.1} cm above the bed (probes)", up_cm(z));
+        heading(c, x, &mut y, &words);
+        let w = BAR / section.levels.len() as f64;
+        let last = (section.levels.len() - 1) as f64;
+        for (k, level) in section.levels.iter().enumerate() {
+            let left = x + k as f64 * w;
+            // As on the sheet, each level lies over those below it.
+            for under in 0..=k {
+                let colour = palette::plume(under as f64 / last);
+                let style = Style::fill(&colour).faint(PLUME_OPACITY);
+                c.rect(left, y - 7.0, w, 11.0, &style);
+            }
+            c.rect(left, y - 7.0, w, 11.0, &Style::line("#5b7a5b", 0.6));
+            if k % 2 == 0 {
+                let at = [left, y + 16.0];
+                c.text(at, 9.0, Anchor::Middle, &short(*level));
+            }
+        }
+        y += 40.0;
+    }
+    if let (Some(below), Some(source)) = (below, run.sources.first()) {
+        c.line([x, y], [x + 24.0, y], &edge_style());
+        let words = format!("{} {}", short(below.edge()), below.unit);
+        entry(c, x, &mut y, &words);
+        let words = format!("{:.1} cm above the bed (source)", up_cm(source.position.z));
+        entry(c, x, &mut y, &words);
+    }
+}

@@ -1,0 +1,342 @@
+//! The map's layers, from the bed up.
+
+use super::map::Bed;
+use super::plume_load::PlumeLoad;
+use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
+use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
+use crate::charts::room::Room;
+use crate::results::{RobotTrack, RunReport};
+use nalgebra::Vector2;
+use robots::handoff::region_name;
+
+/// Opacity of the plume over the bed.
+const PLUME_OPACITY: f64 = 0.6;
+/// Points of a track nearer than this to the last one drawn are left out, px.
+const APART_PX: f64 = 0.5;
+
+/// Depth as shade.
+pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
+    let base = (bed.range[0] / bed.step).floor() * bed.step;
+    let level = if bed.levels.is_empty() {
+        0.3
+    } else {
+        bed.shade(base)
+    };
+    let style = palette::depth(level);
+    c.rect(
+        panel.left,
+        panel.top,
+        panel.width,
+        panel.height,
+        &Style::fill(&style),
+    );
+    for &v in &bed.levels {
+        let rings = on(panel, bed.grid.rings(v));
+        c.lines(&rings, true, &Style::fill(&palette::depth(bed.shade(v))));
+    }
+}
+
+/// Lines of equal depth with their depths.
+pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
+    for &v in &bed.levels {
+        let lines = on(panel, bed.grid.lines(v));
+        c.lines(&lines, false, &Style::line("#7893a8", 0.7));
+    }
+}
+
+/// The depths of these lines, where nothing else stands.
+pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
+    const PLACES: usize = 12;
+    for &v in &bed.levels {
+        let lines = on(panel, bed.grid.lines(v));
+        if let Some(longest) = lines.iter().max_by_key(|l| l.len()) {
+            let places: Vec<_> = (1..PLACES)
+                .map(|k| longest[k * longest.len() / PLACES])
+                .map(|[x, y]| ([x, y + 3.0], Anchor::Middle))
+                .collect();
+            let text = format!("{} m", number(v, bed.step));
+            c.label_at(&places, 9.0, &text, panel, true);
+        }
+    }
+}
+
+/// Chemical above the bed.
+pub(super) fn plume(c: &mut Canvas, panel: &Panel, load: &PlumeLoad) {
+    let n = load.levels.len();
+    for (k, &v) in load.levels.iter().enumerate() {
+        let rings = on(panel, load.grid.rings(v));
+        let colour = palette::plume(k as f64 / (n - 1) as f64);
+        c.lines(&rings, true, &Style::fill(&colour).faint(PLUME_OPACITY));
+    }
+}
+
+fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
+    lines.iter().map(|l| panel.all(l)).collect()
+}
+
+/// Where the robot believed it was.
+pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
+    let points = thinned(t.rows.iter().map(|r| panel.at(r.believed)));
+    c.polyline(points, &Style::line(BELIEVED, 0.6).dashed("2 2"));
+}
+
+/// Where it truly was, coloured by what it did.
+pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) {
+    let width = if close { 2.2 } else { 1.9 };
+    let mut k = 0;
+    while k < t.rows.len() {
+        let b = t.rows[k].behaviour;
+        let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
+        // One point into the next stretch, so that the line has no gaps.
+        let end = (k + run + 1).min(t.rows.len());
+        let points = thinned(t.rows[k..end].iter().map(|r| panel.at([r.p[0], r.p[1]])));
+        c.polyline(points, &Style::line(palette::behaviour(b), width));
+        k += run;
+    }
+}
+
+/// Points at least [`APART_PX`] apart, with the last.
+pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut kept: Vec<[f64; 2]> = Vec::new();
+    let mut left_out = None;
+    for p in points {
+        let far = kept.last().is_none_or(|q| {
+            let d = [p[0] - q[0], p[1] - q[1]];
+            d[0] * d[0] + d[1] * d[1] >= APART_PX * APART_PX
+        });
+        if far {
+            kept.push(p);
+            left_out = None;
+        } else {
+            left_out = Some(p);
+        }
+    }
+    kept.extend(left_out);
+    kept
+}
+
+/// Detections: open rings under the track and apart from each other, so that they do not hide what the robot did there.
+pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<Item = [f64; 2]>) {
+    const APART_PX: f64 = 8.0;
+    let mut last: Option<[f64; 2]> = None;
+    for d in places {
+        let p = panel.at(d);
+        let apart = |q: [f64; 2]| (p[0] - q[0]).abs() + (p[1] - q[1]).abs();
+        if last.is_none_or(|q| apart(q) >= APART_PX) {
+            detection(c, p);
+            last = Some(p);
+        }
+    }
+}
+
+/// Start, lost points, declared sources, plumes at an edge.
+pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
+    for l in &t.lost_points {
+        lost_point(c, panel.at(*l));
+    }
+    if let Some(r) = t.rows.first() {
+        let p = panel.at([r.p[0], r.p[1]]);
+        start(c, p);
+        c.keep_free(Room::round(p, 6.0));
+    }
+    for (d, at) in t.declarations.iter().zip(t.declared()) {
+        let p = panel.at(at);
+        c.keep_free(Room::round(p, 8.0));
+        if d.at_edge() {
+            plume_at_edge(c, p);
+            continue;
+        }
+        if let Some(e) = d.evidence {
+            let [x, y] = e.middle_m;
+            let ends = [panel.at([x, y]), panel.at([x + e.reach_m, y])];
+            zone(c, ends[0], ends[1][0] - ends[0][0]);
+        }
+        declared(c, p);
+    }
+}
+
+/// Line of a subregion's edge.
+pub(super) fn region_line() -> Style<'static> {
+    Style::line(INK, 1.0).dashed("3 3")
+}
+
+/// Outlines of subregions.
+pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
+    for region in t.regions.iter() {
+        let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
+        for (i, a) in corners.iter().enumerate() {
+            // From left to right, so that the dashes of an edge that two regions share fall on each other.
+            let mut ends = [*a, corners[(i + 1) % corners.len()]];
+            ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
+            c.line(ends[0], ends[1], &region_line());
+        }
+    }
+}
+
+/// Names, once all marks are there: a robot's subregions with how their search ended, where it started, what it declared.
+pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robots: bool) {
+    for (region, k) in t.regions.iter().zip(0..) {
+        // Towards the middle of the right edge, where tracks are rarer than in the middle; then all over it.
+        let shares = [0.0, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3, 0.4, -0.4];
+        let places: Vec<_> = [0.32, 0.25, 0.15, 0.0, -0.15, -0.25, -0.32]
+            .into_iter()
+            .flat_map(|across| shares.map(|along| [along, across]))
+            .map(|[l, w]| Vector2::new(l * region.area.length_m, w * region.area.width_m))
+            .map(|at| region.area.world(at))
+            .map(|p| (panel.at([p.x, p.y]), Anchor::Middle))
+            .collect();
+        let text = format!("{}: {}", region_name(k), region.state.words());
+        c.label_at(&places, 9.5, &text, panel, false);
+    }
+    if let Some(r) = t.rows.first().filter(|_| several_robots) {
+        beside(c, panel, [r.p[0], r.p[1]], &t.info.id);
+    }
+    let several = t.declared_inside().count() > 1;
+    for (at, k) in t.declared_inside().zip(1..).filter(|_| several) {
+        beside(c, panel, at, &format!("source {k}"));
+    }
+}
+
+/// A name beside a mark, on whichever side there is room.
+fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
+    const SIZE: f64 = 10.0;
+    let [x, y] = panel.at(at);
+    let places: Vec<_> = [9.0, 14.0, 22.0, 34.0]
+        .into_iter()
+        .flat_map(|r| {
+            [
+                ([x + r, y - 0.5 * r], Anchor::Start),
+                ([x - r, y - 0.5 * r], Anchor::End),
+                ([x + r, y + 0.5 * r + 7.0], Anchor::Start),
+                ([x - r, y + 0.5 * r + 7.0], Anchor::End),
+                ([x, y - r - 1.0], Anchor::Middle),
+                ([x, y + r + 8.0], Anchor::Middle),
+            ]
+        })
+        .collect();
+    c.label_at(&places, SIZE, name, panel, false);
+}
+
+pub(super) fn detection(c: &mut Canvas, p: [f64; 2]) {
+    c.circle(p, 2.8, &Style::line(DETECTION, 0.7));
+}
+
+pub(super) fn lost_point(c: &mut Canvas, [x, y]: [f64; 2]) {
+    const R: f64 = 4.0;
+    let arms = [
+        vec![[x - R, y - R], [x + R, y + R]],
+        vec![[x - R, y + R], [x + R, y - R]],
+    ];
+    c.lines(&arms, false, &Style::line("#ffffff", 3.4));
+    c.lines(&arms, false, &Style::line(INK, 1.6));
+}
+
+pub(super) fn start(c: &mut Canvas, [x, y]: [f64; 2]) {
+    c.rect(
+        x - 4.5,
+        y - 4.5,
+        9.0,
+        9.0,
+        &Style::fill("#ffffff").edged(INK, 1.6),
+    );
+}
+
+pub(super) fn declared(c: &mut Canvas, [x, y]: [f64; 2]) {
+    const R: f64 = 7.0;
+    let diamond = vec![[x, y - R], [x + R, y], [x, y + R], [x - R, y]];
+    c.polygon(diamond, &Style::fill(DECLARED).edged(INK, 1.4));
+}
+
+/// Where a plume was traced over a subregion's up-flow edge.
+pub(super) fn plume_at_edge(c: &mut Canvas, [x, y]: [f64; 2]) {
+    const R: f64 = 6.0;
+    let triangle = vec![[x, y - R], [x + R, y + 0.8 * R], [x - R, y + 0.8 * R]];
+    c.polygon(triangle, &Style::fill("#ffffff").edged(INK, 1.4));
+}
+
+/// Of the points that a declaration rests on.
+pub(super) fn zone(c: &mut Canvas, p: [f64; 2], r: f64) {
+    c.circle(p, r, &Style::line("#ffffff", 3.2));
+    c.circle(p, r, &Style::line(INK, 1.4));
+}
+
+pub(super) fn true_source(c: &mut Canvas, p: [f64; 2]) {
+    c.circle(p, 6.5, &Style::line("#ffffff", 4.0));
+    c.circle(p, 6.5, &Style::line(INK, 1.8));
+    c.circle(p, 2.0, &Style::fill(INK).edged(TRUE_SOURCE, 0.8));
+}
+
+/// True sources; declared ones are drawn with their robot.
+pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
+    for s in run.sources {
+        let p = panel.at([s.position.x, s.position.y]);
+        true_source(c, p);
+        c.keep_free(Room::round(p, 9.0));
+    }
+}
+
+/// Names of the true sources, where there are several.
+pub(super) fn source_names(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
+    for s in run.sources.iter().filter(|_| run.sources.len() > 1) {
+        beside(c, panel, [s.position.x, s.position.y], &s.id);
+    }
+}
+
+/// Keeps the room of scale bar and north arrow, which are drawn last, free of names.
+pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
+    let (_, px) = scale_length(panel);
+    let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
+    c.keep_free(Room {
+        left: x - 7.0,
+        top: y - 19.0,
+        right: x + px + 7.0,
+        bottom: y + 7.0,
+    });
+    let x = panel.right() - 20.0;
+    c.keep_free(Room {
+        left: x - 13.0,
+        top: panel.top + 7.0,
+        right: x + 13.0,
+        bottom: panel.top + 60.0,
+    });
+}
+
+/// Length of the scale bar, in the panel's units and px.
+fn scale_length(panel: &Panel) -> (f64, f64) {
+    let wanted = (panel.x[1] - panel.x[0]) / 4.0;
+    let base = power_of_ten(decade(wanted));
+    let length = [5.0, 2.0, 1.0]
+        .map(|t| t * base)
+        .into_iter()
+        .find(|l| *l <= wanted * 1.001)
+        .unwrap_or(base);
+    (length, length * panel.px_per_unit())
+}
+
+/// A bar of round length, bottom left.
+pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
+    let (length, px) = scale_length(panel);
+    let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
+    let back = Style {
+        fill_opacity: Some(0.8),
+        ..Style::fill("#ffffff")
+    };
+    c.rect(x - 7.0, y - 19.0, px + 14.0, 26.0, &back);
+    let ends = vec![[x, y - 4.0], [x, y], [x + px, y], [x + px, y - 4.0]];
+    c.polyline(ends, &Style::line(INK, 1.5));
+    let text = format!("{} {unit}", number(length, nice_step(length, 1.0)));
+    c.text([x + px / 2.0, y - 6.0], 10.0, Anchor::Middle, &text);
+}
+
+/// North arrow, top right.
+pub(super) fn north(c: &mut Canvas, panel: &Panel) {
+    let (x, y) = (panel.right() - 20.0, panel.top + 54.0);
+    let back = Style {
+        fill_opacity: Some(0.8),
+        ..Style::fill("#ffffff")
+    };
+    c.rect(x - 13.0, panel.top + 7.0, 26.0, 53.0, &back);
+    c.bold([x, panel.top + 20.0], 11.0, Anchor::Middle, "N");
+    c.arrow([x, y], [x, panel.top + 24.0], INK, 2.0);
+}

@@ -1,0 +1,248 @@
+//! The map's keys.
+
+use super::map::Bed;
+use super::map_layers as layers;
+use super::plume_load::PlumeLoad;
+use super::solids::{self, Passage};
+use crate::charts::canvas::{Anchor, Canvas, Style};
+use crate::charts::palette::{self, BELIEVED, FLOW, INK};
+use crate::charts::panel::{Panel, decade, number};
+use crate::results::{RobotTrack, RunReport};
+use robots::handoff::{Behaviour, Declaration};
+use world::units::Heading;
+
+/// Height of a line of keys, px.
+pub(super) const LINE: f64 = 18.0;
+pub(super) const SIZE: f64 = 10.5;
+
+/// A block of keys: drawn from a place down, it says where it ends.
+pub(super) type Block<'a> = Box<dyn Fn(&mut Canvas, [f64; 2]) -> f64 + 'a>;
+
+/// The blocks of keys of a map that have something to explain: tracks, marks, water.
+pub(super) fn keys<'a>(
+    run: &'a RunReport<'a>,
+    bed: &'a Bed,
+    plume: Option<&'a PlumeLoad>,
+) -> Vec<Block<'a>> {
+    let rows = run.track.robots.iter().flat_map(|t| &t.rows);
+    let seen: Vec<Behaviour> = Behaviour::ALL
+        .into_iter()
+        .filter(|b| rows.clone().any(|r| r.behaviour == *b))
+        .collect();
+    let mut blocks: Vec<Block<'a>> = Vec::new();
+    if !seen.is_empty() {
+        blocks.push(Box::new(move |c, at| tracks(c, &seen, at)));
+    }
+    blocks.push(Box::new(|c, at| marks(c, run, at)));
+    blocks.push(Box::new(move |c, [x, top]| {
+        let mut y = top + 6.0;
+        flow(c, run, x, &mut y);
+        depth_key(c, x, &mut y, bed);
+        if let Some(p) = plume {
+            plume_key(c, x, &mut y, p, run.plume.map_or(0.0, |p| p.t_s));
+        }
+        y
+    }));
+    blocks
+}
+
+fn tracks(c: &mut Canvas, seen: &[Behaviour], [x, top]: [f64; 2]) -> f64 {
+    let mut y = top + 6.0;
+    heading(c, x, &mut y, "True track, by behaviour");
+    for b in seen {
+        let style = Style::line(palette::behaviour(*b), 2.6);
+        c.line([x, y], [x + 24.0, y], &style);
+        entry(c, x, &mut y, palette::words(*b));
+    }
+    let style = Style::line(BELIEVED, 0.9).dashed("2 2");
+    c.line([x, y], [x + 24.0, y], &style);
+    entry(c, x, &mut y, "believed track");
+    y
+}
+
+fn marks(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
+    let mut y = top + 6.0;
+    let robots = &run.track.robots;
+    type Draw = fn(&mut Canvas, [f64; 2]);
+    let any = |of: fn(&RobotTrack) -> bool| robots.iter().any(of);
+    let marks: [(bool, Draw, &str); 7] = [
+        (any(|t| !t.rows.is_empty()), layers::start, "start"),
+        (
+            any(|t| !t.detections.is_empty()),
+            layers::detection,
+            "detection",
+        ),
+        (
+            any(|t| !t.lost_points.is_empty()),
+            layers::lost_point,
+            "plume lost (believed)",
+        ),
+        (
+            any(|t| t.declarations.iter().any(|d| !d.at_edge())),
+            layers::declared,
+            "declared source",
+        ),
+        (
+            any(|t| t.declarations.iter().any(|d| d.evidence.is_some())),
+            |c, p| layers::zone(c, p, 8.0),
+            "round the points it rests on",
+        ),
+        (
+            any(|t| t.declarations.iter().any(Declaration::at_edge)),
+            layers::plume_at_edge,
+            "plume at up-flow edge",
+        ),
+        (!run.sources.is_empty(), layers::true_source, "true source"),
+    ];
+    for (_, draw, words) in marks.iter().filter(|m| m.0) {
+        draw(c, [x + 12.0, y]);
+        entry(c, x, &mut y, words);
+    }
+    c.line([x, y], [x + 24.0, y], &Style::line(INK, 1.6).dashed("7 4"));
+    entry(c, x, &mut y, "operating area");
+    if any(|t| !t.regions.is_empty()) {
+        c.line([x, y], [x + 24.0, y], &layers::region_line());
+        entry(c, x, &mut y, "subregion");
+    }
+    obstacles(c, run, x, &mut y);
+    y
+}
+
+/// Which obstacles there are, by the way that water has past them.
+fn obstacles(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
+    let there = |p: &Passage| {
+        let mut all = run.obstacles.iter();
+        all.any(|o| solids::passage(o, run.terrain) == *p)
+    };
+    for passage in Passage::ALL.into_iter().filter(there) {
+        let sign = Panel {
+            left: x + 3.0,
+            top: *y - 6.0,
+            width: 18.0,
+            height: 12.0,
+            x: [0.0, 1.0],
+            y: [0.0, 1.0],
+        };
+        let corners = sign.all(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]);
+        solids::solid(c, &sign, &corners, passage);
+        entry(c, x, y, passage.words());
+    }
+}
+
+pub(super) fn heading(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+    c.bold([x, *y + 4.0], SIZE, Anchor::Start, words);
+    *y += LINE + 2.0;
+}
+
+pub(super) fn entry(c: &mut Canvas, x: f64, y: &mut f64, words: &str) {
+    c.text([x + 34.0, *y + 4.0], SIZE, Anchor::Start, words);
+    *y += LINE;
+}
+
+/// Direction and speed of the mean flow at each source.
+fn flow(c: &mut Canvas, run: &RunReport<'_>, x: f64, y: &mut f64) {
+    for s in run.sources {
+        let speed = s.flow.norm();
+        if speed < 1e-6 {
+            continue;
+        }
+        let u = s.flow / speed;
+        let m = [x + 12.0, *y + 4.0];
+        let half = [11.0 * u.x, -11.0 * u.y];
+        c.arrow(
+            [m[0] - half[0], m[1] - half[1]],
+            [m[0] + half[0], m[1] + half[1]],
+            FLOW,
+            2.0,
+        );
+        let at = if run.sources.len() > 1 {
+            s.id.as_str()
+        } else {
+            "the source"
+        };
+        let words = format!("flow at {at}");
+        c.text([x + 34.0, *y], SIZE, Anchor::Start, &words);
+        let value = format!("{:.2} m/s towards {:.0}°", speed, Heading::of(s.flow).deg());
+        c.text([x + 34.0, *y + 14.0], SIZE, Anchor::Start, &value);
+        *y += 2.0 * LINE + 4.0;
+    }
+}
+
+pub(super) const BAR: f64 = 200.0;
+
+fn depth_key(c: &mut Canvas, x: f64, y: &mut f64, bed: &Bed) {
+    if bed.levels.is_empty() {
+        let words = format!("Water depth {:.2} m", 0.5 * (bed.range[0] + bed.range[1]));
+        c.bold([x, *y + 4.0], SIZE, Anchor::Start, &words);
+        *y += LINE + 8.0;
+        return;
+    }
+    heading(c, x, y, "Water depth (m)");
+    let n = bed.levels.len() + 1;
+    let w = BAR / n as f64;
+    let first = bed.levels[0] - bed.step;
+    for k in 0..n {
+        let v = first + k as f64 * bed.step;
+        let colour = palette::depth(bed.shade(v));
+        c.rect(
+            x + k as f64 * w,
+            *y - 7.0,
+            w,
+            11.0,
+            &Style::fill(&colour).edged("#7893a8", 0.6),
+        );
+        if k > 0 {
+            let at = [x + k as f64 * w, *y + 16.0];
+            c.text(at, 9.0, Anchor::Middle, &number(v, bed.step));
+        }
+    }
+    *y += 36.0;
+}
+
+fn plume_key(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad, t_s: f64) {
+    let words = format!("Plume at {t_s:.0} s: load (mg/m²)");
+    heading(c, x, y, &words);
+    plume_levels(c, x, y, p);
+}
+
+/// Colours of a plume's levels, each with the amount at which it begins.
+pub(super) fn plume_levels(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad) {
+    let n = p.levels.len();
+    let w = BAR / n as f64;
+    for (k, &v) in p.levels.iter().enumerate() {
+        let colour = palette::plume(k as f64 / (n - 1) as f64);
+        c.rect(
+            x + k as f64 * w,
+            *y - 7.0,
+            w,
+            11.0,
+            &Style::fill(&colour).edged("#5b7a5b", 0.6),
+        );
+        let at = [x + k as f64 * w, *y + 16.0];
+        c.text(at, 9.0, Anchor::Middle, &short(v));
+    }
+    *y += 36.0;
+}
+
+/// A level of the plume: plain where it is short, else with its power of ten.
+pub(super) fn short(v: f64) -> String {
+    let n = decade(v);
+    if (-2..=3).contains(&n) {
+        return number(v, v);
+    }
+    let digits = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
+    let sign = if n < 0 { "⁻" } else { "" };
+    let power: String = n
+        .abs()
+        .to_string()
+        .chars()
+        .filter_map(|d| d.to_digit(10))
+        .map(|d| digits[d as usize])
+        .collect();
+    let lead = (v / crate::charts::panel::power_of_ten(n)).round();
+    if lead > 1.0 {
+        format!("{lead}·10{sign}{power}")
+    } else {
+        format!("10{sign}{power}")
+    }
+}

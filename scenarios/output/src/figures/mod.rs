@@ -1,0 +1,31 @@
+//! Figures of a run, each an SVG text drawn with [`crate::charts`].
+
+mod approach;
+mod belief;
+mod convergence;
+mod flume;
+mod layers_panel;
+mod map;
+mod map_layers;
+mod map_legend;
+mod map_section;
+mod odour;
+mod plume_load;
+mod probe_records;
+mod section;
+mod series;
+mod series_panels;
+mod sidescan;
+mod solids;
+#[cfg(test)]
+mod tests_map;
+
+pub use approach::approach;
+pub use belief::belief;
+pub use convergence::convergence;
+pub use flume::flume;
+pub use map::map;
+pub use odour::odour;
+pub use probe_records::probe_records;
+pub use series::series;
+pub use sidescan::sidescan;

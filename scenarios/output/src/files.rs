@@ -1,0 +1,174 @@
+//! Why a run's files could not be written, and how to go on when one could not.
+
+use crate::charts::png;
+use crate::record::RecordError;
+use std::io;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::{Path, PathBuf};
+use world::files::{self, Folder, OutputError};
+
+/// Why something a run should leave behind could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The folder cannot be made.
+    #[error("cannot create the folder {}: {source}", path.display())]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A file cannot be written: folder not writable, disk full, no regular file in its place.
+    #[error(transparent)]
+    Write(#[from] OutputError),
+    /// A figure cannot be drawn.
+    #[error("cannot draw {}: {cause}", path.display())]
+    Draw {
+        /// The file it was for.
+        path: PathBuf,
+        /// What was wrong.
+        cause: String,
+    },
+    /// The recording failed.
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    /// Several of these; everything else was written.
+    #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
+    Several(Vec<ReportError>),
+}
+
+impl ReportError {
+    /// One of several; none of none.
+    #[must_use]
+    pub fn of(mut failures: Vec<ReportError>) -> Option<Self> {
+        match failures.len() {
+            0 | 1 => failures.pop(),
+            _ => Some(ReportError::Several(failures)),
+        }
+    }
+}
+
+/// Makes a folder and those above it.
+pub fn make_folder(path: &Path) -> Result<(), ReportError> {
+    files::make_folder(path).map_err(|source| ReportError::Folder {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+/// Makes the folder of a command's results and removes from it what an earlier run of the command left there.
+pub fn begin_folder(path: &Path, command: &str) -> Result<Folder, ReportError> {
+    make_folder(path)?;
+    Ok(Folder::begin(path, command)?)
+}
+
+/// Writes a file whole or not at all.
+pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
+    Ok(files::write(path, bytes)?)
+}
+
+/// Files being written into a folder: one that fails costs no other.
+#[derive(Debug)]
+pub struct Kept<'a> {
+    folder: &'a Folder,
+    files: Vec<PathBuf>,
+    failures: Vec<ReportError>,
+}
+
+impl<'a> Kept<'a> {
+    /// None yet.
+    pub fn new(folder: &'a Folder) -> Self {
+        Self {
+            folder,
+            files: Vec::new(),
+            failures: Vec::new(),
+        }
+    }
+
+    /// Writes a file.
+    pub fn write(&mut self, name: &str, bytes: &[u8]) {
+        let path = self.folder.file(name);
+        let written = path.and_then(|path| files::write(&path, bytes));
+        self.take(written.map_err(ReportError::from));
+    }
+
+    /// Writes a file of what could be drawn, or notes that it could not.
+    pub fn draw(&mut self, name: &str, drawn: Result<Vec<u8>, String>) {
+        match drawn {
+            Ok(bytes) => self.write(name, &bytes),
+            Err(cause) => {
+                let path = self.folder.dir().join(name);
+                self.take(Err(ReportError::Draw { path, cause }));
+            }
+        }
+    }
+
+    /// Writes a figure as `<name>.svg` and `<name>.png`.
+    pub fn figure(&mut self, name: &str, svg: &str) {
+        self.write(&format!("{name}.svg"), svg.as_bytes());
+        self.draw(&format!("{name}.png"), guarded(|| png(svg)).flatten());
+    }
+
+    /// Takes in how writing another file went.
+    pub fn take(&mut self, written: Result<PathBuf, ReportError>) {
+        match written {
+            Ok(path) => self.files.push(path),
+            Err(error) => self.failures.push(error),
+        }
+    }
+
+    /// What was written, or everything that was not.
+    pub fn done(self) -> Result<Vec<PathBuf>, ReportError> {
+        match ReportError::of(self.failures) {
+            None => Ok(self.files),
+            Some(error) => Err(error),
+        }
+    }
+}
+
+/// What is drawn; a panic on the way is an error of the one figure.
+pub fn guarded<T>(draw: impl FnOnce() -> T) -> Result<T, String> {
+    catch_unwind(AssertUnwindSafe(draw)).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or(panic.downcast_ref::<&str>().copied());
+        text.unwrap_or("the drawing broke off").to_owned()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn a_file_in_the_way_of_the_folder_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("f");
+        fs::write(&path, b"").unwrap();
+        let said = make_folder(&path.join("out")).unwrap_err().to_string();
+        assert!(said.contains("cannot create the folder"), "{said}");
+        assert!(said.contains("f/out"), "{said}");
+    }
+
+    #[test]
+    fn one_file_that_fails_costs_no_other_and_all_that_fail_are_named() {
+        let dir = tempfile::tempdir().unwrap();
+        for taken in ["b", "d"] {
+            fs::create_dir(dir.path().join(taken)).unwrap();
+        }
+        let folder = Folder::begin(dir.path(), "test").unwrap();
+        let mut kept = Kept::new(&folder);
+        for name in ["a", "b", "c", "d", "e"] {
+            kept.write(name, b"x");
+        }
+        let said = kept.done().unwrap_err().to_string();
+        assert_eq!(said.lines().count(), 2, "{said}");
+        assert!(
+            said.contains("/b: it is a folder") && said.contains("/d: it is"),
+            "{said}"
+        );
+        for written in ["a", "c", "e"] {
+            assert_eq!(fs::read(dir.path().join(written)).unwrap(), b"x");
+        }
+    }
+}

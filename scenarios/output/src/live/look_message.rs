@@ -1,0 +1,159 @@
+//! Pictures and pings on the wire: a camera's picture as JPEG, a sidescan's ping as packed numbers, each behind a header.
+
+use super::Payload;
+use super::message::{Message, with};
+use super::options::chunk;
+use super::slots::Numbered;
+use image::RgbImage;
+use image::codecs::jpeg::JpegEncoder;
+use image::imageops::thumbnail;
+use rheotaxis::frame::{PictureFrame, PingFrame};
+use serde_json::json;
+
+/// Quality of a picture; the files and the recording lose nothing.
+const QUALITY: u8 = 85;
+
+/// No picture message carries more bytes, so that it stays below 1 MB.
+const MOST_BYTES: usize = 900_000;
+
+/// The newest picture of a vehicle; nothing if it cannot be a JPEG, which ends at 65 535 pixels a side.
+pub(super) fn picture(newest: &Numbered<PictureFrame>) -> Option<Message> {
+    let Numbered { taken, value } = newest;
+    let (p, e) = (&value.picture, &value.estimate);
+    let (width, height, file) = fitting(&p.image)?;
+    let R_WB = e.attitude.R_WB();
+    let header = json!({
+        "t_s": value.t_s, "taken": taken, "width": width, "height": height, "view_rad": p.view_rad,
+        "position_m": (e.p_WB() + R_WB * p.p_BC).as_slice(),
+        "quaternion_xyzw": (R_WB * p.R_BC).coords.as_slice(),
+    });
+    Some(Message {
+        key: format!("auv/{}/picture", chunk(&value.robot)),
+        payload: file,
+        packed: Payload::Jpeg,
+        attachment: Some(header.to_string().into_bytes()),
+    })
+}
+
+/// As JPEG, with its width and height: halved until it fits into a message.
+fn fitting(image: &RgbImage) -> Option<(u32, u32, Vec<u8>)> {
+    let mut file = jpeg(image)?;
+    let (mut width, mut height) = image.dimensions();
+    while file.len() > MOST_BYTES {
+        (width, height) = (width.div_ceil(2), height.div_ceil(2));
+        file = jpeg(&thumbnail(image, width, height))?;
+    }
+    Some((width, height, file))
+}
+
+fn jpeg(image: &RgbImage) -> Option<Vec<u8>> {
+    let mut file = Vec::new();
+    let mut encoder = JpegEncoder::new_with_quality(&mut file, QUALITY);
+    encoder.encode_image(image).ok()?;
+    Some(file)
+}
+
+/// The newest ping of a vehicle.
+pub(super) fn ping(newest: &Numbered<PingFrame>) -> Message {
+    let Numbered { taken, value } = newest;
+    let (p, e) = (&value.ping, &value.estimate);
+    let header = json!({
+        "t_s": value.t_s, "taken": taken, "port": p.port_db.len(), "starboard": p.starboard_db.len(),
+        "max_m": p.max_m, "position_m": (e.p_WB() + e.attitude.R_WB() * p.p_BS).as_slice(),
+        "heading_rad": e.attitude.heading.rad(), "dtype": "<f4",
+    });
+    let samples = p.port_db.iter().chain(&*p.starboard_db).copied();
+    let key = format!("auv/{}/sidescan", chunk(&value.robot));
+    Message::numbers(key, samples, &with(header, "altitude_m", e.altitude_m))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::message::tests::frame;
+    use super::*;
+    use image::Rgb;
+    use nalgebra::{UnitQuaternion, Vector3};
+    use robots::handoff::{Picture, SidescanPing};
+    use serde_json::Value;
+    use std::sync::Arc;
+    use world::frames::Pose;
+    use world::units::Heading;
+
+    fn header(message: &Message) -> Value {
+        serde_json::from_slice(message.attachment.as_ref().unwrap()).unwrap()
+    }
+
+    #[test]
+    fn a_picture_too_large_for_a_message_is_halved() {
+        // Noise is what a JPEG cannot shrink: a linear congruential generator's high bits.
+        let mut state = 1u32;
+        let mut noise = || {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (state >> 24) as u8
+        };
+        let image = RgbImage::from_fn(1600, 1001, |_, _| Rgb([noise(), noise(), noise()]));
+        assert!(jpeg(&image).unwrap().len() > MOST_BYTES);
+        let (width, height, file) = fitting(&image).unwrap();
+        assert_eq!((width, height), (800, 501));
+        assert!(file.len() <= MOST_BYTES);
+        let back = image::load_from_memory(&file).unwrap();
+        assert_eq!((back.width(), back.height()), (width, height));
+    }
+
+    #[test]
+    fn the_camera_is_where_the_vehicle_believes_it() {
+        let estimate = frame(0).robots[0].estimate;
+        let newest = Numbered {
+            taken: 3,
+            value: PictureFrame {
+                t_s: 1.0,
+                robot: "auv0".to_owned(),
+                picture: Picture {
+                    image: Arc::new(RgbImage::new(4, 2)),
+                    p_BC: Vector3::new(0.5, 0.0, -0.1),
+                    R_BC: UnitQuaternion::identity(),
+                    view_rad: 1.0,
+                },
+                truth: Pose::level(Vector3::zeros(), Heading::from_deg(0.0)),
+                estimate,
+            },
+        };
+        let header = header(&picture(&newest).unwrap());
+        let at: Vec<f64> = serde_json::from_value(header["position_m"].clone()).unwrap();
+        // It heads east at (1, 2), 3 m down.
+        for (is, should) in at.iter().zip([1.5, 2.0, -3.1]) {
+            assert!((is - should).abs() < 1e-12, "{at:?}");
+        }
+        assert_eq!(header["taken"], 3);
+    }
+
+    #[test]
+    fn a_ping_has_port_before_starboard() {
+        let ping = ping(&Numbered {
+            taken: 1,
+            value: PingFrame {
+                t_s: 1.0,
+                robot: "auv0".to_owned(),
+                ping: SidescanPing {
+                    p_BS: Vector3::zeros(),
+                    max_m: 20.0,
+                    port_db: [1.0, 2.0].into(),
+                    starboard_db: [3.0].into(),
+                },
+                estimate: frame(0).robots[0].estimate,
+            },
+        });
+        let numbers: Vec<u8> = [1f32, 2.0, 3.0]
+            .into_iter()
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        assert_eq!(ping.payload, numbers);
+        let header = header(&ping);
+        assert_eq!(
+            (&header["port"], &header["starboard"]),
+            (&json!(2), &json!(1))
+        );
+        // No altitude has been heard.
+        assert_eq!(header.get("altitude_m"), None);
+    }
+}

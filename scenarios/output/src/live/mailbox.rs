@@ -1,0 +1,330 @@
+//! What the run hands to the thread that publishes: one slot a topic, the newest wins.
+//!
+//! The lock is held for a swap only, never while anything is encoded or sent: handing over costs a
+//! copy of the state and cannot wait for a subscriber. Nothing accumulates.
+
+use super::LiveCounts;
+use super::slots::{Gate, Newest, Numbered};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+/// What the publishing thread is to do next.
+#[derive(Debug, PartialEq)]
+pub(super) enum Work {
+    /// Send this state.
+    Frame(Frame),
+    /// Send these.
+    Rest(Rest),
+    /// The run is over: send the last state and the rest, if not sent yet, then the digest.
+    End {
+        frame: Option<Frame>,
+        rest: Rest,
+        digest: String,
+    },
+    /// Close.
+    Close,
+}
+
+/// What is sent beside the states.
+#[derive(Debug, Default, PartialEq)]
+pub(super) struct Rest {
+    pub(super) plume: Option<PlumeFrame>,
+    /// The newest of each vehicle.
+    pub(super) pictures: Vec<Numbered<PictureFrame>>,
+    /// The newest of each vehicle.
+    pub(super) pings: Vec<Numbered<PingFrame>>,
+}
+
+#[derive(Debug)]
+struct Slots {
+    frame: Option<Frame>,
+    plume: Option<PlumeFrame>,
+    pictures: Newest<PictureFrame>,
+    pings: Newest<PingFrame>,
+    digest: Option<String>,
+    ended: bool,
+    close: bool,
+    counts: LiveCounts,
+    frame_gate: Gate,
+    plume_gate: Gate,
+    picture_gate: Gate,
+    ping_gate: Gate,
+}
+
+impl Slots {
+    fn waits(&self, now: Instant) -> [Option<Duration>; 4] {
+        [
+            self.frame_gate.wait(self.frame.is_some(), now),
+            self.plume_gate.wait(self.plume.is_some(), now),
+            (self.picture_gate).wait(self.pictures.waits(), now),
+            (self.ping_gate).wait(self.pings.waits(), now),
+        ]
+    }
+
+    /// All that waits beside the state.
+    fn rest(&mut self) -> Rest {
+        Rest {
+            plume: self.plume.take(),
+            pictures: self.pictures.take(),
+            pings: self.pings.take(),
+        }
+    }
+
+    /// What of it is due.
+    fn rest_due(&mut self, now: Instant) -> Option<Rest> {
+        let mut due = Rest::default();
+        let mut any = false;
+        if self.plume_gate.pass(self.plume.is_some(), now) {
+            (due.plume, any) = (self.plume.take(), true);
+        }
+        if (self.picture_gate).pass(self.pictures.waits(), now) {
+            (due.pictures, any) = (self.pictures.take(), true);
+        }
+        if (self.ping_gate).pass(self.pings.waits(), now) {
+            (due.pings, any) = (self.pings.take(), true);
+        }
+        any.then_some(due)
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct Mailbox {
+    slots: Mutex<Slots>,
+    wake: Condvar,
+}
+
+impl Mailbox {
+    /// Pings keep to the period of the states, pictures to that of the plume.
+    pub(super) fn new(frame_period: Duration, plume_period: Duration) -> Self {
+        Self {
+            slots: Mutex::new(Slots {
+                frame: None,
+                plume: None,
+                pictures: Newest::default(),
+                pings: Newest::default(),
+                digest: None,
+                ended: false,
+                close: false,
+                counts: LiveCounts::default(),
+                frame_gate: Gate::every(frame_period),
+                plume_gate: Gate::every(plume_period),
+                picture_gate: Gate::every(plume_period),
+                ping_gate: Gate::every(frame_period),
+            }),
+            wake: Condvar::new(),
+        }
+    }
+
+    /// A state is whole or not there whoever panicked, so a poisoned lock is as good as any.
+    fn slots(&self) -> MutexGuard<'_, Slots> {
+        self.slots.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(super) fn put_frame(&self, frame: &Frame) {
+        let mut new = frame.clone();
+        let mut slots = self.slots();
+        slots.counts.offered += 1;
+        if let Some(old) = &slots.frame {
+            // Detections and spikes are events: they must outlive the state that carried it.
+            for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
+                robot.detected |= before.detected;
+            }
+            for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
+                let spikes = &mut gantry.decision.working.spike;
+                for (spike, earlier) in spikes.iter_mut().zip(before.decision.working.spike) {
+                    *spike |= earlier;
+                }
+            }
+            slots.counts.superseded += 1;
+        }
+        let old = slots.frame.replace(new);
+        drop(slots);
+        self.wake_if(old.is_none());
+    }
+
+    pub(super) fn put_plume(&self, plume: &PlumeFrame) {
+        let new = plume.clone();
+        let old = self.slots().plume.replace(new);
+        self.wake_if(old.is_none());
+    }
+
+    pub(super) fn put_picture(&self, picture: &PictureFrame) {
+        let first = (self.slots().pictures).put(&picture.robot, picture.clone());
+        self.wake_if(first);
+    }
+
+    pub(super) fn put_ping(&self, ping: &PingFrame) {
+        let first = self.slots().pings.put(&ping.robot, ping.clone());
+        self.wake_if(first);
+    }
+
+    /// With something in the slot already, the thread is up or knows when it is due.
+    fn wake_if(&self, first: bool) {
+        if first {
+            self.wake.notify_one();
+        }
+    }
+
+    /// The first end counts.
+    pub(super) fn end(&self, digest: &str) {
+        let mut slots = self.slots();
+        if !slots.ended {
+            slots.ended = true;
+            slots.digest = Some(digest.to_owned());
+        }
+        drop(slots);
+        self.wake.notify_one();
+    }
+
+    pub(super) fn close(&self) {
+        self.slots().close = true;
+        self.wake.notify_one();
+    }
+
+    pub(super) fn counts(&self) -> LiveCounts {
+        self.slots().counts
+    }
+
+    /// Waits for work; keeps to the rates but for the end, which comes at once.
+    #[expect(
+        clippy::disallowed_methods,
+        reason = "the rate is one of wall time, and this thread cannot reach the run"
+    )]
+    pub(super) fn next(&self) -> Work {
+        let mut slots = self.slots();
+        loop {
+            if let Some(digest) = slots.digest.take() {
+                let (frame, rest) = (slots.frame.take(), slots.rest());
+                slots.counts.sent += u64::from(frame.is_some());
+                return Work::End {
+                    frame,
+                    rest,
+                    digest,
+                };
+            }
+            if slots.close {
+                return Work::Close;
+            }
+            let now = Instant::now();
+            let waiting = slots.frame.is_some();
+            if slots.frame_gate.pass(waiting, now)
+                && let Some(frame) = slots.frame.take()
+            {
+                slots.counts.sent += 1;
+                return Work::Frame(frame);
+            }
+            if let Some(rest) = slots.rest_due(now) {
+                return Work::Rest(rest);
+            }
+            slots = match slots.waits(now).into_iter().flatten().min() {
+                None => self
+                    .wake
+                    .wait(slots)
+                    .unwrap_or_else(PoisonError::into_inner),
+                Some(due) => {
+                    self.wake
+                        .wait_timeout(slots, due)
+                        .unwrap_or_else(PoisonError::into_inner)
+                        .0
+                }
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::message::tests::frame;
+    use super::*;
+
+    fn hour_between_states() -> Mailbox {
+        Mailbox::new(Duration::from_secs(3600), Duration::from_secs(3600))
+    }
+
+    #[test]
+    fn the_newest_state_wins_and_the_rest_is_counted() {
+        let mailbox = hour_between_states();
+        for step in 0..100 {
+            mailbox.put_frame(&frame(step));
+        }
+        let Work::Frame(sent) = mailbox.next() else {
+            panic!("a state was handed over")
+        };
+        assert_eq!(sent.step, 99);
+        let counts = LiveCounts {
+            offered: 100,
+            sent: 1,
+            superseded: 99,
+        };
+        assert_eq!(mailbox.counts(), counts);
+    }
+
+    #[test]
+    fn a_detection_outlives_the_state_that_carried_it() {
+        let mailbox = hour_between_states();
+        let mut detected = frame(0);
+        detected.robots[0].detected = true;
+        detected.gantries[0].decision.working.spike[0] = true;
+        mailbox.put_frame(&detected);
+        mailbox.put_frame(&frame(1));
+        let Work::Frame(sent) = mailbox.next() else {
+            panic!("a state was handed over")
+        };
+        assert_eq!((sent.step, sent.robots[0].detected), (1, true));
+        assert!(sent.gantries[0].decision.working.spike[0]);
+    }
+
+    #[test]
+    fn the_end_does_not_wait_for_the_rate_and_takes_the_last_state_along() {
+        let mailbox = hour_between_states();
+        mailbox.put_frame(&frame(0));
+        assert!(matches!(mailbox.next(), Work::Frame(_)));
+        mailbox.put_frame(&frame(1));
+        mailbox.end("d1");
+        mailbox.close();
+        let last = Work::End {
+            frame: Some(frame(1)),
+            rest: Rest::default(),
+            digest: "d1".to_owned(),
+        };
+        assert_eq!(mailbox.next(), last);
+        mailbox.end("the first end counts");
+        assert_eq!(mailbox.next(), Work::Close);
+    }
+
+    fn ping(robot: &str, t_s: f64) -> PingFrame {
+        PingFrame {
+            t_s,
+            robot: robot.to_owned(),
+            ping: robots::handoff::SidescanPing {
+                p_BS: nalgebra::Vector3::zeros(),
+                max_m: 20.0,
+                port_db: [1.0].into(),
+                starboard_db: [2.0].into(),
+            },
+            estimate: frame(0).robots[0].estimate,
+        }
+    }
+
+    #[test]
+    fn the_newest_ping_of_each_vehicle_wins_and_says_how_many_there_were() {
+        let mailbox = hour_between_states();
+        for k in 0..10 {
+            mailbox.put_ping(&ping("a", f64::from(k)));
+        }
+        mailbox.put_ping(&ping("b", 0.0));
+        let Work::Rest(sent) = mailbox.next() else {
+            panic!("pings were handed over")
+        };
+        let told: Vec<_> = sent.pings.iter().map(|p| (p.taken, p.value.t_s)).collect();
+        assert_eq!(told, [(10, 9.0), (1, 0.0)]);
+        // The next is an hour away, but the end does not wait.
+        mailbox.put_ping(&ping("a", 10.0));
+        mailbox.end("d1");
+        let Work::End { rest, .. } = mailbox.next() else {
+            panic!("the end does not wait")
+        };
+        assert_eq!(rest.pings[0].taken, 11);
+    }
+}

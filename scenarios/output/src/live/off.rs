@@ -1,0 +1,59 @@
+//! Live state left out of the build: the same calls, doing nothing.
+
+use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use std::time::Duration;
+
+/// Live state left out of the build (feature `live`).
+#[derive(Debug)]
+pub struct Live;
+
+impl Live {
+    /// Checks the run's id and does nothing more.
+    ///
+    /// # Errors
+    /// If the run's id does not fit into a key.
+    pub fn start(options: &LiveOptions, _meta: LiveMeta) -> Result<Self, LiveError> {
+        options.check()?;
+        Ok(Self)
+    }
+
+    /// Where clients connect: nowhere.
+    #[must_use]
+    pub fn endpoint(&self) -> &str {
+        "none (built without the feature `live`)"
+    }
+
+    /// Something the user should know, in one line.
+    #[must_use]
+    pub fn notice(&self) -> Option<&str> {
+        Some("built without the feature `live`: nothing is published")
+    }
+
+    /// Does nothing.
+    pub fn publish(&self, _frame: &Frame) {}
+
+    /// Does nothing.
+    pub fn plume(&self, _plume: &PlumeFrame) {}
+
+    /// Does nothing.
+    pub fn picture(&self, _picture: &PictureFrame) {}
+
+    /// Does nothing.
+    pub fn ping(&self, _ping: &PingFrame) {}
+
+    /// All zero.
+    #[must_use]
+    pub fn counts(&self) -> LiveCounts {
+        LiveCounts::default()
+    }
+
+    /// Does nothing.
+    pub fn end(&self, _digest: &str) {}
+
+    /// Does nothing: nobody can come.
+    pub fn linger(&self, _time: Duration, _stop: impl Fn() -> bool) {}
+
+    /// Does nothing.
+    pub fn finish(self, _digest: &str) {}
+}

@@ -1,0 +1,359 @@
+//! The thread that owns the zenoh session, and the run's handle on it.
+
+use super::look_message;
+use super::mailbox::{Mailbox, Rest, Work};
+use super::map_message::MapGate;
+use super::tree::Tree;
+use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::time::Duration;
+use world::files;
+use zenoh::config::EndPoint;
+use zenoh::{Config, Session, Wait};
+
+/// How long a run that is over waits for zenoh to let go of its subscribers.
+const PATIENCE: Duration = Duration::from_secs(2);
+
+/// How many ports after the default one are tried.
+const SPARE_PORTS: u16 = 16;
+
+/// A run's live state. Dropped without [`Live::finish`] or [`Live::end`], it tells its subscribers
+/// that the run broke off: the token goes and no clock says `ended`.
+#[derive(Debug)]
+pub struct Live {
+    mailbox: Arc<Mailbox>,
+    gone: Receiver<()>,
+    endpoint: String,
+    notice: Option<String>,
+}
+
+/// What the thread tells once it is up.
+type Up = Result<String, LiveError>;
+
+impl Live {
+    /// Opens a zenoh session in a thread of its own and publishes what is known beforehand.
+    ///
+    /// # Errors
+    /// If the port is busy, the configuration cannot be used or zenoh does not start.
+    pub fn start(options: &LiveOptions, meta: LiveMeta) -> Result<Self, LiveError> {
+        options.check()?;
+        let (config, notice) =
+            configured(options, std::env::var_os("ZENOH_CONFIG").map(PathBuf::from))?;
+        let mailbox = Arc::new(Mailbox::new(options.state_period, options.plume_period));
+        let (up, is_up) = sync_channel::<Up>(1);
+        let (going, gone) = sync_channel::<()>(1);
+        let thread = {
+            let (mailbox, options) = (Arc::clone(&mailbox), options.clone());
+            move || {
+                publish(config, &options, &meta, &mailbox, &up);
+                // Nobody may be waiting any more.
+                let _late = going.try_send(());
+            }
+        };
+        std::thread::Builder::new()
+            .name("live".to_owned())
+            .spawn(thread)
+            .map_err(|e| LiveError::Open { why: e.to_string() })?;
+        let endpoint = is_up.recv().unwrap_or_else(|_| {
+            Err(LiveError::Open {
+                why: "its thread broke off".to_owned(),
+            })
+        })?;
+        Ok(Self {
+            mailbox,
+            gone,
+            endpoint,
+            notice,
+        })
+    }
+
+    /// Where clients connect, as a zenoh endpoint.
+    #[must_use]
+    pub fn endpoint(&self) -> &str {
+        &self.endpoint
+    }
+
+    /// Something the user should know, in one line: that another port than the default one was taken.
+    #[must_use]
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_deref()
+    }
+
+    /// Hands a state over; never waits for anybody.
+    pub fn publish(&self, frame: &Frame) {
+        self.mailbox.put_frame(frame);
+    }
+
+    /// Hands a plume over; never waits for anybody.
+    pub fn plume(&self, plume: &PlumeFrame) {
+        self.mailbox.put_plume(plume);
+    }
+
+    /// Hands a camera's picture over; never waits for anybody.
+    pub fn picture(&self, picture: &PictureFrame) {
+        self.mailbox.put_picture(picture);
+    }
+
+    /// Hands a sidescan's ping over; never waits for anybody.
+    pub fn ping(&self, ping: &PingFrame) {
+        self.mailbox.put_ping(ping);
+    }
+
+    /// What became of the states so far.
+    #[must_use]
+    pub fn counts(&self) -> LiveCounts {
+        self.mailbox.counts()
+    }
+
+    /// Publishes the last state, the digest and a clock that says `ended`, without waiting. Until
+    /// this is dropped, those who come late can still ask for all of it.
+    pub fn end(&self, digest: &str) {
+        self.mailbox.end(digest);
+    }
+
+    /// Waits, so that those who come late find the run: until the time is over or `stop` says so.
+    pub fn linger(&self, time: Duration, stop: impl Fn() -> bool) {
+        const STEP: Duration = Duration::from_millis(50);
+        let mut left = time;
+        // The thread says nothing before it is told to close: waiting for it is a pause.
+        while !left.is_zero()
+            && !stop()
+            && self.gone.recv_timeout(left.min(STEP)) == Err(RecvTimeoutError::Timeout)
+        {
+            left = left.saturating_sub(STEP);
+        }
+    }
+
+    /// [`Live::end`] and close. Waits for zenoh 2 s at the very most, whatever subscribers do.
+    pub fn finish(self, digest: &str) {
+        self.end(digest);
+    }
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        self.mailbox.close();
+        // Past its time the thread is left behind: it holds nothing the run needs.
+        let _gone_or_left_behind = self.gone.recv_timeout(PATIENCE);
+    }
+}
+
+/// The life of the thread.
+fn publish(
+    config: Config,
+    options: &LiveOptions,
+    meta: &LiveMeta,
+    mailbox: &Mailbox,
+    up: &SyncSender<Up>,
+) {
+    let session = match zenoh::open(config).wait() {
+        Ok(session) => session,
+        Err(e) => {
+            let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
+            return;
+        }
+    };
+    match Tree::grow(&session, options, message::meta(meta)) {
+        Err(e) => {
+            let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
+        }
+        Ok(mut tree) => {
+            let _nobody_waits = up.send(Ok(endpoint(&session)));
+            serve(&mut tree, mailbox, options.plume_period);
+        }
+    }
+    // Explicitly: a session closed when statics are dropped panics.
+    let _closed = session.close().wait();
+}
+
+fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
+    let mut maps = MapGate::new(map_period);
+    // A message that cannot be sent is lost like one that did not fit: the run goes on.
+    let mut last = (0.0, 0);
+    let mut newest: Option<Frame> = None;
+    loop {
+        match mailbox.next() {
+            Work::Frame(frame) => {
+                last = (frame.t_s, frame.step);
+                for message in maps.due(&frame, false) {
+                    drop(tree.say(message));
+                }
+                say_state(tree, &frame, mailbox.counts());
+                newest = Some(frame);
+            }
+            Work::Rest(rest) => say_rest(tree, &rest),
+            Work::End {
+                frame,
+                rest,
+                digest,
+            } => {
+                // The last map may have been held back when its state was sent.
+                for message in (frame.as_ref().or(newest.as_ref()))
+                    .map_or_else(Vec::new, |frame| maps.due(frame, true))
+                {
+                    drop(tree.say(message));
+                }
+                if let Some(frame) = frame {
+                    last = (frame.t_s, frame.step);
+                    say_state(tree, &frame, mailbox.counts());
+                }
+                say_rest(tree, &rest);
+                drop(tree.say_for_good(message::digest(&digest)));
+                drop(tree.say(message::clock(last.0, last.1, true, mailbox.counts())));
+            }
+            Work::Close => return,
+        }
+    }
+}
+
+fn say_state(tree: &Tree<'_>, frame: &Frame, counts: LiveCounts) {
+    for message in message::state(frame) {
+        drop(tree.say(message));
+    }
+    // Last, so that who has the clock has the state it belongs to.
+    drop(tree.say(message::clock(frame.t_s, frame.step, false, counts)));
+}
+
+fn say_rest(tree: &Tree<'_>, rest: &Rest) {
+    let pictures = rest.pictures.iter().flat_map(look_message::picture);
+    let pings = rest.pings.iter().map(look_message::ping);
+    let plume = rest.plume.iter().map(message::plume);
+    for message in pictures.chain(pings).chain(plume) {
+        drop(tree.say(message));
+    }
+}
+
+/// The configuration, and what the user should know of it.
+fn configured(
+    options: &LiveOptions,
+    from_env: Option<PathBuf>,
+) -> Result<(Config, Option<String>), LiveError> {
+    if let Some(path) = options.config_file.clone().or(from_env) {
+        let unread = |why: String| LiveError::Config {
+            path: path.clone(),
+            why,
+        };
+        files::open(&path).map_err(|e| unread(e.to_string()))?;
+        let mut config = Config::from_file(&path).map_err(|e| unread(plain(&e)))?;
+        if let Some(endpoint) = &options.listen {
+            free_port_of(endpoint)?;
+            set(
+                &mut config,
+                "listen/endpoints",
+                &serde_json::json!([endpoint]),
+            )?;
+        }
+        return Ok((config, None));
+    }
+    let (endpoint, notice) = match &options.listen {
+        Some(endpoint) => {
+            free_port_of(endpoint)?;
+            (endpoint.clone(), None)
+        }
+        None => default_endpoint()?,
+    };
+    let mut config = Config::default();
+    set(&mut config, "mode", &"router".into())?;
+    set(
+        &mut config,
+        "listen/endpoints",
+        &serde_json::json!([endpoint]),
+    )?;
+    // Slow or refused on many machines; clients are told the endpoint instead.
+    set(&mut config, "scouting/multicast/enabled", &false.into())?;
+    Ok((config, notice))
+}
+
+fn set(config: &mut Config, key: &str, value: &serde_json::Value) -> Result<(), LiveError> {
+    config
+        .insert_json5(key, &value.to_string())
+        .map_err(|e| LiveError::Open { why: plain(&e) })
+}
+
+fn default_endpoint() -> Result<(String, Option<String>), LiveError> {
+    let last = DEFAULT_PORT + SPARE_PORTS;
+    let free = |port: &u16| TcpListener::bind(("127.0.0.1", *port)).is_ok();
+    let port = (DEFAULT_PORT..=last)
+        .find(free)
+        .ok_or(LiveError::NoFreePort {
+            first: DEFAULT_PORT,
+            last,
+        })?;
+    let endpoint = format!("tcp/127.0.0.1:{port}");
+    let notice = (port != DEFAULT_PORT)
+        .then(|| format!("port {DEFAULT_PORT} is already in use: zenoh listens on {endpoint}"));
+    Ok((endpoint, notice))
+}
+
+/// Tells a busy port before zenoh does, in words that name the cure.
+fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
+    let bad = || LiveError::Endpoint {
+        endpoint: endpoint.to_owned(),
+    };
+    let parsed: EndPoint = endpoint.parse().map_err(|_| bad())?;
+    if parsed.protocol().as_str() != "tcp" {
+        return Ok(());
+    }
+    // A name, or options behind the address, are zenoh's to understand.
+    let Ok(address) = parsed.address().as_str().parse::<SocketAddr>() else {
+        return Ok(());
+    };
+    match TcpListener::bind(address) {
+        Err(e) if e.kind() == std::io::ErrorKind::AddrInUse => Err(LiveError::BusyPort {
+            endpoint: endpoint.to_owned(),
+            port: address.port(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// Where clients connect: the loopback first, for it is the same on every machine.
+fn endpoint(session: &Session) -> String {
+    let mut locators: Vec<String> = session
+        .info()
+        .locators()
+        .wait()
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    locators.sort_by_key(|l| !l.contains("127.0.0.1"));
+    locators
+        .into_iter()
+        .next()
+        .unwrap_or_else(|| "none".to_owned())
+}
+
+/// zenoh's words without the places in its source (` at /…/file.rs:12.`).
+fn plain(error: &zenoh::Error) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for word in error.to_string().split_whitespace() {
+        if word.contains(".rs:") && words.last().is_some_and(|w| w == "at") {
+            words.pop();
+        } else {
+            words.push(word.to_owned());
+        }
+    }
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_given_goes_before_the_one_of_the_environment() {
+        let from_env = Some(PathBuf::from("/nowhere/env.json5"));
+        let mut options = LiveOptions::new("run_1".to_owned());
+        let file = |options: &LiveOptions| match configured(options, from_env.clone()) {
+            Err(LiveError::Config { path, .. }) => path,
+            other => panic!("neither file exists: {other:?}"),
+        };
+        assert_eq!(file(&options), PathBuf::from("/nowhere/env.json5"));
+        options.config_file = Some("/nowhere/given.json5".into());
+        assert_eq!(file(&options), PathBuf::from("/nowhere/given.json5"));
+    }
+}

@@ -1,0 +1,283 @@
+//! An MCAP file of ROS 2 messages, written under a temporary name and renamed when whole.
+//!
+//! *Source*: MCAP specification (mcap.dev/spec), profile `ros2`, message encoding `cdr`, schema
+//! encoding `ros2msg`.
+//! *Parameters*: [`FLUSH_NS`], chunks closed at least that often in simulated time.
+//! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover`
+//! gives it back its index.
+
+use super::ros_messages::Kind;
+use ::mcap::records::{MessageHeader, Metadata};
+use ::mcap::{Attachment, McapError, WriteOptions, Writer};
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::io::{self, BufWriter};
+use std::path::{Path, PathBuf};
+use world::files::Output;
+
+/// Longest simulated time that a crash can cost, ns: a chunk is closed and handed to the system after it.
+pub const FLUSH_NS: u64 = 5_000_000_000;
+
+/// Why a recording failed; what was written before stays under the temporary name.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// The file cannot be made.
+    #[error("cannot create the recording {}: {source}", path.display())]
+    Create {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// Writing failed, most often a full disk.
+    #[error("cannot write to the recording {}: {source}; what was written so far stays there", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What was wrong.
+        source: McapError,
+    },
+    /// It is whole but cannot be given its name.
+    #[error("cannot rename the recording {} to {}: {source}", from.display(), to.display())]
+    Rename {
+        /// The temporary name.
+        from: PathBuf,
+        /// The name it should get.
+        to: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+}
+
+/// Nanoseconds of a simulated time in seconds, never negative.
+#[must_use]
+pub fn nanoseconds(t_s: f64) -> u64 {
+    (t_s.max(0.0) * 1e9).round() as u64
+}
+
+struct Channel {
+    id: u16,
+    sequence: u32,
+}
+
+/// The file being written.
+pub struct McapFile {
+    writer: Writer<BufWriter<Output>>,
+    temporary: PathBuf,
+    channels: BTreeMap<String, Channel>,
+    flushed_ns: u64,
+}
+
+impl McapFile {
+    /// Begins the recording that shall be `path`, under a name of its own.
+    ///
+    /// # Errors
+    /// If the file cannot be made or written, or something else than a regular file stands there.
+    pub fn create(path: &Path, library: &str) -> Result<Self, RecordError> {
+        let file = Output::create_kept(path).map_err(|e| RecordError::Create {
+            path: e.path,
+            source: e.source,
+        })?;
+        let temporary = file.temporary().to_owned();
+        let writer = WriteOptions::new()
+            .profile("ros2")
+            .library(library)
+            // Compression in the caller's thread: the same bytes on any machine, no threads of its own.
+            .compression_threads(0)
+            .create(BufWriter::new(file))
+            .map_err(|source| RecordError::Write {
+                path: temporary.clone(),
+                source,
+            })?;
+        Ok(Self {
+            writer,
+            temporary,
+            channels: BTreeMap::new(),
+            flushed_ns: 0,
+        })
+    }
+
+    /// Where it is written until it is whole.
+    #[must_use]
+    pub fn temporary(&self) -> &Path {
+        &self.temporary
+    }
+
+    fn failed(&self) -> impl Fn(McapError) -> RecordError + use<> {
+        let path = self.temporary.clone();
+        move |source| RecordError::Write {
+            path: path.clone(),
+            source,
+        }
+    }
+
+    /// Writes one CDR message at a simulated time; a topic keeps the kind it first had.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write(
+        &mut self,
+        topic: &str,
+        kind: Kind,
+        t_ns: u64,
+        cdr: &[u8],
+    ) -> Result<(), RecordError> {
+        let failed = self.failed();
+        if t_ns >= self.flushed_ns + FLUSH_NS {
+            self.flushed_ns = t_ns;
+            self.writer.flush().map_err(&failed)?;
+        }
+        if !self.channels.contains_key(topic) {
+            let schema = self
+                .writer
+                .add_schema(kind.name(), "ros2msg", kind.schema().as_bytes())
+                .map_err(&failed)?;
+            let id = self
+                .writer
+                .add_channel(schema, topic, "cdr", &BTreeMap::new())
+                .map_err(&failed)?;
+            self.channels
+                .insert(topic.to_owned(), Channel { id, sequence: 0 });
+        }
+        let channel = self
+            .channels
+            .get_mut(topic)
+            .expect("the channel was added just above");
+        let header = MessageHeader {
+            channel_id: channel.id,
+            sequence: channel.sequence,
+            log_time: t_ns,
+            publish_time: t_ns,
+        };
+        channel.sequence = channel.sequence.wrapping_add(1);
+        self.writer
+            .write_to_known_channel(&header, cdr)
+            .map_err(&failed)
+    }
+
+    /// Adds a named table of texts.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn metadata(&mut self, name: &str, entries: &[(&str, &str)]) -> Result<(), RecordError> {
+        let metadata = Metadata {
+            name: name.to_owned(),
+            metadata: entries
+                .iter()
+                .map(|(k, v)| ((*k).to_owned(), (*v).to_owned()))
+                .collect(),
+        };
+        let failed = self.failed();
+        self.writer.write_metadata(&metadata).map_err(failed)
+    }
+
+    /// Adds a file inside the file.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn attach(&mut self, name: &str, media_type: &str, data: &[u8]) -> Result<(), RecordError> {
+        let attachment = Attachment {
+            log_time: 0,
+            create_time: 0,
+            name: name.to_owned(),
+            media_type: media_type.to_owned(),
+            data: Cow::Borrowed(data),
+        };
+        let failed = self.failed();
+        self.writer.attach(&attachment).map_err(failed)
+    }
+
+    /// Closes the file and gives it its name.
+    ///
+    /// # Errors
+    /// If the file cannot be written or renamed.
+    pub fn finish(mut self) -> Result<PathBuf, RecordError> {
+        let failed = self.failed();
+        self.writer.finish().map_err(&failed)?;
+        let file = self.writer.into_inner();
+        let file = (file.into_inner()).map_err(|e| failed(McapError::Io(e.into_error())))?;
+        file.finish().map_err(|e| RecordError::Rename {
+            from: self.temporary,
+            to: e.path,
+            source: e.source,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ros_messages::{clock, float64};
+    use super::*;
+    use std::fs;
+
+    fn messages(bytes: &[u8]) -> Vec<(String, u64)> {
+        ::mcap::MessageStream::new_with_options(bytes, ::mcap::read::Options::IgnoreEndMagic.into())
+            .unwrap()
+            .map_while(Result::ok)
+            .map(|m| (m.channel.topic.clone(), m.log_time))
+            .collect()
+    }
+
+    #[test]
+    fn whole_file_gets_its_name_and_keeps_everything() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("run.mcap");
+        let mut f = McapFile::create(&path, "test").unwrap();
+        f.metadata("run", &[("seed", "7")]).unwrap();
+        f.attach("scenario.ron", "text/plain", b"()").unwrap();
+        for k in 0..3u64 {
+            let t = k * FLUSH_NS;
+            f.write("/clock", Kind::Clock, t, &clock(t)).unwrap();
+            f.write("/a/chemical", Kind::Float64, t, &float64(0.5))
+                .unwrap();
+        }
+        assert!(!path.exists());
+        let temporary = f.temporary().to_owned();
+        assert_eq!(f.finish().unwrap(), path);
+        let bytes = fs::read(&path).unwrap();
+        assert_eq!(messages(&bytes).len(), 6);
+        let summary = ::mcap::Summary::read(&bytes).unwrap().unwrap();
+        assert_eq!(summary.attachment_indexes[0].name, "scenario.ron");
+        assert_eq!(summary.metadata_indexes[0].name, "run");
+        assert_eq!(summary.channels.len(), 2);
+        assert!(!temporary.exists());
+    }
+
+    #[test]
+    fn crash_costs_at_most_the_last_chunk() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("run.mcap");
+        let mut f = McapFile::create(&path, "test").unwrap();
+        for k in 0..=20u64 {
+            let t = k * FLUSH_NS / 4;
+            f.write("/clock", Kind::Clock, t, &clock(t)).unwrap();
+        }
+        let temporary = f.temporary().to_owned();
+        // Neither finish nor drop runs, as after a kill.
+        std::mem::forget(f);
+        assert!(!path.exists());
+        let bytes = fs::read(temporary).unwrap();
+        let last = messages(&bytes).last().unwrap().1;
+        assert!(last + FLUSH_NS >= 5 * FLUSH_NS, "last message at {last} ns");
+    }
+
+    #[test]
+    fn missing_folder_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("no/run.mcap");
+        let said = McapFile::create(&path, "test").err().unwrap().to_string();
+        assert!(said.starts_with("cannot create the recording"), "{said}");
+        assert!(said.contains("no/run.mcap"), "{said}");
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_device_in_its_place_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("run.mcap");
+        std::os::unix::fs::symlink("/dev/full", &path).unwrap();
+        let said = McapFile::create(&path, "test").err().unwrap().to_string();
+        assert!(said.contains("a link to a device"), "{said}");
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+    }
+}

@@ -1,0 +1,340 @@
+//! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
+
+use super::map_record::{self, MapTimes};
+use super::recorder_gantry::{GantryRecorder, frames_of};
+use super::{
+    Kind, McapFile, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
+    point_cloud, pose_stamped, text, transforms, vector3_stamped,
+};
+use crate::files::ReportError;
+use crate::results::{Echoes, RunInfo};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
+use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
+use robots::survey::Row;
+use std::f64::consts::TAU;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Frame of all poses.
+pub(super) const WORLD: &str = "world";
+
+/// The recording of one run. Dropped without [`Recorder::finish`] it stays under its temporary
+/// name, readable.
+pub struct Recorder {
+    file: McapFile,
+    behaviours: Vec<&'static str>,
+    declared: Vec<Vec<Declaration>>,
+    regions: Vec<Option<u32>>,
+    layers: Vec<Arc<[Layer]>>,
+    gantries: Vec<GantryRecorder>,
+    maps: Vec<(String, MapTimes)>,
+    map_period_s: f64,
+}
+
+/// What the numbers of `/plume` mean; the schema has names only.
+const PLUME: [(&str, &str); 7] = [
+    ("topic", "/plume"),
+    ("x, y, z", "middle of a filament (ENU), m"),
+    ("size", "its horizontal size, m"),
+    (
+        "mass",
+        "mass of all filaments that it stands for, kg: the masses of a message sum to what is in the water",
+    ),
+    ("concentration", "at its own middle, of it alone, kg/m3"),
+    (
+        "stands_for",
+        "how many filaments it stands for; its own mass is mass / stands_for",
+    ),
+    (
+        "shown",
+        "at most record.plume_points of the scenario, every k-th of each source",
+    ),
+];
+
+/// Time between two recorded maps where the scenario does not say, s.
+const MAP_PERIOD_S: f64 = 10.0;
+
+impl Recorder {
+    /// Starts a recording that will end at `path`; the folder must exist.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(path: &Path, run: &RunInfo) -> Result<Self, ReportError> {
+        let mut file = McapFile::create(path, &format!("rheotaxis {}", run.version))?;
+        let seed = run.seed.to_string();
+        file.metadata(
+            "run",
+            &[
+                ("scenario", &run.scenario_name),
+                ("title", &run.title),
+                ("success", &run.success),
+                ("seed", &seed),
+                ("version", &run.version),
+            ],
+        )?;
+        file.metadata("plume", &PLUME)?;
+        file.attach("scenario.ron", "text/plain", run.scenario_text.as_bytes())?;
+        Ok(Self {
+            file,
+            behaviours: Vec::new(),
+            layers: Vec::new(),
+            declared: Vec::new(),
+            regions: Vec::new(),
+            gantries: Vec::new(),
+            maps: Vec::new(),
+            map_period_s: MAP_PERIOD_S,
+        })
+    }
+
+    /// Where it is written until it is whole.
+    #[must_use]
+    pub fn temporary(&self) -> &Path {
+        self.file.temporary()
+    }
+
+    /// The same with a period between two recorded maps of where the source may be, s.
+    #[must_use]
+    pub fn with_map_period(mut self, period_s: f64) -> Self {
+        self.map_period_s = period_s;
+        self
+    }
+
+    /// Records one frame. Behaviours, layers and declarations are written when they change.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn frame(&mut self, frame: &Frame) -> Result<(), ReportError> {
+        let t = nanoseconds(frame.t_s);
+        self.file.write("/clock", Kind::Clock, t, &clock(t))?;
+        self.behaviours.resize(frame.robots.len(), "");
+        self.declared.resize(frame.robots.len(), Vec::new());
+        self.regions.resize(frame.robots.len(), None);
+        self.layers.resize_with(frame.robots.len(), Arc::default);
+        for (k, robot) in frame.robots.iter().enumerate() {
+            self.robot(t, k, robot)?;
+            self.map(frame.t_s, robot)?;
+        }
+        self.gantries
+            .resize_with(frame.gantries.len(), GantryRecorder::default);
+        for (known, gantry) in self.gantries.iter_mut().zip(&frame.gantries) {
+            known.record(&mut self.file, t, gantry)?;
+        }
+        let believed: Vec<String> = frame.robots.iter().map(|r| believed_frame(&r.id)).collect();
+        let heads: Vec<_> = frame.gantries.iter().flat_map(frames_of).collect();
+        let of_robots = frame.robots.iter().zip(&believed).flat_map(|(r, b)| {
+            let e = &r.estimate;
+            [
+                (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
+                (b.as_str(), e.p_WB(), e.attitude.R_WB()),
+            ]
+        });
+        let of_gantries = heads.iter().map(|(name, p, q)| (name.as_str(), *p, *q));
+        let children: Vec<_> = of_robots.chain(of_gantries).collect();
+        let tf = transforms(t, WORLD, &children);
+        self.file.write("/tf", Kind::TfMessage, t, &tf)?;
+        Ok(())
+    }
+
+    fn robot(&mut self, t: u64, k: usize, r: &RobotFrame) -> Result<(), RecordError> {
+        let id = &r.id;
+        let truth = Odometry {
+            t_ns: t,
+            frame: WORLD,
+            child: id,
+            position: r.truth.pose.p_WB,
+            attitude: r.truth.pose.R_WB,
+            linear: r.truth.v_WB_B,
+            angular: r.truth.w_WB_B,
+        };
+        let e = &r.estimate;
+        let estimate = Odometry {
+            t_ns: t,
+            frame: WORLD,
+            child: &believed_frame(id),
+            position: e.p_WB(),
+            attitude: e.attitude.R_WB(),
+            linear: e.v_ground_body,
+            angular: e.attitude.rates_rad_s,
+        };
+        let file = &mut self.file;
+        let mut put =
+            |name: &str, kind: Kind, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
+        put("truth", Kind::Odometry, &truth.cdr())?;
+        put("estimate", Kind::Odometry, &estimate.cdr())?;
+        put("altitude", Kind::Float64, &float64(r.altitude_m))?;
+        if let Some(c) = r.chemical {
+            put("chemical", Kind::Float64, &float64(c.volts))?;
+        }
+        if let Some(flow) = e.flow {
+            let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
+            put("flow", Kind::Vector3Stamped, &vector3_stamped(t, WORLD, &v))?;
+        }
+        let a = &r.actuators;
+        for (name, v) in [
+            ("actuators/rudder_rad", a.rudder_rad),
+            ("actuators/stern_rad", a.stern_rad),
+            ("actuators/rpm", a.rpm),
+        ] {
+            put(name, Kind::Float64, &float64(v))?;
+        }
+        if let Some(Command::Steer(s)) = r.command {
+            let (name, height) = match s.vertical {
+                Vertical::Altitude(m) => ("command/altitude_m", m),
+                Vertical::Depth(m) => ("command/depth_m", m),
+            };
+            put(
+                "command/heading_rad",
+                Kind::Float64,
+                &float64(s.heading.rad()),
+            )?;
+            put(
+                "command/water_speed_m_s",
+                Kind::Float64,
+                &float64(s.water_speed_m_s),
+            )?;
+            put(name, Kind::Float64, &float64(height))?;
+        }
+        if self.behaviours[k] != r.behaviour.name() {
+            self.behaviours[k] = r.behaviour.name();
+            put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
+        }
+        if self.layers[k] != r.layers {
+            self.layers[k] = r.layers.clone();
+            put("layers", Kind::Text, &text(&layers_line(&r.layers)))?;
+            let holds = r.holding_layer().unwrap_or("");
+            put("layer", Kind::Text, &text(holds))?;
+        }
+        for d in &r.declarations {
+            let known = &mut self.declared[k];
+            if known.contains(d) {
+                continue;
+            }
+            d.join(known);
+            let at = nanoseconds(d.t_s);
+            let p = on_plane(d.position, 0.0);
+            let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
+            put("declaration", Kind::PoseStamped, &pose)?;
+        }
+        if self.regions[k] != r.regions.now {
+            self.regions[k] = r.regions.now;
+            let name = r.regions.now.map_or_else(String::new, region_name);
+            put("region", Kind::Text, &text(&name))?;
+        }
+        Ok(())
+    }
+
+    fn map(&mut self, t_s: f64, robot: &RobotFrame) -> Result<(), RecordError> {
+        let Some(belief) = &robot.belief else {
+            return Ok(());
+        };
+        let k = match self.maps.iter().position(|(id, _)| *id == robot.id) {
+            Some(k) => k,
+            None => {
+                self.maps.push((robot.id.clone(), MapTimes::default()));
+                self.maps.len() - 1
+            }
+        };
+        match self.maps[k].1.due(t_s, self.map_period_s, belief) {
+            Some(due) => self.write_map(&robot.id, &due),
+            None => Ok(()),
+        }
+    }
+
+    fn write_map(&mut self, id: &str, belief: &Belief) -> Result<(), RecordError> {
+        let t = nanoseconds(belief.t_s);
+        let rows = map_record::points(belief);
+        let cloud = point_cloud(t, WORLD, map_record::FIELDS, &rows);
+        let topic = format!("/{id}/map");
+        self.file.write(&topic, Kind::PointCloud2, t, &cloud)
+    }
+
+    /// Records filaments as a cloud; `mass` is that of the filaments one stands for (kg), `concentration` that at a filament's
+    /// own middle, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
+        let t = nanoseconds(plume.t_s);
+        let shape = (TAU * TAU.sqrt()) as f32;
+        let rows: Vec<[f32; 7]> = plume
+            .points
+            .iter()
+            .map(|&[x, y, z, size, mass, n]| {
+                let volume = shape * size * size * size;
+                let c = if volume > 0.0 { mass / n / volume } else { 0.0 };
+                [x, y, z, size, mass, c, n]
+            })
+            .collect();
+        let names = ["x", "y", "z", "size", "mass", "concentration", "stands_for"];
+        let cloud = point_cloud(t, WORLD, names, &rows);
+        self.file.write("/plume", Kind::PointCloud2, t, &cloud)?;
+        Ok(())
+    }
+
+    /// Records a line of a sidescan's picture as a cloud on the bed as believed; `level` is in dB, Lambert's fall taken out.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn echo(&mut self, robot: &str, line: &Row) -> Result<(), ReportError> {
+        let t = nanoseconds(line.t_s);
+        let mut rows: Vec<[f32; 4]> = Vec::new();
+        for port in [true, false] {
+            for (k, level) in line.side(port).iter().enumerate() {
+                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M);
+                if level.is_finite() {
+                    rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
+                }
+            }
+        }
+        let cloud = point_cloud(t, WORLD, ["x", "y", "z", "level"], &rows);
+        let topic = format!("/{robot}/sidescan");
+        self.file.write(&topic, Kind::PointCloud2, t, &cloud)?;
+        Ok(())
+    }
+
+    /// Records a picture without loss, and where the camera sits on the robot.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
+        let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
+        let camera = format!("{id}/camera");
+        let mount = transforms(t, id, &[(camera.as_str(), p.p_BC, p.R_BC)]);
+        self.file.write("/tf", Kind::TfMessage, t, &mount)?;
+        let image = compressed_image(t, &camera, "png", png);
+        let topic = format!("/{camera}/compressed");
+        self.file.write(&topic, Kind::CompressedImage, t, &image)?;
+        Ok(())
+    }
+
+    /// Closes the recording with the run's digest and gives it its name.
+    ///
+    /// # Errors
+    /// If the file cannot be written or renamed.
+    pub fn finish(mut self, digest: &str) -> Result<PathBuf, ReportError> {
+        for (id, mut times) in std::mem::take(&mut self.maps) {
+            if let Some(last) = times.last() {
+                self.write_map(&id, &last)?;
+            }
+        }
+        self.file.metadata("result", &[("digest", digest)])?;
+        Ok(self.file.finish()?)
+    }
+}
+
+fn believed_frame(id: &str) -> String {
+    format!("{id}/estimate")
+}
+
+/// `find suppressed, maintain holds, ...`, lowest first.
+fn layers_line(layers: &[Layer]) -> String {
+    let words: Vec<String> = (layers.iter())
+        .map(|l| format!("{} {}", l.name, l.state.name()))
+        .collect();
+    words.join(", ")
+}
+
+pub(super) fn on_plane(p: Vector2<f64>, z: f64) -> Vector3<f64> {
+    Vector3::new(p.x, p.y, z)
+}

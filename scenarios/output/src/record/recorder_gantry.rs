@@ -1,0 +1,82 @@
+//! A gantry's part of a recording: joints, probes, what its searcher works with and decides.
+
+use super::recorder::{WORLD, on_plane};
+use super::{
+    Joint, Kind, McapFile, RecordError, float64, joint_state, nanoseconds, pose_stamped, text,
+};
+use nalgebra::{UnitQuaternion, Vector3};
+use rheotaxis::gantry::GantryFrame;
+use world::math;
+
+/// What was recorded of a gantry so far; behaviours and the declaration are written when they change.
+#[derive(Debug, Default)]
+pub(super) struct GantryRecorder {
+    behaviour: Option<&'static str>,
+    declared: bool,
+    scanned_s: Option<f64>,
+}
+
+impl GantryRecorder {
+    /// Records one picture under `/<id>/`: `joint_states`; `probes/<n>`, `thresholds/<n>` (V) and `spikes/<n>` (0 or 1) in the order of
+    /// the URDF, a message a scan; `spike_hz`, `behaviour`, `declaration`.
+    pub(super) fn record(
+        &mut self,
+        file: &mut McapFile,
+        t: u64,
+        g: &GantryFrame,
+    ) -> Result<(), RecordError> {
+        let id = &g.id;
+        let mut put = |name: &str, kind: Kind, t: u64, cdr: &[u8]| {
+            file.write(&format!("/{id}/{name}"), kind, t, cdr)
+        };
+        let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
+            .map(|(name, j)| Joint {
+                name,
+                position: j.position_m,
+                velocity: j.speed_m_s,
+                effort: j.force_N,
+            })
+            .collect();
+        let joints = joint_state(t, WORLD, &joints);
+        put("joint_states", Kind::JointState, t, &joints)?;
+        let w = &g.decision.working;
+        if let Some(scan) = g.scan.filter(|s| self.scanned_s != Some(s.t_s)) {
+            self.scanned_s = Some(scan.t_s);
+            let at = nanoseconds(scan.t_s);
+            for (n, volts) in scan.volts[..scan.count].iter().enumerate() {
+                let spike = f64::from(u8::from(w.spike[n]));
+                for (name, v) in [
+                    ("probes", *volts),
+                    ("thresholds", w.threshold_v[n]),
+                    ("spikes", spike),
+                ] {
+                    put(&format!("{name}/{n}"), Kind::Float64, at, &float64(v))?;
+                }
+            }
+            put("spike_hz", Kind::Float64, at, &float64(w.spike_hz))?;
+        }
+        let behaviour = g.decision.behaviour.name();
+        if self.behaviour != Some(behaviour) {
+            self.behaviour = Some(behaviour);
+            put("behaviour", Kind::Text, t, &text(behaviour))?;
+        }
+        if let (Some(d), false) = (g.declaration, self.declared) {
+            self.declared = true;
+            let at = nanoseconds(d.t_s);
+            let p = on_plane(d.position, g.head_W.z);
+            let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
+            put("declaration", Kind::PoseStamped, t, &pose)?;
+        }
+        Ok(())
+    }
+}
+
+/// Frames of its head and of its probes' tips, all facing where the gantry does.
+pub(super) fn frames_of(
+    g: &GantryFrame,
+) -> impl Iterator<Item = (String, Vector3<f64>, UnitQuaternion<f64>)> {
+    let facing = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
+    let tips = (g.tips_W.iter().enumerate())
+        .map(move |(n, p)| (format!("{}/probe_{n}", g.id), *p, facing));
+    std::iter::once((format!("{}/head", g.id), g.head_W, facing)).chain(tips)
+}

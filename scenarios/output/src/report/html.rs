@@ -1,0 +1,306 @@
+//! `report.html`: one file that needs nothing beside it.
+
+use crate::charts::escaped;
+use crate::results::GantrySummary;
+use crate::results::ShownPicture;
+use crate::results::{DeclarationSummary, DeclaredKind, Summary};
+use robots::handoff::Verdict;
+use std::fmt::Write as _;
+
+/// Look of all pages.
+pub const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
+h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
+table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
+th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f6f6;padding:1em;overflow:auto;font-size:12.5px}\
+.outcome{font-weight:600}code{font-size:.9em}img{max-width:100%;height:auto}\
+.pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.6em}\
+figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}td,th,p{overflow-wrap:anywhere}\
+@media(max-width:600px){body{font-size:14px;margin:1em auto;padding:0 .7em}table.facts td,table.facts th{display:block;padding-right:0}\
+table:not(.facts){display:block;overflow-x:auto}pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
+@media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
+h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
+pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}";
+
+const TEXT: &str = "writing to a String succeeds";
+
+/// The page: summary, figures (title and SVG), a camera's pictures, scenario.
+pub(super) fn page(
+    summary: &Summary,
+    figures: &[(String, String)],
+    pictures: &[ShownPicture],
+    scenario_text: &str,
+) -> String {
+    let name = escaped(&summary.scenario);
+    let mut out = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
+         <title>{name}, seed {}</title><style>{STYLE}</style></head>\n<body>\n\
+         <h1>{}</h1>\n<p>{name}, seed {}. Success: {}.<br>Outcome: <span class=\"outcome\">{}</span>.</p>\n",
+        summary.seed,
+        escaped(&summary.title),
+        summary.seed,
+        escaped(&summary.success_rule),
+        summary.outcome.words()
+    );
+    if let Some(e) = &summary.error {
+        writeln!(out, "<p>Error: {}</p>", escaped(e)).expect(TEXT);
+    }
+    if !summary.abnormal.is_empty() {
+        let rows: Vec<(String, String)> = (summary.abnormal.iter())
+            .map(|a| (escaped(&a.robot), a.line.clone()))
+            .collect();
+        table(&mut out, "What went wrong", &rows);
+    }
+    for r in &summary.robots {
+        table(&mut out, &format!("Robot {}", r.id), &robot_rows(r));
+    }
+    for g in &summary.gantries {
+        table(&mut out, &format!("Gantry {}", g.id), &gantry_rows(g));
+    }
+    table(&mut out, "Run", &run_rows(summary));
+    for (title, svg) in figures {
+        writeln!(out, "<figure><h2>{}</h2>\n{svg}</figure>", escaped(title)).expect(TEXT);
+    }
+    if !pictures.is_empty() {
+        out.push_str("<h2>Pictures</h2>\n<div class=\"pictures\">\n");
+        for p in pictures {
+            let (html, title) = (p.html(), escaped(&p.title()));
+            writeln!(
+                out,
+                "<figure>{html}<figcaption>{title}</figcaption></figure>"
+            )
+            .expect(TEXT);
+        }
+        out.push_str("</div>\n");
+    }
+    writeln!(
+        out,
+        "<h2>Scenario</h2>\n<pre>{}</pre>\n</body>\n</html>",
+        escaped(scenario_text)
+    )
+    .expect(TEXT);
+    out
+}
+
+fn table<K: AsRef<str>>(out: &mut String, title: &str, rows: &[(K, String)]) {
+    writeln!(out, "<h2>{}</h2>\n<table class=\"facts\">", escaped(title)).expect(TEXT);
+    for (k, v) in rows {
+        let (k, v) = (k.as_ref(), escaped(v));
+        writeln!(out, "<tr><th>{k}</th><td>{v}</td></tr>").expect(TEXT);
+    }
+    out.push_str("</table>\n");
+}
+
+fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(String, String)>) {
+    let place =
+        |p: crate::results::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
+    let in_region = d.region_name.as_deref();
+    if d.kind == DeclaredKind::UpFlowEdge {
+        // No source is said to be here: how far one is away would be no error.
+        let what = format!(
+            "the plume leads on over it, {} at {:.0} s",
+            place(d.position),
+            d.t_s
+        );
+        let of = in_region.unwrap_or("the area");
+        rows.push((format!("Up-flow edge of subregion {of}"), what));
+        return;
+    }
+    let which = if several {
+        d.name.trim_start_matches("source")
+    } else {
+        ""
+    };
+    let region = in_region.map_or_else(String::new, |k| format!(", in subregion {k}"));
+    let what = format!(
+        "{} at {:.0} s ({}){region}",
+        place(d.position),
+        d.t_s,
+        d.rule
+    );
+    rows.push((format!("Declared source{which}"), what));
+    if d.verdict != Verdict::Unchecked {
+        rows.push((format!("Looked at{which}"), d.verdict.name().to_owned()));
+    }
+    if let Some(p) = d.surveyed {
+        let error = (d.surveyed_error.as_ref()).map_or_else(String::new, |e| {
+            format!("; {:.1} m from {}", e.total_m, e.source)
+        });
+        rows.push((
+            format!("By the sidescan{which}"),
+            format!("{}{error}", place(p)),
+        ));
+    }
+    if let Some(e) = &d.error {
+        let source = format!("{} ({})", place(e.position), e.source);
+        rows.push(("Nearest true source".to_owned(), source));
+        let mut error = format!("{:.1} m", e.total_m);
+        if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
+            write!(
+                error,
+                ": {a:+.1} m along the flow (down-flow positive), {b:+.1} m across"
+            )
+            .expect(TEXT);
+        }
+        rows.push(("Error".to_owned(), error));
+    }
+    if let Some(m) = d.fix_m {
+        let what = format!("moved its own position by {m:.1} m in the minute before");
+        rows.push(("Position fixes".to_owned(), what));
+    }
+}
+
+fn robot_rows(r: &crate::results::RobotSummary) -> Vec<(String, String)> {
+    let mut rows = Vec::new();
+    let several = r.sources_declared > 1;
+    if r.sources_declared == 0 {
+        rows.push(("Declared source".to_owned(), "none".to_owned()));
+    }
+    for d in &r.declarations {
+        declaration_rows(d, several, &mut rows);
+    }
+    if let Some(remark) = r.map.as_ref().and_then(|m| m.remark.as_ref()) {
+        rows.push(("Beware".to_owned(), remark.clone()));
+    }
+    for region in &r.regions {
+        let mut what = region.state.words().to_owned();
+        if let (Some(from), Some(until)) = (region.from_s, region.until_s) {
+            write!(what, ", searched from {from:.0} to {until:.0} s").expect(TEXT);
+        }
+        rows.push((format!("Subregion {}", region.name), what));
+    }
+    rows.extend(way_rows(r).map(|(k, v)| (k.to_owned(), v)));
+    rows
+}
+
+fn way_rows(r: &crate::results::RobotSummary) -> impl Iterator<Item = (&'static str, String)> {
+    let mut rows = Vec::new();
+    if let Some(t) = r.first_detection_s {
+        rows.push(("First detection", format!("{t:.1} s")));
+    }
+    rows.push(("Detections", r.detections.to_string()));
+    if let Some(m) = r.traced_m {
+        rows.push((
+            "Traced",
+            format!("{m:.0} m from the first detection to the first declaration"),
+        ));
+    }
+    rows.push(("Travelled", format!("{:.0} m", r.travelled_m)));
+    let own = format!(
+        "{:.1} m at the end, {:.1} m at most",
+        r.final_position_error_m, r.greatest_position_error_m
+    );
+    rows.push(("Error of its own position", own));
+    let times: Vec<String> = r
+        .behaviour_s
+        .iter()
+        .map(|(b, s)| format!("{b} {s:.0} s"))
+        .collect();
+    rows.push(("Time in behaviours", times.join(", ")));
+    rows.into_iter()
+}
+
+fn gantry_rows(g: &GantrySummary) -> Vec<(&'static str, String)> {
+    let stopped = match g.stopped {
+        Some(true) => "declared a source",
+        Some(false) => "gave up",
+        None => "did not stop",
+    };
+    let mut rows = vec![("Stopped", stopped.to_owned())];
+    if let Some(d) = &g.declaration {
+        let mut what = format!("at {:.1} s", d.t_s);
+        if let Some(e) = &d.error {
+            write!(what, ", {:.1} cm from {}", 100.0 * e.total_m, e.source).expect(TEXT);
+            if let (Some(a), Some(b)) = (e.along_flow_m, e.across_flow_m) {
+                write!(
+                    what,
+                    ": {:+.1} cm along the flow (down-flow positive), {:+.1} cm across",
+                    100.0 * a,
+                    100.0 * b
+                )
+                .expect(TEXT);
+            }
+        }
+        rows.push(("Declared", what));
+    }
+    let seconds = |t: Option<f64>| t.map_or_else(|| "never".to_owned(), |t| format!("{t:.1} s"));
+    rows.push(("First sweep over", seconds(g.sweep_s)));
+    let spikes = format!(
+        "{} scans, the first at {}",
+        g.spikes,
+        seconds(g.first_spike_s)
+    );
+    rows.push(("Scans with a spike", spikes));
+    let [steps, casts, sweeps] = g.moves;
+    let moves = format!("{steps} steps up-stream, {casts} casts, {sweeps} full sweeps");
+    rows.push(("Motions", moves));
+    let tracked = g
+        .tracked_m
+        .map(|m| format!("; {m:.2} m from the first step up-stream"));
+    let way = format!("{:.2} m{}", g.travelled_m, tracked.unwrap_or_default());
+    rows.push(("Path", way));
+    if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
+        let what = format!(
+            "{:.1} cm/s; straight way over path (NGDR) {ngdr:.2}",
+            100.0 * v
+        );
+        rows.push(("From the first step up-stream", what));
+    }
+    let pair = |p: [Option<f64>; 2], unit: &str| {
+        let one = |v: Option<f64>| {
+            v.map_or_else(|| "–".to_owned(), |v| format!("{:.1} {unit}", 100.0 * v))
+        };
+        format!("{} at 100–50 cm, {} at 50–0 cm", one(p[0]), one(p[1]))
+    };
+    rows.push(("Speed", pair(g.speed_far_near_m_s, "cm/s")));
+    rows.push(("From the centreline", pair(g.offset_far_near_m, "cm")));
+    if g.blocked {
+        rows.push((
+            "Blocked",
+            "a drive gave up against something in the way".to_owned(),
+        ));
+    }
+    rows
+}
+
+fn run_rows(s: &Summary) -> Vec<(&'static str, String)> {
+    let t = &s.run.totals;
+    let mut rows = vec![
+        (
+            "Mission",
+            format!(
+                "{:.1} s in {} steps, {:.1} s of wall time",
+                t.mission_s, t.steps, t.mission_wall_s
+            ),
+        ),
+        (
+            "Spin-up",
+            format!(
+                "{:.0} s, {:.1} s of wall time",
+                t.spin_up_s, t.spin_up_wall_s
+            ),
+        ),
+    ];
+    if let (Some(a), Some(b)) = (s.run.real_time_factor, s.run.real_time_factor_with_spin_up) {
+        rows.push((
+            "Speed",
+            format!("{a:.0} × real time; {b:.0} × with the spin-up's wall time"),
+        ));
+    }
+    rows.push(("Filaments at the end", t.filaments.to_string()));
+    if let Some(m) = t.mass {
+        let what = format!(
+            "released {:.4} kg, in the water {:.4} kg, carried out {:.4} kg, imbalance {:.1e} kg",
+            m.released_kg, m.in_water_kg, m.left_kg, m.imbalance_kg
+        );
+        rows.push(("Chemical", what));
+    }
+    let v = &s.versions;
+    let versions = format!(
+        "rheotaxis {}, scenario format {}, rapier3d {}",
+        v.rheotaxis, v.scenario, v.rapier3d
+    );
+    rows.push(("Versions", versions));
+    rows.push(("Digest", s.digest.clone()));
+    rows
+}

@@ -1,0 +1,14 @@
+//! A run's folder: tables, figures, one-page report.
+
+mod html;
+mod write;
+
+pub use html::STYLE;
+pub use write::write_all;
+
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_gantry;
+#[cfg(test)]
+mod tests_words;

@@ -1,0 +1,124 @@
+//! What a report says in words and numbers: kinds of declarations, ends of searches, title and rule, masses.
+
+use super::TrackTable;
+use super::tests::told;
+use crate::sample::{area, frames, plume};
+use nalgebra::Vector2;
+use rheotaxis::frame::Frame;
+use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
+use std::sync::Arc;
+
+/// A mission over two subregions: the first left by the plume's edge, the second timed out.
+fn over_subregions() -> Vec<Frame> {
+    let mut run = frames(20);
+    let region = |state| Region {
+        area: area(),
+        state,
+        from_s: Some(1.0),
+        until_s: Some(9.0),
+    };
+    let all: Arc<[Region]> = Arc::new([
+        region(RegionState::UpFlowEdge),
+        region(RegionState::TimedOut),
+    ]);
+    let edge = Declaration {
+        region: Some(0),
+        ..Declaration::first(9.0, Vector2::new(150.0, 100.0), UP_FLOW_EDGE)
+    };
+    for f in &mut run {
+        let r = &mut f.robots[0];
+        r.declarations = vec![edge];
+        r.regions = Regions {
+            all: all.clone(),
+            now: None,
+        };
+    }
+    run
+}
+
+#[test]
+fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
+    let (summary, _) = told(&over_subregions());
+    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
+    let robot = &json["robots"][0];
+    assert_eq!(
+        (
+            &robot["sources_declared"],
+            &robot["up_flow_edges"],
+            &robot["regions_timed_out"]
+        ),
+        (&0.into(), &1.into(), &1.into())
+    );
+    let edge = &robot["declarations"][0];
+    assert_eq!(
+        (&edge["kind"], &edge["name"], &edge["region_name"]),
+        (&"up_flow_edge".into(), &"edge of A".into(), &"A".into())
+    );
+    assert_eq!(robot["regions"][1]["name"], "B");
+    assert_eq!(robot["regions"][1]["state"], "timed_out");
+    let page = super::html::page(&summary, &[], &[], "()");
+    for words in [
+        "<th>Declared source</th><td>none",
+        "<th>Up-flow edge of subregion A</th>",
+        "<th>Subregion A</th><td>plume to up-flow edge",
+        "<th>Subregion B</th><td>timed out",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    // The way from the edge to the nearest source is no error of anything declared.
+    assert!(!page.contains("Nearest true source") && !page.contains("source free"));
+}
+
+#[test]
+fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
+    let (summary, _) = told(&frames(400));
+    let page = super::html::page(&summary, &[], &[], "()");
+    let top = &page[page.find("<h1>").unwrap()..page.find("<table").unwrap()];
+    assert!(top.contains("<h1>A sample &lt;&amp;&gt;</h1>"), "{top}");
+    assert!(
+        top.contains("Success: a source is declared within 20 m of a true one"),
+        "{top}"
+    );
+    // For paper and for a telephone: figures whole on a sheet, nothing wider than the screen.
+    for rule in [
+        "initial-scale=1",
+        "@media print",
+        "break-inside:avoid",
+        "@media(max-width:600px)",
+        "img{max-width:100%",
+        "overflow-wrap:anywhere",
+    ] {
+        assert!(page.contains(rule), "{rule}");
+    }
+    let json: serde_json::Value = serde_json::from_str(&summary.json()).unwrap();
+    assert_eq!(json["title"], "A sample <&>");
+    // The map of the sample ends on the source.
+    assert_eq!(json["robots"][0]["map"]["remark"], serde_json::Value::Null);
+    assert!(json["robots"][0]["map"]["probability"].as_f64().unwrap() > 0.0);
+}
+
+#[test]
+fn the_tables_masses_sum_to_what_is_in_the_water() {
+    let text = super::write::plume_csv(&plume(), &area());
+    let mut lines = text.lines();
+    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let column = |name: &str| header.iter().position(|h| *h == name).unwrap();
+    let (mass, n) = (column("mass_kg"), column("stands_for"));
+    let sums = lines.fold([0.0, 0.0], |[a, b], line| {
+        let v: Vec<f64> = line.split(',').map(|v| v.parse().unwrap()).collect();
+        [a + v[mass], b + v[n]]
+    });
+    // 4000 shown of 40 000 filaments of 5 mg.
+    assert!((sums[0] / 0.2 - 1.0).abs() < 1e-4 && (sums[1] / 4e4 - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn without_robots_there_is_no_table_of_tracks() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("track.csv");
+    let mut table = TrackTable::create(&path, Vec::new()).unwrap();
+    let mut nobody = frames(1)[0].clone();
+    nobody.robots.clear();
+    table.push(&nobody).unwrap();
+    assert!(!path.exists());
+}

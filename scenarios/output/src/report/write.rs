@@ -1,0 +1,149 @@
+//! Everything a run leaves behind, written into one folder.
+
+use super::html;
+use crate::figures;
+use crate::files::{Kept, ReportError, guarded};
+use crate::results::probes::file_name;
+use crate::results::{RunReport, belief_track, odour};
+use rheotaxis::frame::PlumeFrame;
+use std::fmt::Write as _;
+use std::path::PathBuf;
+use world::area::Area;
+use world::files::Folder;
+
+/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder; the paths of what was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
+/// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
+/// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`; for those whose map says more
+/// of the odour `odour-<robot>`, with a table; for one whose sidescan surveyed a declared place `sidescan-<robot>`.
+///
+/// # Errors
+/// If a file cannot be written or a figure not be drawn, each that could not; all others are.
+pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, ReportError> {
+    let mut kept = Kept::new(out);
+    kept.write("summary.json", run.summary.json().as_bytes());
+    if let Some(plume) = run.plume {
+        kept.write("plume.csv", plume_csv(plume, run.area).as_bytes());
+    }
+    for robot in &run.beliefs.robots {
+        let name = file_name(&robot.id);
+        let csv = belief_track::csv(robot, run.sources);
+        kept.write(&format!("belief-{name}.csv"), csv.as_bytes());
+        if !robot.odour.is_empty() {
+            let csv = odour::csv(&robot.odour);
+            kept.write(&format!("odour-{name}.csv"), csv.as_bytes());
+        }
+    }
+    let mut shown = Vec::new();
+    for (name, title, svg) in figures_of(run) {
+        match svg {
+            Ok(svg) => {
+                kept.figure(&name, &svg);
+                shown.push((title, svg));
+            }
+            Err(cause) => kept.draw(&format!("{name}.png"), Err(cause)),
+        }
+    }
+    let page = html::page(run.summary, &shown, run.pictures, run.scenario_text);
+    kept.write("report.html", page.as_bytes());
+    kept.done()
+}
+
+/// A figure's name, title and SVG, or why there is none.
+type Drawn = (String, String, Result<String, String>);
+
+/// Each figure of the run.
+fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
+    let mut figures: Vec<Drawn> = Vec::new();
+    // A gantry's own figures show all there is to see of a flume.
+    if run.gantries.is_empty() || !run.track.robots.is_empty() {
+        figures.push((
+            "map".to_owned(),
+            "Map".to_owned(),
+            guarded(|| figures::map(run)),
+        ));
+    }
+    for robot in &run.track.robots {
+        let id = &robot.info.id;
+        figures.push((
+            format!("series-{}", file_name(id)),
+            format!("Time series of {id}"),
+            guarded(|| figures::series(run, robot)),
+        ));
+    }
+    for robot in &run.beliefs.robots {
+        figures.push((
+            format!("belief-{}", file_name(&robot.id)),
+            format!("Where {} believed the source", robot.id),
+            guarded(|| figures::belief(run, robot)),
+        ));
+        if !robot.odour.is_empty() {
+            figures.push((
+                format!("odour-{}", file_name(&robot.id)),
+                format!("Where {} believed the odour", robot.id),
+                guarded(|| figures::odour(run, robot)),
+            ));
+        }
+    }
+    for robot in &run.echoes.robots {
+        let svg = guarded(|| figures::sidescan(run, robot)).transpose();
+        figures.extend(svg.map(|svg| {
+            let name = format!("sidescan-{}", file_name(&robot.id));
+            (name, format!("Sidescan of {}", robot.id), svg)
+        }));
+    }
+    if !run.beliefs.robots.is_empty() {
+        let title = "Convergence of the maps".to_owned();
+        figures.push((
+            "convergence".to_owned(),
+            title,
+            guarded(|| figures::convergence(run)),
+        ));
+    }
+    for t in run.gantries {
+        let id = &t.info.id;
+        let kinds = [
+            (
+                "flume",
+                "Track over the plume",
+                guarded(|| figures::flume(run, t)),
+            ),
+            (
+                "probes",
+                "Probes, thresholds and spikes",
+                guarded(|| figures::probe_records(run, t)),
+            ),
+            (
+                "approach",
+                "Speed and distance from the centreline",
+                guarded(|| figures::approach(run, t)),
+            ),
+        ];
+        for (name, title, svg) in kinds {
+            figures.extend(svg.transpose().map(|svg| {
+                let name = format!("{name}-{}", file_name(id));
+                (name, format!("{title}: {id}"), svg)
+            }));
+        }
+    }
+    figures
+}
+
+/// The filaments that the map shows: `mass_kg` is that of all filaments one stands for, so that the column sums to what is in
+/// the water, and `stands_for` how many those are. Places to the hundredth of a metre, or in a flume of a millimetre.
+pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
+    let (d, d_z, s) = if area.width_m < 10.0 {
+        (5, 5, 6)
+    } else {
+        (2, 3, 4)
+    };
+    let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg,stands_for\n");
+    for [x, y, z, size, mass, n] in &plume.points {
+        writeln!(
+            text,
+            "{:.1},{x:.d$},{y:.d$},{z:.d_z$},{size:.s$},{mass:.6e},{n:.3}",
+            plume.t_s
+        )
+        .expect("writing to a String succeeds");
+    }
+    text
+}

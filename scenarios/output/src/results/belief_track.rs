@@ -1,0 +1,270 @@
+//! `belief-<robot>.csv`: how a map of where the source may be drew together; and maps kept for the figures.
+
+use super::SourceTruth;
+use nalgebra::Vector3;
+use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use robots::handoff::{Belief, Odour};
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+/// Most rows kept of a robot; beyond, every other is left out.
+const ROWS: usize = 40_000;
+/// Most numbers kept in the maps of a robot between first and last.
+const NUMBERS: usize = 2_000_000;
+/// Most maps kept between first and last.
+const MAPS: usize = 64;
+
+/// One update of a map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BeliefRow {
+    /// Time, s.
+    pub t_s: f64,
+    /// Updates so far.
+    pub updates: u64,
+    /// A detection went into it.
+    pub informed: bool,
+    /// Entropy, nat.
+    pub entropy_nat: f64,
+    /// Middle of the most probable cell (ENU), m.
+    pub best: Vector3<f64>,
+    /// Its probability.
+    pub p_best: f64,
+    /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in space).
+    pub credible_95: f64,
+}
+
+/// A map with what was planned on it, and the plume as it was last shown.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BeliefSnapshot {
+    /// The map.
+    pub belief: Belief,
+    /// The planned path (ENU), m.
+    pub planned: Arc<Vec<Vector3<f64>>>,
+    /// The plume.
+    pub plume: Option<Arc<PlumeFrame>>,
+}
+
+/// All that is kept of a robot's map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotBelief {
+    /// Which robot.
+    pub id: String,
+    /// Its updates; thinned evenly when the run is long.
+    pub rows: Vec<BeliefRow>,
+    /// The last map before the first detection.
+    pub before: Option<BeliefSnapshot>,
+    /// The first map with a detection in it.
+    pub first: Option<BeliefSnapshot>,
+    /// Maps in between, evenly.
+    pub between: Vec<BeliefSnapshot>,
+    /// What else the map said of the odour, evenly.
+    pub odour: Vec<Arc<Odour>>,
+    /// The last map.
+    pub last: BeliefSnapshot,
+    thinning: [(usize, usize); 3],
+}
+
+/// The maps of all robots that keep one.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct BeliefTrack {
+    /// A robot each.
+    pub robots: Vec<RobotBelief>,
+    plume: Option<Arc<PlumeFrame>>,
+}
+
+impl BeliefTrack {
+    /// Takes in what is new in a frame.
+    pub fn push(&mut self, frame: &Frame) {
+        for r in &frame.robots {
+            let Some(belief) = &r.belief else { continue };
+            let snapshot = self.snapshot(r, belief);
+            match self.robots.iter_mut().find(|k| k.id == r.id) {
+                Some(known) => known.push(snapshot),
+                None => self.robots.push(RobotBelief::new(&r.id, snapshot)),
+            }
+        }
+    }
+
+    /// Takes in the newest picture of the plume.
+    pub fn plume(&mut self, plume: &PlumeFrame) {
+        self.plume = Some(Arc::new(plume.clone()));
+    }
+
+    fn snapshot(&self, r: &RobotFrame, belief: &Belief) -> BeliefSnapshot {
+        BeliefSnapshot {
+            belief: belief.clone(),
+            planned: r.planned.clone(),
+            plume: self.plume.clone(),
+        }
+    }
+}
+
+impl RobotBelief {
+    fn new(id: &str, first: BeliefSnapshot) -> Self {
+        Self {
+            id: id.to_owned(),
+            rows: vec![row(&first.belief)],
+            before: None,
+            first: first.belief.informed.then(|| first.clone()),
+            between: Vec::new(),
+            odour: first.belief.odour.iter().cloned().collect(),
+            last: first,
+            thinning: [(1, 0); 3],
+        }
+    }
+
+    fn push(&mut self, new: BeliefSnapshot) {
+        if new.belief.updates == self.last.belief.updates {
+            // The plan may have changed on the same map.
+            self.last = new;
+            return;
+        }
+        let old = std::mem::replace(&mut self.last, new);
+        if self.last.belief.informed && self.first.is_none() {
+            self.before = Some(old.clone());
+            self.first = Some(self.last.clone());
+        }
+        let row = row(&self.last.belief);
+        let most = (NUMBERS / old.belief.p.len().max(1)).clamp(4, MAPS);
+        if let Some(odour) = &self.last.belief.odour
+            && old.belief.odour.as_ref().is_none_or(|o| o.t_s != odour.t_s)
+        {
+            thin(&mut self.odour, odour.clone(), MAPS, &mut self.thinning[2]);
+        }
+        thin(&mut self.rows, row, ROWS, &mut self.thinning[0]);
+        thin(&mut self.between, old, most, &mut self.thinning[1]);
+    }
+
+    /// When the most probable cell came to where it was at the end, and stayed, s.
+    #[must_use]
+    pub fn settled_s(&self) -> Option<f64> {
+        let end = self.rows.last()?;
+        let same = self.rows.iter().rev().take_while(|r| r.best == end.best);
+        same.last().filter(|r| r.informed).map(|r| r.t_s)
+    }
+}
+
+/// Keeps every so many, and half of them when there are too many.
+fn thin<T>(list: &mut Vec<T>, new: T, most: usize, (stride, skip): &mut (usize, usize)) {
+    if *skip > 0 {
+        *skip -= 1;
+        return;
+    }
+    *skip = *stride - 1;
+    list.push(new);
+    if list.len() > most {
+        let mut odd = false;
+        list.retain(|_| {
+            odd = !odd;
+            odd
+        });
+        *stride *= 2;
+        *skip = *stride - 1;
+    }
+}
+
+fn row(b: &Belief) -> BeliefRow {
+    BeliefRow {
+        t_s: b.t_s,
+        updates: b.updates,
+        informed: b.informed,
+        entropy_nat: b.entropy_nat,
+        best: b.grid.centre(b.best),
+        p_best: b.p[b.best],
+        credible_95: b.credible_95,
+    }
+}
+
+/// Horizontal distance to the nearest true source, m.
+pub(crate) fn off(best: &Vector3<f64>, sources: &[SourceTruth]) -> Option<f64> {
+    let away = sources.iter().map(|s| (s.position.xy() - best.xy()).norm());
+    away.min_by(f64::total_cmp)
+}
+
+/// The table; the size of the credible region has its unit in the header.
+pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
+    let plane = robot.last.belief.grid.n[2] == 1;
+    let unit = if plane { "m2" } else { "m3" };
+    let mut text = format!(
+        "t_s,updates,informed,entropy_nat,best_east_m,best_north_m,best_up_m,best_probability,off_m,credible_95_{unit}\n"
+    );
+    for r in &robot.rows {
+        // A map of the plane says nothing of the height.
+        let up = if plane {
+            String::new()
+        } else {
+            format!("{:.3}", r.best.z)
+        };
+        let off = off(&r.best, sources).map_or_else(String::new, |m| format!("{m:.3}"));
+        writeln!(
+            text,
+            "{:.3},{},{},{:.6},{:.3},{:.3},{up},{:.6e},{off},{:.4}",
+            r.t_s,
+            r.updates,
+            u8::from(r.informed),
+            r.entropy_nat,
+            r.best.x,
+            r.best.y,
+            r.p_best,
+            r.credible_95
+        )
+        .expect("writing to a String succeeds");
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{belief, frames, source};
+
+    fn track(seconds: usize) -> BeliefTrack {
+        let mut track = BeliefTrack::default();
+        for f in &frames(seconds) {
+            track.push(f);
+        }
+        track
+    }
+
+    #[test]
+    fn a_row_for_each_update_and_a_column_for_each_value() {
+        let track = track(60);
+        let robot = &track.robots[0];
+        assert_eq!(robot.rows.len(), 60);
+        let text = csv(robot, &[source()]);
+        let columns = text.lines().next().unwrap().split(',').count();
+        assert!(text.lines().all(|l| l.split(',').count() == columns));
+        assert!(text.starts_with("t_s,updates,") && text.contains("credible_95_m2"));
+    }
+
+    #[test]
+    fn the_maps_round_the_first_detection_and_the_last_are_kept() {
+        let track = track(200);
+        let robot = &track.robots[0];
+        // The sample is informed after 20 s.
+        assert_eq!(robot.before.as_ref().unwrap().belief.t_s, 20.0);
+        assert_eq!(robot.first.as_ref().unwrap().belief.t_s, 21.0);
+        assert_eq!(robot.last.belief.t_s, 199.0);
+        assert!(robot.between.len() <= MAPS && robot.between.len() > MAPS / 4);
+    }
+
+    #[test]
+    fn it_settles_when_the_best_cell_last_changed() {
+        let at = |t: f64, best: usize| BeliefSnapshot {
+            belief: Belief {
+                t_s: t,
+                updates: t as u64,
+                informed: true,
+                best,
+                ..belief(50.0)
+            },
+            planned: Arc::default(),
+            plume: None,
+        };
+        let mut robot = RobotBelief::new("auv0", at(1.0, 7));
+        for (t, best) in [(2.0, 9), (3.0, 7), (4.0, 5), (5.0, 5), (6.0, 5)] {
+            robot.push(at(t, best));
+        }
+        assert_eq!(robot.settled_s(), Some(4.0));
+    }
+}

@@ -1,0 +1,111 @@
+//! What sidescan sonars heard, kept as pictures of straight passes for figure and recording.
+
+use rheotaxis::frame::PingFrame;
+use robots::survey::{Row, Waterfall};
+
+/// A vehicle that turns faster than this makes no picture, rad/s.
+const TURNING_RAD_S: f64 = 0.05;
+/// A pass is over after so long without a ping on it, s.
+const APART_S: f64 = 2.0;
+/// A pass of fewer lines is left out.
+const FEWEST: usize = 40;
+/// Most passes kept of a robot, the newest ones.
+const MOST: usize = 32;
+
+/// The passes of one robot.
+#[derive(Clone, Debug)]
+pub struct RobotEchoes {
+    /// Which.
+    pub id: String,
+    passes: Vec<Waterfall>,
+    last_s: f64,
+}
+
+impl RobotEchoes {
+    /// Its passes, in order of time; short ones left out.
+    pub fn passes(&self) -> impl Iterator<Item = &Waterfall> {
+        self.passes.iter().filter(|p| p.rows().len() >= FEWEST)
+    }
+}
+
+/// The passes of all robots whose sidescan pinged.
+#[derive(Clone, Debug, Default)]
+pub struct Echoes {
+    /// A robot each.
+    pub robots: Vec<RobotEchoes>,
+}
+
+impl Echoes {
+    /// Size of a cell, m.
+    pub const CELL_M: f64 = 0.25;
+
+    /// Takes in a ping; the line of a picture that it completes.
+    pub fn push(&mut self, frame: &PingFrame) -> Option<&Row> {
+        if frame.estimate.attitude.rates_rad_s.z.abs() > TURNING_RAD_S {
+            return None;
+        }
+        let k = match self.robots.iter().position(|r| r.id == frame.robot) {
+            Some(k) => k,
+            None => {
+                self.robots.push(RobotEchoes {
+                    id: frame.robot.clone(),
+                    passes: Vec::new(),
+                    last_s: f64::NEG_INFINITY,
+                });
+                self.robots.len() - 1
+            }
+        };
+        let robot = &mut self.robots[k];
+        if frame.t_s - robot.last_s > APART_S {
+            robot.passes.retain(|p| p.rows().len() >= FEWEST);
+            if robot.passes.len() == MOST {
+                robot.passes.remove(0);
+            }
+            robot.passes.push(Waterfall::new(Self::CELL_M));
+        }
+        robot.last_s = frame.t_s;
+        let pass = robot.passes.last_mut()?;
+        let before = pass.rows().len();
+        pass.push(&frame.ping, &frame.estimate);
+        pass.rows().get(before)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::frames;
+    use nalgebra::Vector3;
+    use robots::handoff::SidescanPing;
+
+    #[test]
+    fn straight_passes_are_kept_and_turns_are_not() {
+        let level: std::sync::Arc<[f32]> = vec![20.0; 400].into();
+        let ping = SidescanPing {
+            p_BS: Vector3::zeros(),
+            max_m: 20.0,
+            port_db: level.clone(),
+            starboard_db: level,
+        };
+        let mut estimate = frames(1)[0].robots[0].estimate;
+        let mut echoes = Echoes::default();
+        let mut lines = 0;
+        for k in 0..1000 {
+            let t_s = f64::from(k) * 0.1;
+            estimate.t_s = t_s;
+            // 30 s straight, 10 s of turning, and again.
+            estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
+            let frame = PingFrame {
+                t_s,
+                robot: "a".into(),
+                ping: ping.clone(),
+                estimate,
+            };
+            lines += usize::from(echoes.push(&frame).is_some());
+        }
+        let kept: Vec<usize> = echoes.robots[0].passes().map(|p| p.rows().len()).collect();
+        // The first ping of a pass has nothing before it to measure the way from.
+        assert_eq!(kept, [299, 299, 199]);
+        assert_eq!(lines, 299 + 299 + 199);
+    }
+}

@@ -1,0 +1,244 @@
+//! What a gantry did in a run: its path from the end of the first sweep to its stop.
+//!
+//! *Source*: the figures of Webster, Volyanskyy & Weissburg 2012, section 5 and Fig. 11: time, speed, NGDR, and
+//! speed and distance from the centreline 100-50 cm and 50-0 cm from the source.
+//!
+//! *Deviations*: the paper's path begins at "the initial tracker position"; ours begins with the first step up-stream,
+//! since a metre of sweep in the path would leave no room for the NGDR of 0.7 that it reports.
+
+use super::{DeclarationSummary, SourceTruth};
+use nalgebra::Vector2;
+use rheotaxis::gantry::GantryFrame;
+use robots::handoff::{Declaration, GantryBehaviour};
+use serde::Serialize;
+
+/// Ranges of distance to the source along the stream that Fig. 11 compares, m.
+const FAR_M: [f64; 2] = [0.5, 1.0];
+const NEAR_M: [f64; 2] = [0.0, 0.5];
+
+/// A path being followed.
+#[derive(Clone, Debug)]
+pub struct GantryPath {
+    id: String,
+    forward: Vector2<f64>,
+    /// Time and true place of the head (east, north), from the first step up-stream on, not beyond the stop.
+    track: Vec<(f64, Vector2<f64>)>,
+    last: Vector2<f64>,
+    travelled_m: f64,
+    swept: bool,
+    sweep_s: Option<f64>,
+    first_spike_s: Option<f64>,
+    spikes: u64,
+    steps: u32,
+    casts: u32,
+    sweeps: u32,
+    latest: u32,
+    blocked: bool,
+    stopped: Option<bool>,
+    declaration: Option<Declaration>,
+}
+
+/// What a gantry did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GantrySummary {
+    /// Its id in the scenario.
+    pub id: String,
+    /// How it ended: true when it declared a source, false when it gave up; none when it did neither.
+    pub stopped: Option<bool>,
+    /// Its declaration.
+    pub declaration: Option<DeclarationSummary>,
+    /// Time at which its first sweep was over, s.
+    pub sweep_s: Option<f64>,
+    /// Time of the first spike, s.
+    pub first_spike_s: Option<f64>,
+    /// Scans with a spike on any probe.
+    pub spikes: u64,
+    /// Steps up-stream, casts and full sweeps.
+    pub moves: [u32; 3],
+    /// A drive gave up against something.
+    pub blocked: bool,
+    /// Length of the whole path, m.
+    pub travelled_m: f64,
+    /// Length of the path from the first step up-stream, m.
+    pub tracked_m: Option<f64>,
+    /// Speed along that path, m/s.
+    pub speed_m_s: Option<f64>,
+    /// Straight way over path length, from the first step up-stream.
+    pub ngdr: Option<f64>,
+    /// Speed while 1 to 0.5 m and while 0.5 to 0 m from the source along the stream, m/s.
+    pub speed_far_near_m_s: [Option<f64>; 2],
+    /// Mean distance from the source's line along the stream in the same ranges, m.
+    pub offset_far_near_m: [Option<f64>; 2],
+}
+
+impl GantryPath {
+    /// From its first picture.
+    #[must_use]
+    pub fn new(g: &GantryFrame) -> Self {
+        Self {
+            id: g.id.clone(),
+            forward: g.forward,
+            track: Vec::new(),
+            last: g.head_W.xy(),
+            travelled_m: 0.0,
+            swept: false,
+            sweep_s: None,
+            first_spike_s: None,
+            spikes: 0,
+            steps: 0,
+            casts: 0,
+            sweeps: 0,
+            latest: 0,
+            blocked: false,
+            stopped: None,
+            declaration: None,
+        }
+    }
+
+    /// The next picture.
+    pub fn observe(&mut self, t_s: f64, g: &GantryFrame) {
+        let head = g.head_W.xy();
+        self.travelled_m += (head - self.last).norm();
+        self.last = head;
+        let d = &g.decision;
+        if d.id != self.latest {
+            self.latest = d.id;
+            match d.behaviour {
+                GantryBehaviour::StepUp => self.steps += 1,
+                GantryBehaviour::Cast => self.casts += 1,
+                GantryBehaviour::Sweep => self.sweeps += 1,
+                _ => {}
+            }
+        }
+        if d.working.spike.contains(&true) {
+            self.spikes += 1;
+            self.first_spike_s.get_or_insert(t_s);
+        }
+        match d.behaviour {
+            GantryBehaviour::Sweep => self.swept = true,
+            GantryBehaviour::Idle => {}
+            _ if self.swept => {
+                self.sweep_s.get_or_insert(t_s);
+            }
+            _ => {}
+        }
+        let tracking = matches!(d.behaviour, GantryBehaviour::StepUp | GantryBehaviour::Cast);
+        if self.stopped.is_none() && (tracking || !self.track.is_empty()) {
+            self.track.push((t_s, head));
+        }
+        self.blocked |= g.readings.blocked;
+        self.stopped = self.stopped.or(d.stopped);
+        self.declaration = self.declaration.or(g.declaration);
+    }
+
+    /// What it came to, against the true sources.
+    #[must_use]
+    pub fn summary(&self, sources: &[SourceTruth]) -> GantrySummary {
+        let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));
+        let nearest = |s: &&SourceTruth| (s.position.xy() - self.last).norm();
+        let source = sources
+            .iter()
+            .min_by(|a, b| nearest(a).total_cmp(&nearest(b)));
+        let way = self.track.first().zip(self.track.last());
+        let tracked_m = way.map(|_| length(self.track.windows(2)));
+        let in_range = |range: [f64; 2]| -> (Option<f64>, Option<f64>) {
+            source.map_or((None, None), |s| self.within(s.position.xy(), range))
+        };
+        let (far, near) = (in_range(FAR_M), in_range(NEAR_M));
+        GantrySummary {
+            id: self.id.clone(),
+            stopped: self.stopped,
+            declaration,
+            sweep_s: self.sweep_s,
+            first_spike_s: self.first_spike_s,
+            spikes: self.spikes,
+            moves: [self.steps, self.casts, self.sweeps],
+            blocked: self.blocked,
+            travelled_m: self.travelled_m,
+            tracked_m,
+            speed_m_s: way
+                .zip(tracked_m)
+                .and_then(|((a, b), m)| ratio(m, b.0 - a.0)),
+            ngdr: way
+                .zip(tracked_m)
+                .and_then(|((a, b), m)| ratio((b.1 - a.1).norm(), m)),
+            speed_far_near_m_s: [far.0, near.0],
+            offset_far_near_m: [far.1, near.1],
+        }
+    }
+
+    /// Speed and mean distance from the source's line while so far from it along the stream.
+    fn within(&self, source: Vector2<f64>, [from, to]: [f64; 2]) -> (Option<f64>, Option<f64>) {
+        let inside = |p: &Vector2<f64>| (from..to).contains(&(source - p).dot(&self.forward));
+        let pieces = || {
+            self.track
+                .windows(2)
+                .filter(|w| inside(&w[0].1) && inside(&w[1].1))
+        };
+        let time: f64 = pieces().map(|w| w[1].0 - w[0].0).sum();
+        let off = |p: &Vector2<f64>| (source - p).perp(&self.forward).abs();
+        let area: f64 = pieces().map(|w| off(&w[0].1) * (w[1].0 - w[0].0)).sum();
+        (ratio(length(pieces()), time), ratio(area, time))
+    }
+}
+
+fn length<'a>(pieces: impl Iterator<Item = &'a [(f64, Vector2<f64>)]>) -> f64 {
+    pieces.map(|w| (w[1].1 - w[0].1).norm()).sum()
+}
+
+fn ratio(a: f64, b: f64) -> Option<f64> {
+    (b > 0.0).then(|| a / b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample_gantry as sample;
+    use nalgebra::Vector3;
+
+    /// Along a dog-leg: 0.6 m up-stream 0.1 m beside the line, then 0.3 m on it at twice the speed.
+    #[test]
+    fn figures_of_a_path_drawn_by_hand() {
+        let source = SourceTruth {
+            id: "nozzle".into(),
+            position: Vector3::new(0.0, 0.0, -0.162),
+            flow: Vector2::new(0.05, 0.0),
+        };
+        let at = |t_s: f64, x: f64, y: f64, behaviour| (t_s, sample::gantry(x, y, behaviour));
+        let mut frames = vec![
+            at(0.0, 1.0, -0.4, GantryBehaviour::Sweep),
+            at(20.0, 1.0, 0.4, GantryBehaviour::Sweep),
+            at(21.0, 1.0, 0.4, GantryBehaviour::ToBest),
+        ];
+        let line = |k: f64| 0.999 - 0.03 * k;
+        frames.extend((0..20).map(|k| {
+            let k = f64::from(k);
+            at(30.0 + k, line(k), 0.1, GantryBehaviour::StepUp)
+        }));
+        frames.extend((1..=5).map(|k| {
+            let k = f64::from(k);
+            at(
+                49.0 + k,
+                line(19.0) - 0.06 * k,
+                0.1,
+                GantryBehaviour::StepUp,
+            )
+        }));
+        let mut path = GantryPath::new(&frames[0].1);
+        for (t_s, g) in &frames {
+            path.observe(*t_s, g);
+        }
+        let said = path.summary(&[source]);
+        assert_eq!(said.sweep_s, Some(21.0));
+        let near = |a: Option<f64>, b: f64| assert!((a.unwrap() - b).abs() < 1e-9, "{a:?} {b}");
+        near(said.tracked_m, 19.0 * 0.03 + 0.3);
+        near(said.ngdr, 1.0);
+        near(said.speed_m_s, 0.87 / 24.0);
+        near(said.speed_far_near_m_s[0], 0.03);
+        assert!(said.speed_far_near_m_s[1].unwrap() > 0.03);
+        near(said.offset_far_near_m[0], 0.1);
+        // 0.8 m of sweep, the way to the first step, and the path itself.
+        let to_first = (0.001_f64 * 0.001 + 0.3 * 0.3).sqrt();
+        assert!((said.travelled_m - (0.8 + to_first + 0.87)).abs() < 1e-9);
+    }
+}

@@ -1,0 +1,146 @@
+//! What a robot's map of the source came to, held against the truth and against what the robot declared: a map may be sure
+//! of a wrong cell.
+
+use super::{Position, SourceTruth};
+use nalgebra::Vector2;
+use robots::handoff::{Belief, Declaration, Verdict};
+use serde::Serialize;
+use std::fmt::Write as _;
+
+/// A map is sure of a cell from this probability on.
+const SURE: f64 = 0.9;
+/// A place that is so many cells from the middle of another is somewhere else.
+const CELLS_OFF: f64 = 3.0;
+
+/// The end of a robot's map.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MapEnd {
+    /// Middle of the most probable cell.
+    pub best: Position,
+    /// Its probability.
+    pub probability: f64,
+    /// Horizontal distance to the nearest true source, m; none in a scenario without one.
+    pub off_m: Option<f64>,
+    /// The same in cells, along the axis on which there are more.
+    pub off_cells: Option<f64>,
+    /// Horizontal distance to the nearest standing declaration of a source, m; none without one.
+    pub from_declared_m: Option<f64>,
+    /// Said where the map is sure of a cell that is many cells from the source or from what was declared.
+    pub remark: Option<String>,
+}
+
+impl MapEnd {
+    /// Of the last map (which alone knows its cells), the robot's declarations and the true sources.
+    #[must_use]
+    pub fn of(last: &Belief, declarations: &[Declaration], sources: &[SourceTruth]) -> Self {
+        let (grid, probability) = (&last.grid, last.p[last.best]);
+        let best = grid.centre(last.best).xy();
+        let cells = |p: Vector2<f64>| {
+            let along = |a: usize| ((p - best).dot(&grid.axes[a]) / grid.cell_m[a]).abs();
+            along(0).max(along(1))
+        };
+        let nearest = |places: &mut dyn Iterator<Item = Vector2<f64>>| {
+            places.min_by(|a, b| (a - best).norm().total_cmp(&(b - best).norm()))
+        };
+        let source = nearest(&mut sources.iter().map(|s| s.position.xy()));
+        let stands = |d: &&Declaration| d.verdict != Verdict::Rejected && !d.at_edge();
+        let declared = nearest(&mut declarations.iter().filter(stands).map(|d| d.position));
+        let off = |p: Option<Vector2<f64>>| p.map(|p| (p - best).norm());
+        let elsewhere =
+            |p: Option<Vector2<f64>>| off(p).filter(|_| p.is_some_and(|p| cells(p) >= CELLS_OFF));
+        let mut remark = format!("the map is sure ({probability:.3}) of a cell");
+        let bare = remark.len();
+        if probability >= SURE {
+            if let Some(m) = elsewhere(source) {
+                write!(remark, " {m:.0} m from the source").expect(TEXT);
+            }
+            if let Some(m) = elsewhere(declared) {
+                let and = if remark.len() > bare { " and" } else { "" };
+                write!(remark, "{and} {m:.0} m from what was declared").expect(TEXT);
+            }
+        }
+        Self {
+            best: best.into(),
+            probability,
+            off_m: off(source),
+            off_cells: source.map(cells),
+            from_declared_m: off(declared),
+            remark: (remark.len() > bare).then_some(remark),
+        }
+    }
+}
+
+const TEXT: &str = "writing to a String succeeds";
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{belief, source};
+    use std::sync::Arc;
+
+    /// A map that gives `p` to the cell of a place and the rest to all others.
+    fn sure_of(place: Vector2<f64>, p: f64) -> Belief {
+        let mut b = belief(50.0);
+        b.best = b.grid.cell(&place.push(0.0)).unwrap();
+        let others = (1.0 - p) / (b.p.len() - 1) as f64;
+        b.p = Arc::new(
+            (0..b.p.len())
+                .map(|i| if i == b.best { p } else { others })
+                .collect(),
+        );
+        b
+    }
+
+    fn declared(at: Vector2<f64>) -> Declaration {
+        Declaration::first(1.0, at, "along_flow")
+    }
+
+    #[test]
+    fn it_says_when_a_map_is_sure_of_a_wrong_cell() {
+        let s = source();
+        // Cells of 27 by 24 m: four of them off.
+        let away = s.position.xy() + Vector2::new(60.0, -85.0);
+        let end = MapEnd::of(
+            &sure_of(away, 0.99),
+            &[declared(s.position.xy())],
+            std::slice::from_ref(&s),
+        );
+        let m = end.off_m.unwrap();
+        assert!(m > 80.0 && end.off_cells.unwrap() >= 3.0, "{end:?}");
+        let said = end.remark.unwrap();
+        assert_eq!(
+            said,
+            format!(
+                "the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared"
+            )
+        );
+        // Declared where the map has it: only the truth disagrees.
+        let end = MapEnd::of(
+            &sure_of(away, 0.99),
+            &[declared(away)],
+            std::slice::from_ref(&s),
+        );
+        let said = end.remark.unwrap();
+        assert!(
+            said.contains("from the source") && !said.contains("declared"),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn it_says_nothing_of_a_map_that_is_right_or_unsure() {
+        let s = source();
+        let (here, away) = (s.position.xy(), s.position.xy() + Vector2::new(60.0, -85.0));
+        assert_eq!(
+            MapEnd::of(
+                &sure_of(here, 0.99),
+                &[declared(here)],
+                std::slice::from_ref(&s)
+            )
+            .remark,
+            None
+        );
+        assert_eq!(MapEnd::of(&sure_of(away, 0.5), &[], &[s]).remark, None);
+        assert_eq!(MapEnd::of(&sure_of(away, 0.99), &[], &[]).off_m, None);
+    }
+}

@@ -1,0 +1,27 @@
+//! What is gathered from the frames of a run: tracks, maps, echoes, pictures, and the summary.
+
+pub mod belief_track;
+mod echoes;
+mod gantry_path;
+mod map_end;
+pub mod odour;
+mod pictures;
+pub mod probes;
+mod run;
+mod summary;
+mod summary_builder;
+mod track;
+
+pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
+pub use echoes::{Echoes, RobotEchoes};
+pub use gantry_path::{GantryPath, GantrySummary};
+pub use map_end::MapEnd;
+pub use pictures::{Pictures, ShownPicture};
+pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
+pub use run::{ObstacleOutline, RunInfo, RunReport};
+pub use summary::{
+    AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary,
+    RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
+};
+pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
+pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

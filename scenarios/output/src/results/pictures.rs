@@ -1,0 +1,239 @@
+//! Pictures that the robots' cameras took: each a file as soon as it is there, and a table of where and when.
+
+use super::probes::file_name;
+use crate::files::{ReportError, write_whole};
+use image::codecs::jpeg::JpegEncoder;
+use image::{ImageError, ImageFormat};
+use nalgebra::Vector3;
+use rheotaxis::frame::PictureFrame;
+use std::fmt::Write as _;
+use std::io::Cursor;
+use world::files::Folder;
+use world::math;
+use world::units::Heading;
+
+/// Quality of the pictures within the page; the files beside it lose nothing.
+const PAGE_QUALITY: u8 = 85;
+
+/// A picture as the report shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ShownPicture {
+    /// Name of its file.
+    pub file: String,
+    /// Which robot took it.
+    pub robot: String,
+    /// When, s.
+    pub t_s: f64,
+    /// The picture, small enough for a page.
+    jpeg: Vec<u8>,
+}
+
+impl ShownPicture {
+    /// Words under it in the page.
+    pub(crate) fn title(&self) -> String {
+        format!("{} at {:.1} s", self.robot, self.t_s)
+    }
+
+    /// The picture within a page that needs nothing beside it.
+    pub(crate) fn html(&self) -> String {
+        format!(
+            "<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
+            self.file,
+            base64(&self.jpeg)
+        )
+    }
+}
+
+/// Keeps the pictures of a run.
+#[derive(Debug)]
+pub struct Pictures {
+    out: Folder,
+    most: usize,
+    rows: String,
+    shown: Vec<ShownPicture>,
+}
+
+impl Pictures {
+    /// Into a folder; at most `most` pictures.
+    #[must_use]
+    pub fn new(out: &Folder, most: u32) -> Self {
+        Self {
+            out: out.clone(),
+            most: most as usize,
+            rows: String::from(
+                "file,robot,t_s,camera_east_m,camera_north_m,camera_up_m,look_heading_deg,look_down_deg,view_deg,\
+                 believed_east_m,believed_north_m,believed_depth_m\n",
+            ),
+            shown: Vec::new(),
+        }
+    }
+
+    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns what is in the file; nothing once
+    /// there are enough.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn push(&mut self, taken: &PictureFrame) -> Result<Option<Vec<u8>>, ReportError> {
+        if self.shown.len() >= self.most {
+            return Ok(None);
+        }
+        let number = (self.shown.iter())
+            .filter(|p| p.robot == taken.robot)
+            .count();
+        let file = format!("picture-{}-{number}.png", file_name(&taken.robot));
+        let path = self.out.file(&file)?;
+        let drawn = |e: ImageError| ReportError::Draw {
+            path: path.clone(),
+            cause: e.to_string(),
+        };
+        let image = &*taken.picture.image;
+        let mut png = Cursor::new(Vec::new());
+        image.write_to(&mut png, ImageFormat::Png).map_err(drawn)?;
+        let mut jpeg = Vec::new();
+        JpegEncoder::new_with_quality(&mut jpeg, PAGE_QUALITY)
+            .encode_image(image)
+            .map_err(drawn)?;
+        write_whole(&path, png.get_ref())?;
+        self.row(&file, taken);
+        write_whole(&self.out.file("pictures.csv")?, self.rows.as_bytes())?;
+        self.shown.push(ShownPicture {
+            file,
+            robot: taken.robot.clone(),
+            t_s: taken.t_s,
+            jpeg,
+        });
+        Ok(Some(png.into_inner()))
+    }
+
+    fn row(&mut self, file: &str, taken: &PictureFrame) {
+        let (picture, e) = (&taken.picture, &taken.estimate);
+        let p = taken.truth.point(picture.p_BC);
+        let look = taken.truth.R_WB * picture.R_BC * Vector3::z();
+        writeln!(
+            self.rows,
+            "{file},{},{:.3},{:.3},{:.3},{:.3},{:.2},{:.2},{:.2},{:.3},{:.3},{:.3}",
+            taken.robot,
+            taken.t_s,
+            p.x,
+            p.y,
+            p.z,
+            Heading::of(look.xy()).deg(),
+            math::asin((-look.z).clamp(-1.0, 1.0)).to_degrees(),
+            picture.view_rad.to_degrees(),
+            e.position.x,
+            e.position.y,
+            e.depth_m
+        )
+        .expect("writing to a String succeeds");
+    }
+
+    /// What was kept, in the order in which it was taken.
+    #[must_use]
+    pub fn shown(&self) -> &[ShownPicture] {
+        &self.shown
+    }
+}
+
+/// Bytes as text (RFC 4648, section 4).
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for three in bytes.chunks(3) {
+        let byte = |n: usize| u32::from(three.get(n).copied().unwrap_or(0));
+        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
+        for n in 0..4 {
+            let letter = LETTERS[(bits >> (18 - 6 * n) & 63) as usize];
+            text.push(if n <= three.len() {
+                letter as char
+            } else {
+                '='
+            });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::sample::{folder, frames};
+    use image::{Rgb, RgbImage};
+    use robots::handoff::Picture;
+    use robots::sense::camera::turned;
+    use std::fs;
+    use std::sync::Arc;
+    use world::frames::Pose;
+
+    fn taken(robot: &str, t_s: f64) -> PictureFrame {
+        PictureFrame {
+            t_s,
+            robot: robot.into(),
+            picture: Picture {
+                image: Arc::new(RgbImage::from_pixel(8, 6, Rgb([200, 30, 20]))),
+                p_BC: Vector3::new(0.5, 0.0, -0.1),
+                R_BC: turned(0.0, 30f64.to_radians()),
+                view_rad: 60f64.to_radians(),
+            },
+            truth: Pose::level(Vector3::new(1.0, 2.0, -3.0), Heading::from_deg(90.0)),
+            estimate: frames(1)[0].robots[0].estimate,
+        }
+    }
+
+    #[test]
+    fn pictures_are_files_with_a_line_each_and_no_more_than_asked_for() {
+        let dir = tempfile::tempdir().unwrap();
+        let mut kept = Pictures::new(&folder(dir.path()), 3);
+        for (robot, t) in [("a", 1.0), ("b", 2.0), ("a", 3.0), ("a", 4.0)] {
+            let file = kept.push(&taken(robot, t)).unwrap();
+            assert_eq!(file.is_some(), t < 4.0, "three are enough");
+        }
+        let names: Vec<_> = kept.shown().iter().map(|p| p.file.as_str()).collect();
+        assert_eq!(
+            names,
+            ["picture-a-0.png", "picture-b-0.png", "picture-a-1.png"]
+        );
+        let back = image::open(dir.path().join(names[2])).unwrap().into_rgb8();
+        assert_eq!(back, *taken("a", 3.0).picture.image);
+        let csv = fs::read_to_string(dir.path().join("pictures.csv")).unwrap();
+        let rows: Vec<Vec<&str>> = csv.lines().map(|l| l.split(',').collect()).collect();
+        assert_eq!(rows.len(), 4);
+        assert!(rows.iter().all(|r| r.len() == rows[0].len()));
+        // The camera sits half a metre ahead and looks east and 30° down.
+        assert_eq!(
+            rows[1][..9],
+            [
+                "picture-a-0.png",
+                "a",
+                "1.000",
+                "1.500",
+                "2.000",
+                "-3.100",
+                "90.00",
+                "30.00",
+                "60.00"
+            ]
+        );
+    }
+
+    #[test]
+    fn bytes_become_the_text_of_the_standard() {
+        for (bytes, text) in [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foobar", "Zm9vYmFy"),
+        ] {
+            assert_eq!(base64(bytes.as_bytes()), text);
+        }
+        assert!(
+            ShownPicture {
+                file: "a.png".into(),
+                robot: "a".into(),
+                t_s: 0.0,
+                jpeg: vec![255, 216],
+            }
+            .html()
+            .contains("base64,/9g=")
+        );
+    }
+}

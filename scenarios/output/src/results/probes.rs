@@ -1,0 +1,271 @@
+//! `probes-<gantry>.csv`: what each gantry's probes read, what its searcher made of it, where its head was; and the
+//! same kept for the figures.
+
+use crate::files::ReportError;
+use rheotaxis::frame::Frame;
+use rheotaxis::gantry::GantryFrame;
+use robots::handoff::{GantryBehaviour, MAX_PROBES};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use world::files::{Folder, Output};
+
+/// What tables and figures must know of a gantry beforehand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GantryInfo {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Names of its probes, in the order of a scan.
+    pub probes: Vec<String>,
+    /// Output in clean water and at full scale, V.
+    pub range_v: [f64; 2],
+    /// Concentration at full scale, kg/m³.
+    pub full_scale_kg_m3: f64,
+    /// Concentration of what leaves the source; none where the source has no nozzle, kg/m³.
+    pub effluent_kg_m3: Option<f64>,
+}
+
+/// One moment of one gantry, as far as figures need it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GantryRow {
+    /// Time, s.
+    pub t_s: f64,
+    /// True place of the head (east, north), m.
+    pub head: [f64; 2],
+    /// True speed of the head, m/s.
+    pub speed_m_s: f64,
+    /// Output of each probe, V; none before the first scan.
+    pub volts: Option<[f64; MAX_PROBES]>,
+    /// Threshold of each probe, V.
+    pub threshold_v: [f64; MAX_PROBES],
+    /// The scan before this one was a spike.
+    pub spike: [bool; MAX_PROBES],
+    /// Spikes a second lately, Hz.
+    pub spike_hz: f64,
+    /// What the searcher was doing.
+    pub behaviour: GantryBehaviour,
+    /// Number of its motion command.
+    pub command: u32,
+}
+
+/// A gantry's whole run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GantryTrack {
+    /// Which gantry.
+    pub info: GantryInfo,
+    /// Its moments; thinned evenly when the run is long.
+    pub rows: Vec<GantryRow>,
+    /// Its forward direction in the world (east, north): up-stream.
+    pub forward: [f64; 2],
+    /// Latest true places of its probes' tips (ENU), m.
+    pub tips: Vec<[f64; 3]>,
+    /// Declared source (east, north), m.
+    pub declared: Option<[f64; 2]>,
+    /// When it stopped, s, and whether it declared a source.
+    pub stopped: Option<(f64, bool)>,
+    stride: usize,
+    skip: usize,
+    scanned_s: Option<f64>,
+}
+
+/// Moments kept for a gantry: half an hour at 20 Hz before they are thinned.
+const KEPT: usize = 40_000;
+
+impl GantryTrack {
+    fn new(info: GantryInfo) -> Self {
+        Self {
+            info,
+            stride: 1,
+            ..Self::default()
+        }
+    }
+
+    /// Takes in a picture; what it says of the latest scan, if that is a new one.
+    fn push(&mut self, t_s: f64, g: &GantryFrame) -> GantryRow {
+        let new_scan = g.scan.filter(|s| self.scanned_s != Some(s.t_s));
+        self.scanned_s = g.scan.map(|s| s.t_s);
+        let [along, across] = g.joints.map(|j| j.speed_m_s);
+        let row = GantryRow {
+            t_s,
+            head: [g.head_W.x, g.head_W.y],
+            speed_m_s: (along * along + across * across).sqrt(),
+            volts: g.scan.map(|s| s.volts),
+            threshold_v: g.decision.working.threshold_v,
+            spike: new_scan.map_or([false; MAX_PROBES], |_| g.decision.working.spike),
+            spike_hz: g.decision.working.spike_hz,
+            behaviour: g.decision.behaviour,
+            command: g.decision.id,
+        };
+        self.forward = [g.forward.x, g.forward.y];
+        self.tips = g.tips_W.iter().map(|p| [p.x, p.y, p.z]).collect();
+        self.declared = self
+            .declared
+            .or(g.declaration.map(|d| [d.position.x, d.position.y]));
+        self.stopped = self
+            .stopped
+            .or(g.decision.stopped.map(|found| (t_s, found)));
+        self.keep(row);
+        row
+    }
+
+    fn keep(&mut self, row: GantryRow) {
+        if self.skip > 0 {
+            self.skip -= 1;
+            if let Some(last) = self.rows.last_mut() {
+                join(last, &row);
+            }
+            return;
+        }
+        self.skip = self.stride - 1;
+        self.rows.push(row);
+        if self.rows.len() > KEPT {
+            self.rows = (self.rows.chunks(2))
+                .map(|pair| {
+                    let mut one = pair[0];
+                    pair[1..].iter().for_each(|r| join(&mut one, r));
+                    one
+                })
+                .collect();
+            self.stride *= 2;
+            self.skip = self.stride - 1;
+        }
+    }
+}
+
+/// A spike outlives the moment that is left out.
+fn join(kept: &mut GantryRow, left_out: &GantryRow) {
+    for (spike, other) in kept.spike.iter_mut().zip(left_out.spike) {
+        *spike |= other;
+    }
+}
+
+/// The tables being written: every row is handed to the system at once, so a kill loses nothing computed.
+#[derive(Debug)]
+pub struct ProbeTables {
+    files: Vec<Output>,
+    line: String,
+    tracks: Vec<GantryTrack>,
+}
+
+impl ProbeTables {
+    /// A table for each gantry, written into `folder` as they grow.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn create(folder: &Folder, gantries: Vec<GantryInfo>) -> Result<Self, ReportError> {
+        let mut files = Vec::with_capacity(gantries.len());
+        for info in &gantries {
+            let path = folder.file(&format!("probes-{}.csv", file_name(&info.id)))?;
+            let mut file = Output::create(&path)?;
+            (file.write_all(header(info).as_bytes())).map_err(|e| file.failed(e))?;
+            file.place()?;
+            files.push(file);
+        }
+        Ok(Self {
+            files,
+            ..Self::in_memory(gantries)
+        })
+    }
+
+    /// Kept for the figures only, no files.
+    #[must_use]
+    pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
+        Self {
+            files: Vec::new(),
+            line: String::new(),
+            tracks: gantries.into_iter().map(GantryTrack::new).collect(),
+        }
+    }
+
+    /// Adds a row for each gantry.
+    ///
+    /// # Errors
+    /// If a file cannot be written.
+    pub fn push(&mut self, frame: &Frame) -> Result<(), ReportError> {
+        for (k, g) in frame.gantries.iter().enumerate() {
+            let Some(track) = self.tracks.get_mut(k) else {
+                return Ok(());
+            };
+            let row = track.push(frame.t_s, g);
+            if let Some(file) = self.files.get_mut(k) {
+                self.line.clear();
+                line(&mut self.line, g, &row);
+                (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The tracks, for the figures.
+    #[must_use]
+    pub fn finish(self) -> Vec<GantryTrack> {
+        self.tracks
+    }
+}
+
+/// An id may hold what a file's name may not.
+pub(crate) fn file_name(id: &str) -> String {
+    id.chars()
+        .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })
+        .collect()
+}
+
+const TEXT: &str = "writing to a String succeeds";
+
+fn header(info: &GantryInfo) -> String {
+    let mut text = String::from(
+        "t_s,scan_s,behaviour,command,head_east_m,head_north_m,head_up_m,joint_1_m,joint_2_m,joint_1_m_s,\
+         joint_2_m_s,speed_m_s,arrived,blocked,spike_hz,magnitude_v,predicted_v,contrast",
+    );
+    for name in &info.probes {
+        let name = file_name(name);
+        write!(
+            text,
+            ",{name}_east_m,{name}_north_m,{name}_up_m,{name}_v,{name}_threshold_v,{name}_spike"
+        )
+        .expect(TEXT);
+    }
+    text.push('\n');
+    text
+}
+
+fn line(out: &mut String, g: &GantryFrame, row: &GantryRow) {
+    let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
+    let (h, [a, b], w) = (&g.head_W, &g.joints, &g.decision.working);
+    write!(
+        out,
+        "{:.3},{},{},{},{:.4},{:.4},{:.4},{:.5},{:.5},{:.5},{:.5},{:.5},{},{},{:.3},{:.4},{},{:.4}",
+        row.t_s,
+        g.scan.map_or_else(String::new, |s| format!("{:.3}", s.t_s)),
+        row.behaviour.name(),
+        row.command,
+        h.x,
+        h.y,
+        h.z,
+        a.position_m,
+        b.position_m,
+        a.speed_m_s,
+        b.speed_m_s,
+        row.speed_m_s,
+        u8::from(g.readings.arrived),
+        u8::from(g.readings.blocked),
+        row.spike_hz,
+        w.magnitude_v,
+        opt(w.predicted_v),
+        w.contrast,
+    )
+    .expect(TEXT);
+    for (n, tip) in g.tips_W.iter().enumerate() {
+        write!(
+            out,
+            ",{:.4},{:.4},{:.4},{},{:.4},{}",
+            tip.x,
+            tip.y,
+            tip.z,
+            opt(row.volts.map(|v| v[n])),
+            row.threshold_v[n],
+            u8::from(row.spike[n]),
+        )
+        .expect(TEXT);
+    }
+    out.push('\n');
+}

@@ -1,0 +1,73 @@
+//! Which run it is, and all that its figures and report are made of.
+
+use super::{BeliefTrack, Echoes, GantryTrack, ShownPicture, SourceTruth, Summary, Track};
+use rheotaxis::frame::PlumeFrame;
+use world::area::Area;
+use world::fields::Concentration;
+use world::obstacles::Obstacles;
+use world::terrain::Terrain;
+
+/// Which run this is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunInfo {
+    /// Name of the scenario.
+    pub scenario_name: String,
+    /// Its title.
+    pub title: String,
+    /// When it counts as a success, in words.
+    pub success: String,
+    /// Text of its file.
+    pub scenario_text: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Version of the program.
+    pub version: String,
+}
+
+/// Outline of something solid, as the map shows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObstacleOutline {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Corners (east, north) in order, m.
+    pub corners: Vec<[f64; 2]>,
+    /// Heights of its lowest and highest point (z, ENU), m.
+    pub z: [f64; 2],
+    /// Water and dye pass through it.
+    pub permeable: bool,
+}
+
+/// What [`write_all`](crate::report::write_all) makes files of.
+#[derive(Clone)]
+pub struct RunReport<'a> {
+    /// What the run came to.
+    pub summary: &'a Summary,
+    /// Where the robots went.
+    pub track: &'a Track,
+    /// What the gantries did.
+    pub gantries: &'a [GantryTrack],
+    /// The robots' maps of where the source may be.
+    pub beliefs: &'a BeliefTrack,
+    /// Pictures that cameras took; their files are there already.
+    pub pictures: &'a [ShownPicture],
+    /// What sidescan sonars heard.
+    pub echoes: &'a Echoes,
+    /// Some of the plume's filaments at the end; none in a run without one.
+    pub plume: Option<&'a PlumeFrame>,
+    /// What is dissolved in the water at the end, for sections through it.
+    pub dye: Option<&'a dyn Concentration>,
+    /// The operating area.
+    pub area: &'a Area,
+    /// The bed.
+    pub terrain: &'a Terrain,
+    /// True sources and the flow there.
+    pub sources: &'a [SourceTruth],
+    /// Mean heights of the interfaces between layers of water, top first (z, ENU), m.
+    pub interfaces: &'a [f64],
+    /// Solid things.
+    pub obstacles: &'a [ObstacleOutline],
+    /// The same as they are, for sections through them; where it is `None`, outline and heights stand for them.
+    pub solids: Option<&'a Obstacles>,
+    /// Text of the scenario's file.
+    pub scenario_text: &'a str,
+}

@@ -1,0 +1,319 @@
+//! What `summary.json` says about a run.
+
+use super::MapEnd;
+use crate::results::GantrySummary;
+use rheotaxis::abnormal::{Abnormal, Abnormality};
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::VERSION;
+use robots::handoff::{Evidence, RegionState, Verdict};
+use serde::Serialize;
+
+/// A horizontal position in the world.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Position {
+    /// East of the datum, m.
+    pub east_m: f64,
+    /// North of the datum, m.
+    pub north_m: f64,
+}
+
+/// A true source.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceSummary {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Where it is.
+    pub position: Position,
+    /// Its depth below the still surface, m.
+    pub depth_m: f64,
+    /// Where the mean flow at the source goes, degrees from north; none in still water.
+    pub flow_heading_deg: Option<f64>,
+}
+
+/// A declared position against the nearest true source.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SourceError {
+    /// The nearest true source.
+    pub source: String,
+    /// Where it is.
+    pub position: Position,
+    /// Horizontal distance, m.
+    pub total_m: f64,
+    /// Part along the mean flow at the source, m; positive: declared too far down-flow.
+    pub along_flow_m: Option<f64>,
+    /// Part across it, m; positive: declared too far to the right, looking down-flow.
+    pub across_flow_m: Option<f64>,
+    /// Declared minus true, m.
+    pub east_m: f64,
+    /// Declared minus true, m.
+    pub north_m: f64,
+}
+
+/// What was declared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum DeclaredKind {
+    /// A source, at the place.
+    Source,
+    /// A plume, traced to where it crosses the up-flow edge of a subregion: its source is beyond.
+    UpFlowEdge,
+}
+
+/// A declaration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DeclarationSummary {
+    /// Its number among the robot's, from 0, edges included.
+    pub number: u32,
+    /// Of a source or of an edge.
+    pub kind: DeclaredKind,
+    /// Its name in report and pictures: `source 1` and so on, edges not counted, or `edge of A`.
+    pub name: String,
+    /// Subregion in which it was made, from 0; none where the area is one.
+    pub region: Option<u32>,
+    /// That subregion's name: a letter.
+    pub region_name: Option<String>,
+    /// When, s of mission time.
+    pub t_s: f64,
+    /// By which rule.
+    pub rule: String,
+    /// Where.
+    pub position: Position,
+    /// How wrong, or how far the nearest source is from an edge; none in a scenario without a source.
+    pub error: Option<SourceError>,
+    /// The last detection points it rests on, where the rule is one on them.
+    pub evidence: Option<Evidence>,
+    /// What a look at it said.
+    pub verdict: Verdict,
+    /// Where the sidescan had the source, as the vehicle believed.
+    pub surveyed: Option<Position>,
+    /// How wrong that was.
+    pub surveyed_error: Option<SourceError>,
+    /// Straight distance from the first detection in this area, or subregion, to it, m.
+    pub traced_m: Option<f64>,
+    /// How far a position fix moved what the robot believed in the minute before, the farthest, m; none without one.
+    pub fix_m: Option<f64>,
+}
+
+/// A subregion at the end.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RegionSummary {
+    /// Its name: a letter, in the order of search.
+    pub name: String,
+    /// Its middle.
+    pub centre: Position,
+    /// How its search stood.
+    pub state: RegionState,
+    /// When its search began, s.
+    pub from_s: Option<f64>,
+    /// When its search ended, s.
+    pub until_s: Option<f64>,
+}
+
+/// What one robot did.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RobotSummary {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Its declarations, by number.
+    pub declarations: Vec<DeclarationSummary>,
+    /// How many of these are sources.
+    pub sources_declared: usize,
+    /// How many are plumes traced to the up-flow edge of a subregion.
+    pub up_flow_edges: usize,
+    /// The subregions of its mission, in the order of their search; none where the area is one.
+    pub regions: Vec<RegionSummary>,
+    /// How many of these had their time run out.
+    pub regions_timed_out: usize,
+    /// Time of the first detection, s.
+    pub first_detection_s: Option<f64>,
+    /// Where it truly was then.
+    pub first_detection: Option<Position>,
+    /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
+    pub detections: u64,
+    /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
+    pub traced_m: Option<f64>,
+    /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
+    pub correct_cell_s: Option<f64>,
+    /// What its map came to; none for a robot without.
+    pub map: Option<MapEnd>,
+    /// Length of the true path, m.
+    pub travelled_m: f64,
+    /// Distance between believed and true position at the end, m.
+    pub final_position_error_m: f64,
+    /// Greatest such distance over the run, m.
+    pub greatest_position_error_m: f64,
+    /// Behaviour at the end.
+    pub last_behaviour: String,
+    /// Time spent in each behaviour, s, in the order of first use.
+    pub behaviour_s: Vec<(String, f64)>,
+}
+
+/// Something that went wrong without ending the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct AbnormalSummary {
+    /// The robot's id in the scenario.
+    pub robot: String,
+    /// What.
+    pub what: Abnormality,
+    /// Since when, s of mission time.
+    pub t_s: f64,
+    /// How long, s.
+    pub lasted_s: f64,
+    /// It was over before the run.
+    pub over: bool,
+    /// Where it began.
+    pub position: Position,
+    /// How deep below the still surface, m.
+    pub depth_m: f64,
+    /// All that on one line, for people.
+    pub line: String,
+}
+
+impl From<&Abnormal> for AbnormalSummary {
+    fn from(a: &Abnormal) -> Self {
+        Self {
+            robot: a.robot.clone(),
+            what: a.what,
+            t_s: a.t_s,
+            lasted_s: a.lasted_s,
+            over: a.over,
+            position: a.p_W.xy().into(),
+            depth_m: -a.p_W.z,
+            line: a.line(),
+        }
+    }
+}
+
+/// Chemical released and where it went.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct MassBalance {
+    /// Released, kg.
+    pub released_kg: f64,
+    /// Still in the water simulated, kg.
+    pub in_water_kg: f64,
+    /// Carried out of it, kg.
+    pub left_kg: f64,
+    /// Released − in the water − carried out, kg: rounding only.
+    pub imbalance_kg: f64,
+}
+
+impl MassBalance {
+    /// From its three parts.
+    #[must_use]
+    pub fn new(released_kg: f64, in_water_kg: f64, left_kg: f64) -> Self {
+        Self {
+            released_kg,
+            in_water_kg,
+            left_kg,
+            imbalance_kg: released_kg - in_water_kg - left_kg,
+        }
+    }
+}
+
+/// What the run itself took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Totals {
+    /// Simulated time of the mission, s.
+    pub mission_s: f64,
+    /// Simulated time of the plume before the mission, s.
+    pub spin_up_s: f64,
+    /// Wall time of the mission, s.
+    pub mission_wall_s: f64,
+    /// Wall time of the spin-up, s.
+    pub spin_up_wall_s: f64,
+    /// Steps of the mission.
+    pub steps: u64,
+    /// Filaments at the end.
+    pub filaments: usize,
+    /// Where the chemical went; none without a source.
+    pub mass: Option<MassBalance>,
+}
+
+/// [`Totals`] with the speeds that follow from it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RunSummary {
+    /// What was counted.
+    #[serde(flatten)]
+    pub totals: Totals,
+    /// Simulated over wall time, mission only.
+    pub real_time_factor: Option<f64>,
+    /// Simulated mission time over all wall time, spin-up's included: what a user waits for.
+    pub real_time_factor_with_spin_up: Option<f64>,
+}
+
+/// Version of rapier3d that the program is built with; the joints of gantries, which it moves, go into the digest.
+const RAPIER: &str = "0.36.1";
+
+/// By what a run was made: equal digests are promised for equal versions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Versions {
+    /// The program.
+    pub rheotaxis: String,
+    /// The schema of scenario files.
+    pub scenario: u32,
+    /// The rigid-body solver.
+    pub rapier3d: &'static str,
+}
+
+impl Versions {
+    pub(crate) fn of(rheotaxis: &str) -> Self {
+        Self {
+            rheotaxis: rheotaxis.to_string(),
+            scenario: VERSION,
+            rapier3d: RAPIER,
+        }
+    }
+}
+
+/// What a run came to.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// Name of the scenario.
+    pub scenario: String,
+    /// Its title.
+    pub title: String,
+    /// When it counts as a success, in words.
+    pub success_rule: String,
+    /// Seed.
+    pub seed: u64,
+    /// What it was run by.
+    pub versions: Versions,
+    /// Digest of the whole state sequence; the same run again gives the same.
+    pub digest: String,
+    /// How it ended.
+    pub outcome: RunOutcome,
+    /// The error that ended it.
+    pub error: Option<String>,
+    /// The true sources.
+    pub sources: Vec<SourceSummary>,
+    /// Each robot.
+    pub robots: Vec<RobotSummary>,
+    /// Each gantry.
+    pub gantries: Vec<GantrySummary>,
+    /// What went wrong without ending the run.
+    pub abnormal: Vec<AbnormalSummary>,
+    /// The run itself.
+    pub run: RunSummary,
+}
+
+impl Summary {
+    /// As JSON for people.
+    #[must_use]
+    pub fn json(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain data becomes JSON");
+        text.push('\n');
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_solver_is_the_one_that_is_built_in() {
+        let lock = include_str!("../../../../Cargo.lock");
+        let entry = format!("name = \"rapier3d-f64\"\nversion = \"{RAPIER}\"\n");
+        assert!(lock.contains(&entry), "Cargo.lock has another rapier3d");
+    }
+}

@@ -1,0 +1,374 @@
+//! Gathers a summary from the frames of a run.
+
+use super::GantryPath;
+use super::MapEnd;
+use super::RunInfo;
+use super::summary::{
+    AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
+    RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
+};
+use nalgebra::{Vector2, Vector3};
+use rheotaxis::abnormal::Abnormal;
+use rheotaxis::frame::{Frame, RobotFrame};
+use rheotaxis::outcome::RunOutcome;
+use robots::handoff::{
+    Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
+};
+use std::collections::VecDeque;
+use std::sync::Arc;
+use world::units::Heading;
+
+/// A true source and the flow there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SourceTruth {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Where it is (ENU), m.
+    pub position: Vector3<f64>,
+    /// Mean flow there (east, north), m/s: where the water goes.
+    pub flow: Vector2<f64>,
+}
+
+/// Flow too slow to have a direction, m/s.
+const STILL_M_S: f64 = 1e-6;
+
+impl SourceTruth {
+    fn direction(&self) -> Option<Vector2<f64>> {
+        let speed = self.flow.norm();
+        (speed > STILL_M_S).then(|| self.flow / speed)
+    }
+
+    fn error_of(&self, declared: Vector2<f64>) -> SourceError {
+        let d = declared - self.position.xy();
+        let u = self.direction();
+        SourceError {
+            source: self.id.clone(),
+            position: self.position.xy().into(),
+            total_m: d.norm(),
+            along_flow_m: u.map(|u| d.dot(&u)),
+            across_flow_m: u.map(|u| d.dot(&Vector2::new(u.y, -u.x))),
+            east_m: d.x,
+            north_m: d.y,
+        }
+    }
+}
+
+/// A place against the true source nearest to it.
+fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> {
+    (sources.iter())
+        .map(|s| s.error_of(place))
+        .min_by(|a, b| a.total_m.total_cmp(&b.total_m))
+}
+
+impl DeclarationSummary {
+    /// A declaration against the true sources.
+    #[must_use]
+    pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
+        let region_name = d.region.map(region_name);
+        let (kind, name) = if d.at_edge() {
+            let of = region_name.as_deref().unwrap_or("the area");
+            (DeclaredKind::UpFlowEdge, format!("edge of {of}"))
+        } else {
+            (DeclaredKind::Source, "source".to_owned())
+        };
+        Self {
+            number: d.number,
+            kind,
+            name,
+            region: d.region,
+            region_name,
+            t_s: d.t_s,
+            rule: d.rule.to_owned(),
+            position: d.position.into(),
+            error: nearest(d.position, sources),
+            verdict: d.verdict,
+            surveyed: d.surveyed.map(Position::from),
+            surveyed_error: d.surveyed.and_then(|p| nearest(p, sources)),
+            traced_m: None,
+            fix_m: None,
+            evidence: d.evidence,
+        }
+    }
+}
+
+impl From<Vector2<f64>> for Position {
+    fn from(p: Vector2<f64>) -> Self {
+        Self {
+            east_m: p.x,
+            north_m: p.y,
+        }
+    }
+}
+
+/// What is known only when a run is over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunEnd {
+    /// How it ended.
+    pub outcome: RunOutcome,
+    /// The error that ended it.
+    pub error: Option<String>,
+    /// Digest of the state sequence.
+    pub digest: String,
+    /// Times and counts.
+    pub totals: Totals,
+}
+
+/// Fixes are remembered for so long, s: those that may have spoilt a declaration.
+const FIX_S: f64 = 60.0;
+
+/// A declaration, with what was known when it was made.
+#[derive(Clone, Copy, Debug)]
+struct Made {
+    said: Declaration,
+    traced_m: Option<f64>,
+    fix_m: Option<f64>,
+}
+
+#[derive(Debug)]
+struct Robot {
+    id: String,
+    last: Vector3<f64>,
+    last_t_s: f64,
+    behaviour: Behaviour,
+    travelled_m: f64,
+    first_detection: Option<(f64, Vector2<f64>)>,
+    detections: u64,
+    declarations: Vec<Made>,
+    regions: Regions,
+    /// First detection in the subregion in hand, or in the one left last.
+    in_region: Option<Vector2<f64>>,
+    /// Fixes of the last minute: when, and how far they moved what it believed, m.
+    fixes: VecDeque<(f64, f64)>,
+    error_m: f64,
+    greatest_error_m: f64,
+    behaviour_s: Vec<(Behaviour, f64)>,
+    /// The likeliest cell of its map and since when, with the map's cells.
+    best: Option<(f64, usize, Arc<BeliefGrid>)>,
+    /// The last map.
+    map: Option<Belief>,
+}
+
+impl Robot {
+    fn new(t_s: f64, r: &RobotFrame) -> Self {
+        Self {
+            id: r.id.clone(),
+            last: r.truth.pose.p_WB,
+            last_t_s: t_s,
+            behaviour: r.behaviour,
+            travelled_m: 0.0,
+            first_detection: None,
+            detections: 0,
+            declarations: Vec::new(),
+            regions: Regions::default(),
+            in_region: None,
+            fixes: VecDeque::new(),
+            error_m: 0.0,
+            greatest_error_m: 0.0,
+            behaviour_s: Vec::new(),
+            best: None,
+            map: None,
+        }
+    }
+
+    fn observe(&mut self, t_s: f64, r: &RobotFrame) {
+        let p = r.truth.pose.p_WB;
+        self.travelled_m += (p - self.last).norm();
+        let spent = t_s - self.last_t_s;
+        match self
+            .behaviour_s
+            .iter_mut()
+            .find(|(b, _)| *b == self.behaviour)
+        {
+            Some((_, s)) => *s += spent,
+            None => self.behaviour_s.push((self.behaviour, spent)),
+        }
+        self.last = p;
+        self.last_t_s = t_s;
+        self.behaviour = r.behaviour;
+        if r.detected {
+            self.detections += 1;
+            self.first_detection.get_or_insert((t_s, p.xy()));
+        }
+        self.declared(t_s, r);
+        if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
+            && self
+                .best
+                .as_ref()
+                .is_none_or(|(_, cell, _)| *cell != b.best)
+        {
+            self.best = Some((b.t_s, b.best, b.grid.clone()));
+        }
+        if let Some(b) = &r.belief {
+            // A copy costs two counts: the cells are shared.
+            self.map = Some(b.clone());
+        }
+        self.error_m = (r.estimate.position - p.xy()).norm();
+        self.greatest_error_m = self.greatest_error_m.max(self.error_m);
+    }
+
+    /// What there is to say of a declaration only when it is made.
+    fn declared(&mut self, t_s: f64, r: &RobotFrame) {
+        self.fixes.extend(r.fix_m.map(|m| (t_s, m)));
+        self.fixes.retain(|(then, _)| t_s - then <= FIX_S);
+        if r.regions.now.is_some() && r.regions.now != self.regions.now {
+            self.in_region = None;
+        }
+        if r.detected && (r.regions.all.is_empty() || r.regions.now.is_some()) {
+            self.in_region.get_or_insert(r.truth.pose.p_WB.xy());
+        }
+        self.regions = r.regions.clone();
+        for d in &r.declarations {
+            match self
+                .declarations
+                .iter_mut()
+                .find(|m| m.said.number == d.number)
+            {
+                Some(made) => made.said = *d,
+                None => self.declarations.push(Made {
+                    said: *d,
+                    traced_m: self.in_region.map(|from| (d.position - from).norm()),
+                    fix_m: self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp),
+                }),
+            }
+        }
+    }
+
+    fn summary(&self, sources: &[SourceTruth]) -> RobotSummary {
+        let traced_m = self
+            .first_detection
+            .zip(self.declarations.first())
+            .map(|((_, from), d)| (d.said.position - from).norm());
+        let mut declarations: Vec<DeclarationSummary> = (self.declarations.iter())
+            .map(|made| DeclarationSummary {
+                traced_m: made.traced_m,
+                fix_m: made.fix_m,
+                ..DeclarationSummary::of(&made.said, sources)
+            })
+            .collect();
+        let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
+        let sources_declared = found
+            .enumerate()
+            .map(|(k, d)| d.name = format!("source {}", k + 1))
+            .count();
+        let said: Vec<Declaration> = self.declarations.iter().map(|m| m.said).collect();
+        let timed_out = |r: &&Region| r.state == RegionState::TimedOut;
+        RobotSummary {
+            id: self.id.clone(),
+            up_flow_edges: declarations.len() - sources_declared,
+            sources_declared,
+            declarations,
+            regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
+            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &said, sources)),
+            regions: (self.regions.all.iter().zip(0..))
+                .map(|(region, k)| RegionSummary {
+                    name: region_name(k),
+                    centre: region.area.centre.into(),
+                    state: region.state,
+                    from_s: region.from_s,
+                    until_s: region.until_s,
+                })
+                .collect(),
+            first_detection_s: self.first_detection.map(|d| d.0),
+            first_detection: self.first_detection.map(|d| d.1.into()),
+            detections: self.detections,
+            traced_m,
+            correct_cell_s: (self.best.as_ref())
+                .filter(|(_, best, grid)| {
+                    sources
+                        .iter()
+                        .any(|s| grid.cell(&s.position) == Some(*best))
+                })
+                .map(|(since_s, ..)| *since_s),
+            travelled_m: self.travelled_m,
+            final_position_error_m: self.error_m,
+            greatest_position_error_m: self.greatest_error_m,
+            last_behaviour: self.behaviour.name().to_owned(),
+            behaviour_s: self
+                .behaviour_s
+                .iter()
+                .filter(|(_, s)| *s > 0.0)
+                .map(|(b, s)| (b.name().to_owned(), *s))
+                .collect(),
+        }
+    }
+}
+
+/// Gathers what a [`Summary`] says; feed it every frame, in order.
+#[derive(Debug)]
+pub struct SummaryBuilder {
+    run: RunInfo,
+    robots: Vec<Robot>,
+    gantries: Vec<GantryPath>,
+    abnormal: Vec<Abnormal>,
+}
+
+impl SummaryBuilder {
+    /// For a run that has not begun.
+    #[must_use]
+    pub fn new(run: &RunInfo) -> Self {
+        Self {
+            run: run.clone(),
+            robots: Vec::new(),
+            gantries: Vec::new(),
+            abnormal: Vec::new(),
+        }
+    }
+
+    /// What went wrong up to the end, which may lie between two frames.
+    pub fn went_wrong(&mut self, abnormal: &[Abnormal]) {
+        self.abnormal = abnormal.to_vec();
+    }
+
+    /// Takes in a frame.
+    pub fn observe(&mut self, frame: &Frame) {
+        self.abnormal.clone_from(&frame.abnormal);
+        if self.robots.is_empty() {
+            let new = |r| Robot::new(frame.t_s, r);
+            self.robots = frame.robots.iter().map(new).collect();
+        }
+        for (known, r) in self.robots.iter_mut().zip(&frame.robots) {
+            debug_assert_eq!(known.id, r.id, "frames list the robots in one order");
+            known.observe(frame.t_s, r);
+        }
+        if self.gantries.is_empty() {
+            self.gantries = frame.gantries.iter().map(GantryPath::new).collect();
+        }
+        for (known, g) in self.gantries.iter_mut().zip(&frame.gantries) {
+            known.observe(frame.t_s, g);
+        }
+    }
+
+    /// The summary of the run, against the true sources.
+    #[must_use]
+    pub fn finish(&self, end: RunEnd, sources: &[SourceTruth]) -> Summary {
+        let t = end.totals;
+        let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
+        Summary {
+            scenario: self.run.scenario_name.clone(),
+            title: self.run.title.clone(),
+            success_rule: self.run.success.clone(),
+            seed: self.run.seed,
+            versions: Versions::of(&self.run.version),
+            digest: end.digest,
+            outcome: end.outcome,
+            error: end.error,
+            sources: sources
+                .iter()
+                .map(|s| SourceSummary {
+                    id: s.id.clone(),
+                    position: s.position.xy().into(),
+                    depth_m: -s.position.z,
+                    flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
+                })
+                .collect(),
+            robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
+            gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
+            abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
+            run: RunSummary {
+                totals: t,
+                real_time_factor: ratio(t.mission_wall_s),
+                real_time_factor_with_spin_up: ratio(t.mission_wall_s + t.spin_up_wall_s),
+            },
+        }
+    }
+}

@@ -1,0 +1,317 @@
+//! `track.csv`: where each robot was, what it believed, read and did; and the same kept for the figures.
+
+use crate::files::ReportError;
+use rheotaxis::frame::{Frame, RobotFrame};
+use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, Vertical, region_name};
+use std::fmt::Write as _;
+use std::io::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+use world::files::Output;
+
+/// What tables and figures must know of a robot beforehand.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RobotInfo {
+    /// Its id in the scenario.
+    pub id: String,
+    /// Concentration at full scale of its chemical sensor, µg/L; none without one.
+    pub full_scale_ug_l: Option<f64>,
+    /// Detection threshold as a share of full scale.
+    pub threshold: Option<f64>,
+    /// Its mission has subregions.
+    pub regions: bool,
+    /// Its planner has layers.
+    pub layered: bool,
+}
+
+/// One moment of one robot, as far as figures need it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TrackRow {
+    /// Time, s.
+    pub t_s: f64,
+    /// True position (ENU), m.
+    pub p: [f64; 3],
+    /// Believed position (east, north), m.
+    pub believed: [f64; 2],
+    /// True altitude, m.
+    pub altitude_m: f64,
+    /// Altitude asked for, m.
+    pub altitude_asked_m: Option<f64>,
+    /// Depth asked for, m.
+    pub depth_asked_m: Option<f64>,
+    /// Chemical reading as a share of full scale.
+    pub reading: Option<f64>,
+    /// Behaviour.
+    pub behaviour: Behaviour,
+}
+
+/// A robot's whole track.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotTrack {
+    /// Which robot.
+    pub info: RobotInfo,
+    /// Its moments; thinned evenly when the run is long.
+    pub rows: Vec<TrackRow>,
+    /// True positions (east, north, m) at which something was detected; all of them, up to a bound.
+    pub detections: Vec<[f64; 2]>,
+    /// Points where it lost the plume, as it believed at the end, of a subregion or of the run (east, north), m.
+    pub lost_points: Vec<[f64; 2]>,
+    /// Its declarations so far.
+    pub declarations: Vec<Declaration>,
+    /// The subregions of its mission, as they stand.
+    pub regions: Arc<[Region]>,
+    region: Option<u32>,
+    lost_before: usize,
+    /// How the layers of its planner stood, from each time on (s) until the next, up to a bound.
+    pub layers: Vec<(f64, Arc<[Layer]>)>,
+    stride: usize,
+    skip: usize,
+}
+
+/// The tracks of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Track {
+    /// One a robot, in the scenario's order.
+    pub robots: Vec<RobotTrack>,
+}
+
+/// Moments kept for a robot: three hours at 10 Hz are thinned to every fourth; no figure shows more.
+const KEPT: usize = 40_000;
+
+impl RobotTrack {
+    fn new(info: RobotInfo) -> Self {
+        Self {
+            info,
+            rows: Vec::new(),
+            detections: Vec::new(),
+            lost_points: Vec::new(),
+            declarations: Vec::new(),
+            regions: Arc::default(),
+            region: None,
+            lost_before: 0,
+            layers: Vec::new(),
+            stride: 1,
+            skip: 0,
+        }
+    }
+
+    /// Where it declared sources (east, north), m.
+    pub fn declared(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        self.declarations
+            .iter()
+            .map(|d| [d.position.x, d.position.y])
+    }
+
+    /// The same without those on an edge to which a plume was traced.
+    pub fn declared_inside(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
+        let inside = self.declarations.iter().filter(|d| !d.at_edge());
+        inside.map(|d| [d.position.x, d.position.y])
+    }
+
+    fn push(&mut self, t_s: f64, r: &RobotFrame) {
+        let p = r.truth.pose.p_WB;
+        if r.detected && self.detections.len() < KEPT {
+            self.detections.push([p.x, p.y]);
+        }
+        // Those of subregions searched before stay.
+        if r.regions.now.is_some() && r.regions.now != self.region {
+            self.region = r.regions.now;
+            self.lost_before = self.lost_points.len();
+        }
+        if !r.lost_points.is_empty() {
+            self.lost_points.truncate(self.lost_before);
+            self.lost_points
+                .extend(r.lost_points.iter().map(|q| [q.x, q.y]));
+        }
+        if self.declarations != r.declarations {
+            self.declarations.clone_from(&r.declarations);
+        }
+        self.regions = r.regions.all.clone();
+        let new = self.layers.last().is_none_or(|l| l.1 != r.layers);
+        if new && !r.layers.is_empty() && self.layers.len() < KEPT {
+            self.layers.push((t_s, r.layers.clone()));
+        }
+        if self.skip > 0 {
+            self.skip -= 1;
+            return;
+        }
+        self.skip = self.stride - 1;
+        let asked = match r.command {
+            Some(Command::Steer(s)) => Some(s.vertical),
+            _ => None,
+        };
+        self.rows.push(TrackRow {
+            t_s,
+            p: [p.x, p.y, p.z],
+            believed: [r.estimate.position.x, r.estimate.position.y],
+            altitude_m: r.altitude_m,
+            altitude_asked_m: match asked {
+                Some(Vertical::Altitude(m)) => Some(m),
+                _ => None,
+            },
+            depth_asked_m: match asked {
+                Some(Vertical::Depth(m)) => Some(m),
+                _ => None,
+            },
+            reading: r.chemical.map(|c| c.of_full_scale),
+            behaviour: r.behaviour,
+        });
+        if self.rows.len() > KEPT {
+            let mut odd = false;
+            self.rows.retain(|_| {
+                odd = !odd;
+                odd
+            });
+            self.stride *= 2;
+            self.skip = self.stride - 1;
+        }
+    }
+}
+
+/// Header of the table.
+const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,heading_deg,\
+est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
+speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
+
+/// A further column where a robot's mission has subregions: the letter of the one it searches; empty in transits.
+const REGION: &str = ",region";
+
+/// And one where its planner has layers: the one that holds the vehicle.
+const LAYER: &str = ",layer";
+
+/// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
+#[derive(Debug)]
+pub struct TrackTable {
+    file: Option<Output>,
+    layered: bool,
+    line: String,
+    track: Track,
+    /// The table has the column of subregions.
+    regions: bool,
+}
+
+impl TrackTable {
+    /// A table written to `path` as it grows; the folder must exist. Without robots there is nothing to write, and no file.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn create(path: &Path, robots: Vec<RobotInfo>) -> Result<Self, ReportError> {
+        if robots.is_empty() {
+            return Ok(Self::in_memory(robots));
+        }
+        let mut file = Output::create(path)?;
+        // Only where a robot's planner has layers, or its mission subregions, is there a column for them.
+        let mut table = Self::in_memory(robots);
+        let region = if table.regions { REGION } else { "" };
+        let layer = if table.layered { LAYER } else { "" };
+        let header = format!("{HEADER}{region}{layer}\n");
+        (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
+        file.place()?;
+        table.file = Some(file);
+        Ok(table)
+    }
+
+    /// Kept for the figures only, no file.
+    #[must_use]
+    pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
+        Self {
+            file: None,
+            layered: robots.iter().any(|r| r.layered),
+            line: String::new(),
+            regions: robots.iter().any(|r| r.regions),
+            track: Track {
+                robots: robots.into_iter().map(RobotTrack::new).collect(),
+            },
+        }
+    }
+
+    /// Adds a row for each robot.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn push(&mut self, frame: &Frame) -> Result<(), ReportError> {
+        self.line.clear();
+        for r in &frame.robots {
+            let k = match self.track.robots.iter().position(|k| k.info.id == r.id) {
+                Some(k) => k,
+                None => {
+                    let id = r.id.clone();
+                    self.track.robots.push(RobotTrack::new(RobotInfo {
+                        id,
+                        ..RobotInfo::default()
+                    }));
+                    self.track.robots.len() - 1
+                }
+            };
+            let robot = &mut self.track.robots[k];
+            robot.push(frame.t_s, r);
+            if self.file.is_some() {
+                row(&mut self.line, frame.t_s, r, &robot.info);
+                if self.regions {
+                    let now = r.regions.now.map_or_else(String::new, region_name);
+                    self.line.push(',');
+                    self.line.push_str(&now);
+                }
+                if self.layered {
+                    self.line.push(',');
+                    self.line.push_str(r.holding_layer().unwrap_or(""));
+                }
+                self.line.push('\n');
+            }
+        }
+        if let Some(file) = &mut self.file {
+            (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
+        }
+        Ok(())
+    }
+
+    /// The tracks, for the figures.
+    #[must_use]
+    pub fn finish(self) -> Track {
+        self.track
+    }
+}
+
+/// Pitch of the true pose made nose-up, as the estimate's.
+fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
+    let (p, e) = (&r.truth.pose, &r.estimate);
+    let (roll, pitch_down) = p.roll_pitch();
+    let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
+    let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
+    let flow = e.flow.map(|f| f.velocity);
+    write!(
+        line,
+        "{t_s:.3},{id},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.4},{:.3},{},{},{},{},{},{}",
+        p.p_WB.x,
+        p.p_WB.y,
+        p.p_WB.z,
+        roll.to_degrees(),
+        -pitch_down.to_degrees(),
+        p.heading().deg(),
+        e.position.x,
+        e.position.y,
+        e.depth_m,
+        e.attitude.roll_rad.to_degrees(),
+        e.attitude.pitch_rad.to_degrees(),
+        e.attitude.heading.deg(),
+        r.truth.v_WB_B.norm(),
+        r.altitude_m,
+        opt(chemical.map(|c| c.0)),
+        opt(chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f)),
+        u8::from(r.detected),
+        opt(flow.map(|v| v.x)),
+        opt(flow.map(|v| v.y)),
+        r.behaviour.name(),
+        id = quoted(&r.id),
+    )
+    .expect("writing to a String succeeds");
+}
+
+/// A text as a CSV field.
+fn quoted(s: &str) -> String {
+    if s.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", s.replace('"', "\"\""))
+    } else {
+        s.to_owned()
+    }
+}

@@ -1,0 +1,31 @@
+//! Gantries made by hand for tests.
+
+use nalgebra::{Vector2, Vector3};
+use rheotaxis::gantry::GantryFrame;
+use robots::handoff::{GantryBehaviour, GantryDecision, JointReadings, TrackerState};
+use world::physics::JointState;
+
+/// A gantry that looks westward, its head at (east, north), m.
+pub(crate) fn gantry(east_m: f64, north_m: f64, behaviour: GantryBehaviour) -> GantryFrame {
+    let head_W = Vector3::new(east_m, north_m, -0.125);
+    GantryFrame {
+        id: "crab0".into(),
+        joint_names: ["along".into(), "across".into()],
+        joints: [JointState::default(); 2],
+        readings: JointReadings::default(),
+        forward: Vector2::new(-1.0, 0.0),
+        head_W,
+        tips_W: vec![head_W],
+        scan: None,
+        decision: GantryDecision {
+            behaviour,
+            id: 1,
+            target_m: Vector2::zeros(),
+            speed_m_s: Vector2::zeros(),
+            working: TrackerState::default(),
+            stopped: None,
+        },
+        touching: None,
+        declaration: None,
+    }
+}

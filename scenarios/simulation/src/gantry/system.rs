@@ -1,0 +1,212 @@
+//! The systems of gantries: probes and encoders, the searcher, the drives; and what is seen of them.
+
+use super::frame::GantryFrame;
+use crate::score::{Score, SearcherScore};
+use crate::system::{Dye, RobotId, Roster, Water, whole};
+use bevy_ecs::prelude::{Component, Query, Res, ResMut};
+use nalgebra::Vector3;
+use plumes::filaments::Displaced;
+use robots::handoff::{
+    Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
+};
+use robots::sense::Probes;
+use robots::track::GantryStrategy;
+use robots::vehicles::Gantry;
+use world::clock::Clock;
+use world::digest::Digest;
+use world::frames::Pose;
+use world::physics::{GantryId, Physics};
+use world::seeds::Stream;
+
+/// A gantry and its joints in the physics.
+#[derive(Component)]
+pub(crate) struct Rig {
+    /// Frame and drives.
+    pub gantry: Gantry,
+    /// Its joints.
+    pub joints: GantryId,
+    /// Where it stands.
+    pub base: Pose,
+    /// Random numbers of its drives.
+    pub rng: Stream,
+}
+
+/// A gantry's probes.
+#[derive(Component)]
+pub(crate) struct Head {
+    /// The probes.
+    pub probes: Probes,
+    /// Their latest scan.
+    pub latest: Option<ProbeScan>,
+    tips_W: Vec<Vector3<f64>>,
+}
+
+impl Head {
+    /// Probes that have not been read.
+    #[must_use]
+    pub(crate) fn new(probes: Probes) -> Self {
+        Self {
+            probes,
+            latest: None,
+            tips_W: Vec::new(),
+        }
+    }
+}
+
+/// A gantry's searcher with the random stream it holds.
+#[derive(Component)]
+pub(crate) struct Searcher {
+    /// What decides.
+    pub strategy: Box<dyn GantryStrategy>,
+    /// Its random numbers.
+    pub rng: Stream,
+    /// When it stopped, s.
+    pub stopped_s: Option<f64>,
+}
+
+pub(crate) fn read_probes(
+    clock: Res<Clock>,
+    physics: Res<Physics>,
+    dye: Res<Dye>,
+    water: Res<Water>,
+    mut gantries: Query<(&Rig, &mut Head, &mut GantryReadings)>,
+) {
+    let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
+    for (rig, mut head, mut readings) in &mut gantries {
+        let joints = physics.joints(rig.joints);
+        let head = &mut *head;
+        head.tips_W.clear();
+        head.tips_W.extend(rig.gantry.tips_W(&rig.base, &joints));
+        let scan = head.probes.read(&clock, &head.tips_W, &plume);
+        head.latest = scan.or(head.latest);
+        *readings = GantryReadings {
+            scan,
+            joints: rig.gantry.readings(&joints),
+        };
+    }
+}
+
+pub(crate) fn track(
+    clock: Res<Clock>,
+    mut gantries: Query<(&GantryReadings, &mut Searcher, &mut GantryDecision)>,
+) {
+    for (readings, mut searcher, mut decision) in &mut gantries {
+        let seen = GantryObservation {
+            t_s: clock.t_s(),
+            readings: *readings,
+        };
+        let searcher = &mut *searcher;
+        *decision = searcher.strategy.step(&seen, &mut searcher.rng);
+        if decision.stopped.is_some() {
+            searcher.stopped_s.get_or_insert(seen.t_s);
+        }
+    }
+}
+
+pub(crate) fn drive_gantries(
+    clock: Res<Clock>,
+    mut physics: ResMut<Physics>,
+    mut gantries: Query<(&GantryDecision, &mut Rig)>,
+) {
+    for (decision, mut rig) in &mut gantries {
+        let rig = &mut *rig;
+        let joints = physics.joints(rig.joints);
+        let drives = (rig.gantry).drive(decision, &joints, clock.dt_s, &mut rig.rng);
+        physics.drive(rig.joints, drives);
+    }
+}
+
+pub(crate) fn digest_gantries(
+    physics: Res<Physics>,
+    roster: Res<Roster>,
+    mut digest: ResMut<Digest>,
+    gantries: Query<(&Rig, &Head, &GantryDecision)>,
+) {
+    for (rig, head, decision) in gantries.iter_many(&roster.gantries).map(whole) {
+        for joint in physics.joints(rig.joints) {
+            digest.f64s(&[joint.position_m, joint.speed_m_s]);
+        }
+        if let Some(scan) = head.latest {
+            digest.f64s(&scan.volts[..scan.count]);
+        }
+        digest.f64s(decision.target_m.as_slice());
+        digest.f64s(&[f64::from(decision.id), f64::from(decision.behaviour as u8)]);
+    }
+}
+
+/// Parts of a gantry that a picture of it needs.
+pub(crate) type Pictured<'a> = (
+    &'a RobotId,
+    &'a Rig,
+    &'a Head,
+    &'a GantryReadings,
+    &'a GantryDecision,
+    &'a Searcher,
+);
+
+/// All gantries as they are, in the scenario's order.
+pub(crate) fn picture(
+    physics: &Physics,
+    roster: &Roster,
+    score: &Score,
+    gantries: &Query<Pictured>,
+) -> Vec<GantryFrame> {
+    let scored = score.searchers[roster.robots.len()..].iter();
+    let one = |((id, rig, head, readings, decision, _), scored): (
+        (
+            &RobotId,
+            &Rig,
+            &Head,
+            &GantryReadings,
+            &GantryDecision,
+            &Searcher,
+        ),
+        &SearcherScore,
+    )| {
+        let joints = physics.joints(rig.joints);
+        let base = &rig.base;
+        let head_W = rig.gantry.head_W(base, &joints);
+        let touching = physics.gantry_contact(rig.joints).with;
+        GantryFrame {
+            id: id.0.clone(),
+            joint_names: rig.gantry.joint_names().map(str::to_string),
+            joints,
+            readings: readings.joints,
+            forward: (base.R_WB * Vector3::x()).xy(),
+            head_W,
+            tips_W: rig.gantry.tips_W(base, &joints).collect(),
+            scan: head.latest,
+            decision: decision.clone(),
+            touching: touching.map(|solid| physics.name(solid).to_string()),
+            declaration: scored.declarations.first().copied(),
+        }
+    };
+    let all = gantries.iter_many(&roster.gantries).map(whole);
+    all.zip(scored).map(one).collect()
+}
+
+/// Parts of a gantry that say whether it declares.
+pub(crate) type Declaring<'a> = (&'a Rig, &'a GantryDecision, &'a Searcher);
+
+/// Where the searcher says the source is, once it has stopped there: where its encoders have the head.
+pub(crate) fn declaration(
+    physics: &Physics,
+    (rig, decision, searcher): (&Rig, &GantryDecision, &Searcher),
+) -> Option<Declaration> {
+    let t_s = searcher
+        .stopped_s
+        .filter(|_| decision.stopped == Some(true))?;
+    let joints = physics.joints(rig.joints);
+    let head = rig.gantry.head_W(&rig.base, &joints).xy();
+    let off = rig.gantry.readings(&joints).position_m - rig.gantry.head_m(&joints);
+    Some(Declaration::first(
+        t_s,
+        head + (rig.base.R_WB * off.push(0.0)).xy(),
+        "stop",
+    ))
+}
+
+/// How a gantry's mission ended, if it did.
+pub(crate) fn outcome(decision: &GantryDecision) -> Option<Outcome> {
+    decision.stopped.map(|_| Outcome::Completed)
+}

@@ -1,0 +1,152 @@
+//! The ocean of a run, place, water and plume, built from nothing but an [`Origin`].
+//!
+//! Whatever water or plume are to depend on has to be a field of it: runs share a spin-up if their origins are the same
+//! (see [`spun_up`](crate::spun_up)), so what stood beside it would silently be that of another run.
+
+use crate::assemble::AssembleError;
+use crate::scenario::{AreaSpec, Scenario, TerrainSpec};
+use plumes::filaments::{Plume, PlumeSettings};
+use plumes::flow::{Water, WaterSpec};
+use plumes::release::SourceSpec;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::path::Path;
+use world::area::Area;
+use world::digest::Digest;
+use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
+use world::ranges::{NonNegative, Positive};
+use world::terrain::Terrain;
+
+/// All that a run's water and plume follow from, up to the start of the mission.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Origin {
+    seed: u64,
+    area: AreaSpec,
+    terrain: TerrainSpec,
+    water: WaterSpec,
+    obstacles: Vec<ObstacleSpec>,
+    permeable: Vec<String>,
+    sources: Vec<SourceSpec>,
+    #[serde(rename = "time.spin_up_s")]
+    spin_up_s: NonNegative,
+    #[serde(rename = "time.spin_up_period_s")]
+    spin_up_period_s: Positive,
+    #[serde(rename = "time.flow_period_s")]
+    flow_period_s: NonNegative,
+    /// Digests of the files that the obstacles name, by name; of one that cannot be read none: building says what is wrong with it.
+    files: BTreeMap<String, Option<String>>,
+}
+
+/// The ocean before the spin-up.
+pub struct Ocean {
+    /// The operating area.
+    pub area: Area,
+    /// The bed.
+    pub terrain: Terrain,
+    /// All of them, those too that the water passes through.
+    pub obstacles: Obstacles,
+    /// Currents, stratification, mixing.
+    pub water: Water,
+    /// Not yet released.
+    pub plume: Plume,
+}
+
+impl Origin {
+    /// The origin of a scenario's run; files are looked for under `base_dir`.
+    pub fn of(scenario: &Scenario, base_dir: &Path, seed: u64) -> Self {
+        let files = scenario.obstacles.iter().filter_map(ObstacleSpec::file);
+        let time = &scenario.time;
+        Self {
+            seed,
+            area: scenario.area.clone(),
+            terrain: scenario.terrain.clone(),
+            water: scenario.water.clone(),
+            obstacles: scenario.obstacles.clone(),
+            permeable: scenario.permeable.clone(),
+            sources: scenario.sources.clone(),
+            spin_up_s: time.spin_up_s,
+            spin_up_period_s: time.spin_up_period_s,
+            flow_period_s: time.flow_period_s,
+            files: files
+                .map(|name| (name.to_string(), content(&base_dir.join(name))))
+                .collect(),
+        }
+    }
+
+    /// The ocean; files are looked for under `base_dir`.
+    ///
+    /// # Errors
+    /// When a part of it cannot be built.
+    pub fn build(&self, base_dir: &Path) -> Result<Ocean, AssembleError> {
+        let area = self.area.build();
+        let terrain = self.terrain.build(&area);
+        let obstacles = (self.obstacles.iter())
+            .map(|spec| Obstacle::build(spec, &terrain, base_dir))
+            .collect::<Result<Vec<_>, _>>()?;
+        let obstacles = Obstacles(obstacles);
+        let solids = obstacles.without(&self.permeable);
+        let water = (self.water).build_round(&area, &terrain, &solids, self.seed)?;
+        let settings = PlumeSettings {
+            refresh_s: self.flow_period_s.get(),
+            grid: self.water.grid_shape(&area),
+        };
+        let plume = Plume::new(&self.sources, &area, &terrain, self.seed, settings)?
+            .with_obstacles(solids)?
+            .led_round(water.blocked())?;
+        Ok(Ocean {
+            area,
+            terrain,
+            obstacles,
+            water,
+            plume,
+        })
+    }
+
+    /// How long the plume develops before the mission, s.
+    pub fn spin_up_s(&self) -> f64 {
+        self.spin_up_s.get()
+    }
+
+    /// Steps of the spin-up: how many, and how long each is, s.
+    pub fn spin_up_steps(&self) -> (u64, f64) {
+        let steps = (self.spin_up_s() / self.spin_up_period_s.get()).ceil();
+        (steps as u64, self.spin_up_s() / steps)
+    }
+
+    /// The run's seed.
+    #[must_use]
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// The first field but the seed that is not the same in another.
+    pub fn unlike(&self, other: &Self) -> Option<String> {
+        let [ours, theirs] = [self, other].map(Self::fields);
+        let mut names = ours.keys().filter(|name| *name != "seed");
+        // As text, so that -0 is not 0.
+        let differs = |name: &&String| {
+            let text = |value: Option<&serde_json::Value>| value.map(ToString::to_string);
+            text(ours.get(*name)) != text(theirs.get(*name))
+        };
+        names.find(differs).cloned()
+    }
+
+    fn fields(&self) -> serde_json::Map<String, serde_json::Value> {
+        match serde_json::to_value(self) {
+            Ok(serde_json::Value::Object(fields)) => fields,
+            other => unreachable!("a scenario that was read can be written: {other:?}"),
+        }
+    }
+}
+
+/// Digest of a file's bytes.
+fn content(path: &Path) -> Option<String> {
+    let bytes = world::files::read(path, 1 << 30).ok()?;
+    let mut digest = Digest::default();
+    digest.bytes(&bytes);
+    Some(digest.hex())
+}
+
+#[cfg(test)]
+mod tests;

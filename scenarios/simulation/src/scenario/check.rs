@@ -1,0 +1,380 @@
+//! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
+
+use super::fault::Found;
+use super::fault::Severity;
+use super::schema::{RobotSpec, Scenario, TerrainSpec};
+use super::{
+    check_able, check_berth, check_fitted, check_limits, check_obstacles, check_steps, check_view,
+    cost,
+};
+use crate::gantry;
+use plumes::error::PlumeError;
+use plumes::release;
+use robots::error::RobotError;
+use robots::handoff::Setting;
+use robots::sense::SensorSuite;
+use robots::sense::camera::Optics;
+use robots::vehicles::Vehicle;
+use std::path::Path;
+use world::area::Area;
+use world::fields::Flow;
+use world::obstacles::Obstacles;
+use world::seeds::Stream;
+use world::terrain::Terrain;
+
+/// A robot's start nearer to an obstacle than this touches it with its hull, m.
+const BERTH_M: f64 = 1.0;
+
+/// Legal steps of the physics, s: below, a run never ends; above, it no longer follows the vehicle.
+const STEP_S: (f64, f64) = (0.001, 0.1);
+
+/// Everything that is wrong or odd; paths in the scenario are relative to `base_dir`.
+#[must_use]
+pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
+    check_within(scenario, base_dir, cost::limit())
+}
+
+/// The same with so much memory for a run, bytes. What would not fit into it is not built to be looked at either.
+#[must_use]
+pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<Found> {
+    let area = scenario.area.build();
+    let terrain = scenario.terrain.build(&area);
+    let mut found = Vec::new();
+    slope(&scenario.terrain, &mut found);
+    let mut fits = check_limits::sizes(scenario, &area, &terrain, &mut found);
+    for (i, robot) in scenario.robots.iter().enumerate() {
+        fits &= check_limits::bounds(i, robot, &area, &terrain, &mut found);
+    }
+    let cost = cost::cost(scenario);
+    fits = fits && cost::judge(&cost, memory_bytes, &mut found);
+    // Seed 0: whether water can be made does not depend on its random numbers.
+    let water = fits.then(|| scenario.water.build(&area, &terrain, 0));
+    match &water {
+        Some(Ok(water)) => {
+            check_limits::speeds(scenario, water, &terrain, &mut found);
+            check_able::plume(scenario, &area, &terrain, water, &mut found);
+        }
+        Some(Err(PlumeError::Invalid { field, problem })) => {
+            found.push(Found::error(field, problem));
+        }
+        None => {}
+    }
+    if let Err(RobotError::Invalid { field, problem }) = Optics::new(&scenario.optics) {
+        found.push(Found::error(field, problem));
+    }
+    let obstacles = check_obstacles::obstacles(scenario, &area, &terrain, base_dir, &mut found);
+    let solid = obstacles.without(&scenario.permeable);
+    if fits {
+        check_obstacles::blockage(scenario, &area, &terrain, &solid, &mut found);
+    }
+    check_obstacles::known(
+        "permeable",
+        &scenario.permeable,
+        &scenario.obstacles,
+        &mut found,
+    );
+    sources(scenario, &area, &terrain, &solid, &mut found);
+    let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
+    twins("robots", &robot_ids, &mut found);
+    for (i, robot) in scenario.robots.iter().enumerate() {
+        start(i, robot, &area, &terrain, &obstacles, &mut found);
+        if let Some(vehicle) = parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found) {
+            let place = check_view::Place {
+                area: &area,
+                terrain: &terrain,
+                obstacles: &obstacles,
+            };
+            if fits {
+                check_view::view(i, robot, &vehicle, &place, &mut found);
+            }
+            let p_W = robot.start.p_W(&terrain);
+            let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
+                .map_or(0.0, |w| w.velocity(&p_W, 0.0).norm());
+            check_able::speeds(i, robot, &vehicle, water_m_s, &mut found);
+        }
+        let setting = robot.setting(&area, &terrain, &obstacles);
+        let path = format!("robots[{i}].chart");
+        check_obstacles::known(&path, &robot.chart, &scenario.obstacles, &mut found);
+        if fits {
+            mind(i, robot, &setting, &mut found);
+        }
+        check_fitted::fitted(i, robot, &mut found);
+        check_fitted::blind(i, robot, &mut found);
+    }
+    check_berth::berths(&scenario.robots, &terrain, &mut found);
+    let gantry_ids: Vec<&str> = scenario.gantries.iter().map(|g| g.id.as_str()).collect();
+    twins("gantries", &gantry_ids, &mut found);
+    for (i, gantry) in scenario.gantries.iter().enumerate() {
+        let step_s = scenario.time.step_s.get();
+        gantry::check::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
+        if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
+            let problem = format!(
+                "\"{}\" is already the name of robots[{robot}]",
+                gantry.id.as_str()
+            );
+            found.push(Found::error(format!("gantries[{i}].id"), problem));
+        }
+    }
+    check_able::declarations(scenario, &mut found);
+    times(scenario, &mut found);
+    check_able::purpose(scenario, &mut found);
+    if let Some(Ok(water)) = &water
+        && !found.iter().any(|f| f.severity == Severity::Error)
+    {
+        cost::patience(&cost, &mut found);
+        check_steps::steps(scenario, water, &area, &terrain, &mut found);
+    }
+    found
+}
+
+fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
+    if let TerrainSpec::Slope(s) = terrain
+        && s.shallow_m > s.deep_m
+    {
+        let (shallow, deep) = (s.shallow_m.get(), s.deep_m.get());
+        found.push(
+            Found::error(
+                "terrain.shallow_m",
+                format!("must be at most deep_m, {deep}, got {shallow}"),
+            )
+            .hint(
+                "shoreward is where the water gets shallower; turn shoreward_heading_deg instead",
+            ),
+        );
+    }
+}
+
+fn sources(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+    found: &mut Vec<Found>,
+) {
+    for (i, spec) in scenario.sources.iter().enumerate() {
+        // One by one, so that each says what is wrong with it.
+        let placed = release::place(std::slice::from_ref(spec), area, terrain);
+        if let Err(PlumeError::Invalid { field, problem }) =
+            placed.and_then(|source| release::clear(&source, obstacles))
+        {
+            found.push(Found::error(
+                field.replacen("sources[0]", &format!("sources[{i}]"), 1),
+                problem,
+            ));
+        }
+    }
+    let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
+    names("sources", &ids, found);
+    twins("sources", &ids, found);
+}
+
+fn start(
+    i: usize,
+    robot: &RobotSpec,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+    found: &mut Vec<Found>,
+) {
+    let path = format!("robots[{i}].start");
+    let (start, id) = (&robot.start, robot.id.as_str());
+    if start.depth_m.is_some() == start.altitude_m.is_some() {
+        let given = if start.depth_m.is_some() {
+            "both are"
+        } else {
+            "neither is"
+        };
+        found.push(Found::error(
+            path,
+            format!("give either depth_m or altitude_m; {given} given"),
+        ));
+        return;
+    }
+    let p = start.p_W(terrain);
+    let (distance, _) = area.edge_distance(p.xy());
+    if distance < 0.0 {
+        found.push(
+            Found::error(
+                &path,
+                format!(
+                    "robot \"{id}\" at east {} m, north {} m starts {:.1} m outside the area",
+                    p.x, p.y, -distance
+                ),
+            )
+            .hint("bring it inside, or make the area larger"),
+        );
+    }
+    let depth = -terrain.bed_z(p.x, p.y);
+    if -p.z > depth {
+        found.push(Found::error(
+            format!("{path}.depth_m"),
+            format!(
+                "robot \"{id}\" starts {:.2} m under the bed; must be from 0 (the surface) to {depth:.2} \
+                 (the water's depth there), got {}",
+                -p.z - depth,
+                -p.z
+            ),
+        ));
+    } else if p.z > 0.0 {
+        found.push(Found::error(
+            format!("{path}.altitude_m"),
+            format!(
+                "robot \"{id}\" starts {:.2} m above the surface; must be from 0 (the bed) to {depth:.2} \
+                 (the water's depth there), got {}",
+                p.z,
+                p.z + depth
+            ),
+        ));
+    }
+    for obstacle in &obstacles.0 {
+        let away = obstacle.distance(&p);
+        if away < 0.0 {
+            found.push(
+                Found::error(
+                    &path,
+                    format!(
+                        "robot \"{id}\" starts inside obstacle \"{}\", {:.2} m from its surface",
+                        obstacle.id, -away
+                    ),
+                )
+                .hint("move the start or the obstacle"),
+            );
+        } else if away < BERTH_M {
+            found.push(Found::warning(
+                &path,
+                format!(
+                    "robot \"{id}\" starts {away:.2} m from obstacle \"{}\": its hull may touch it",
+                    obstacle.id
+                ),
+            ));
+        }
+    }
+}
+
+/// Builds its strategy, on its chart.
+fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) {
+    let path = format!("robots[{i}]");
+    if let Some(map) = &robot.map
+        && let Err(e) = map.build(&setting.area, Stream::new(0, "", ""))
+    {
+        found.push(robot_error(&path, "map", e));
+    }
+    if let Err(e) = robot.strategy.build(setting) {
+        found.push(robot_error(&path, "strategy", e));
+    }
+    let [sidescan, camera] = robot.strategy.flies_for();
+    let lacks = [
+        ("sidescan", sidescan && robot.sensors.sidescan.is_none()),
+        ("camera", camera && robot.sensors.camera.is_none()),
+    ];
+    for (name, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
+        let problem = format!(
+            "robot \"{}\" flies a survey for its {name} and carries none",
+            robot.id.as_str()
+        );
+        let hint = format!("give it one, sensors: ({name}: ()), or leave its passes out");
+        let field = format!("{path}.strategy");
+        found.push(Found::error(field, problem).hint(&hint));
+    }
+}
+
+/// Builds what can fail: hull, instruments. The vehicle, if both can be built.
+fn parts(
+    i: usize,
+    robot: &RobotSpec,
+    step_s: f64,
+    base_dir: &Path,
+    found: &mut Vec<Found>,
+) -> Option<Vehicle> {
+    let path = format!("robots[{i}]");
+    match Vehicle::load(&robot.vehicle, base_dir) {
+        Ok(vehicle) => {
+            for told in vehicle.told() {
+                found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));
+            }
+            let mounts = |name: &str| vehicle.mount(name);
+            let id = robot.id.as_str();
+            match SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+                Ok(_) => return Some(vehicle),
+                Err(e) => found.push(robot_error(&path, "sensors", e)),
+            }
+        }
+        Err(e) => found.push(robot_error(&path, "vehicle", e)),
+    }
+    None
+}
+
+pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
+    match error {
+        RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
+            .hint("paths are relative to the scenario file"),
+        RobotError::Invalid { field, problem } => {
+            Found::error(within(robot, part, &field), problem)
+        }
+    }
+}
+
+fn times(scenario: &Scenario, found: &mut Vec<Found>) {
+    let t = &scenario.time;
+    let step = t.step_s.get();
+    if !(STEP_S.0..=STEP_S.1).contains(&step) {
+        found.push(Found::error(
+            "time.step_s",
+            format!("must be from {} to {} s, got {step}", STEP_S.0, STEP_S.1),
+        ));
+    }
+    let r = &scenario.record;
+    for (path, period) in [
+        ("time.limit_s", t.limit_s),
+        ("time.drift_period_s", t.drift_period_s),
+        ("time.spin_up_period_s", t.spin_up_period_s),
+        ("record.frame_period_s", r.frame_period_s),
+        ("record.plume_period_s", r.plume_period_s),
+    ] {
+        if period < t.step_s {
+            found.push(Found::error(
+                path,
+                format!("must be at least time.step_s, {step}, got {}", period.get()),
+            ));
+        }
+    }
+}
+
+/// Names that end up in keys and file names.
+pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+    for (i, id) in ids.iter().enumerate() {
+        if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
+            found.push(Found::error(format!("{list}[{i}].id"), problem));
+        }
+    }
+}
+
+pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
+    for (i, id) in ids.iter().enumerate() {
+        if let Some(twin) = ids[..i].iter().position(|other| other == id) {
+            found.push(Found::error(
+                format!("{list}[{i}].id"),
+                format!("\"{id}\" is already the name of {list}[{twin}]"),
+            ));
+        }
+    }
+}
+
+/// A part's field as a path from the scenario's root, however much of it the part knew.
+pub fn within(whole: &str, part: &str, field: &str) -> String {
+    // Variants (`strategy.OpenLoop.table`) are values, not fields.
+    let fields = field
+        .split('.')
+        .filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));
+    let field = fields.collect::<Vec<_>>().join(".");
+    let list = whole.split('[').next().unwrap_or(whole);
+    if field.starts_with(&format!("{list}[")) {
+        field
+    } else if field.is_empty() {
+        format!("{whole}.{part}")
+    } else if field == part || field.starts_with(&format!("{part}.")) {
+        format!("{whole}.{field}")
+    } else {
+        format!("{whole}.{part}.{field}")
+    }
+}

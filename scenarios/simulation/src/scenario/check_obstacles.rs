@@ -1,0 +1,233 @@
+//! What a scenario's obstacles mean: shapes that cannot be built, sizes and places that make no sense, water that finds no way.
+
+use super::check::{names, twins, within};
+use super::fault::Found;
+use super::schema::Scenario;
+use plumes::error::PlumeError;
+use plumes::filaments::cut_off;
+use std::path::Path;
+use world::area::Area;
+use world::error::WorldError;
+use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
+use world::terrain::Terrain;
+
+/// Obstacles that can be built; what is wrong or odd about them is added to `found`.
+pub(super) fn obstacles(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    base_dir: &Path,
+    found: &mut Vec<Found>,
+) -> Obstacles {
+    let specs = &scenario.obstacles;
+    let ids: Vec<&str> = specs.iter().map(|o| o.id.as_str()).collect();
+    names("obstacles", &ids, found);
+    twins("obstacles", &ids, found);
+    let mut built = Vec::new();
+    for (i, spec) in specs.iter().enumerate() {
+        let path = format!("obstacles[{i}]");
+        if let Some(twin) = specs[..i].iter().position(|other| spec.is_copy_of(other)) {
+            let problem = format!(
+                "obstacle \"{}\" fills just the same place as obstacles[{twin}], \"{}\"",
+                spec.id, specs[twin].id
+            );
+            found.push(Found::error(&path, problem).hint("remove one of them, or move it"));
+            continue;
+        }
+        match Obstacle::build(spec, terrain, base_dir) {
+            Ok(obstacle) => {
+                for r in obstacle.remarks(spec, area, terrain) {
+                    let of = if r.wrong {
+                        Found::error
+                    } else {
+                        Found::warning
+                    };
+                    let at = if r.wrong {
+                        format!("{path}.shape")
+                    } else {
+                        path.clone()
+                    };
+                    found.push(of(at, r.problem).hint(r.hint));
+                }
+                built.push(obstacle);
+            }
+            Err(e @ WorldError::File { .. }) => {
+                found.push(
+                    Found::error(format!("{path}.shape.file"), e.to_string())
+                        .hint("paths are relative to the scenario file"),
+                );
+            }
+            Err(WorldError::Invalid { field, problem }) => {
+                found.push(Found::error(within(&path, "shape", &field), problem));
+            }
+        }
+    }
+    let built = Obstacles(built);
+    if !built.leave_water(area, terrain) {
+        found.push(
+            Found::error(
+                "obstacles",
+                "they fill the whole area: no open water was found in it",
+            )
+            .hint("make them smaller, or the area larger"),
+        );
+    }
+    built
+}
+
+/// That a list of obstacles' ids names such as there are.
+pub(super) fn known(
+    list: &str,
+    ids: &[String],
+    obstacles: &[ObstacleSpec],
+    found: &mut Vec<Found>,
+) {
+    for (k, id) in ids.iter().enumerate() {
+        if !obstacles.iter().any(|o| o.id == *id) {
+            let known: Vec<&str> = obstacles.iter().map(|o| o.id.as_str()).collect();
+            found.push(Found::error(
+                format!("{list}[{k}]"),
+                format!("the scenario has no obstacle \"{id}\"; it has {known:?}"),
+            ));
+        }
+    }
+}
+
+/// Whether the water can go round the obstacles.
+pub(super) fn blockage(
+    scenario: &Scenario,
+    area: &Area,
+    terrain: &Terrain,
+    obstacles: &Obstacles,
+    found: &mut Vec<Found>,
+) {
+    let Some(spec) = &scenario.water.blockage else {
+        return;
+    };
+    match spec.unfelt(area, terrain, obstacles, scenario.water.is_walled()) {
+        Ok(thin) => {
+            for o in thin.iter().filter_map(|n| obstacles.0.get(*n)) {
+                found.push(
+                    Found::warning(
+                        "water.blockage.cell_m",
+                        format!(
+                            "obstacle \"{}\" lies between the middles of the cells: the water does not feel it",
+                            o.id
+                        ),
+                    )
+                    .hint("take smaller cells"),
+                );
+            }
+        }
+        Err(PlumeError::Invalid { field, problem }) => {
+            found.push(Found::error(field, problem));
+            return;
+        }
+    }
+    let dry = cut_off(&scenario.sources, &scenario.water, area, terrain, obstacles);
+    for PlumeError::Invalid { field, problem } in dry.into_iter().flatten() {
+        found.push(Found::error(field, problem));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check;
+    use super::super::load::parse;
+    use super::*;
+
+    const CHANNEL: &str = include_str!("../../../catalog/uniform_channel.ron");
+
+    /// What is said of the channel with these obstacles and this blockage.
+    fn said(obstacles: &str, blockage: &str) -> Vec<String> {
+        let text = CHANNEL
+            .replace(
+                "    sources: [",
+                &format!("    obstacles: [{obstacles}],\n    sources: ["),
+            )
+            .replace("    water: (", &format!("    water: ({blockage}"));
+        let scenario = parse("channel", &text).expect("a readable scenario");
+        let found = check(&scenario, Path::new("/nowhere"));
+        found
+            .iter()
+            .map(|f| format!("{}: {}", f.path, f.message))
+            .collect()
+    }
+
+    const PILE: &str = "shape: Cylinder(radius_m: 0.2, height_m: 9), east_m: 0, north_m: 0.3";
+
+    #[test]
+    fn piles_under_a_quay_may_overlap_it() {
+        let quay = "(id: \"quay\", shape: Box(size_m: (20, 20, 2)), east_m: 0, north_m: 0, base: Depth(3))";
+        let pile = format!("(id: \"pile\", {PILE})");
+        assert_eq!(said(&format!("{quay}, {pile}"), ""), Vec::<String>::new());
+    }
+
+    #[test]
+    fn a_copy_is_refused() {
+        assert_eq!(
+            said(&format!("(id: \"a\", {PILE}), (id: \"b\", {PILE})"), ""),
+            ["obstacles[1]: obstacle \"b\" fills just the same place as obstacles[0], \"a\""]
+        );
+    }
+
+    #[test]
+    fn a_thin_pile_is_not_felt_by_coarse_cells() {
+        let pile = format!("(id: \"pile\", {PILE})");
+        assert_eq!(
+            said(&pile, "blockage: (cell_m: 4),"),
+            [
+                "water.blockage.cell_m: obstacle \"pile\" lies between the middles of the cells: the water does not feel it"
+            ]
+        );
+        assert_eq!(said(&pile, "blockage: (cell_m: 0.001),").len(), 1);
+    }
+
+    /// The source of the channel stands where a caisson's cell reaches beyond it.
+    #[test]
+    fn a_source_that_no_water_comes_by_is_refused() {
+        let source = parse("channel", CHANNEL).unwrap().sources[0].clone();
+        let (east, north) = (source.east_m.get(), source.north_m.get());
+        let caisson = |away: f64| {
+            format!(
+                "(id: \"caisson\", shape: Box(size_m: (6, 6, 20)), east_m: {}, north_m: {north})",
+                east + 3.0 + away
+            )
+        };
+        let said = |away: f64| said(&caisson(away), "blockage: (cell_m: 5),");
+        let shut = (1..40)
+            .map(|k| said(0.1 * f64::from(k)))
+            .find(|s| !s.is_empty());
+        let shut = shut.expect("some cell reaches beyond the caisson");
+        assert!(
+            shut[0].starts_with("sources[0]: source \"") && shut[0].contains("no water comes by"),
+            "{shut:?}"
+        );
+        assert_eq!(said(9.0), Vec::<String>::new());
+    }
+
+    #[test]
+    fn an_area_without_water_is_refused() {
+        let land = "(id: \"land\", shape: Box(size_m: (900, 900, 20)), east_m: 0, north_m: 0)";
+        let said = said(land, "blockage: (),");
+        assert_eq!(
+            said[0],
+            "obstacles: they fill the whole area: no open water was found in it"
+        );
+        assert!(
+            said[1].starts_with("water.blockage: no water that could flow is left"),
+            "{}",
+            said[1]
+        );
+    }
+
+    #[test]
+    fn a_missing_field_of_heights_is_named() {
+        let reef = "(id: \"reef\", shape: Heightfield(file: \"reef.asc\"), east_m: 0, north_m: 0)";
+        let said = said(reef, "");
+        assert!(
+            said[0].starts_with("obstacles[0].shape.file: /nowhere/reef.asc: No such file"),
+            "{said:?}"
+        );
+    }
+}

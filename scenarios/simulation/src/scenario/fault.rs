@@ -1,0 +1,214 @@
+//! What can be wrong with a scenario, shown with file, line, column and the text around it.
+
+use super::outline::Outline;
+use std::ops::Range;
+
+/// Longest line shown, bytes.
+const LONG: usize = 400;
+
+/// Whether something stops a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// It may be meant, but probably is not.
+    Warning,
+    /// It stops a run.
+    Error,
+}
+
+/// A scenario cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum ScenarioError {
+    /// The file itself.
+    #[error("{path}: {problem}")]
+    File {
+        /// The file as it was asked for.
+        path: String,
+        /// What is wrong.
+        problem: String,
+        /// What would be right.
+        help: Option<String>,
+    },
+    /// One place in its text.
+    #[error(transparent)]
+    Text(#[from] Box<Fault>),
+    /// Several places in its text.
+    #[error("{path}: {} mistakes", faults.len())]
+    Many {
+        /// The file as it was asked for.
+        path: String,
+        /// Each of them.
+        faults: Vec<Fault>,
+    },
+}
+
+impl ScenarioError {
+    /// Some mistakes of one text, at least one; in the text's order.
+    #[must_use]
+    pub fn of(path: &str, mut faults: Vec<Fault>) -> Self {
+        faults.sort_by_key(|f| (f.line, f.column));
+        match faults.len() {
+            1 => Box::new(faults.remove(0)).into(),
+            _ => Self::Many {
+                path: path.to_string(),
+                faults,
+            },
+        }
+    }
+
+    /// One line for each mistake, `file:line:column: field: what is wrong`, for logs and tables.
+    #[must_use]
+    pub fn lines(&self) -> Vec<String> {
+        match self {
+            ScenarioError::File { .. } => vec![self.to_string()],
+            ScenarioError::Text(fault) => vec![fault.line()],
+            ScenarioError::Many { faults, .. } => faults.iter().map(Fault::line).collect(),
+        }
+    }
+}
+
+/// One mistake at one place of a scenario's text.
+#[derive(Debug, thiserror::Error)]
+#[error("{}", headline(path, message))]
+pub struct Fault {
+    /// Path of the field, such as `robots[1].start`; empty for the whole.
+    pub path: String,
+    /// What is wrong: the value and the legal range.
+    pub message: String,
+    /// How to put it right.
+    pub help: Option<String>,
+    /// Whether it stops a run.
+    pub severity: Severity,
+    /// Line, from 1.
+    pub line: usize,
+    /// Column in characters, from 1.
+    pub column: usize,
+    /// What stands beside the marked text.
+    pub label: &'static str,
+    /// The file as it was asked for.
+    pub source_name: String,
+    /// The file's text, if the lines round the fault can be shown.
+    pub text: Option<String>,
+    /// Where in the text, bytes.
+    pub span: Range<usize>,
+}
+
+impl Fault {
+    pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
+        let before = &text[..span.start];
+        // An empty span shows nothing; a long one hides what matters.
+        let line_end = text[span.start..]
+            .find('\n')
+            .map_or(text.len(), |i| span.start + i);
+        let end = span.end.min(line_end).max(span.start);
+        let line = 1 + before.matches('\n').count();
+        let column = 1 + before.chars().rev().take_while(|&c| c != '\n').count();
+        // A line too long to look at is only named.
+        let shown = text
+            .lines()
+            .skip(line.saturating_sub(2))
+            .take(3)
+            .all(|l| l.len() <= LONG);
+        let message = if shown {
+            found.message
+        } else {
+            format!("{} ({name}, line {line}, column {column})", found.message)
+        };
+        Self {
+            path: found.path,
+            message,
+            help: found.help,
+            severity: found.severity,
+            line,
+            column,
+            label: found.label,
+            source_name: name.to_string(),
+            text: shown.then(|| text.to_string()),
+            span: span.start..end,
+        }
+    }
+
+    /// The fault at the place of its path.
+    #[must_use]
+    pub fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
+        let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
+        Self::new(name, text, span, found)
+    }
+
+    /// On one line: `file:line:column: field: what is wrong`.
+    #[must_use]
+    pub fn line(&self) -> String {
+        format!("{}:{}:{}: {self}", self.source_name, self.line, self.column)
+    }
+}
+
+/// A mistake before its place is known.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Found {
+    /// Path of the field, such as `robots[1].start`; empty for the whole.
+    pub path: String,
+    /// What is wrong: the value and the legal range.
+    pub message: String,
+    /// How to put it right.
+    pub help: Option<String>,
+    /// Whether it stops a run.
+    pub severity: Severity,
+    label: &'static str,
+}
+
+impl Found {
+    /// A mistake that stops a run.
+    #[must_use]
+    pub fn error(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            path: path.into(),
+            message: message.into(),
+            help: None,
+            severity: Severity::Error,
+            label: "here",
+        }
+    }
+
+    /// Something that may be meant, but probably is not.
+    #[must_use]
+    pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Warning,
+            ..Self::error(path, message)
+        }
+    }
+
+    /// How to put it right.
+    #[must_use]
+    pub fn hint(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// The same of another path.
+    #[must_use]
+    pub(super) fn of(mut self, path: &str) -> Self {
+        self.path = path.to_string();
+        self
+    }
+
+    /// What stands beside the marked text.
+    #[must_use]
+    pub(super) fn label(mut self, label: &'static str) -> Self {
+        self.label = label;
+        self
+    }
+}
+
+impl std::fmt::Display for Found {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&headline(&self.path, &self.message))
+    }
+}
+
+fn headline(path: &str, message: &str) -> String {
+    if path.is_empty() {
+        message.to_string()
+    } else {
+        format!("{path}: {message}")
+    }
+}

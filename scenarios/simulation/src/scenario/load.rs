@@ -1,0 +1,206 @@
+//! Reading a scenario file.
+
+use super::catalog;
+use super::check::check;
+use super::fault::Severity;
+use super::fault::{Fault, Found, ScenarioError};
+use super::outline::Outline;
+use super::reader;
+use super::schema::{Scenario, VERSION};
+use std::io::{ErrorKind, Read};
+use std::path::{Path, PathBuf};
+use world::digest::Digest;
+use world::files;
+
+/// Longest file read, bytes: a scenario is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A scenario with the text it was read from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// What the file says.
+    pub scenario: Scenario,
+    /// The file, word for word.
+    pub text: String,
+    /// The file, as it was asked for.
+    pub path: PathBuf,
+    /// Name: the file's without its ending.
+    pub name: String,
+    /// Folder that paths in the scenario are relative to.
+    pub base_dir: PathBuf,
+    /// Hash of the text, 32 hexadecimal digits.
+    pub hash: String,
+}
+
+impl Loaded {
+    /// Checks what the scenario means: see [`check`].
+    ///
+    /// # Errors
+    /// All mistakes that stop a run; without such, returns the warnings.
+    pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
+        let found = check(&self.scenario, &self.base_dir);
+        let outline = Outline::of(&self.text);
+        let path = self.path.display().to_string();
+        let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) = found
+            .into_iter()
+            .map(|f| Fault::located(&path, &self.text, &outline, f))
+            .partition(|f| f.severity == Severity::Error);
+        if faults.is_empty() {
+            warnings.sort_by_key(|f| (f.line, f.column));
+            Ok(warnings)
+        } else {
+            Err(ScenarioError::of(&path, faults))
+        }
+    }
+}
+
+/// Reads a scenario: a file or, where there is none, the one of that name that comes with the program.
+///
+/// # Errors
+/// If it cannot be read or is not a scenario: all its mistakes, those of meaning too. What a scenario means that can
+/// be read is checked by [`Loaded::check`].
+pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
+    let shown = path.display().to_string();
+    let name = path
+        .file_stem()
+        .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let mut base_dir = path.parent().unwrap_or(Path::new("")).to_path_buf();
+    let text = match (read(path), catalog::template(&shown)) {
+        (Err(Unread::Missing), Some(template)) => {
+            base_dir = template.unpack().map_err(|e| ScenarioError::File {
+                path: shown.clone(),
+                problem: format!("the files it names cannot be unpacked: {e}"),
+                help: Some("they go to the folder for temporary files".to_string()),
+            })?;
+            template.text.to_string()
+        }
+        (Err(Unread::Missing), None) => {
+            return Err(ScenarioError::File {
+                path: shown,
+                problem: "there is no such file".to_string(),
+                help: Some(
+                    "`rheotaxis list scenarios` names those that come with the program, \
+                     `rheotaxis init NAME` writes one to change"
+                        .to_string(),
+                ),
+            });
+        }
+        (Err(Unread::Other(problem, help)), _) => {
+            return Err(ScenarioError::File {
+                path: shown,
+                problem,
+                help: help.map(str::to_string),
+            });
+        }
+        (Ok(text), _) => text,
+    };
+    let mut digest = Digest::default();
+    digest.text(&text);
+    Ok(Loaded {
+        scenario: read_whole(&shown, &text, &|s| check(s, &base_dir))?,
+        name,
+        base_dir,
+        path: path.to_path_buf(),
+        hash: digest.hex(),
+        text,
+    })
+}
+
+/// Reads a scenario from its text; errors call it `name`.
+///
+/// # Errors
+/// If it is not a scenario: all mistakes of form.
+pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
+    read_whole(name, text, &|_| Vec::new())
+}
+
+/// Reads a scenario; of one with mistakes of form also those of `meaning` are told that do not follow from them.
+fn read_whole(
+    name: &str,
+    text: &str,
+    meaning: &dyn Fn(&Scenario) -> Vec<Found>,
+) -> Result<Scenario, ScenarioError> {
+    let outline = Outline::of(text);
+    if outline.nodes.is_empty() {
+        return Err(ScenarioError::File {
+            path: name.to_string(),
+            problem: "the file is empty, or holds only comments".to_string(),
+            help: Some(
+                "`rheotaxis init duck_st` writes a whole scenario to start from".to_string(),
+            ),
+        });
+    }
+    if outline.open.is_empty() {
+        version_first(name, text, &outline)?;
+    }
+    reader::read(name, text, meaning)
+}
+
+/// A file of another version may differ in everything else: say that first.
+fn version_first(name: &str, text: &str, outline: &Outline) -> Result<(), ScenarioError> {
+    let first = outline
+        .nodes
+        .iter()
+        .filter(|n| !n.path.is_empty() && !n.path.contains(['.', '[']))
+        .min_by_key(|n| n.whole.start);
+    let Some(first) = first else {
+        return Ok(());
+    };
+    let value = &text[first.value.clone()];
+    let found = if first.path != "version" {
+        Found::error(
+            "version",
+            format!("the first field must be `version: {VERSION}`"),
+        )
+        .hint(format!("the file begins with `{}`", first.path))
+    } else if value.parse() == Ok(VERSION) {
+        return Ok(());
+    } else {
+        Found::error(
+            "version",
+            format!("this program reads version {VERSION}, got {value}"),
+        )
+        .hint("take the program that wrote the file, or start anew from `rheotaxis init`")
+    };
+    Err(Box::new(Fault::new(name, text, first.whole.clone(), found)).into())
+}
+
+enum Unread {
+    Missing,
+    Other(String, Option<&'static str>),
+}
+
+fn read(path: &Path) -> Result<String, Unread> {
+    let other = |e: std::io::Error| match e.kind() {
+        ErrorKind::NotFound => Unread::Missing,
+        ErrorKind::PermissionDenied => Unread::Other("may not be read".to_string(), None),
+        _ => Unread::Other(format!("cannot be read: {e}"), None),
+    };
+    if path.is_dir() {
+        return Err(Unread::Other(
+            "is a folder".to_string(),
+            Some("name the scenario files in it"),
+        ));
+    }
+    let mut bytes = Vec::new();
+    files::open(path)
+        .and_then(|f| f.take(LONGEST + 1).read_to_end(&mut bytes))
+        .map_err(other)?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(Unread::Other(
+            format!("is longer than {} MiB", LONGEST >> 20),
+            Some("a scenario is text of a few kilobytes; is this the right file?"),
+        ));
+    }
+    // Some editors begin a file with a mark of its encoding.
+    let marked = bytes.starts_with("\u{feff}".as_bytes());
+    let text = bytes.split_off(if marked { 3 } else { 0 });
+    String::from_utf8(text).map_err(|e| {
+        let good = e.utf8_error().valid_up_to();
+        let line = 1 + e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count();
+        Unread::Other(
+            format!("is not UTF-8 text: line {line}, byte {good}"),
+            Some("save it as UTF-8"),
+        )
+    })
+}

@@ -1,5 +1,0 @@
-//! The command `rheotaxis`; everything it does is in the library.
-
-fn main() -> std::process::ExitCode {
-    rheotaxis::cli::main()
-}

@@ -1,0 +1,83 @@
+//! What can go wrong with a campaign as a whole; what goes wrong in a run is a row.
+
+use rheotaxis::scenario::ScenarioError;
+use std::path::PathBuf;
+use world::files::OutputError;
+
+/// A campaign cannot be planned, run or read.
+#[derive(Debug, thiserror::Error)]
+pub enum CampaignError {
+    /// The campaign's file, its base scenario, or what an arm makes of it.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// The path of an override leads nowhere in the scenario.
+    #[error("{variant}: `{path}`: {problem}")]
+    Override {
+        /// Campaign, arm and condition.
+        variant: String,
+        /// The path given.
+        path: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The folder holds another campaign.
+    #[error("{} holds runs of another campaign: {}", dir.display(), what.join("; "))]
+    Differs {
+        /// The folder.
+        dir: PathBuf,
+        /// What differs, each with both values.
+        what: Vec<String>,
+    },
+    /// The folder holds no campaign.
+    #[error("{} holds no campaign: {problem}", dir.display())]
+    NoCampaign {
+        /// The folder.
+        dir: PathBuf,
+        /// Why.
+        problem: String,
+    },
+    /// A file or folder cannot be written: not writable, disk full.
+    #[error("cannot write {}: {problem}", path.display())]
+    Write {
+        /// Which.
+        path: PathBuf,
+        /// What the system said.
+        problem: String,
+    },
+    /// A file cannot be read.
+    #[error("cannot read {}: {problem}", path.display())]
+    Read {
+        /// Which.
+        path: PathBuf,
+        /// What the system said.
+        problem: String,
+    },
+    /// A block that is not whole.
+    #[error("{} is not whole: {problem}", path.display())]
+    Broken {
+        /// The file.
+        path: PathBuf,
+        /// How it was found out.
+        problem: String,
+    },
+    /// Which share of the work this process has cannot be told.
+    #[error("{0}")]
+    Shard(String),
+    /// The campaign has no such run.
+    #[error("there is no run {run}: the campaign has {runs}, counted from 0")]
+    NoRun {
+        /// Asked for.
+        run: u64,
+        /// How many there are.
+        runs: u64,
+    },
+}
+
+impl From<OutputError> for CampaignError {
+    fn from(error: OutputError) -> Self {
+        CampaignError::Write {
+            path: error.path,
+            problem: error.source.to_string(),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Reading a campaign file.
+
+use super::error::CampaignError;
+use super::plan::Campaign;
+use super::spec::CampaignSpec;
+use rheotaxis::scenario::{ScenarioError, Template, load as load_scenario};
+use std::io::ErrorKind;
+use std::path::Path;
+use world::files;
+
+/// Longest file read, bytes: a campaign is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
+
+macro_rules! catalog {
+    ($($name:literal),* $(,)?) => {
+        &[$(Template {
+            name: $name,
+            text: include_str!(concat!("../../../catalog/campaigns/", $name, ".ron")),
+            files: &[],
+        }),*]
+    };
+}
+
+/// The campaigns that come with the program.
+pub const CAMPAIGNS: &[Template] = catalog![
+    "duck_beta",
+    "uniform_beta",
+    "crab_units",
+    "wp_maps",
+    "moth_plus"
+];
+
+/// Reads a campaign: a file or, where there is none, the one of that name that comes with the program.
+///
+/// # Errors
+/// If it or its base scenario cannot be read. What the arms make of it [`Campaign::check`] checks.
+pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
+    let shown = path.display().to_string();
+    let refused = |problem: String, help: Option<String>| {
+        let path = shown.clone();
+        CampaignError::from(ScenarioError::File {
+            path,
+            problem,
+            help,
+        })
+    };
+    let text = match files::read_text(path, LONGEST) {
+        Ok(text) => text,
+        Err(e) if e.kind() == ErrorKind::NotFound => {
+            let template = CAMPAIGNS.iter().find(|t| t.name == shown);
+            let names: Vec<&str> = CAMPAIGNS.iter().map(|t| t.name).collect();
+            template.map(|t| t.text.to_string()).ok_or_else(|| {
+                let known = format!("campaigns that come with the program: {}", names.join(", "));
+                refused("there is no such file".to_string(), Some(known))
+            })?
+        }
+        Err(e) => return Err(refused(format!("cannot be read: {e}"), None)),
+    };
+    let name = path
+        .file_stem()
+        .map_or_else(|| shown.clone(), |s| s.to_string_lossy().into_owned());
+    let spec = CampaignSpec::parse(&shown, &text)?;
+    let beside = path.parent().unwrap_or(Path::new("")).join(&spec.base);
+    let base = if beside.is_file() {
+        load_scenario(&beside)?
+    } else {
+        load_scenario(Path::new(&spec.base))?
+    };
+    Campaign::new(&shown, &name, &text, base)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_campaign_reads_and_checks() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../catalog/campaigns");
+        assert_eq!(std::fs::read_dir(folder).unwrap().count(), CAMPAIGNS.len());
+        for template in CAMPAIGNS {
+            let campaign = load(Path::new(template.name)).unwrap();
+            campaign.check().unwrap();
+            assert!(campaign.n_arms() > 1);
+        }
+    }
+
+    #[test]
+    fn a_missing_file_is_said_with_what_there_is() {
+        let said = load(Path::new("nowhere.ron")).unwrap_err().to_string();
+        assert_eq!(said, "nowhere.ron: there is no such file");
+    }
+}

@@ -1,0 +1,306 @@
+//! `campaign.json`: what the blocks of a folder were made from, so that they are never mixed.
+
+use super::error::CampaignError;
+use super::plan::{Campaign, hash};
+use super::seeds::MOST;
+use rheotaxis::scenario::{Loaded, parse};
+use serde::{Deserialize, Serialize};
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+use world::files::{self, write_new, write_on_disk};
+
+/// Its name in the folder.
+pub(super) const FILE: &str = "campaign.json";
+/// Longest one read, bytes: it holds two texts of at most a megabyte each, escaped.
+const LONGEST: u64 = 16 << 20;
+
+/// What `campaign.json` says.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    /// Name of the campaign.
+    pub name: String,
+    /// Version of the program that runs it.
+    pub version: String,
+    /// Hash of the campaign's text.
+    pub campaign_hash: String,
+    /// Hash of the base scenario's text.
+    pub scenario_hash: String,
+    /// Runs in a block.
+    pub block: u64,
+    /// Runs in all.
+    pub runs: u64,
+    /// The runs' seeds, for people; what counts is the campaign's text.
+    #[serde(default)]
+    pub seeds: String,
+    /// Whether every block has its seal: those of older programs had none.
+    #[serde(default)]
+    pub(super) sealed: bool,
+    /// Name of the base scenario.
+    pub scenario_name: String,
+    /// Folder that paths in the scenario are relative to.
+    pub base_dir: PathBuf,
+    /// The campaign's text.
+    pub campaign_text: String,
+    /// The base scenario's text.
+    pub scenario_text: String,
+}
+
+impl Manifest {
+    /// Of a campaign run by this program in blocks of that many runs.
+    #[must_use]
+    pub fn new(campaign: &Campaign, block: u64) -> Self {
+        let base = &campaign.base;
+        Self {
+            name: campaign.name.clone(),
+            version: env!("CARGO_PKG_VERSION").to_string(),
+            campaign_hash: campaign.hash.clone(),
+            scenario_hash: base.hash.clone(),
+            block,
+            runs: campaign.n_runs(),
+            seeds: campaign.spec.seeds.words(),
+            sealed: true,
+            scenario_name: base.name.clone(),
+            base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
+            campaign_text: campaign.text.clone(),
+            scenario_text: base.text.clone(),
+        }
+    }
+
+    /// Number of blocks.
+    #[must_use]
+    pub fn n_blocks(&self) -> u64 {
+        self.runs.div_ceil(self.block)
+    }
+
+    /// The runs of a block.
+    #[must_use]
+    pub fn runs_of(&self, block: u64) -> std::ops::Range<u64> {
+        let first = block * self.block;
+        first..(first + self.block).min(self.runs)
+    }
+
+    /// Reads a folder's; `None` where there is none yet.
+    ///
+    /// # Errors
+    /// If it cannot be read, or a number in it is none that this program writes.
+    pub fn find(dir: &Path) -> Result<Option<Self>, CampaignError> {
+        let path = dir.join(FILE);
+        let text = match files::read_text(&path, LONGEST) {
+            Ok(text) => text,
+            Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+            Err(e) => {
+                let problem = e.to_string();
+                return Err(CampaignError::Read { path, problem });
+            }
+        };
+        let unlike = |problem: String| CampaignError::Read {
+            path: path.clone(),
+            problem,
+        };
+        let read: Self = serde_json::from_str(&text)
+            .map_err(|e| unlike(format!("it is not what this program writes: {e}")))?;
+        for (field, value) in [("block", read.block), ("runs", read.runs)] {
+            if !(1..=MOST).contains(&value) {
+                let problem = format!("{field}: must be from 1 to {MOST}, got {value}");
+                return Err(unlike(problem));
+            }
+        }
+        Ok(Some(read))
+    }
+
+    /// Reads a folder's, which must be there.
+    ///
+    /// # Errors
+    /// If there is none, or it cannot be read.
+    pub fn of(dir: &Path) -> Result<Self, CampaignError> {
+        Self::find(dir)?.ok_or_else(|| CampaignError::NoCampaign {
+            dir: dir.to_owned(),
+            problem: format!("there is no {FILE} in it"),
+        })
+    }
+
+    /// The campaign it tells of.
+    ///
+    /// # Errors
+    /// If this program does not read its texts, or its hashes and numbers are not theirs.
+    pub fn campaign(&self) -> Result<Campaign, CampaignError> {
+        let unlike = |problem: String| CampaignError::Read {
+            path: PathBuf::from(FILE),
+            problem,
+        };
+        for (what, text, said) in [
+            ("campaign", &self.campaign_text, &self.campaign_hash),
+            ("scenario", &self.scenario_text, &self.scenario_hash),
+        ] {
+            let is = hash(text);
+            if is != *said {
+                let problem = format!(
+                    "{what}_text: its hash is {is}, {what}_hash says {said}: one was changed"
+                );
+                return Err(unlike(problem));
+            }
+        }
+        let base = Loaded {
+            scenario: parse(&self.scenario_name, &self.scenario_text)?,
+            text: self.scenario_text.clone(),
+            path: PathBuf::from(&self.scenario_name),
+            name: self.scenario_name.clone(),
+            base_dir: self.base_dir.clone(),
+            hash: self.scenario_hash.clone(),
+        };
+        let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
+        let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
+        if self.runs != runs {
+            let problem = format!("runs: must be the campaign's {runs}, got {}", self.runs);
+            return Err(unlike(problem));
+        }
+        if !self.block.is_multiple_of(arms) {
+            let problem = format!(
+                "block: must be a multiple of the campaign's {arms} arms, got {}",
+                self.block
+            );
+            return Err(unlike(problem));
+        }
+        Ok(campaign)
+    }
+
+    /// What differs from another, in words: nothing if blocks of both may lie in one folder.
+    #[must_use]
+    pub fn differences(&self, ours: &Self) -> Vec<String> {
+        let pairs = [
+            ("scenario", &self.scenario_hash, &ours.scenario_hash),
+            ("campaign", &self.campaign_hash, &ours.campaign_hash),
+            ("version", &self.version, &ours.version),
+            (
+                "block size",
+                &self.block.to_string(),
+                &ours.block.to_string(),
+            ),
+        ];
+        (pairs.iter())
+            .filter(|(_, there, here)| there != here)
+            .map(|(what, there, here)| format!("{what} {there} there, {here} here"))
+            .collect()
+    }
+
+    /// Writes it into the folder, whole or not at all, in the place of what is there.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub(super) fn write(&self, dir: &Path) -> Result<(), CampaignError> {
+        write_on_disk(&dir.join(FILE), self.text().as_bytes())?;
+        Ok(())
+    }
+
+    /// Writes it into the folder unless there is one: the first of several processes says how long blocks are, unless
+    /// that was `asked` for. Gives back what the folder has then.
+    ///
+    /// # Errors
+    /// If it cannot be written or read, or if there is another campaign's.
+    pub(super) fn write_first(&self, dir: &Path, asked: bool) -> Result<Self, CampaignError> {
+        match write_new(&dir.join(FILE), self.text().as_bytes()) {
+            Err(e) if e.source.kind() != ErrorKind::AlreadyExists => return Err(e.into()),
+            _ => {}
+        }
+        let there = Self::of(dir)?;
+        let block = if asked { self.block } else { there.block };
+        let what = there.differences(&Self {
+            block,
+            ..self.clone()
+        });
+        if what.is_empty() {
+            return Ok(there);
+        }
+        let dir = dir.to_owned();
+        Err(CampaignError::Differs { dir, what })
+    }
+
+    fn text(&self) -> String {
+        let mut text = serde_json::to_string_pretty(self).expect("plain data becomes JSON");
+        text.push('\n');
+        text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::load;
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn the_first_of_several_processes_says_how_long_blocks_are() {
+        let campaign = load(Path::new("uniform_beta")).unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let write = |block, asked| Manifest::new(&campaign, block).write_first(dir.path(), asked);
+        let (first, second) = (write(4, false).unwrap(), write(8, false).unwrap());
+        let said = write(8, true).unwrap_err().to_string();
+        assert!(said.contains("block size 4 there, 8 here"), "{said}");
+        assert_eq!((first.block, second.block), (4, 4));
+        assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
+        assert_eq!(first.seeds, "seeds 1 to 10");
+        assert_eq!(
+            Manifest::of(dir.path())
+                .unwrap()
+                .campaign()
+                .unwrap()
+                .n_runs(),
+            40
+        );
+    }
+
+    #[test]
+    fn absurd_numbers_are_errors_with_field_and_legal_range() {
+        let campaign = load(Path::new("uniform_beta")).unwrap();
+        let dir = tempfile::tempdir().unwrap();
+        let good = serde_json::to_value(Manifest::new(&campaign, 4)).unwrap();
+        let said = |field: &str, value: serde_json::Value| -> String {
+            let mut odd = good.clone();
+            odd[field] = value;
+            fs::write(dir.path().join(FILE), odd.to_string()).unwrap();
+            let read = Manifest::of(dir.path()).and_then(|m| m.campaign().map(drop));
+            read.unwrap_err().to_string()
+        };
+        for (field, value, says) in [
+            (
+                "block",
+                0.into(),
+                "block: must be from 1 to 1099511627776, got 0",
+            ),
+            (
+                "block",
+                3.into(),
+                "block: must be a multiple of the campaign's 2 arms, got 3",
+            ),
+            ("block", (1_u64 << 63).into(), "got 9223372036854775808"),
+            ("block", (-4).into(), "-4"),
+            (
+                "runs",
+                0.into(),
+                "runs: must be from 1 to 1099511627776, got 0",
+            ),
+            (
+                "runs",
+                (1_u64 << 63).into(),
+                "runs: must be from 1 to 1099511627776, got 9223372036854775808",
+            ),
+            ("runs", 41.into(), "runs: must be the campaign's 40, got 41"),
+            (
+                "campaign_text",
+                "(version: 2)".into(),
+                "campaign_text: its hash is",
+            ),
+            ("scenario_hash", "00".into(), "scenario_hash says 00"),
+        ] {
+            let said = said(field, value);
+            assert!(said.contains(says), "{field}: {said}");
+        }
+        // Of an older program: without what it did not know.
+        let mut old = good.clone();
+        for field in ["seeds", "sealed"] {
+            old.as_object_mut().unwrap().remove(field);
+        }
+        fs::write(dir.path().join(FILE), old.to_string()).unwrap();
+        assert!(!Manifest::of(dir.path()).unwrap().sealed);
+    }
+}

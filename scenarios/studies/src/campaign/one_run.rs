@@ -1,0 +1,266 @@
+//! One run of a campaign, whatever becomes of it: a row.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "wall times are columns of the table; nothing of them enters the run"
+)]
+
+use super::contained::contained;
+use super::row::{DeclaredAt, RunRow};
+use output::results::{
+    DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth,
+    Summary, SummaryBuilder, Totals,
+};
+use rheotaxis::frame::Frame;
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::Loaded;
+use rheotaxis::spun_up::SpunUp;
+use rheotaxis::system::Dye;
+use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
+use robots::handoff::Verdict;
+use std::time::Instant;
+
+/// What names a run in the table.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RunName {
+    /// Index of the run in the campaign.
+    pub run: u64,
+    /// Name of the arm.
+    pub arm: String,
+    /// Name of the condition.
+    pub condition: String,
+    /// Which of the seeds.
+    pub seed_index: u64,
+    /// The seed itself.
+    pub seed: u64,
+}
+
+/// Makes the run. A run that fails or panics is a row too, with its error.
+#[must_use]
+pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
+    guarded(name, || attempt(loaded, name, None))
+}
+
+/// Makes the run, taking over a spin-up of `spun` that fits or leaving its own there.
+pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
+    guarded(name, || attempt(loaded, name, Some(spun)))
+}
+
+fn attempt(
+    loaded: &Loaded,
+    name: &RunName,
+    spun: Option<&mut Vec<SpunUp>>,
+) -> Result<RunRow, String> {
+    let begun = Instant::now();
+    let mut trial = Trial::assemble(loaded, name.seed).map_err(|e| e.to_string())?;
+    let mut taken = false;
+    let mut mission_begun = begun;
+    if let Some(spun) = spun {
+        taken = spun.iter().any(|s| trial.take_over(s).is_ok());
+        if !taken {
+            spun.extend(trial.spin_up(&mut Unwatched));
+        }
+        mission_begun = Instant::now();
+    }
+    let mut gatherer = Gatherer {
+        builder: SummaryBuilder::new(&RunInfo {
+            scenario_name: loaded.name.clone(),
+            title: loaded.scenario.title.clone(),
+            success: loaded.scenario.success.words(),
+            scenario_text: String::new(),
+            seed: name.seed,
+            version: env!("CARGO_PKG_VERSION").to_string(),
+        }),
+        mission_begun,
+    };
+    let ended = trial.run(&mut gatherer);
+    let spin_up_wall = gatherer.mission_begun - begun;
+    let end = RunEnd {
+        outcome: ended.outcome,
+        error: None,
+        digest: ended.digest.clone(),
+        totals: Totals {
+            mission_s: ended.t_s,
+            mission_wall_s: gatherer.mission_begun.elapsed().as_secs_f64(),
+            spin_up_wall_s: if taken {
+                0.0
+            } else {
+                spin_up_wall.as_secs_f64()
+            },
+            ..Totals::default()
+        },
+    };
+    let summary = gatherer.builder.finish(end, &sources(&trial, &ended));
+    let within_m = loaded.scenario.success.declared_within_m();
+    Ok(row(name, &summary, within_m))
+}
+
+/// Makes a row of `run`, or of the error it returns, or of its panic.
+pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
+    match contained(run) {
+        Ok(Ok(row)) => row,
+        Ok(Err(error)) => failed(name, error),
+        Err(said) => failed(name, format!("panicked: {said}")),
+    }
+}
+
+struct Gatherer {
+    builder: SummaryBuilder,
+    mission_begun: Instant,
+}
+
+impl Watch for Gatherer {
+    fn spun_up(&mut self, _share: f64) -> bool {
+        self.mission_begun = Instant::now();
+        true
+    }
+    fn frame(&mut self, frame: &Frame) {
+        self.builder.observe(frame);
+    }
+}
+
+fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
+    let plume = &trial.simulation.world.resource::<Dye>().plume;
+    (plume.sources().iter().zip(&ended.flow_at_sources))
+        .map(|(s, flow)| SourceTruth {
+            id: s.id.clone(),
+            position: s.p_W,
+            flow: flow.xy(),
+        })
+        .collect()
+}
+
+fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
+    let by_robots = summary.robots.iter().flat_map(|r| {
+        let of_first = std::iter::once(r.traced_m).chain(std::iter::repeat(None));
+        r.declarations.iter().zip(of_first)
+    });
+    let by_gantries =
+        (summary.gantries.iter()).filter_map(|g| Some((g.declaration.as_ref()?, None)));
+    let mut all: Vec<(&DeclarationSummary, Option<f64>)> = by_robots.chain(by_gantries).collect();
+    all.sort_by(|a, b| a.0.t_s.total_cmp(&b.0.t_s));
+    let first = all.first().copied();
+    let declared = first.map(|(d, _)| d);
+    let declarations: Vec<DeclaredAt> = all.iter().map(|(d, _)| declared_at(d)).collect();
+    let near = |s: &&SourceSummary| {
+        within_m.is_some_and(|within_m| {
+            declarations.iter().any(|d| {
+                let (e, n) = (d.east_m - s.position.east_m, d.north_m - s.position.north_m);
+                d.verdict != Verdict::Rejected.name() && (e * e + n * n).sqrt() <= within_m
+            })
+        })
+    };
+    let sources_declared = summary.sources.iter().filter(near).count() as u64;
+    // Several gantries share a row only where nobody asks for the path of one.
+    let gantry = summary.gantries.first();
+    let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
+    let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) = (
+        paired(|g| g.speed_far_near_m_s),
+        paired(|g| g.offset_far_near_m),
+    );
+    let error = declared.and_then(|d| d.error.as_ref());
+    let evidence = declared.and_then(|d| d.evidence);
+    let RunSummary { totals, .. } = summary.run;
+    RunRow {
+        declarations,
+        sources_declared,
+        success: matches!(summary.outcome, RunOutcome::Found | RunOutcome::Completed),
+        outcome: outcome_name(summary.outcome),
+        digest: summary.digest.clone(),
+        mission_s: totals.mission_s,
+        first_detection_s: (summary.robots.iter().filter_map(|r| r.first_detection_s))
+            .chain(summary.gantries.iter().filter_map(|g| g.first_spike_s))
+            .min_by(f64::total_cmp),
+        declared_s: declared.map(|d| d.t_s),
+        declared_east_m: declared.map(|d| d.position.east_m),
+        declared_north_m: declared.map(|d| d.position.north_m),
+        error_m: error.map(|e| e.total_m),
+        error_along_m: error.and_then(|e| e.along_flow_m),
+        error_across_m: error.and_then(|e| e.across_flow_m),
+        zone_points: evidence.map(|e| f64::from(e.points)),
+        zone_since_s: evidence.map(|e| e.since_s),
+        traced_m: first.and_then(|(_, traced_m)| traced_m),
+        travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum::<f64>()
+            + summary.gantries.iter().map(|g| g.travelled_m).sum::<f64>(),
+        detections: summary.robots.iter().map(|r| r.detections).sum::<u64>()
+            + summary.gantries.iter().map(|g| g.spikes).sum::<u64>(),
+        sweep_s: gantry.and_then(|g| g.sweep_s),
+        speed_m_s: gantry.and_then(|g| g.speed_m_s),
+        ngdr: gantry.and_then(|g| g.ngdr),
+        far_speed_m_s,
+        near_speed_m_s,
+        far_offset_m,
+        near_offset_m,
+        correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s))
+            .min_by(f64::total_cmp),
+        spin_up_wall_s: totals.spin_up_wall_s,
+        mission_wall_s: totals.mission_wall_s,
+        error: None,
+        ..failed(name, String::new())
+    }
+}
+
+fn declared_at(d: &DeclarationSummary) -> DeclaredAt {
+    let error = d.error.as_ref();
+    DeclaredAt {
+        region: d.region,
+        rule: d.rule.clone(),
+        verdict: d.verdict.name().to_string(),
+        t_s: d.t_s,
+        east_m: d.position.east_m,
+        north_m: d.position.north_m,
+        error_m: error.map(|e| e.total_m),
+        error_along_m: error.and_then(|e| e.along_flow_m),
+        error_across_m: error.and_then(|e| e.across_flow_m),
+        traced_m: d.traced_m,
+        fix_m: d.fix_m,
+    }
+}
+
+/// A row of a run that came to nothing.
+fn failed(name: &RunName, error: String) -> RunRow {
+    RunRow {
+        run: name.run,
+        arm: name.arm.clone(),
+        condition: name.condition.clone(),
+        seed_index: name.seed_index,
+        seed: name.seed,
+        outcome: outcome_name(RunOutcome::Failed),
+        error: Some(error),
+        ..RunRow::default()
+    }
+}
+
+/// As in `summary.json`.
+fn outcome_name(outcome: RunOutcome) -> String {
+    match serde_json::to_value(outcome) {
+        Ok(serde_json::Value::String(name)) => name,
+        _ => unreachable!("an outcome becomes a word"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panicking_run_is_a_row_with_its_error() {
+        let name = RunName {
+            run: 4,
+            arm: "a".to_string(),
+            seed: 9,
+            ..RunName::default()
+        };
+        let row = guarded(&name, || panic!("the hull is {} m long", -1));
+        assert_eq!(
+            row.error.as_deref(),
+            Some("panicked: the hull is -1 m long")
+        );
+        assert_eq!((row.run, row.arm.as_str(), row.seed), (4, "a", 9));
+        assert_eq!(
+            (row.outcome.as_str(), row.success, row.digest.as_str()),
+            ("failed", false, "")
+        );
+        let row = guarded(&name, || Err("no such mesh".to_string()));
+        assert_eq!(row.error.as_deref(), Some("no such mesh"));
+    }
+}

@@ -1,0 +1,351 @@
+//! The runs of a campaign: which there are, with which seeds, from which scenario.
+
+use super::error::CampaignError;
+use super::overrides::put;
+use super::spec::{Arm, CampaignSpec, Conditions, Draw};
+use rayon::prelude::*;
+use rheotaxis::scenario::{Fault, Loaded, Outline, ScenarioError, parse};
+use std::path::PathBuf;
+use world::digest::Digest;
+use world::math;
+use world::seeds::Stream;
+
+/// A campaign, read and laid out.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// What its file says.
+    pub spec: CampaignSpec,
+    /// Name: the file's without its ending.
+    pub name: String,
+    /// What errors call it: the file as it was asked for.
+    pub shown: String,
+    /// The file, word for word.
+    pub text: String,
+    /// Hash of the text, 32 hexadecimal digits.
+    pub hash: String,
+    /// The scenario that arms and conditions change.
+    pub base: Loaded,
+}
+
+/// Where a run stands in its campaign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// Index of the run.
+    pub run: u64,
+    /// Index of its condition.
+    pub condition: u64,
+    /// Which of the seeds.
+    pub seed_index: u64,
+    /// Index of its arm.
+    pub arm: usize,
+    /// Its seed: the same for every arm (common random numbers), that of `rheotaxis run --seed`.
+    pub seed: u64,
+}
+
+impl Campaign {
+    /// From its parts, read already; errors call it `shown`.
+    ///
+    /// # Errors
+    /// If the text is not a campaign.
+    pub fn new(shown: &str, name: &str, text: &str, base: Loaded) -> Result<Self, CampaignError> {
+        Ok(Self {
+            spec: CampaignSpec::parse(shown, text)?,
+            name: name.to_string(),
+            shown: shown.to_string(),
+            text: text.to_string(),
+            hash: hash(text),
+            base,
+        })
+    }
+
+    /// What should be known of how the file was read: that its seeds are those of version 1.
+    #[must_use]
+    pub fn notes(&self) -> Vec<Fault> {
+        let located =
+            |found| Fault::located(&self.shown, &self.text, &Outline::of(&self.text), found);
+        self.spec.note().map(located).into_iter().collect()
+    }
+
+    /// Number of runs.
+    #[must_use]
+    pub fn n_runs(&self) -> u64 {
+        self.spec.n_conditions() * self.spec.seeds.count() * self.n_arms()
+    }
+
+    /// Number of arms.
+    #[must_use]
+    pub fn n_arms(&self) -> u64 {
+        self.spec.arms.len() as u64
+    }
+
+    /// Arms under each condition.
+    #[must_use]
+    pub fn n_cells(&self) -> u64 {
+        self.spec.n_conditions() * self.n_arms()
+    }
+
+    /// The arm of that index.
+    #[must_use]
+    pub fn arm(&self, arm: usize) -> &Arm {
+        &self.spec.arms[arm]
+    }
+
+    /// Where a run stands: arms of one seed are neighbours, then seeds, then conditions.
+    #[must_use]
+    pub fn place(&self, run: u64) -> Place {
+        let (group, seeds) = (run / self.n_arms(), self.spec.seeds);
+        let (condition, seed_index) = match &self.spec.until {
+            None => (group / seeds.count(), group % seeds.count()),
+            // Seed by seed, so that a campaign that ends early has as many of each condition.
+            Some(_) => (
+                group % self.spec.n_conditions(),
+                group / self.spec.n_conditions(),
+            ),
+        };
+        Place {
+            run,
+            condition,
+            seed_index,
+            arm: (run % self.n_arms()) as usize,
+            seed: seeds.seed(condition, seed_index),
+        }
+    }
+
+    /// What a condition sets: paths and values.
+    #[must_use]
+    pub fn condition(&self, condition: u64) -> Vec<(String, String)> {
+        match &self.spec.conditions {
+            Conditions::Single => Vec::new(),
+            Conditions::Grid(axes) => {
+                let mut rest = condition;
+                let mut set: Vec<(String, String)> = Vec::new();
+                for (path, values) in axes.iter().rev() {
+                    let n = values.len() as u64;
+                    set.push((path.clone(), values[(rest % n) as usize].clone()));
+                    rest /= n;
+                }
+                set.reverse();
+                set
+            }
+            Conditions::Random(random) => (random.draw.iter())
+                .map(|(path, draw)| {
+                    let entity = format!("condition {condition}");
+                    let u = Stream::new(random.seed.unwrap_or(1), &entity, path).uniform();
+                    (path.clone(), drawn(draw, u))
+                })
+                .collect(),
+        }
+    }
+
+    /// The condition as rows of the table name it: `path=value; path=value`.
+    #[must_use]
+    pub fn condition_name(&self, condition: u64) -> String {
+        let set = self.condition(condition);
+        let named: Vec<String> = set.iter().map(|(p, v)| format!("{p}={v}")).collect();
+        named.join("; ")
+    }
+
+    /// The scenario of an arm under a condition.
+    ///
+    /// # Errors
+    /// If a path leads nowhere, or the scenario does not allow a value; both name the arm.
+    pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
+        let named = self.condition_name(condition);
+        let mut shown = format!("{} (arm {}", self.base.name, self.arm(arm).name);
+        if !named.is_empty() {
+            shown.push_str(&format!(", {named}"));
+        }
+        shown.push(')');
+        let mut text = self.base.text.clone();
+        let condition = self.condition(condition);
+        for (path, value) in condition.iter().chain(&self.arm(arm).set) {
+            text = put(&text, path, value).map_err(|problem| CampaignError::Override {
+                variant: shown.clone(),
+                path: path.clone(),
+                problem,
+            })?;
+        }
+        Ok(Loaded {
+            scenario: parse(&shown, &text)?,
+            path: PathBuf::from(shown),
+            name: self.base.name.clone(),
+            base_dir: self.base.base_dir.clone(),
+            hash: hash(&text),
+            text,
+        })
+    }
+
+    /// The time limit of its missions, s; the least, where arms or conditions set it.
+    ///
+    /// # Errors
+    /// If a scenario cannot be made.
+    pub fn limit_s(&self) -> Result<f64, CampaignError> {
+        let set =
+            |paths: &[(String, String)]| paths.iter().any(|(path, _)| path.starts_with("time"));
+        let by_arms = self.spec.arms.iter().any(|a| set(&a.set));
+        let conditions = if set(&self.condition(0)) {
+            self.spec.n_conditions()
+        } else {
+            1
+        };
+        let arms = if by_arms { self.spec.arms.len() } else { 1 };
+        let mut least = f64::INFINITY;
+        for condition in 0..conditions {
+            for arm in 0..arms {
+                least = least.min(self.loaded(condition, arm)?.scenario.time.limit_s.get());
+            }
+        }
+        Ok(least)
+    }
+
+    /// Reads and checks every arm under every condition, so that nothing starts that cannot end.
+    /// Warnings stay unsaid: those of the base are `rheotaxis check`'s to give.
+    ///
+    /// # Errors
+    /// The first mistake, in the order of conditions and arms.
+    pub fn check(&self) -> Result<(), CampaignError> {
+        let arms = self.spec.arms.len();
+        let variants = self.spec.n_conditions() * arms as u64;
+        let one = |i: u64| -> Result<(), CampaignError> {
+            let loaded = self.loaded(i / arms as u64, (i % arms as u64) as usize)?;
+            loaded.check().map(drop).map_err(ScenarioError::into)
+        };
+        let first = (0..variants)
+            .into_par_iter()
+            .filter_map(|i| one(i).err().map(|e| (i, e)))
+            .min_by_key(|(i, _)| *i);
+        first.map_or(Ok(()), |(_, error)| Err(error))
+    }
+}
+
+/// The value at `u` in [0, 1) of a distribution.
+fn drawn(draw: &Draw, u: f64) -> String {
+    match draw {
+        Draw::Uniform(a, b) => (a + (b - a) * u).to_string(),
+        Draw::LogUniform(a, b) => {
+            let (a, b) = (math::ln(*a), math::ln(*b));
+            math::exp(a + (b - a) * u).to_string()
+        }
+        Draw::Choice(values) => values[(u * values.len() as f64) as usize].clone(),
+    }
+}
+
+pub(super) fn hash(text: &str) -> String {
+    let mut digest = Digest::default();
+    digest.text(text);
+    digest.hex()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rheotaxis::scenario;
+    use std::path::Path;
+
+    fn campaign(rest: &str) -> Campaign {
+        let base = scenario::load(Path::new("uniform_channel")).unwrap();
+        let text = format!("(version: 2, title: \"t\", base: \"uniform_channel\", {rest})");
+        Campaign::new("c.ron", "c", &text, base).unwrap()
+    }
+
+    const ARMS: &str = r#"seeds: 3, arms: [(name: "slow", set: [("robots[0].strategy.speed_m_s", "1")]), (name: "fast")]"#;
+
+    #[test]
+    fn arms_share_seeds_and_so_do_conditions_unless_they_are_hashed() {
+        let c = campaign(&format!(
+            r#"{ARMS}, conditions: Grid([("time.limit_s", ["10", "20"]), ("sources[0].rate_g_s", ["1", "2"])])"#
+        ));
+        assert_eq!(c.n_runs(), 24);
+        let places: Vec<Place> = (0..24).map(|run| c.place(run)).collect();
+        for pair in places.chunks(2) {
+            assert_eq!(pair[0].seed, pair[1].seed);
+            assert_eq!((pair[0].arm, pair[1].arm), (0, 1));
+        }
+        // Three seeds under each condition: the first three there are.
+        for (k, place) in places.iter().enumerate() {
+            assert_eq!(place.seed, 1 + k as u64 / 2 % 3);
+        }
+        let hashed = campaign(
+            &format!("{ARMS}, conditions: Grid([(\"time.limit_s\", [\"10\", \"20\"])])")
+                .replace("seeds: 3", "seeds: Hashed(seed: 1, count: 3)"),
+        );
+        let mut seeds: Vec<u64> = (0..12).map(|run| hashed.place(run).seed).collect();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), 6);
+        assert_eq!(
+            c.condition_name(1),
+            "time.limit_s=10; sources[0].rate_g_s=2"
+        );
+        assert_eq!(
+            c.condition_name(2),
+            "time.limit_s=20; sources[0].rate_g_s=1"
+        );
+        assert_eq!(places[12].condition, 2);
+        let changed = c.loaded(2, 0).unwrap().scenario;
+        assert_eq!(changed.time.limit_s.get(), 20.0);
+        assert_ne!(changed.robots, c.base.scenario.robots);
+        c.check().unwrap();
+    }
+
+    #[test]
+    fn draws_stay_within_their_range_and_repeat() {
+        let c = campaign(&format!(
+            r#"{ARMS}, conditions: Random(n: 50, draw: [("time.limit_s", LogUniform(10, 1000)), ("terrain.depth_m", Choice(["9", "11"]))])"#
+        ));
+        let limits: Vec<f64> = (0..50)
+            .map(|i| c.loaded(i, 0).unwrap().scenario.time.limit_s.get())
+            .collect();
+        assert!(limits.iter().all(|l| (10.0..1000.0).contains(l)));
+        // Half of them below the geometric mean: 25 of 50, standard deviation 3.5, five of those.
+        let below = limits.iter().filter(|l| **l < 100.0).count();
+        assert!((8..=42).contains(&below), "{below}");
+        assert_eq!(c.condition_name(7), c.clone().condition_name(7));
+    }
+
+    #[test]
+    fn the_least_time_limit_counts() {
+        let limit_s = |rest: &str| campaign(rest).limit_s().unwrap();
+        let base = campaign(ARMS).base.scenario.time.limit_s.get();
+        assert_eq!(limit_s(ARMS), base);
+        assert_eq!(
+            limit_s(&format!(
+                r#"{ARMS}, conditions: Grid([("time.limit_s", ["30", "20"])])"#
+            )),
+            20.0
+        );
+        let arm = r#"seeds: 3, arms: [(name: "a"), (name: "b", set: [("time.limit_s", "9")])]"#;
+        assert_eq!(limit_s(arm), 9.0);
+    }
+
+    #[test]
+    fn mistakes_in_an_arm_are_the_loaders_and_name_it() {
+        let said = |path: &str, value: &str| -> String {
+            let c = campaign(&format!(
+                r#"seeds: 1, arms: [(name: "good"), (name: "odd", set: [("{path}", "{value}")])]"#
+            ));
+            match c.check().unwrap_err() {
+                CampaignError::Scenario(e) => e.lines().join("\n"),
+                other => other.to_string(),
+            }
+        };
+        let negative = said("time.limit_s", "-1");
+        assert!(
+            negative.starts_with("uniform_channel (arm odd):"),
+            "{negative}"
+        );
+        assert!(negative.contains("time.limit_s: must be > 0"), "{negative}");
+        let unknown = said("time.limits", "1");
+        assert!(unknown.contains("there is no field `limits`"), "{unknown}");
+        let outside = said("sources[0].east_m", "9000");
+        assert!(
+            outside.contains("(arm odd)") && outside.contains("sources[0]"),
+            "{outside}"
+        );
+        let nowhere = said("robots[4].id", "1");
+        assert_eq!(
+            nowhere,
+            "uniform_channel (arm odd): `robots[4].id`: `robots` has no element 4"
+        );
+    }
+}

@@ -1,0 +1,253 @@
+//! Everything a campaign's report consists of, written into one folder.
+
+use super::arms::{self, arm_names, of_arm};
+use super::page::Page;
+use super::text::align;
+use super::walls::Walls;
+use super::{curves, pairs, plots, tables};
+use crate::campaign::RunRow;
+use output::files::{Kept, ReportError, begin_folder};
+use std::path::{Path, PathBuf};
+
+/// What the report says about the campaign beside its rows.
+#[derive(Clone, Copy, Debug)]
+pub struct About<'a> {
+    /// Name of the campaign.
+    pub name: &'a str,
+    /// What it compares, in a line; the page's title.
+    pub title: &'a str,
+    /// What each arm sets, in the order of `arms`.
+    pub sets: &'a [String],
+    /// The runs' seeds, for people.
+    pub seeds: &'a str,
+    /// The least time limit of its scenarios, s; without it the longest mission there was.
+    pub limit_s: Option<f64>,
+    /// Base scenario.
+    pub scenario: &'a str,
+    /// Hash of what was run.
+    pub hash: &'a str,
+    /// Version that ran it.
+    pub version: &'a str,
+    /// Arms in the order to show them; others follow in the order of their rows.
+    pub arms: &'a [String],
+    /// Runs planned; fewer rows are said to be a part.
+    pub planned: u64,
+}
+
+/// What a report came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// The tables as plain text.
+    pub text: String,
+    /// The files.
+    pub files: Vec<PathBuf>,
+    /// Names of files of an earlier report that were removed.
+    pub removed: Vec<String>,
+}
+
+const NOTES: &str = "Shares: Wilson's 95 % interval; a failed run counts as neither declared nor successful. Time and \
+    error are of runs that declared, the path of all that did not fail: median and 90 % quantile (linear between order \
+    statistics) with 95 % bootstrap intervals (percentile, 4000 resamples, seed 1). With fewer than 36 values the 90 % quantile's \
+    upper end covers less than it says; of fewer than 5 values there is no interval.";
+
+const RESTRICTED_NOTES: &str = "The restricted mean is of all runs that did not fail: the time to success, or the limit where \
+    there was none by then. Its interval is on the scale of the logarithm.";
+
+const PAIR_NOTES: &str = "Pairs are runs of the same seed and condition. Success: interval of Agresti and Min (2005). Time, \
+    path, error: median of the differences within pairs where both arms have it, with its bootstrap interval; less is \
+    better. Each comparison holds for itself: of twenty, one finds something by chance.";
+
+/// Writes tables (CSV), figures (SVG and PNG) and `report.html` of a campaign's rows into a folder, making it if
+/// need be. The order of the rows changes nothing.
+///
+/// # Errors
+/// If the folder cannot be made or a file not be written, each that could not; all others are.
+pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, ReportError> {
+    let folder = begin_folder(dir, "report")?;
+    let names = arm_names(about.arms, rows);
+    let grouped: Vec<(&String, Vec<&RunRow>)> = names
+        .iter()
+        .map(|name| (name, of_arm(rows, name)))
+        .collect();
+    let longest = (rows.iter().map(|r| r.mission_s)).fold(0.0, f64::max);
+    let limit_s = about.limit_s.unwrap_or(longest);
+    let figures: Vec<_> = grouped
+        .iter()
+        .map(|(name, rows)| arms::figures(name, rows, limit_s))
+        .collect();
+    let conditions = arms::conditions(&names, rows);
+    let comparisons = pairs::comparisons(&names, rows, limit_s);
+    let waiting: Vec<_> = grouped
+        .iter()
+        .map(|(name, rows)| curves::not_yet_declared(name, rows))
+        .collect();
+    let errors: Vec<_> = grouped
+        .iter()
+        .map(|(name, rows)| curves::errors(name, rows))
+        .collect();
+
+    let mut kept = Kept::new(&folder);
+    kept.write("arms.csv", tables::arms_csv(&figures).as_bytes());
+    let csv = tables::curves_csv("t_s", &waiting);
+    kept.write("not_yet_declared.csv", csv.as_bytes());
+    let csv = tables::curves_csv("error_m", &errors);
+    kept.write("errors.csv", csv.as_bytes());
+    if !comparisons.is_empty() {
+        let csv = tables::pairs_csv(&comparisons);
+        kept.write("differences.csv", csv.as_bytes());
+    }
+    if !conditions.is_empty() {
+        let csv = tables::conditions_csv(&conditions);
+        kept.write("conditions.csv", csv.as_bytes());
+    }
+
+    let mut drawn = vec![
+        ("success", plots::success(&figures)),
+        (
+            "not_yet_declared",
+            plots::curves(
+                "waiting",
+                "Not yet declared, with pointwise 95 % band (Kaplan–Meier)",
+                "Mission time (s)",
+                "Share of runs",
+                &waiting,
+                true,
+            ),
+        ),
+        (
+            "errors",
+            plots::curves(
+                "errors",
+                "Declared within a distance of the source, with pointwise 95 % band",
+                "Error of the declaration (m)",
+                "Share of all runs",
+                &errors,
+                false,
+            ),
+        ),
+    ];
+    if !comparisons.is_empty() {
+        drawn.push(("differences", plots::differences(&comparisons)));
+    }
+    for (name, svg) in &drawn {
+        kept.figure(name, svg);
+    }
+
+    let success = tables::success(&figures);
+    let measured = tables::measured(&figures);
+    let restricted = tables::restricted(&figures);
+    let compared = tables::pairs(&comparisons);
+    let warnings: Vec<&String> = (comparisons.iter())
+        .filter_map(|c| c.warning.as_ref())
+        .collect();
+    let walls = Walls::of(rows).words();
+    let first_error = rows
+        .iter()
+        .filter(|r| r.error.is_some())
+        .min_by_key(|r| r.run)
+        .map(|r| {
+            format!(
+                "First failure: run {}: {}",
+                r.run,
+                r.error.as_deref().unwrap_or_default()
+            )
+        });
+
+    let title = if about.title.is_empty() {
+        about.name
+    } else {
+        about.title
+    };
+    let mut page = Page::new(title);
+    page.paragraph(&heading(about, rows.len()));
+    let sets: Vec<[String; 2]> = (about.arms.iter().zip(about.sets))
+        .map(|(arm, set)| [arm.clone(), set.clone()])
+        .collect();
+    if !sets.is_empty() {
+        page.heading("Arms");
+        page.table(&["arm", "sets in the scenario"], &sets);
+    }
+    page.heading("Success");
+    page.table(&tables::SUCCESS, &success);
+    page.svg(&drawn[0].1);
+    page.heading("Time, path, error");
+    page.table(&tables::MEASURED, &measured);
+    page.paragraph(NOTES);
+    page.svg(&drawn[1].1);
+    page.heading(&format!("Time to success, at most {limit_s:.0} s"));
+    page.table(&tables::RESTRICTED, &restricted);
+    page.paragraph(RESTRICTED_NOTES);
+    page.svg(&drawn[2].1);
+    if !comparisons.is_empty() {
+        page.heading("Arm against arm");
+        page.table(&tables::PAIRS, &compared);
+        for warning in &warnings {
+            page.paragraph(&format!("Warning: {warning}"));
+        }
+        page.paragraph(PAIR_NOTES);
+        if names.len() > pairs::EACH_WITH_EACH {
+            page.paragraph("With so many arms each is compared with the first.");
+        }
+        page.svg(&drawn[3].1);
+    }
+    if !conditions.is_empty() {
+        page.heading("Conditions");
+        page.table(&tables::CONDITIONS, &tables::conditions(&conditions));
+    }
+    page.heading("Where the time goes");
+    page.paragraph(&walls);
+    if let Some(error) = &first_error {
+        page.paragraph(error);
+    }
+    kept.write("report.html", page.end().as_bytes());
+
+    let mut text = format!("{title}\n{}\n", heading(about, rows.len()));
+    for [arm, set] in &sets {
+        text.push_str(&format!("  arm {arm}: {set}\n"));
+    }
+    text.push('\n');
+    text.push_str(&align(&tables::SUCCESS, &success));
+    text.push('\n');
+    text.push_str(&align(&tables::MEASURED, &measured));
+    text.push_str(&format!("\nThe limit is {limit_s:.0} s.\n"));
+    text.push_str(&align(&tables::RESTRICTED, &restricted));
+    if !comparisons.is_empty() {
+        text.push('\n');
+        text.push_str(&align(&tables::PAIRS, &compared));
+        for warning in &warnings {
+            text.push_str(&format!("\nWarning: {warning}\n"));
+        }
+    }
+    text.push('\n');
+    text.push_str(&walls);
+    text.push('\n');
+    if let Some(error) = first_error {
+        text.push_str(&error);
+        text.push('\n');
+    }
+    Ok(Written {
+        text,
+        files: kept.done()?,
+        removed: folder.removed().to_vec(),
+    })
+}
+
+fn heading(about: &About<'_>, done: usize) -> String {
+    let part = if (done as u64) < about.planned {
+        format!("{done} of {} runs: a part of the campaign", about.planned)
+    } else {
+        format!("{done} runs")
+    };
+    format!(
+        "Campaign {}: scenario {}, {part}{}; version {}, hash {}.",
+        about.name,
+        about.scenario,
+        if about.seeds.is_empty() {
+            String::new()
+        } else {
+            format!(", {}", about.seeds)
+        },
+        about.version,
+        about.hash
+    )
+}

@@ -1,0 +1,92 @@
+//! A seal at the head of a block: a hash of all its bytes, tried before anything in the file is believed.
+//!
+//! A reader of Parquet goes by the places that the footer names, so it passes over what stands between the
+//! mark at the head of the file and the first column. There the seal stands: [`MARK`] and 32 hexadecimal digits.
+
+use std::io::{Read, Result, Seek, SeekFrom};
+use world::digest::Digest;
+
+/// What a seal begins with.
+const MARK: &[u8] = b"rheotaxis sealed ";
+const DIGITS: usize = 32;
+/// Where it stands: behind Parquet's own mark.
+const AT: usize = 4;
+
+/// How a file's seal is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Seal {
+    /// There is none.
+    Missing,
+    /// It fits the file.
+    Whole,
+    /// The bytes are not those that were sealed.
+    Wrong,
+}
+
+/// Room for a seal, to be written first of all.
+pub(super) fn room() -> Vec<u8> {
+    [MARK, &[b'0'; DIGITS]].concat()
+}
+
+/// Puts the seal into the room for it.
+pub(super) fn close(bytes: &mut [u8]) {
+    let digits = AT + MARK.len();
+    assert_eq!(
+        bytes.get(AT..digits),
+        Some(MARK),
+        "the table was begun without room for its seal: write it first"
+    );
+    let mut digest = Digest::default();
+    digest.bytes(&bytes[..digits]);
+    digest.bytes(&bytes[digits + DIGITS..]);
+    bytes[digits..digits + DIGITS].copy_from_slice(digest.hex().as_bytes());
+}
+
+/// Reads a file through, in small pieces, and holds it against its seal.
+///
+/// # Errors
+/// If it cannot be read.
+pub(super) fn look(file: &mut (impl Read + Seek)) -> Result<Seal> {
+    file.seek(SeekFrom::Start(0))?;
+    let mut head = Vec::new();
+    let digits = AT + MARK.len();
+    file.take((digits + DIGITS) as u64).read_to_end(&mut head)?;
+    if head.len() < digits + DIGITS || head[AT..digits] != *MARK {
+        return Ok(Seal::Missing);
+    }
+    let mut digest = Digest::default();
+    digest.bytes(&head[..digits]);
+    let mut piece = vec![0; 1 << 16];
+    loop {
+        match file.read(&mut piece)? {
+            0 => break,
+            n => digest.bytes(&piece[..n]),
+        }
+    }
+    let whole = digest.hex().as_bytes() == &head[digits..];
+    Ok(if whole { Seal::Whole } else { Seal::Wrong })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Cursor;
+
+    #[test]
+    fn every_changed_or_missing_byte_breaks_it() {
+        let mut bytes = [b"PAR1", room().as_slice(), b"columns and footer"].concat();
+        close(&mut bytes);
+        let of = |bytes: &[u8]| look(&mut Cursor::new(bytes)).unwrap();
+        assert_eq!(of(&bytes), Seal::Whole);
+        for k in 0..bytes.len() {
+            let mut turned = bytes.clone();
+            turned[k] ^= 1;
+            assert_ne!(of(&turned), Seal::Whole, "byte {k}");
+            assert_ne!(of(&bytes[..k]), Seal::Whole, "cut at {k}");
+        }
+        assert_eq!(
+            of(b"PAR1 and something else altogether, longer than a seal"),
+            Seal::Missing
+        );
+    }
+}

@@ -1,0 +1,331 @@
+//! What a campaign file says.
+
+use super::seeds::{Asked, MOST, Seeds};
+use rheotaxis::scenario::{Fault, Found, Outline, ScenarioError, read};
+use serde::{Deserialize, Serialize};
+
+/// Version of the campaign files this program writes; it reads version 1, too.
+const VERSION: u32 = 2;
+
+/// A campaign: one scenario, several arms, many seeds.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CampaignSpec {
+    /// Version of the file.
+    pub version: u32,
+    /// What is compared, in a line.
+    pub title: String,
+    /// Scenario: a file, relative to the campaign's, or the name of one that comes with the program.
+    pub base: String,
+    /// Seeds for each condition; every arm runs with each of them.
+    pub seeds: Seeds,
+    /// Stop before that, once every success share is known well enough.
+    pub until: Option<Until>,
+    /// What is compared.
+    pub arms: Vec<Arm>,
+    /// Circumstances in which it is compared.
+    pub conditions: Conditions,
+}
+
+/// The file, field by field.
+#[derive(Clone, Deserialize)]
+#[serde(deny_unknown_fields, rename = "CampaignSpec")]
+struct File {
+    version: u32,
+    title: String,
+    base: String,
+    /// Of version 1: what seeds and drawn conditions are made from.
+    #[serde(default)]
+    seed: Option<u64>,
+    seeds: Asked,
+    #[serde(default)]
+    until: Option<Until>,
+    arms: Vec<Arm>,
+    #[serde(default)]
+    conditions: Conditions,
+}
+
+/// When enough is known.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Until {
+    /// Greatest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
+    pub half_width: f64,
+}
+
+/// One of the things compared: the scenario with some values changed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Arm {
+    /// Its name in tables.
+    pub name: String,
+    /// Changes: path in the scenario and the new value as RON.
+    #[serde(default)]
+    pub set: Vec<(String, String)>,
+}
+
+impl Arm {
+    /// What it sets, `path=value` joined by `; `.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let set: Vec<String> = self.set.iter().map(|(p, v)| format!("{p}={v}")).collect();
+        if set.is_empty() {
+            "as it is".to_string()
+        } else {
+            set.join("; ")
+        }
+    }
+}
+
+/// Circumstances, the same for every arm.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub enum Conditions {
+    /// The scenario as it is.
+    #[default]
+    Single,
+    /// Every combination of these values, the last path changing fastest.
+    Grid(Vec<(String, Vec<String>)>),
+    /// Drawn at random.
+    Random(RandomConditions),
+}
+
+/// Conditions drawn at random.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RandomConditions {
+    /// How many conditions, 1 to 2^40.
+    pub n: u64,
+    /// What they are drawn from; without it 1. In a file of version 1 its own `seed`.
+    #[serde(default)]
+    pub seed: Option<u64>,
+    /// Which values vary, and how.
+    pub draw: Vec<(String, Draw)>,
+}
+
+/// The distribution of a value.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Draw {
+    /// Uniform between two numbers.
+    Uniform(f64, f64),
+    /// Its logarithm uniform between those of two positive numbers.
+    LogUniform(f64, f64),
+    /// One of these values, each as likely.
+    Choice(Vec<String>),
+}
+
+impl CampaignSpec {
+    /// Reads a campaign from its text; errors call it `name`.
+    ///
+    /// # Errors
+    /// If it is not a campaign, with the place.
+    pub fn parse(name: &str, text: &str) -> Result<Self, ScenarioError> {
+        let meaning = |file: &File| {
+            let (spec, mut found) = Self::of(file.clone());
+            found.extend(spec.check());
+            found
+        };
+        let file: File = read(name, text, &meaning)?;
+        let outline = Outline::of(text);
+        let (spec, found) = Self::of(file);
+        let faults: Vec<Fault> = (found.into_iter().chain(spec.check()))
+            .map(|found| Fault::located(name, text, &outline, found))
+            .collect();
+        if faults.is_empty() {
+            Ok(spec)
+        } else {
+            Err(ScenarioError::of(name, faults))
+        }
+    }
+
+    /// What a file means, and what of it its version does not know.
+    fn of(file: File) -> (Self, Vec<Found>) {
+        let mut found = Vec::new();
+        let mut conditions = file.conditions;
+        let odd = |found: &mut Vec<Found>, problem| {
+            found.push(Found::error("seeds", problem));
+            Seeds::Literal { first: 1, count: 1 }
+        };
+        let seeds = if file.version == 1 {
+            let seed = file.seed.unwrap_or(1);
+            if let Conditions::Random(random) = &mut conditions {
+                if random.seed.is_some() {
+                    let problem = "a file of version 1 has its seed as a field of its own";
+                    found.push(Found::error("conditions.seed", problem).hint("write `version: 2`"));
+                }
+                random.seed = Some(seed);
+            }
+            match file.seeds {
+                Asked::Number(count) => Seeds::Hashed { seed, count },
+                Asked::Form(seeds) => {
+                    let problem = "a file of version 1 has a number here";
+                    found.push(Found::error("seeds", problem).hint("write `version: 2`"));
+                    seeds
+                }
+                Asked::Odd(problem) => odd(&mut found, problem),
+            }
+        } else {
+            if let Some(seed) = file.seed {
+                let problem = "a file of version 2 has no field `seed`";
+                let help = format!(
+                    "`seeds: 20` is seeds 1 to 20, `seeds: Hashed(seed: {seed}, count: 20)` what version 1 meant; \
+                     drawn conditions have their own: `Random(n: 20, seed: {seed}, draw: [...])`"
+                );
+                found.push(Found::error("seed", problem).hint(help));
+            }
+            match file.seeds {
+                Asked::Number(count) => Seeds::Literal { first: 1, count },
+                Asked::Form(seeds) => seeds,
+                Asked::Odd(problem) => odd(&mut found, problem),
+            }
+        };
+        let spec = Self {
+            version: file.version,
+            title: file.title,
+            base: file.base,
+            seeds,
+            until: file.until,
+            arms: file.arms,
+            conditions,
+        };
+        (spec, found)
+    }
+
+    /// What a file of version 1 means and how version 2 writes it; nothing of one of version 2.
+    pub(super) fn note(&self) -> Option<Found> {
+        let (1, Seeds::Hashed { seed, count }) = (self.version, self.seeds) else {
+            return None;
+        };
+        let problem = format!(
+            "a file of version 1: its seeds are hashed from {seed}, as was meant, and are not those of \
+             `rheotaxis run --seed N`"
+        );
+        let drawn = match &self.conditions {
+            Conditions::Random(_) => format!(" and `Random(seed: {seed}, ...)`"),
+            _ => String::new(),
+        };
+        let help = format!(
+            "in version 2 the same is `seeds: Hashed(seed: {seed}, count: {count})`{drawn}, without `seed`; \
+             `seeds: {count}` is seeds 1 to {count}, which pair with published runs"
+        );
+        Some(Found::warning("version", problem).hint(help))
+    }
+
+    /// Number of conditions; at most 2^64 - 1.
+    #[must_use]
+    pub fn n_conditions(&self) -> u64 {
+        match &self.conditions {
+            Conditions::Single => 1,
+            Conditions::Grid(axes) => (axes.iter()).fold(1, |n: u64, (_, values)| {
+                n.saturating_mul(values.len() as u64)
+            }),
+            Conditions::Random(random) => random.n,
+        }
+    }
+
+    fn check(&self) -> Vec<Found> {
+        let mut found = Vec::new();
+        let mut wrong = |path: &str, problem: String| found.push(Found::error(path, problem));
+        if !(1..=VERSION).contains(&self.version) {
+            let got = self.version;
+            wrong(
+                "version",
+                format!("this program reads versions 1 and {VERSION}, got {got}"),
+            );
+        }
+        if let Some((field, problem)) = self.seeds.fault() {
+            wrong("seeds", format!("{field} {problem}"));
+        }
+        if let Some(until) = &self.until
+            && !(until.half_width > 0.0 && until.half_width < 0.5)
+        {
+            let got = until.half_width;
+            wrong(
+                "until.half_width",
+                format!("must be above 0 and below 0.5, got {got}"),
+            );
+        }
+        if self.arms.is_empty() {
+            wrong("arms", "there must be at least one arm".to_string());
+        }
+        for (i, arm) in self.arms.iter().enumerate() {
+            if arm.name.is_empty() {
+                wrong(&format!("arms[{i}].name"), "must not be empty".to_string());
+            }
+            if self.arms[..i].iter().any(|a| a.name == arm.name) {
+                let name = &arm.name;
+                wrong(
+                    &format!("arms[{i}].name"),
+                    format!("\"{name}\" is taken by another arm"),
+                );
+            }
+        }
+        let varied: Vec<&String> = match &self.conditions {
+            Conditions::Single => Vec::new(),
+            Conditions::Grid(axes) => {
+                for (i, (_, values)) in axes.iter().enumerate() {
+                    if values.is_empty() {
+                        wrong(
+                            &format!("conditions[{i}]"),
+                            "there must be at least one value".to_string(),
+                        );
+                    }
+                }
+                axes.iter().map(|(path, _)| path).collect()
+            }
+            Conditions::Random(random) => {
+                if !(1..=MOST).contains(&random.n) {
+                    let got = random.n;
+                    wrong(
+                        "conditions.n",
+                        format!("must be from 1 to {MOST}, got {got}"),
+                    );
+                }
+                for (i, (_, draw)) in random.draw.iter().enumerate() {
+                    if let Err(problem) = draw.check() {
+                        wrong(&format!("conditions.draw[{i}]"), problem);
+                    }
+                }
+                random.draw.iter().map(|(path, _)| path).collect()
+            }
+        };
+        for (i, arm) in self.arms.iter().enumerate() {
+            for (path, _) in &arm.set {
+                if varied.contains(&path) {
+                    wrong(
+                        &format!("arms[{i}].set"),
+                        format!("`{path}` is set by the conditions too"),
+                    );
+                }
+            }
+        }
+        let runs = (self.n_conditions())
+            .checked_mul(self.seeds.count())
+            .and_then(|n| n.checked_mul(self.arms.len() as u64));
+        if runs.is_none_or(|n| n > MOST) {
+            wrong(
+                "seeds",
+                format!("the campaign has more than {MOST} runs (arms x conditions x seeds)"),
+            );
+        }
+        found
+    }
+}
+
+impl Draw {
+    fn check(&self) -> Result<(), String> {
+        match self {
+            Draw::Uniform(a, b) if !(a.is_finite() && b.is_finite() && a < b) => Err(format!(
+                "needs two finite numbers, the smaller first, got {a}, {b}"
+            )),
+            Draw::LogUniform(a, b) if !(*a > 0.0 && b.is_finite() && a < b) => Err(format!(
+                "needs two positive numbers, the smaller first, got {a}, {b}"
+            )),
+            Draw::Choice(values) if values.is_empty() => {
+                Err("there must be at least one value".to_string())
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,7 @@
+//! Many runs: campaigns, the papers' figures reproduced, statistics of plumes, scores of pictures.
+
+pub mod campaign;
+pub mod reproduce;
+pub mod score_vision;
+pub mod segment;
+pub mod statistics;

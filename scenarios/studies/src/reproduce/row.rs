@@ -1,0 +1,359 @@
+//! What a paper reports and with which scenario we ask for it: one row file each.
+
+use super::measure::Event;
+use super::quantity::Quantity;
+use crate::campaign::{Arm, put};
+use output::files::ReportError;
+use rheotaxis::scenario::{Loaded, ScenarioError, load, parse, template};
+use ron::extensions::Extensions;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use world::digest::Digest;
+use world::files;
+
+/// Longest file read, bytes: a row is text of a few kilobytes.
+const LONGEST: u64 = 1 << 20;
+
+/// A row of the reproduction table.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Row {
+    /// Its name.
+    pub id: String,
+    /// What is done.
+    pub what: String,
+    /// Paper, section, table or figure.
+    pub source: String,
+    /// A scenario that comes with the program, or a file beside the row's.
+    pub scenario: String,
+    /// What is changed in it, by arm; all arms run with the same seeds. Without any, the scenario as it is.
+    #[serde(default)]
+    pub arms: Vec<Arm>,
+    /// What is compared.
+    pub figures: Vec<Figure>,
+}
+
+/// One figure of a row.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Figure {
+    /// What people call it.
+    pub name: String,
+    /// Of which arm; needed where there are any.
+    #[serde(default)]
+    pub arm: Option<String>,
+    /// Of those runs only in which this happened.
+    #[serde(default)]
+    pub among: Option<Event>,
+    /// What is computed from our runs.
+    pub quantity: Quantity,
+    /// What the paper has; absent where it has nothing to compare.
+    #[serde(default)]
+    pub paper: Option<Paper>,
+    /// What must be known to compare.
+    #[serde(default)]
+    pub note: String,
+}
+
+/// A paper's figure.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Paper {
+    /// A figure over many runs, in the quantity's unit (shares from 0 to 1).
+    Value(f64),
+    /// A figure of a single run, in the quantity's unit.
+    Run(f64),
+    /// So many of so many.
+    Count(u64, u64),
+    /// So many of so few that it is no share: one run that did or did not.
+    RunCount(u64, u64),
+}
+
+impl Paper {
+    /// As a number in the quantity's unit.
+    #[must_use]
+    pub fn value(self) -> f64 {
+        match self {
+            Paper::Value(v) | Paper::Run(v) => v,
+            Paper::Count(k, n) | Paper::RunCount(k, n) => k as f64 / n as f64,
+        }
+    }
+
+    fn is_sound(self) -> bool {
+        match self {
+            Paper::Value(v) | Paper::Run(v) => v.is_finite(),
+            Paper::Count(k, n) | Paper::RunCount(k, n) => n > 0 && k <= n,
+        }
+    }
+}
+
+/// Why a row cannot be reproduced.
+#[derive(Debug, thiserror::Error)]
+pub enum ReproduceError {
+    /// No such row.
+    #[error(
+        "there is no row `{name}`; there are: {known}. A row file of your own may be named, too"
+    )]
+    Unknown {
+        /// As asked.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// No row asked for has such an arm.
+    #[error("no row asked for has an arm `{name}`; there are: {known}")]
+    Arm {
+        /// As asked.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// A row file that cannot be read.
+    #[error("{name}: {problem}")]
+    Row {
+        /// The file.
+        name: String,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Its scenario.
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    /// Its results.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// The threads.
+    #[error("cannot start {jobs} threads: {problem}")]
+    Threads {
+        /// As asked; 0 for one a core.
+        jobs: usize,
+        /// What the system said.
+        problem: String,
+    },
+    /// Ctrl-C or a termination signal.
+    #[error("interrupted: nothing is written, for the runs that end first are not a fair sample")]
+    Interrupted,
+}
+
+/// A row with the scenario it runs.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// The row.
+    pub row: Row,
+    /// Its scenario.
+    pub loaded: Loaded,
+    /// The scenario as each arm changes it, with the arm's name: one at least.
+    pub arms: Vec<(String, Loaded)>,
+}
+
+macro_rules! row {
+    ($name:literal) => {
+        (
+            $name,
+            include_str!(concat!("../../../../tests/reference/rows/", $name, ".ron")),
+        )
+    };
+}
+
+/// Row files that come with the program.
+const ROWS: &[(&str, &str)] = &[
+    row!("crab"),
+    row!("crab_arms"),
+    row!("duck_st"),
+    row!("dalian_bay"),
+    row!("duck_mt"),
+    row!("san_clemente"),
+    row!("t13_rate"),
+    row!("t13_siz_t"),
+    row!("t13_siz_f"),
+    row!("wp_laminar"),
+    row!("wp_turbulent"),
+    row!("wp_dead_end"),
+];
+
+/// All rows that come with the program.
+///
+/// # Errors
+/// If one is broken (tests keep this from happening).
+pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
+    ROWS.iter()
+        .map(|(name, text)| embedded(name, text))
+        .collect()
+}
+
+/// The rows asked for by name or by file, each once; all of them if none is. Of their arms only those named, if any is.
+///
+/// # Errors
+/// If one is not known, or its file or scenario is broken, or no row has such an arm.
+pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, ReproduceError> {
+    let mut found: Vec<Reference> = Vec::new();
+    if names.is_empty() {
+        found = rows()?;
+    }
+    for name in names {
+        for reference in some(name)? {
+            if found.iter().all(|f| f.row != reference.row) {
+                found.push(reference);
+            }
+        }
+    }
+    if arms.is_empty() {
+        return Ok(found);
+    }
+    let known: Vec<String> = (found.iter())
+        .flat_map(|f| f.row.arms.iter().map(|a| format!("`{}`", a.name)))
+        .collect();
+    if let Some(odd) = arms.iter().find(|a| !known.contains(&format!("`{a}`"))) {
+        return Err(ReproduceError::Arm {
+            name: odd.clone(),
+            known: known.join(", "),
+        });
+    }
+    for reference in &mut found {
+        reference.keep(arms);
+    }
+    found.retain(|f| !f.arms.is_empty());
+    Ok(found)
+}
+
+/// A row by its name; where no row has that, all whose names begin with it and `_`; or a row file.
+fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
+    let name = path.display().to_string();
+    if let Some((id, text)) = ROWS.iter().find(|(id, _)| *id == name) {
+        return Ok(vec![embedded(id, text)?]);
+    }
+    let group = format!("{name}_");
+    let rows: Vec<_> = ROWS
+        .iter()
+        .filter(|(id, _)| id.starts_with(&group))
+        .collect();
+    if !rows.is_empty() {
+        return rows.iter().map(|(id, text)| embedded(id, text)).collect();
+    }
+    if !path.is_file() {
+        let known: Vec<&str> = ROWS.iter().map(|(id, _)| *id).collect();
+        return Err(ReproduceError::Unknown {
+            name,
+            known: known.join(", "),
+        });
+    }
+    let text = files::read_text(path, LONGEST).map_err(|e| ReproduceError::Row {
+        name: name.clone(),
+        problem: format!("cannot be read: {e}"),
+    })?;
+    let row = read(&name, &text)?;
+    let beside = path.parent().unwrap_or(Path::new("")).join(&row.scenario);
+    let loaded = if beside.is_file() {
+        load(&beside)?
+    } else {
+        scenario(&name, &row)?
+    };
+    loaded.check()?;
+    Ok(vec![Reference::new(&name, row, loaded)?])
+}
+
+impl Reference {
+    fn new(name: &str, row: Row, loaded: Loaded) -> Result<Self, ReproduceError> {
+        let mut arms = Vec::new();
+        for arm in &row.arms {
+            let wrong = |path: &str, problem: String| ReproduceError::Row {
+                name: name.to_string(),
+                problem: format!("arm `{}`: {path}: {problem}", arm.name),
+            };
+            let mut text = loaded.text.clone();
+            for (path, value) in &arm.set {
+                text = put(&text, path, value).map_err(|problem| wrong(path, problem))?;
+            }
+            let shown = format!("{} (arm {})", loaded.name, arm.name);
+            let changed = Loaded {
+                scenario: parse(&shown, &text)?,
+                path: PathBuf::from(shown),
+                text,
+                ..loaded.clone()
+            };
+            changed.check()?;
+            arms.push((arm.name.clone(), changed));
+        }
+        if arms.is_empty() {
+            arms.push((row.id.clone(), loaded.clone()));
+        }
+        Ok(Self { row, loaded, arms })
+    }
+
+    /// Keeps these arms and their figures: each runs as it does with the others beside it.
+    fn keep(&mut self, arms: &[String]) {
+        let asked = |name: &String| arms.contains(name);
+        self.arms.retain(|(name, _)| asked(name));
+        self.row.arms.retain(|a| asked(&a.name));
+        let of = |f: &Figure| f.arm.as_ref().is_some_and(asked);
+        self.row.figures.retain(of);
+        if self.row.arms.is_empty() {
+            self.arms.clear();
+        }
+    }
+}
+
+fn embedded(name: &str, text: &str) -> Result<Reference, ReproduceError> {
+    let row = read(name, text)?;
+    let loaded = scenario(name, &row)?;
+    Reference::new(name, row, loaded)
+}
+
+/// The scenario that comes with the program, whatever lies in the folder we are in.
+fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
+    let template = template(&row.scenario).ok_or_else(|| ReproduceError::Row {
+        name: name.to_string(),
+        problem: format!("there is no scenario `{}`", row.scenario),
+    })?;
+    let mut digest = Digest::default();
+    digest.text(template.text);
+    Ok(Loaded {
+        scenario: parse(template.name, template.text)?,
+        text: template.text.to_string(),
+        path: PathBuf::from(template.name),
+        name: template.name.to_string(),
+        base_dir: PathBuf::new(),
+        hash: digest.hex(),
+    })
+}
+
+fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {
+    let wrong = |problem: String| ReproduceError::Row {
+        name: name.to_string(),
+        problem,
+    };
+    let reader = ron::Options::default().with_default_extension(Extensions::IMPLICIT_SOME);
+    let row: Row = reader.from_str(text).map_err(|e| wrong(e.to_string()))?;
+    let plain = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+    if row.id.is_empty() || !row.id.chars().all(plain) {
+        return Err(wrong(format!(
+            "id: must be of a-z, 0-9 and _, got `{}`",
+            row.id
+        )));
+    }
+    if row.figures.is_empty() {
+        return Err(wrong("figures: must name at least one".to_string()));
+    }
+    for f in &row.figures {
+        let known = |arm: &String| row.arms.iter().any(|a| a.name == *arm);
+        let problem = match &f.arm {
+            None if !row.arms.is_empty() => {
+                Some("arm: must name one of the row's arms".to_string())
+            }
+            Some(arm) if !known(arm) => Some(format!("arm: the row has no arm `{arm}`")),
+            _ => f.quantity.fault(),
+        };
+        if let Some(problem) = problem {
+            return Err(wrong(format!("{}: {problem}", f.name)));
+        }
+    }
+    match (row.figures.iter()).find(|f| f.paper.is_some_and(|p| !p.is_sound())) {
+        Some(f) => Err(wrong(format!(
+            "{}: paper: must be finite, a count at most its total, and the total > 0, got {:?}",
+            f.name, f.paper
+        ))),
+        None => Ok(row),
+    }
+}
+
+#[cfg(test)]
+mod tests;

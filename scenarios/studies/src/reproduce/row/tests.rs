@@ -1,0 +1,91 @@
+//! Rows as they are read, chosen and refused.
+
+use super::*;
+
+#[test]
+fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/rows");
+    let mut files: Vec<String> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|f| f.unwrap().file_name().into_string().unwrap())
+        .collect();
+    files.sort();
+    let rows = rows().unwrap();
+    let mut ids: Vec<String> = rows.iter().map(|r| format!("{}.ron", r.row.id)).collect();
+    ids.sort();
+    assert_eq!(files, ids);
+    for r in &rows {
+        assert!(!r.row.source.is_empty() && !r.row.what.is_empty());
+        assert!(r.row.figures.iter().any(|f| f.paper.is_some()));
+        assert!(r.loaded.check().is_ok());
+    }
+}
+
+#[test]
+fn a_row_is_chosen_by_its_name_alone_and_a_group_by_what_no_row_is_called() {
+    let ids = |names: &[&str]| -> Vec<String> {
+        let names: Vec<PathBuf> = names.iter().map(PathBuf::from).collect();
+        let rows = wanted(&names, &[]).unwrap();
+        rows.into_iter().map(|r| r.row.id).collect()
+    };
+    // Every row by its name is that row, whatever other names begin with it.
+    for (id, _) in ROWS {
+        assert_eq!(ids(&[id]), [*id]);
+    }
+    assert_eq!(ids(&["crab", "crab_arms"]), ["crab", "crab_arms"]);
+    assert_eq!(ids(&["wp"]), ["wp_laminar", "wp_turbulent", "wp_dead_end"]);
+    assert_eq!(
+        ids(&["wp_dead_end", "wp"]),
+        ["wp_dead_end", "wp_laminar", "wp_turbulent"]
+    );
+    assert_eq!(ids(&[]).len(), ROWS.len());
+}
+
+#[test]
+fn arms_are_chosen_alone_with_their_figures() {
+    let of = |arm: &str| wanted(&["crab".into()], &[arm.to_string()]);
+    let rows = of("adaptive").unwrap();
+    assert_eq!(rows.len(), 1);
+    let names: Vec<&str> = rows[0].arms.iter().map(|(n, _)| n.as_str()).collect();
+    assert_eq!(names, ["adaptive"]);
+    assert!(!rows[0].row.figures.is_empty());
+    let theirs = |f: &Figure| f.arm.as_deref() == Some("adaptive");
+    assert!(rows[0].row.figures.iter().all(theirs));
+    let said = of("adaptve").unwrap_err().to_string();
+    assert!(
+        said.contains("`adaptve`") && said.contains("`paper`, `adaptive`"),
+        "{said}"
+    );
+}
+
+#[test]
+fn broken_rows_are_named_with_what_is_wrong() {
+    let row = |id: &str, paper: &str| {
+        format!(
+            "(id: \"{id}\", what: \"w\", source: \"s\", scenario: \"duck_st\", \
+             figures: [(name: \"f\", quantity: Share(success), paper: {paper})])"
+        )
+    };
+    assert!(read("r", &row("a_1", "Count(7, 8)")).is_ok());
+    for (text, says) in [
+        (row("A b", "Count(7, 8)"), "id: must be"),
+        (row("a", "Count(9, 8)"), "a count at most its total"),
+        (row("a", "Count(0, 0)"), "the total > 0"),
+        (row("a", "Value(NaN)"), "must be finite"),
+        (row("a", "Median(3)"), "Median"),
+        (row("a", "Run(3), arm: \"x\""), "no arm `x`"),
+        (
+            row("a", "Run(3)").replace("Share(success)", "Quantile(ngdr, 1.0)"),
+            "below 1",
+        ),
+        ("(".to_string(), "r: "),
+    ] {
+        let said = read("r", &text).unwrap_err().to_string();
+        assert!(said.contains(says), "{said}");
+    }
+    let said = wanted(&["nobody".into()], &[]).unwrap_err().to_string();
+    assert!(
+        said.contains("`nobody`") && said.contains("duck_st"),
+        "{said}"
+    );
+}

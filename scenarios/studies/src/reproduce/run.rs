@@ -1,0 +1,115 @@
+//! The runs behind a row: consecutive seeds, on all cores, until there are enough.
+
+use super::compare::{Compared, compare};
+use super::row::{Reference, ReproduceError, Row};
+use crate::campaign::stats::next_n;
+use crate::campaign::{RunName, RunRow, sharing_run};
+use rayon::ThreadPoolBuilder;
+use rayon::prelude::*;
+use rheotaxis::scenario::Loaded;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Seeds after which what is known so far is shown: little is lost when the program is killed.
+const BATCH: u64 = 50;
+
+/// How many runs, on how many threads.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// Seeds; with `until_half_width` at most.
+    pub n: u64,
+    /// The first seed; the others follow it.
+    pub first_seed: u64,
+    /// Stop when the half width of the success interval is this or less.
+    pub until_half_width: Option<f64>,
+    /// Threads; 0 for one a core.
+    pub jobs: usize,
+}
+
+/// A row with what our runs came to.
+#[derive(Clone, Debug)]
+pub struct Reproduced {
+    /// The row.
+    pub row: Row,
+    /// Name and hash of its scenario.
+    pub scenario: (String, String),
+    /// The runs, by seed and arm.
+    pub runs: Vec<RunRow>,
+    /// The figures.
+    pub figures: Vec<Compared>,
+}
+
+/// Runs one row. `heard` is told of every run that ends (from the threads), with the number now planned; `kept` is shown
+/// the row as far as it has come, every 50 seeds and at the end.
+///
+/// # Errors
+/// If the threads cannot be started, if `kept` says so, or if `stop` was set: the runs in hand end, no more are begun.
+pub fn reproduce(
+    reference: &Reference,
+    plan: Plan,
+    stop: &AtomicBool,
+    heard: impl Fn(&RunRow, u64) + Sync,
+    mut kept: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
+) -> Result<Reproduced, ReproduceError> {
+    let pool = ThreadPoolBuilder::new()
+        .num_threads(plan.jobs)
+        .build()
+        .map_err(|e| ReproduceError::Threads {
+            jobs: plan.jobs,
+            problem: e.to_string(),
+        })?;
+    let n_arms = reference.arms.len() as u64;
+    let mut row = Reproduced {
+        figures: Vec::new(),
+        row: reference.row.clone(),
+        scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
+        runs: Vec::new(),
+    };
+    while let Some(planned) = next(&row.runs, reference, plan) {
+        let from = row.runs.len() as u64 / n_arms;
+        let n = planned.min(from + BATCH);
+        let batch: Vec<Option<Vec<RunRow>>> = pool.install(|| {
+            (from..n)
+                .into_par_iter()
+                .map(|index| {
+                    // The arms of a seed one after the other, so that they can share a spun-up state.
+                    let mut spun = Vec::new();
+                    let one = |(k, (arm, loaded)): (usize, &(String, Loaded))| {
+                        if stop.load(Ordering::Relaxed) {
+                            return None;
+                        }
+                        let name = RunName {
+                            run: index * n_arms + k as u64,
+                            arm: arm.clone(),
+                            condition: String::new(),
+                            seed_index: index,
+                            seed: plan.first_seed + index,
+                        };
+                        let row = sharing_run(loaded, &name, &mut spun);
+                        heard(&row, planned * n_arms);
+                        Some(row)
+                    };
+                    reference.arms.iter().enumerate().map(one).collect()
+                })
+                .collect()
+        });
+        let batch: Option<Vec<Vec<RunRow>>> = batch.into_iter().collect();
+        let batch = batch.ok_or(ReproduceError::Interrupted)?;
+        row.runs.extend(batch.into_iter().flatten());
+        row.figures = compare(&reference.row, &row.runs);
+        kept(&row)?;
+    }
+    Ok(row)
+}
+
+/// How many seeds there shall be next; `None` when there are enough for every arm.
+fn next(runs: &[RunRow], reference: &Reference, plan: Plan) -> Option<u64> {
+    let n = (runs.len() / reference.arms.len()) as u64;
+    let Some(half_width) = plan.until_half_width else {
+        return (n < plan.n).then_some(plan.n);
+    };
+    let of_arm = |(arm, _): &(String, Loaded)| {
+        let found = runs.iter().filter(|r| r.arm == *arm && r.success).count() as u64;
+        next_n(found, n, half_width, plan.n)
+    };
+    reference.arms.iter().filter_map(of_arm).max()
+}

@@ -1,0 +1,189 @@
+//! The reproduction table: on the screen, as REPRODUCTION.md, and the runs behind it as CSV.
+
+use super::compare::{Compared, Standing};
+use super::row::Paper;
+use super::run::Reproduced;
+use crate::campaign::report::{Walls, align, csv_field, range, runs_csv};
+use output::files::{ReportError, make_folder, write_whole};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+const TEXT: &str = "writing to a String succeeds";
+
+const HEAD: [&str; 6] = [
+    "figure",
+    "ours",
+    "95 % interval",
+    "n",
+    "paper",
+    "the paper's is",
+];
+
+fn cells(c: &Compared) -> [String; 6] {
+    let unit = c.figure.quantity.unit();
+    let ours = match (c.ours.value, c.ours.count) {
+        (Some(v), Some(k)) => format!("{k}/{} = {}", c.ours.n, unit.show(v)),
+        (Some(v), None) => unit.show(v),
+        (None, _) => "none".to_string(),
+    };
+    let interval = match (c.ours.interval, c.ours.count) {
+        (Some(share), Some(_)) => unit.show_interval(share),
+        (i, _) => range(unit, i, c.ours.n),
+    };
+    let mut paper = match c.figure.paper {
+        Some(Paper::Value(v)) => unit.show(v),
+        Some(Paper::Run(v)) => format!("{}, one run", unit.show(v)),
+        Some(Paper::Count(k, n)) => format!("{k}/{n} = {}", unit.show(k as f64 / n as f64)),
+        Some(Paper::RunCount(k, n)) => format!("{k} of {n}"),
+        None => "-".to_string(),
+    };
+    if let Some(i) = c.papers_interval {
+        write!(paper, " [{}]", unit.show_interval(i)).expect(TEXT);
+    }
+    let standing = c.standing.words().to_string();
+    [
+        c.figure.name.clone(),
+        ours,
+        interval,
+        c.ours.n.to_string(),
+        paper,
+        standing,
+    ]
+}
+
+fn runs_line(r: &Reproduced) -> String {
+    let failed = r.runs.iter().filter(|x| x.error.is_some()).count();
+    let last = r.runs.iter().map(|x| x.seed).max().unwrap_or(0);
+    let first = r.runs.iter().map(|x| x.seed).min().unwrap_or(0);
+    let mut line = format!("{} runs, seeds {first} to {last}", r.runs.len());
+    if r.row.arms.len() > 1 {
+        write!(line, ", {} arms", r.row.arms.len()).expect(TEXT);
+    }
+    if failed > 0 {
+        write!(line, ", {failed} of them FAILED (counted as not declared)").expect(TEXT);
+    }
+    line
+}
+
+/// The first error of a failed run, for people.
+fn first_error(r: &Reproduced) -> Option<String> {
+    let bad = r.runs.iter().find(|x| x.error.is_some())?;
+    Some(format!("seed {}: {}", bad.seed, bad.error.as_deref()?))
+}
+
+/// The table of a row as plain text.
+#[must_use]
+pub fn table(r: &Reproduced) -> String {
+    let mut out = format!("{}: {}\n", r.row.id, r.row.what);
+    writeln!(out, "{} [{}]\n", runs_line(r), r.row.source).expect(TEXT);
+    let rows: Vec<[String; 6]> = r.figures.iter().map(cells).collect();
+    out.push_str(&align(&HEAD, &rows));
+    if let Some(error) = first_error(r) {
+        writeln!(out, "\nfirst failure: {error}").expect(TEXT);
+    }
+    writeln!(out, "\n{}", Walls::of(&r.runs).words()).expect(TEXT);
+    out
+}
+
+/// Writes REPRODUCTION.md, figures.csv and rows.csv into a folder, making it if need be.
+///
+/// # Errors
+/// If the folder or a file cannot be written; all other files are.
+pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError> {
+    make_folder(dir)?;
+    let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
+    let files = [
+        ("REPRODUCTION.md", markdown(all)),
+        ("figures.csv", figures_csv(all)),
+        ("rows.csv", runs_csv(&runs)),
+    ];
+    // One that cannot be written costs no other.
+    let mut failures = Vec::new();
+    let mut written = Vec::new();
+    for (name, text) in files {
+        match write_whole(&dir.join(name), text.as_bytes()) {
+            Ok(path) => written.push(path),
+            Err(error) => failures.push(error),
+        }
+    }
+    ReportError::of(failures).map_or(Ok(written), Err)
+}
+
+fn markdown(all: &[Reproduced]) -> String {
+    let mut out = format!(
+        "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every figure in figures.csv.\n\n\
+         Shares come with Wilson's 95 % interval (in brackets the paper's own, from its counts); quantiles (linear \
+         between order statistics) with a 95 % bootstrap interval of the quantile (percentile, {} resamples, seed 1); means with Student's, of \
+         quantities that cannot be below 0 on the scale of the logarithm; of fewer than 5 values there is none. Errors are of those \
+         runs that declared: n says how many. A paper's figure marked \"one run\" is a single mission: \"among our single \
+         runs\" says that 95 % of ours lie about it, though it lies outside the interval of our median.\n",
+        env!("CARGO_PKG_VERSION"),
+        crate::campaign::stats::RESAMPLES
+    );
+    for r in all {
+        writeln!(out, "\n## {}\n\n{}.\n", r.row.id, r.row.what).expect(TEXT);
+        writeln!(
+            out,
+            "Source: {}. Scenario `{}` (hash {}). {}.\n",
+            r.row.source,
+            r.scenario.0,
+            r.scenario.1,
+            runs_line(r)
+        )
+        .expect(TEXT);
+        writeln!(
+            out,
+            "| {} |\n|{}",
+            HEAD.join(" | "),
+            " --- |".repeat(HEAD.len())
+        )
+        .expect(TEXT);
+        for c in &r.figures {
+            let safe = cells(c).map(|s| s.replace('|', "\\|"));
+            writeln!(out, "| {} |", safe.join(" | ")).expect(TEXT);
+        }
+        out.push('\n');
+        for c in r.figures.iter().filter(|c| !c.figure.note.is_empty()) {
+            writeln!(out, "- {}: {}.", c.figure.name, c.figure.note).expect(TEXT);
+        }
+        if let Some(error) = first_error(r) {
+            writeln!(out, "- First failure: {error}.").expect(TEXT);
+        }
+        writeln!(out, "\n{}", Walls::of(&r.runs).words()).expect(TEXT);
+    }
+    out
+}
+
+fn figures_csv(all: &[Reproduced]) -> String {
+    let mut out = String::from(
+        "row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing\n",
+    );
+    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+    for r in all {
+        for c in &r.figures {
+            let (i, s, p) = (c.ours.interval, c.ours.spread, c.papers_interval);
+            let standing = if c.standing == Standing::None {
+                ""
+            } else {
+                c.standing.words()
+            };
+            let fields = [
+                r.row.id.clone(),
+                csv_field(&c.figure.name),
+                c.ours.n.to_string(),
+                c.ours.count.map_or(String::new(), |k| k.to_string()),
+                number(c.ours.value),
+                number(i.map(|i| i.low)),
+                number(i.map(|i| i.high)),
+                number(s.map(|i| i.low)),
+                number(s.map(|i| i.high)),
+                number(c.figure.paper.map(Paper::value)),
+                number(p.map(|i| i.low)),
+                number(p.map(|i| i.high)),
+                csv_field(standing),
+            ];
+            writeln!(out, "{}", fields.join(",")).expect(TEXT);
+        }
+    }
+    out
+}

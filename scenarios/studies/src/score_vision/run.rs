@@ -1,0 +1,128 @@
+//! All scenes rendered, looked at in every way, and counted.
+
+use super::draw::{Drawn, draw};
+use super::methods::{METHODS, Method};
+use super::pixels::Counts;
+use super::render::{Shot, SizePx, shoot};
+use output::files::ReportError;
+use rayon::prelude::*;
+use robots::vision::VerifierSpec;
+use serde::Serialize;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// What one way made of one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Row {
+    /// The scene.
+    pub scene: Drawn,
+    /// The way.
+    pub method: Method,
+    /// Its pixels of dye.
+    pub dye: Counts,
+    /// Its pixels of the source.
+    pub source: Counts,
+    /// The verifier's score.
+    pub score: f64,
+    /// Whether it verifies.
+    pub verified: bool,
+}
+
+/// Why scenes cannot be scored.
+#[derive(Debug, thiserror::Error)]
+pub enum ScoreError {
+    /// A scene cannot be built.
+    #[error("scene {n}: {problem}")]
+    Scene {
+        /// Its number.
+        n: u64,
+        /// What is wrong.
+        problem: String,
+    },
+    /// The threads.
+    #[error("cannot start {jobs} threads: {problem}")]
+    Threads {
+        /// As asked; 0 for one a core.
+        jobs: usize,
+        /// What the system said.
+        problem: String,
+    },
+    /// Results cannot be written.
+    #[error(transparent)]
+    Report(#[from] ReportError),
+    /// Ctrl-C or a termination signal.
+    #[error("interrupted: nothing is written")]
+    Interrupted,
+}
+
+/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one a core). The rows stand in order and do not depend on `jobs`; `done` is
+/// given every scene with its picture as it comes.
+///
+/// # Errors
+/// If threads cannot be started, a scene not be built, or `stop` is set.
+pub fn score(
+    seed: u64,
+    scenes: u64,
+    size: SizePx,
+    spec: &VerifierSpec,
+    jobs: usize,
+    stop: &AtomicBool,
+    done: impl Fn(&Drawn, &Shot) + Sync,
+) -> Result<Vec<Row>, ScoreError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
+    let pool = pool.map_err(|e| ScoreError::Threads {
+        jobs,
+        problem: e.to_string(),
+    })?;
+    let one = |n: u64| {
+        if stop.load(Ordering::Relaxed) {
+            return Err(ScoreError::Interrupted);
+        }
+        let scene = draw(seed, n);
+        let shot = shoot(seed, &scene, size)?;
+        done(&scene, &shot);
+        Ok(rows(&scene, &shot, spec))
+    };
+    let all: Result<Vec<Vec<Row>>, ScoreError> =
+        pool.install(|| (0..scenes).into_par_iter().map(one).collect());
+    Ok(all?.concat())
+}
+
+fn rows(scene: &Drawn, shot: &Shot, spec: &VerifierSpec) -> Vec<Row> {
+    let row = |method: Method| {
+        let (dye, body, seen) = method.look(&shot.picture, spec);
+        Row {
+            scene: scene.clone(),
+            method,
+            dye: Counts::of(&dye, &shot.dye),
+            source: Counts::of(&body, &shot.source),
+            score: seen.score,
+            verified: seen.verified,
+        }
+    };
+    METHODS.map(row).to_vec()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_do_not_depend_on_the_number_of_jobs() {
+        let go = AtomicBool::new(false);
+        let of = |jobs| {
+            score(
+                3,
+                4,
+                SizePx(24, 18),
+                &VerifierSpec::default(),
+                jobs,
+                &go,
+                |_, _| {},
+            )
+            .unwrap()
+        };
+        let one = of(1);
+        assert_eq!(one.len(), 4 * METHODS.len());
+        assert_eq!(one, of(2));
+    }
+}

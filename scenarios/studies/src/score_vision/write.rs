@@ -1,0 +1,319 @@
+//! The results as a table, CSV, JSON and figures.
+
+use super::draw::{BINS, bin};
+use super::figures::{curves, shares};
+use super::methods::{METHODS, Method};
+use super::pixels::{Counts, Ratio, precision, recall};
+use super::roc::{Roc, Scored};
+use super::run::Row;
+use crate::campaign::stats::Interval;
+use output::files::{Kept, ReportError};
+use robots::vision::VerifierSpec;
+use serde::Serialize;
+use std::fmt::Write as _;
+use world::files::Folder;
+
+/// What was asked for.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Plan {
+    /// Seed of the scenes.
+    pub seed: u64,
+    /// How many.
+    pub scenes: u64,
+    /// Width and height of the pictures, px.
+    pub size_px: [u32; 2],
+    /// The verifier.
+    pub verifier: VerifierSpec,
+}
+
+/// All figures of one way in one range of visibility.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Figures {
+    pub(super) method: Method,
+    /// Range of visibility, m; none for all of them.
+    pub(super) visibility_m: Option<(f64, f64)>,
+    pub(super) dye_precision: Ratio,
+    pub(super) dye_recall: Ratio,
+    pub(super) source_precision: Ratio,
+    pub(super) source_recall: Ratio,
+    pub(super) verification: Roc,
+}
+
+/// The figures of each way: all scenes, then each range.
+fn figures(rows: &[Row]) -> Vec<Figures> {
+    let mut all = Vec::new();
+    for method in METHODS {
+        let of_method: Vec<&Row> = rows.iter().filter(|r| r.method == method).collect();
+        all.push(one(method, None, &of_method));
+        for (k, range) in BINS.into_iter().enumerate() {
+            let within: Vec<&Row> = (of_method.iter().copied())
+                .filter(|r| bin(r.scene.visibility_m) == k)
+                .collect();
+            all.push(one(method, Some(range), &within));
+        }
+    }
+    all
+}
+
+fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&Row]) -> Figures {
+    let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
+    let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
+    let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
+    let scored: Vec<Scored> = (rows.iter())
+        .map(|r| Scored {
+            score: r.score,
+            source: r.scene.content == super::Content::Source,
+        })
+        .collect();
+    Figures {
+        method,
+        visibility_m,
+        dye_precision: precision(&dye, &name("dye precision")),
+        dye_recall: recall(&dye, &name("dye recall")),
+        source_precision: precision(&source, &name("source precision")),
+        source_recall: recall(&source, &name("source recall")),
+        verification: Roc::new(&scored, &name("verification")),
+    }
+}
+
+/// The figures as a table; intervals are of 95 %.
+#[must_use]
+pub fn table(rows: &[Row]) -> String {
+    let mut out = String::from(
+        "| way | visibility | dye: precision | recall | source: precision | recall | verified of those with a source | of those without | area under the curve |\n\
+         | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
+    );
+    for f in figures(rows) {
+        let v = &f.verification;
+        let share = |(n, k): (u64, u64), i: &Interval| {
+            format!("{k}/{n} ({:.0}–{:.0} %)", 100.0 * i.low, 100.0 * i.high)
+        };
+        let _ = writeln!(
+            out,
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            f.method.name(),
+            range_words(f.visibility_m),
+            percent(&f.dye_precision),
+            percent(&f.dye_recall),
+            percent(&f.source_precision),
+            percent(&f.source_recall),
+            share(v.with, &v.true_share),
+            share(v.without, &v.false_share),
+            match (v.area, &v.area_interval) {
+                (Some(a), Some(i)) => format!("{a:.2} ({:.2}–{:.2})", i.low, i.high),
+                _ => "–".to_string(),
+            },
+        );
+    }
+    out
+}
+
+pub(super) fn range_words(range: Option<(f64, f64)>) -> String {
+    range.map_or("all".to_string(), |(low, high)| format!("{low}–{high} m"))
+}
+
+fn percent(r: &Ratio) -> String {
+    match (r.value, &r.interval) {
+        (Some(v), Some(i)) => format!(
+            "{:.0} % ({:.0}–{:.0})",
+            100.0 * v,
+            100.0 * i.low,
+            100.0 * i.high
+        ),
+        (Some(v), None) => format!("{:.0} %", 100.0 * v),
+        _ => "–".to_string(),
+    }
+}
+
+/// Writes `scores.md`, `scores.csv`, `scores.json`, `scenes.csv` and the figures into a folder.
+///
+/// # Errors
+/// If a file cannot be written, each that could not; all others are.
+pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError> {
+    let mut kept = Kept::new(out);
+    let all = figures(rows);
+    let head = format!(
+        "{} scenes of {} x {} px, seed {}; intervals 95 %\n\n",
+        plan.scenes, plan.size_px[0], plan.size_px[1], plan.seed
+    );
+    kept.write("scores.md", (head + &table(rows)).as_bytes());
+    kept.write("scores.csv", scores_csv(&all).as_bytes());
+    kept.write("scenes.csv", scenes_csv(rows).as_bytes());
+    #[derive(Serialize)]
+    struct Scores<'a> {
+        plan: &'a Plan,
+        figures: &'a [Figures],
+    }
+    let json = serde_json::to_string_pretty(&Scores {
+        plan,
+        figures: &all,
+    })
+    .expect("plain numbers");
+    kept.write("scores.json", json.as_bytes());
+    for (name, canvas) in [("pixels", shares(&all)), ("roc", curves(&all))] {
+        kept.figure(name, &canvas.svg(name));
+    }
+    kept.done().map(drop)
+}
+
+fn scores_csv(all: &[Figures]) -> String {
+    let mut out =
+        String::from("method,visibility_low_m,visibility_high_m,figure,n,count,value,low,high\n");
+    for f in all {
+        let range = f
+            .visibility_m
+            .map_or(",".to_string(), |(l, h)| format!("{l},{h}"));
+        let v = &f.verification;
+        let mut line =
+            |name: &str, n: u64, count: Option<u64>, value: Option<f64>, i: Option<Interval>| {
+                let text = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
+                let _ = writeln!(
+                    out,
+                    "{},{range},{name},{n},{},{},{},{}",
+                    f.method.name().replace(',', ""),
+                    count.map_or(String::new(), |c| c.to_string()),
+                    text(value),
+                    text(i.map(|i| i.low)),
+                    text(i.map(|i| i.high))
+                );
+            };
+        for (name, r) in [
+            ("dye_precision", &f.dye_precision),
+            ("dye_recall", &f.dye_recall),
+            ("source_precision", &f.source_precision),
+            ("source_recall", &f.source_recall),
+        ] {
+            line(name, r.pictures as u64, None, r.value, r.interval);
+        }
+        for (name, (n, k), i) in [
+            ("verified_with_source", v.with, v.true_share),
+            ("verified_without_source", v.without, v.false_share),
+        ] {
+            line(
+                name,
+                n,
+                Some(k),
+                (n > 0).then(|| k as f64 / n as f64),
+                Some(i),
+            );
+        }
+        line(
+            "area_under_curve",
+            v.with.0 + v.without.0,
+            None,
+            v.area,
+            v.area_interval,
+        );
+    }
+    out
+}
+
+fn scenes_csv(rows: &[Row]) -> String {
+    let mut out = String::from(
+        "scene,content,visibility_m,illuminance_klx,sun_elevation_deg,current_m_s,dye_g_min,albedo,range_m,height_m,\
+         method,dye_hit,dye_false,dye_missed,source_hit,source_false,source_missed,score,verified\n",
+    );
+    for r in rows {
+        let s = &r.scene;
+        let _ = writeln!(
+            out,
+            "{},{},{:.3},{:.2},{:.1},{},{:.3},{:.4},{:.3},{:.3},{},{},{},{},{},{},{},{},{}",
+            s.n,
+            s.content.name(),
+            s.visibility_m,
+            s.illuminance_klx,
+            s.sun_elevation_deg,
+            s.current_m_s,
+            s.dye_g_min,
+            s.albedo,
+            s.range_m,
+            s.height_m,
+            r.method.name().replace(',', ""),
+            r.dye.hit,
+            r.dye.false_alarm,
+            r.dye.missed,
+            r.source.hit,
+            r.source.false_alarm,
+            r.source.missed,
+            r.score,
+            r.verified
+        );
+    }
+    out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::draw::draw;
+    use super::*;
+
+    fn rows() -> Vec<Row> {
+        (0..24)
+            .flat_map(|n| METHODS.map(|method| (n, method)))
+            .map(|(n, method)| {
+                let scene = draw(1, n);
+                let there = scene.content == super::super::Content::Source;
+                let counts = |hit| Counts {
+                    hit,
+                    false_alarm: 5,
+                    missed: 5,
+                };
+                Row {
+                    dye: counts(15),
+                    source: if there { counts(5) } else { Counts::default() },
+                    score: if there { 2.0 } else { 0.5 },
+                    verified: there,
+                    scene,
+                    method,
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_way_and_range_has_its_line() {
+        let text = table(&rows());
+        assert_eq!(text.lines().count(), 2 + METHODS.len() * (1 + BINS.len()));
+        let line = "| clusters | 1.5–3 m | 75 % (75–75) | 75 % (75–75) | 50 % (50–50) | 50 % (50–50) | 3/3 (44–100 %) | 0/3 (0–56 %) | 1.00 (1.00–1.00) |";
+        assert!(text.contains(line), "{text}");
+    }
+
+    #[test]
+    fn all_files_are_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let plan = Plan {
+            seed: 1,
+            scenes: 24,
+            size_px: [320, 240],
+            verifier: VerifierSpec::default(),
+        };
+        let out = output::files::begin_folder(folder.path(), "score-vision").unwrap();
+        write(&out, &plan, &rows()).unwrap();
+        for name in [
+            "scores.md",
+            "scores.csv",
+            "scores.json",
+            "scenes.csv",
+            "pixels.svg",
+            "pixels.png",
+            "roc.svg",
+            "roc.png",
+        ] {
+            assert!(folder.path().join(name).is_file(), "{name}");
+        }
+        let csv = std::fs::read_to_string(folder.path().join("scores.csv")).unwrap();
+        assert!(
+            csv.contains("given back,6,12,verified_with_source,3,3,1,"),
+            "{csv}"
+        );
+        for name in ["scores.csv", "scenes.csv"] {
+            let csv = std::fs::read_to_string(folder.path().join(name)).unwrap();
+            let fields = |line: &str| line.split(',').count();
+            let head = csv.lines().next().map(fields);
+            assert!(
+                csv.lines().all(|l| Some(fields(l)) == head),
+                "{name}: {csv}"
+            );
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! What a segmentation leaves: a picture for each step, the clusters, a sheet of all, and the numbers.
+
+use super::clusters::{clusters, fate};
+use super::overlay::overlay;
+use super::sheet::sheet;
+use image::{ImageFormat, ImageResult, RgbImage};
+use output::files::{Kept, ReportError};
+use robots::vision::{Segmentation, Sighting, Target, Verifier, VerifierSpec};
+use serde::Serialize;
+use std::fmt::Write as _;
+use std::io::Cursor;
+use std::path::PathBuf;
+use world::files::Folder;
+
+/// A picture taken apart and judged.
+#[derive(Clone, Debug)]
+pub struct Segmented {
+    /// The file's name.
+    pub name: String,
+    /// The picture.
+    pub picture: RgbImage,
+    /// With which parameters.
+    pub spec: VerifierSpec,
+    /// Its parts.
+    pub parts: Segmentation,
+    /// What it shows.
+    pub sighting: Sighting,
+}
+
+#[derive(Serialize)]
+struct Numbers<'a> {
+    picture: &'a str,
+    width: u32,
+    height: u32,
+    parameters: &'a VerifierSpec,
+    sighting: &'a Sighting,
+}
+
+impl Segmented {
+    /// Takes a picture apart and judges it.
+    #[must_use]
+    pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
+        let (parts, sighting) = Verifier::new(&spec).look(&picture);
+        Self {
+            name,
+            picture,
+            spec,
+            parts,
+            sighting,
+        }
+    }
+
+    pub(super) fn overlay(&self) -> RgbImage {
+        overlay(&self.picture, &self.parts, self.sighting.source.as_ref())
+    }
+}
+
+/// Writes everything into a folder; returns the sheet's path.
+///
+/// # Errors
+/// If a file cannot be written, each that could not; all others are.
+pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
+    let mut kept = Kept::new(out);
+    for pass in &s.parts.passes {
+        let name = format!("pass-{}.png", pass.number);
+        kept.draw(&name, colours(&s.parts.taken_by(pass.number)));
+    }
+    for (target, name) in [(Target::Plume, "plume"), (Target::Source, "source")] {
+        let union = |kept| colours(&s.parts.union(target, kept));
+        kept.draw(&format!("{name}.png"), union(false));
+        kept.draw(&format!("{name}-kept.png"), union(true));
+        let mask = encoded(|bytes| s.parts.mask(target, true).write_to(bytes, ImageFormat::Png));
+        kept.draw(&format!("{name}-mask.png"), mask);
+    }
+    kept.draw("left.png", colours(&s.parts.left()));
+    kept.draw("overlay.png", colours(&s.overlay()));
+    let svg = clusters(&s.sighting.passes, &s.spec.colours).svg("clusters");
+    kept.figure("clusters", &svg);
+    let numbers = Numbers {
+        picture: &s.name,
+        width: s.picture.width(),
+        height: s.picture.height(),
+        parameters: &s.spec,
+        sighting: &s.sighting,
+    };
+    let json = serde_json::to_string_pretty(&numbers).expect("plain numbers");
+    kept.write("segmentation.json", format!("{json}\n").as_bytes());
+    kept.draw("sheet.png", sheet(s).and_then(|sheet| colours(&sheet)));
+    kept.done()?;
+    Ok(out.dir().join("sheet.png"))
+}
+
+fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
+    encoded(|bytes| picture.write_to(bytes, ImageFormat::Png))
+}
+
+fn encoded(write: impl Fn(&mut Cursor<Vec<u8>>) -> ImageResult<()>) -> Result<Vec<u8>, String> {
+    let mut bytes = Cursor::new(Vec::new());
+    write(&mut bytes).map_err(|e| e.to_string())?;
+    Ok(bytes.into_inner())
+}
+
+/// The passes and the verdict as text.
+#[must_use]
+pub fn table(s: &Segmented) -> String {
+    let (w, h) = s.picture.dimensions();
+    let all = f64::from(w) * f64::from(h);
+    let mut out = format!("{}, {w} x {h}\n\n", s.name);
+    out.push_str("pass  towards    pattern          distance    share  in the group\n");
+    for p in &s.sighting.passes {
+        let [r, g, b] = p.pattern.rgb;
+        let pattern = format!("({r}, {g}, {b})");
+        let (_, says) = fate(p.fate, &s.spec.colours);
+        let _ = writeln!(
+            out,
+            "{:>4}  {:<9}  {pattern:<15}  {:>8.1}  {:>6.2}%  {says}",
+            p.number,
+            p.target.reference().name(),
+            p.pattern.distance,
+            100.0 * p.pixels as f64 / all,
+        );
+    }
+    let v = &s.sighting;
+    let _ = writeln!(
+        out,
+        "\nplume {:.2}% of the picture, source {:.2}%: {}",
+        100.0 * v.dye_share,
+        100.0 * v.source_share,
+        v.words()
+    );
+    out
+}
