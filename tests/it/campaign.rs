@@ -7,11 +7,11 @@ mod permeable;
 mod seeds;
 
 use crate::common;
-use rheotaxis::campaign::{RunRow, block_path, read_rows};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
+use studies::campaign::{RunRow, block_path, read_rows};
 
 /// Two arms, two conditions, in a channel so short that a run takes hundredths of a second.
 const CAMPAIGN: &str = r#"(

@@ -13,8 +13,8 @@ use kit::{
     PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, picture, ping, plume,
     sent, start,
 };
+use output::live::{Live, LiveOptions, Payload, topics};
 use rheotaxis::frame::Frame;
-use rheotaxis::live::{Live, LiveOptions, Payload, topics};
 use rheotaxis::scenario;
 use rheotaxis::trial::{Trial, Watch};
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! What a run is judged by hangs on nothing that is written down, and on no order but the file's.
 
 use rheotaxis::frame::Frame;
-use rheotaxis::report::RunOutcome;
+use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
 use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};

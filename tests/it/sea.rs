@@ -4,10 +4,8 @@ use crate::common;
 use nalgebra::Vector2;
 use rheotaxis::assemble::Simulation;
 use rheotaxis::scenario::{Scenario, parse};
-use rheotaxis::system::Water;
 use robots::handoff::Estimate;
 use std::path::Path;
-use world::clock::Clock;
 use world::frames::Truth;
 
 /// Five minutes in Dalian Bay without the plume; in front of it the waves as they are there, or none.
@@ -33,7 +31,7 @@ struct Held {
 fn held(waves: bool) -> Held {
     const STEPS: u32 = 15_000;
     let mut sim = Simulation::assemble(&scenario(waves), Path::new(""), 4).unwrap();
-    sim.spin_up(|_| true);
+    sim.ocean_mut().spin_up(|_| true);
     let mut seen = sim.world.query::<(&Truth, &Estimate)>();
     let (mut n, mut depth, mut worst, mut flow, mut off) = (0.0, 0.0, 0.0_f64, 0.0, Vec::new());
     for step in 0..STEPS {
@@ -48,9 +46,9 @@ fn held(waves: bool) -> Held {
         let error = p.z + 1.5;
         depth += error * error;
         worst = worst.max(error.abs());
-        let water = sim.world.resource::<Water>();
-        let t = sim.world.resource::<Clock>().t_s() + water.t0_s;
-        let tide: Vector2<f64> = water.flow.column(p.xy(), t).velocity(p.z - 1.0).xy();
+        let ocean = sim.ocean();
+        let t = sim.t_s() + ocean.spin_up_s();
+        let tide: Vector2<f64> = ocean.water().column(p.xy(), t).velocity(p.z - 1.0).xy();
         flow += (estimate.flow.unwrap().velocity - tide).norm_squared();
     }
     Held {

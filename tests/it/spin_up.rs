@@ -1,7 +1,7 @@
 //! A spin-up taken over from another run is the same, bit for bit, as one's own; and refused where it is not.
 
+use rheotaxis::ocean::{Mismatch, SpunUp};
 use rheotaxis::scenario::{Id, Loaded, Scenario, load};
-use rheotaxis::spun_up::{Mismatch, SpunUp};
 use rheotaxis::trial::{Trial, Unwatched, Watch};
 use std::path::Path;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
@@ -154,6 +154,6 @@ fn a_stopped_spin_up_gives_nothing_to_share() {
     let mut trial = Trial::assemble(&short("uniform_channel"), 1).unwrap();
     assert!(trial.spin_up(&mut Impatient).is_none());
     let ended = trial.run(&mut Unwatched);
-    assert_eq!(ended.outcome, rheotaxis::report::RunOutcome::Interrupted);
+    assert_eq!(ended.outcome, rheotaxis::outcome::RunOutcome::Interrupted);
     assert_eq!(ended.steps, 0);
 }

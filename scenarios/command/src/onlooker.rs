@@ -16,23 +16,19 @@ use output::results::{
 };
 use plumes::flow::CurrentSpec;
 use rheotaxis::abnormal::Abnormals;
-use rheotaxis::assemble::AssembleError;
+use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
-use rheotaxis::gantry::GantryBlock;
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::GantryBlock;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::system::Dye;
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::strategy::StrategySpec;
 use robots::vehicles::Gantry;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
-use world::area::Area;
 use world::files::Folder;
-use world::obstacles::Obstacles;
 use world::ranges::Finite;
-use world::terrain::Terrain;
 
 use super::run::RunError;
 use super::say;
@@ -167,7 +163,8 @@ impl<'a> Onlooker<'a> {
             self.note(closed);
         }
         let world = &trial.simulation.world;
-        let plume = &world.resource::<Dye>().plume;
+        let ocean = trial.simulation.ocean();
+        let plume = ocean.plume();
         let sources: Vec<SourceTruth> = (plume.sources().iter())
             .zip(&ended.flow_at_sources)
             .map(|(s, flow)| SourceTruth {
@@ -206,7 +203,7 @@ impl<'a> Onlooker<'a> {
         );
         let track = self.track.finish();
         let gantries = self.probes.finish();
-        let obstacles: Vec<ObstacleOutline> = (world.resource::<Obstacles>().0.iter())
+        let obstacles: Vec<ObstacleOutline> = (ocean.obstacles.0.iter())
             .map(|o| ObstacleOutline {
                 id: o.id.clone(),
                 corners: o.outline(),
@@ -228,12 +225,12 @@ impl<'a> Onlooker<'a> {
                 beliefs: &self.beliefs,
                 plume: self.last_plume.as_ref(),
                 dye: (!sources.is_empty()).then_some(plume),
-                area: world.resource::<Area>(),
-                terrain: world.resource::<Terrain>(),
+                area: &ocean.area,
+                terrain: &ocean.terrain,
                 sources: &sources,
                 interfaces: &self.interfaces,
                 obstacles: &obstacles,
-                solids: Some(world.resource::<Obstacles>()),
+                solids: Some(&ocean.obstacles),
                 scenario_text: &self.text,
             },
         );

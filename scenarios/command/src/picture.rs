@@ -7,15 +7,12 @@ use image::{ImageFormat, RgbImage};
 use nalgebra::Vector3;
 use output::files::{ReportError, write_whole};
 use rheotaxis::scenario::load;
-use rheotaxis::system::Dye;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, Optics, Rendered, Scene, looking, render};
 use std::io::Cursor;
 use std::path::Path;
-use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::seeds;
-use world::terrain::Terrain;
 use world::units::Heading;
 
 /// Takes the picture and says where it lies.
@@ -56,16 +53,15 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         }
     };
     let world_of = |trial: &Trial| {
-        let world = &trial.simulation.world;
         let [east, north, up] = args.at.0;
-        let bed = world.resource::<Terrain>().bed_z(east, north);
+        let bed = trial.simulation.ocean().terrain.bed_z(east, north);
         if up > 0.0 || up < bed {
             return Err(format!(
                 "the camera must be in the water: up from {bed:.2} to 0 m at that place, got {up}"
             ));
         }
         let p = Vector3::new(east, north, up);
-        match world.resource::<Obstacles>().containing(&p) {
+        match trial.simulation.ocean().obstacles.containing(&p) {
             Some(solid) => Err(format!("the camera would be inside \"{}\"", solid.id)),
             None => Ok(p),
         }
@@ -78,11 +74,11 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         }
     };
     trial.spin_up(&mut Unwatched);
-    let world = &trial.simulation.world;
+    let (world, ocean) = (&trial.simulation.world, trial.simulation.ocean());
     let scene = Scene {
-        terrain: world.resource(),
-        obstacles: world.resource(),
-        dye: &world.resource::<Dye>().plume,
+        terrain: &ocean.terrain,
+        obstacles: &ocean.obstacles,
+        dye: ocean.plume(),
         optics: world.resource::<Optics>(),
     };
     let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.camera.clone());

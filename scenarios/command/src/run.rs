@@ -6,7 +6,7 @@ use super::onlooker::Onlooker;
 use super::{say, stop};
 use output::files::ReportError;
 use output::live::LiveError;
-use rheotaxis::assemble::AssembleError;
+use rheotaxis::error::AssembleError;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
 use rheotaxis::trial::Trial;

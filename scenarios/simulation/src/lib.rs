@@ -2,13 +2,14 @@
 
 pub mod abnormal;
 pub mod assemble;
+pub mod auv;
+pub mod error;
 pub mod frame;
 pub mod gantry;
 pub mod ocean;
 pub mod outcome;
 pub mod scenario;
 pub mod score;
-pub mod spun_up;
-pub mod system;
+pub mod searchers;
 pub mod tick;
 pub mod trial;

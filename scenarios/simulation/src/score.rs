@@ -1,8 +1,6 @@
 //! What a run is judged by, kept up at every step: how near each robot came to a source, and what was declared. It hangs
 //! on no frame and on nothing else that is written down.
 
-pub(crate) mod system;
-
 use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
 use robots::handoff::Declaration;
@@ -50,7 +48,7 @@ impl Score {
     }
 
     /// Searcher `n` is at a place (ENU, m).
-    fn at(&mut self, n: usize, p_W: &Vector3<f64>) {
+    pub(crate) fn at(&mut self, n: usize, p_W: &Vector3<f64>) {
         let away = (self.sources.iter()).map(|s| (s - p_W).xy().norm_squared());
         let nearest_m = away.fold(f64::INFINITY, f64::min).sqrt();
         let closest_m = &mut self.searchers[n].closest_m;
@@ -58,7 +56,7 @@ impl Score {
     }
 
     /// Searcher `n` declares.
-    fn declared(&mut self, n: usize, declaration: Option<Declaration>) {
+    pub(crate) fn declared(&mut self, n: usize, declaration: Option<Declaration>) {
         if let Some(declaration) = declaration {
             declaration.join(&mut self.searchers[n].declarations);
         }

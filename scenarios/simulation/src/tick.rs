@@ -3,13 +3,13 @@
 //! One thread, one order, one writer for each type; an ambiguity between two systems is an error
 //! when the schedule is built. Parallelism is across runs, so a run is the same on any machine load.
 
-use crate::abnormal::system::watch;
+use crate::auv::system as auv;
 use crate::frame::system::take_frame;
 use crate::gantry::system as gantry;
-use crate::score::system::keep_score;
-use crate::system;
-use bevy_ecs::prelude::{IntoScheduleConfigs, Schedule};
+use crate::ocean::system as ocean;
+use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
+use world::clock::Clock;
 use world::stage::Stage;
 
 /// Label of the tick's schedule.
@@ -44,24 +44,30 @@ pub fn tick() -> Schedule {
             .chain(),
     );
     tick.add_systems((
-        (system::read_instruments, gantry::read_probes).in_set(Stage::Sense),
-        system::estimate_state.in_set(Stage::Estimate),
-        system::update_map.in_set(Stage::Map),
-        (system::decide, gantry::track).in_set(Stage::Decide),
-        system::guide.in_set(Stage::Guide),
-        (system::actuate, gantry::drive_gantries).in_set(Stage::Actuate),
-        system::move_bodies.in_set(Stage::Physics),
-        system::drift_plume.in_set(Stage::Drift),
+        (auv::read_instruments, gantry::read_probes).in_set(Stage::Sense),
+        auv::estimate_state.in_set(Stage::Estimate),
+        auv::update_map.in_set(Stage::Map),
+        (auv::decide, gantry::track).in_set(Stage::Decide),
+        auv::guide.in_set(Stage::Guide),
+        (auv::actuate, gantry::drive_gantries).in_set(Stage::Actuate),
+        auv::move_bodies.in_set(Stage::Physics),
+        ocean::drift.in_set(Stage::Drift),
         (
-            system::digest_state,
+            auv::digest_robots,
+            ocean::digest_plume,
             gantry::digest_gantries,
-            keep_score,
-            watch,
+            auv::keep_score,
+            gantry::keep_score,
+            auv::watch,
             take_frame,
-            system::pass_time,
+            pass_time,
         )
             .chain()
             .in_set(Stage::Report),
     ));
     tick
+}
+
+fn pass_time(mut clock: ResMut<Clock>) {
+    clock.advance();
 }

@@ -1,13 +1,16 @@
 //! One run of a scenario from spin-up to its end, without files or screens: those watch it.
+//!
+//! [`Trial::run`] does all of it; [`Trial::step`] and [`Trial::until`] go a part of the way, and what there is can be
+//! read in between. All three give the same run, bit for bit.
 
-use crate::assemble::{AssembleError, Simulation};
+use crate::assemble::Simulation;
+use crate::error::AssembleError;
 use crate::frame::system::Outbox;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use crate::ocean::{Mismatch, Ocean, SpunUp};
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::score::Score;
-use crate::spun_up::{Mismatch, SpunUp};
-use crate::system::Dye;
 use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
@@ -63,7 +66,7 @@ pub struct Ended {
 enum Stage {
     Assembled,
     SpunUp,
-    /// Within the spin-up.
+    /// By who looked on.
     Stopped,
     Ended,
 }
@@ -78,6 +81,7 @@ pub struct Trial {
     sources: Vec<Vector3<f64>>,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
+    frame: Option<Frame>,
 }
 
 impl Trial {
@@ -88,9 +92,8 @@ impl Trial {
     pub fn assemble(loaded: &Loaded, seed: u64) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
         let simulation = Simulation::assemble(scenario, &loaded.base_dir, seed)?;
-        let sources: Vec<_> = (simulation.world.resource::<Dye>().plume.sources().iter())
-            .map(|s| s.p_W)
-            .collect();
+        let sources = simulation.ocean().plume().sources();
+        let sources: Vec<_> = sources.iter().map(|s| s.p_W).collect();
         Ok(Self {
             simulation,
             stage: Stage::Assembled,
@@ -99,6 +102,7 @@ impl Trial {
             flow_sums: vec![Vector3::zeros(); sources.len()],
             flow_samples: 0,
             sources,
+            frame: None,
         })
     }
 
@@ -111,8 +115,8 @@ impl Trial {
     pub fn spin_up(&mut self, watch: &mut dyn Watch) -> Option<SpunUp> {
         self.develop(watch);
         (self.stage == Stage::SpunUp).then(|| {
-            let (water, plume) = self.simulation.water_and_plume();
-            SpunUp::new(self.simulation.origin.clone(), water, plume)
+            let state = self.simulation.ocean().state();
+            SpunUp::new(self.simulation.origin.clone(), state)
         })
     }
 
@@ -126,9 +130,9 @@ impl Trial {
     /// # Panics
     /// If the run has been spun up before.
     pub fn take_over(&mut self, spun_up: &SpunUp) -> Result<(), Mismatch> {
-        let (water, plume) = spun_up.copy_for(&self.simulation.origin)?;
+        let state = spun_up.copy_for(&self.simulation.origin)?;
         self.start_afresh();
-        self.simulation.put_water_and_plume(water, plume);
+        self.simulation.ocean_mut().put_state(state);
         self.set_out(Stage::SpunUp);
         Ok(())
     }
@@ -136,7 +140,7 @@ impl Trial {
     fn develop(&mut self, watch: &mut dyn Watch) {
         self.start_afresh();
         let mut stopped = false;
-        self.simulation.spin_up(|share| {
+        self.simulation.ocean_mut().spin_up(|share| {
             stopped = !watch.spun_up(share);
             !stopped
         });
@@ -158,41 +162,60 @@ impl Trial {
         self.stage = stage;
         let world = &mut self.simulation.world;
         world.resource_scope::<Digest, ()>(|world, mut digest| {
-            world.resource::<Dye>().plume.digest_into(&mut digest);
+            world.resource::<Ocean>().plume().digest_into(&mut digest);
         });
     }
 
-    /// Runs it to its end: the spin-up, unless that is done or taken over, and the mission.
-    ///
-    /// # Panics
-    /// If it has been run before.
+    /// Runs it to its end: the spin-up, unless that is done or taken over, and the rest of the mission.
     pub fn run(&mut self, watch: &mut dyn Watch) -> Ended {
+        while self.advance(watch) {}
+        self.ended()
+    }
+
+    /// One tick of the mission, after the spin-up where that is not done; `false` once the run is over.
+    pub fn step(&mut self) -> bool {
+        self.advance(&mut Unwatched)
+    }
+
+    /// Ticks until a time of the mission, s; `false` if the run was over before.
+    pub fn until(&mut self, t_s: f64) -> bool {
+        while self.simulation.t_s() < t_s - 1e-9 {
+            if !self.step() {
+                return false;
+            }
+        }
+        true
+    }
+
+    /// One tick with somebody who looks on; `false` once the run is over or `watch` stopped it.
+    fn advance(&mut self, watch: &mut dyn Watch) -> bool {
         if self.stage == Stage::Assembled {
             self.develop(watch);
         }
-        assert!(
-            self.stage != Stage::Ended,
-            "a trial is run once: assemble another for another run"
-        );
-        let mut stopped = self.stage == Stage::Stopped;
-        self.stage = Stage::Ended;
-        while !stopped && self.simulation.t_s() < self.limit_s - 1e-9 {
-            self.simulation.tick();
-            self.show(watch);
-            stopped = !watch.go_on(self.simulation.t_s());
-            if self.all_over() {
-                break;
-            }
+        if self.stage != Stage::SpunUp {
+            return false;
         }
-        let outcome = if stopped {
-            RunOutcome::Interrupted
-        } else {
-            self.outcome()
-        };
+        self.simulation.tick();
+        self.show(watch);
+        let t_s = self.simulation.t_s();
+        if !watch.go_on(t_s) {
+            self.stage = Stage::Stopped;
+        } else if self.all_over() || t_s >= self.limit_s - 1e-9 {
+            self.stage = Stage::Ended;
+        }
+        self.stage == Stage::SpunUp
+    }
+
+    /// What the run has come to by now. Before its end the outcome is as if the time limit had come.
+    #[must_use]
+    pub fn ended(&self) -> Ended {
         let world = &self.simulation.world;
         let samples = f64::from(self.flow_samples.max(1));
         Ended {
-            outcome,
+            outcome: match self.stage {
+                Stage::Stopped => RunOutcome::Interrupted,
+                _ => self.outcome(),
+            },
             flow_at_sources: self.flow_sums.iter().map(|sum| sum / samples).collect(),
             digest: world.resource::<Digest>().hex(),
             steps: world.resource::<Clock>().step,
@@ -207,6 +230,19 @@ impl Trial {
         self.run(&mut Unwatched)
     }
 
+    /// The newest picture of the searchers; `None` before the first. How often one is taken says `record` of the
+    /// scenario.
+    #[must_use]
+    pub fn frame(&self) -> Option<&Frame> {
+        self.frame.as_ref()
+    }
+
+    /// How near each searcher came, and what was declared so far.
+    #[must_use]
+    pub fn score(&self) -> &Score {
+        self.simulation.world.resource()
+    }
+
     fn show(&mut self, watch: &mut dyn Watch) {
         let mut outbox = self.simulation.world.resource_mut::<Outbox>();
         let (frame, plume) = (outbox.frame.take(), outbox.plume.take());
@@ -218,6 +254,7 @@ impl Trial {
         }
         if let Some(frame) = frame {
             watch.frame(&frame);
+            self.frame = Some(frame);
         }
         if let Some(plume) = plume {
             self.flow_samples += 1;
@@ -232,10 +269,6 @@ impl Trial {
     fn all_over(&self) -> bool {
         let mut decisions = self.simulation.outcomes().peekable();
         decisions.peek().is_some() && decisions.all(|d| d.is_some())
-    }
-
-    fn score(&self) -> &Score {
-        self.simulation.world.resource()
     }
 
     /// Declarations so far, by the searchers that have made any.

@@ -1,9 +1,9 @@
 //! Campaigns that end when enough is known.
 
 use super::{ends, folder, rows};
-use rheotaxis::campaign::stats::wilson;
 use std::fs;
 use std::path::Path;
+use studies::campaign::stats::wilson;
 
 /// Four cells (two arms, two conditions), at most 400 seeds each, until a half width.
 fn asked(half_width: &str) -> tempfile::TempDir {
@@ -28,7 +28,7 @@ fn half_widths(dir: &Path) -> Vec<(u64, f64)> {
     cells.iter().map(one).collect()
 }
 
-fn cell(row: &rheotaxis::campaign::RunRow) -> (String, String) {
+fn cell(row: &studies::campaign::RunRow) -> (String, String) {
     (row.arm.clone(), row.condition.clone())
 }
 

@@ -173,12 +173,12 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
         "{said_of_missing}"
     );
     // What is done is not done again, and all is as if it had never been cut off, by whatever blocks.
-    let walls = |rows: &[rheotaxis::campaign::RunRow]| -> Vec<(u64, f64)> {
+    let walls = |rows: &[studies::campaign::RunRow]| -> Vec<(u64, f64)> {
         rows.iter().map(|r| (r.run, r.mission_wall_s)).collect()
     };
-    let before = walls(&rheotaxis::campaign::read_rows(&out).unwrap());
+    let before = walls(&studies::campaign::read_rows(&out).unwrap());
     ends(dir, 0, &["run", "c.ron", "--out", "out", "--quiet"]);
-    let after = walls(&rheotaxis::campaign::read_rows(&out).unwrap());
+    let after = walls(&studies::campaign::read_rows(&out).unwrap());
     assert!(before.iter().all(|row| after.contains(row)));
     ends(dir, 0, &["run", "c.ron", "--out", "by_cost", "--quiet"]);
     assert_eq!(rows(&out), rows(&dir.join("by_cost")));

@@ -1,9 +1,9 @@
 //! Arms that differ only in what the water passes through run each in its own water.
 
 use super::{CAMPAIGN, ends, folder, rows};
-use rheotaxis::campaign::RunRow;
 use std::fs;
 use std::path::Path;
+use studies::campaign::RunRow;
 
 const OPEN: &str = r#"(name: "open", set: [("permeable", "[\"block\"]")])"#;
 const SOLID: &str = r#"(name: "solid")"#;

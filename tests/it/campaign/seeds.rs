@@ -2,9 +2,9 @@
 
 use super::{ends, folder, rows};
 use crate::common;
-use rheotaxis::campaign::{RunRow, put};
 use std::fs;
 use std::path::Path;
+use studies::campaign::{RunRow, put};
 use world::seeds::key;
 
 fn with_seeds(dir: &Path, file: &str, seeds: &str) {

@@ -2,9 +2,9 @@
 
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use output::live::{Live, LiveMeta, LiveOptions};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use rheotaxis::gantry::GantryFrame;
-use rheotaxis::live::{Live, LiveMeta, LiveOptions};
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
     Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,

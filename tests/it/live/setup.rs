@@ -1,7 +1,7 @@
 //! Ports, endpoints and configurations, with the words a user reads when one is wrong.
 
 use super::kit::{client, kept, meta, options};
-use rheotaxis::live::{Live, LiveError, LiveOptions};
+use output::live::{Live, LiveError, LiveOptions};
 use std::net::TcpListener;
 use zenoh::Wait;
 

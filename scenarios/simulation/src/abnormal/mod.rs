@@ -2,9 +2,7 @@
 //!
 //! A watch compares what is with what should be, tick by tick, and keeps an event for each time something went
 //! wrong, with place and duration. Nothing of it reaches the vehicle or the digest. Another kind of event is
-//! another line in [`Abnormality`] and in `system::watch`.
-
-pub(crate) mod system;
+//! another line in [`Abnormality`] and in the `watch` of a searcher's systems.
 
 use bevy_ecs::prelude::{Component, Resource};
 use nalgebra::Vector3;
@@ -12,7 +10,7 @@ use serde::Serialize;
 
 /// Farther outside the area than this is left, m: a vehicle needs as much to turn round at its edge (R of Pang 2009,
 /// Table 4).
-const OUTSIDE_M: f64 = 10.0;
+pub(crate) const OUTSIDE_M: f64 = 10.0;
 /// An instrument that hears nothing for so long is blind, s: in turns and dives it misses a few readings.
 const BLIND_S: f64 = 10.0;
 /// What stops for less than this and comes again is one event, s.
@@ -126,7 +124,7 @@ pub struct Lookout([Episode; Abnormality::ALL.len()]);
 
 impl Lookout {
     /// Takes in whether something is wrong now; `None` where this tick cannot tell.
-    fn see(
+    pub(crate) fn see(
         &mut self,
         what: Abnormality,
         wrong: Option<bool>,

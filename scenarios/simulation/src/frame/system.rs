@@ -2,26 +2,16 @@
 
 use super::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use crate::abnormal::Abnormals;
+use crate::auv::Log;
 use crate::gantry::system::{Pictured, picture};
+use crate::ocean::Ocean;
 use crate::score::Score;
-use crate::system::{Dye, RobotId, Roster, whole};
-use bevy_ecs::prelude::{Component, Query, Res, ResMut, Resource};
-use robots::handoff::{
-    ActuatorCommand, Belief, ChemicalReading, Command, Decision, Estimate, Readings,
-};
+use crate::searchers::{Roster, SearcherId, whole};
+use bevy_ecs::prelude::{Query, Res, ResMut, Resource};
+use robots::handoff::{ActuatorCommand, Belief, Command, Decision, Estimate, Readings};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::physics::Physics;
-use world::terrain::Terrain;
-
-/// What a robot's log keeps between two frames.
-#[derive(Component, Clone, Debug, Default)]
-pub struct Log {
-    chemical: Option<ChemicalReading>,
-    detected: bool,
-    fix_m: Option<f64>,
-    over: bool,
-}
 
 /// Frames waiting for those who record and publish; and how often they are made.
 #[derive(Resource)]
@@ -43,7 +33,7 @@ pub struct Outbox {
 }
 
 type Whole<'a> = (
-    &'a RobotId,
+    &'a SearcherId,
     &'a Truth,
     &'a Estimate,
     &'a Readings,
@@ -60,8 +50,7 @@ type Whole<'a> = (
 )]
 pub(crate) fn take_frame(
     clock: Res<Clock>,
-    terrain: Res<Terrain>,
-    dye: Res<Dye>,
+    ocean: Res<Ocean>,
     roster: Res<Roster>,
     score: Res<Score>,
     mut outbox: ResMut<Outbox>,
@@ -104,7 +93,7 @@ pub(crate) fn take_frame(
             pictured.push(RobotFrame {
                 id: id.0.clone(),
                 truth: *truth,
-                altitude_m: p.z - terrain.bed_z(p.x, p.y),
+                altitude_m: p.z - ocean.terrain.bed_z(p.x, p.y),
                 estimate: *estimate,
                 goal: Some(decision.goal),
                 command: Some(*command),
@@ -132,8 +121,8 @@ pub(crate) fn take_frame(
     if outbox.plume_every.due(&clock) {
         outbox.plume = Some(PlumeFrame {
             t_s: clock.t_next_s(),
-            total: dye.plume.len(),
-            points: dye.plume.decimated(outbox.plume_points),
+            total: ocean.plume().len(),
+            points: ocean.plume().decimated(outbox.plume_points),
         });
     }
 }

@@ -1,26 +1,18 @@
 //! Puts a gantry into the world.
 
-use super::spec::GantryBlock;
 use super::system::{Head, Rig, Searcher};
-use crate::system::RobotId;
+use crate::scenario::GantryBlock;
+use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{Entity, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
-use robots::handoff::{
-    GantryBehaviour, GantryDecision, GantryLayout, GantryReadings, TrackerState,
-};
-use robots::sense::{Probes, ProbesSpec};
+use robots::handoff::{GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
+use robots::sense::Probes;
 use robots::vehicles::Gantry;
 use std::path::Path;
 use world::physics::Physics;
-use world::ranges::Finite;
 use world::seeds::Stream;
 use world::terrain::Terrain;
-
-/// What a searcher may know of a gantry with these probes.
-pub(super) fn layout(gantry: &Gantry, probes: &ProbesSpec) -> GantryLayout {
-    gantry.layout(probes.rate_hz.get(), probes.range_v.map(Finite::get))
-}
 
 /// Spawns it; its joints go into `physics`.
 pub(crate) fn spawn(
@@ -35,14 +27,14 @@ pub(crate) fn spawn(
     let dt_s = physics.dt_s();
     let gantry = Gantry::load(&block.gantry, base_dir)?;
     gantry.check_step(dt_s)?;
-    let layout = layout(&gantry, &block.probes);
+    let layout = block.layout(&gantry);
     let base = block.base(terrain);
     let joints = physics.add_gantry(gantry.body_spec(id, &base, block.start_m())?);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
     let probes = Probes::new(&block.probes, &names, id, seed, dt_s)?;
     let strategy = block.tracker.build(&layout)?;
     let gantry = world.spawn((
-        RobotId(id.to_string()),
+        SearcherId(id.to_string()),
         Rig {
             gantry,
             joints,

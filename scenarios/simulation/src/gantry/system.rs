@@ -1,11 +1,11 @@
 //! The systems of gantries: probes and encoders, the searcher, the drives; and what is seen of them.
 
 use super::frame::GantryFrame;
+use crate::ocean::Ocean;
 use crate::score::{Score, SearcherScore};
-use crate::system::{Dye, RobotId, Roster, Water, whole};
+use crate::searchers::{Roster, SearcherId, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::Vector3;
-use plumes::filaments::Displaced;
 use robots::handoff::{
     Declaration, GantryDecision, GantryObservation, GantryReadings, Outcome, ProbeScan,
 };
@@ -67,11 +67,10 @@ pub(crate) struct Searcher {
 pub(crate) fn read_probes(
     clock: Res<Clock>,
     physics: Res<Physics>,
-    dye: Res<Dye>,
-    water: Res<Water>,
+    ocean: Res<Ocean>,
     mut gantries: Query<(&Rig, &mut Head, &mut GantryReadings)>,
 ) {
-    let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
+    let plume = ocean.dye(clock.t_s());
     for (rig, mut head, mut readings) in &mut gantries {
         let joints = physics.joints(rig.joints);
         let head = &mut *head;
@@ -136,7 +135,7 @@ pub(crate) fn digest_gantries(
 
 /// Parts of a gantry that a picture of it needs.
 pub(crate) type Pictured<'a> = (
-    &'a RobotId,
+    &'a SearcherId,
     &'a Rig,
     &'a Head,
     &'a GantryReadings,
@@ -154,7 +153,7 @@ pub(crate) fn picture(
     let scored = score.searchers[roster.robots.len()..].iter();
     let one = |((id, rig, head, readings, decision, _), scored): (
         (
-            &RobotId,
+            &SearcherId,
             &Rig,
             &Head,
             &GantryReadings,
@@ -185,11 +184,23 @@ pub(crate) fn picture(
     all.zip(scored).map(one).collect()
 }
 
-/// Parts of a gantry that say whether it declares.
-pub(crate) type Declaring<'a> = (&'a Rig, &'a GantryDecision, &'a Searcher);
+pub(crate) fn keep_score(
+    roster: Res<Roster>,
+    physics: Res<Physics>,
+    mut score: ResMut<Score>,
+    gantries: Query<(&Rig, &GantryDecision, &Searcher)>,
+) {
+    for (k, parts) in gantries.iter_many(&roster.gantries).map(whole).enumerate() {
+        let n = roster.robots.len() + k;
+        // It declares once: where its head is when it stops.
+        if score.searchers[n].declarations.is_empty() {
+            score.declared(n, declaration(&physics, parts));
+        }
+    }
+}
 
 /// Where the searcher says the source is, once it has stopped there: where its encoders have the head.
-pub(crate) fn declaration(
+fn declaration(
     physics: &Physics,
     (rig, decision, searcher): (&Rig, &GantryDecision, &Searcher),
 ) -> Option<Declaration> {

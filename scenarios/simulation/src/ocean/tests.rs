@@ -1,9 +1,12 @@
 //! What counts as another ocean, and what does not: every field of a scenario, found in what is written of it.
 
-use super::*;
+use super::origin::Origin;
+use crate::scenario::Scenario;
 use crate::scenario::load;
 use serde::de::DeserializeOwned;
 use serde_json::{Value, json};
+use std::path::Path;
+use world::obstacles::ObstacleSpec;
 
 /// Blocks and fields that water and plume follow from.
 const COUNT: [&str; 9] = [

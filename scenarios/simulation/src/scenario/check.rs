@@ -7,7 +7,6 @@ use super::{
     check_able, check_berth, check_fitted, check_limits, check_obstacles, check_steps, check_view,
     cost,
 };
-use crate::gantry;
 use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
@@ -106,7 +105,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     twins("gantries", &gantry_ids, &mut found);
     for (i, gantry) in scenario.gantries.iter().enumerate() {
         let step_s = scenario.time.step_s.get();
-        gantry::check::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
+        super::check_gantry::check(i, gantry, &area, &terrain, step_s, base_dir, &mut found);
         if let Some(robot) = robot_ids.iter().position(|id| *id == gantry.id.as_str()) {
             let problem = format!(
                 "\"{}\" is already the name of robots[{robot}]",

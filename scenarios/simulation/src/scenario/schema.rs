@@ -1,7 +1,7 @@
 //! What a scenario file says: the whole schema, each block owned by the part it configures.
 
+use super::gantry::GantryBlock;
 use super::success::SuccessSpec;
-use crate::gantry::GantryBlock;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;

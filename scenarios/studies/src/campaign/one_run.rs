@@ -11,10 +11,9 @@ use output::results::{
     Summary, SummaryBuilder, Totals,
 };
 use rheotaxis::frame::Frame;
+use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::spun_up::SpunUp;
-use rheotaxis::system::Dye;
 use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
 use robots::handoff::Verdict;
 use std::time::Instant;
@@ -119,7 +118,7 @@ impl Watch for Gatherer {
 }
 
 fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
-    let plume = &trial.simulation.world.resource::<Dye>().plume;
+    let plume = trial.simulation.ocean().plume();
     (plume.sources().iter().zip(&ended.flow_at_sources))
         .map(|(s, flow)| SourceTruth {
             id: s.id.clone(),

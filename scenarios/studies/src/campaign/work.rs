@@ -130,7 +130,7 @@ impl Work<'_> {
     pub(super) fn one(
         &self,
         run: u64,
-        spun: &mut Vec<rheotaxis::spun_up::SpunUp>,
+        spun: &mut Vec<rheotaxis::ocean::SpunUp>,
     ) -> Result<RunRow, CampaignError> {
         let place = self.campaign.place(run);
         let name = RunName {

@@ -13,7 +13,7 @@ use super::series::Series;
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
 use plumes::flow::Water;
-use rheotaxis::assemble::AssembleError;
+use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
 use world::fields::{Concentration, Flow};
@@ -138,8 +138,7 @@ pub fn statistics(
 
 fn built(loaded: &Loaded, seed: u64) -> Result<(Water, Plume), AssembleError> {
     let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
-    let ocean = origin.build(&loaded.base_dir)?;
-    Ok((ocean.water, ocean.plume))
+    Ok(origin.build(&loaded.base_dir)?.state())
 }
 
 impl Watch {

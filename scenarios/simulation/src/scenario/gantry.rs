@@ -1,10 +1,11 @@
 //! What a scenario says of a gantry.
 
-use crate::scenario::Id;
+use super::schema::Id;
 use nalgebra::{Vector2, Vector3};
+use robots::handoff::GantryLayout;
 use robots::sense::ProbesSpec;
 use robots::track::GantryStrategySpec;
-use robots::vehicles::GantrySpec;
+use robots::vehicles::{Gantry, GantrySpec};
 use serde::{Deserialize, Serialize};
 use world::frames::Pose;
 use world::ranges::{Finite, HeadingDeg};
@@ -72,6 +73,15 @@ impl Default for HeadSpec {
 }
 
 impl GantryBlock {
+    /// What its searcher may know of the gantry.
+    #[must_use]
+    pub fn layout(&self, gantry: &Gantry) -> GantryLayout {
+        gantry.layout(
+            self.probes.rate_hz.get(),
+            self.probes.range_v.map(Finite::get),
+        )
+    }
+
     /// Pose of the gantry's base in the world.
     #[must_use]
     pub fn base(&self, terrain: &Terrain) -> Pose {

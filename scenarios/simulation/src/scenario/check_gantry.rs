@@ -1,8 +1,7 @@
 //! What can be wrong with a gantry before a run, each with the field's path.
 
-use super::assemble::layout;
-use super::spec::GantryBlock;
-use crate::scenario::Found;
+use super::fault::Found;
+use super::gantry::GantryBlock;
 use robots::error::RobotError;
 use robots::sense::Probes;
 use robots::vehicles::Gantry;
@@ -49,7 +48,7 @@ pub(crate) fn check(
             }
         }
     }
-    let layout = layout(&gantry, &block.probes);
+    let layout = block.layout(&gantry);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
     if let Err(e) = Probes::new(&block.probes, &names, block.id.as_str(), 0, step_s) {
         found.push(fault(&path, "probes", e));

@@ -1,21 +1,20 @@
-//! The ocean of a run, place, water and plume, built from nothing but an [`Origin`].
+//! What water and plume of a run follow from.
 //!
-//! Whatever water or plume are to depend on has to be a field of it: runs share a spin-up if their origins are the same
-//! (see [`spun_up`](crate::spun_up)), so what stood beside it would silently be that of another run.
+//! Whatever they depend on has to be a field of [`Origin`]: runs share a spin-up if their origins are the same (see
+//! [`SpunUp`](super::SpunUp)), and a value that stood beside it could silently be that of another run.
 
-use crate::assemble::AssembleError;
+use super::Ocean;
+use crate::error::AssembleError;
 use crate::scenario::{AreaSpec, Scenario, TerrainSpec};
 use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::{Water, WaterSpec};
+use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
-use world::area::Area;
 use world::digest::Digest;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{NonNegative, Positive};
-use world::terrain::Terrain;
 
 /// All that a run's water and plume follow from, up to the start of the mission.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -36,20 +35,6 @@ pub struct Origin {
     flow_period_s: NonNegative,
     /// Digests of the files that the obstacles name, by name; of one that cannot be read none: building says what is wrong with it.
     files: BTreeMap<String, Option<String>>,
-}
-
-/// The ocean before the spin-up.
-pub struct Ocean {
-    /// The operating area.
-    pub area: Area,
-    /// The bed.
-    pub terrain: Terrain,
-    /// All of them, those too that the water passes through.
-    pub obstacles: Obstacles,
-    /// Currents, stratification, mixing.
-    pub water: Water,
-    /// Not yet released.
-    pub plume: Plume,
 }
 
 impl Origin {
@@ -94,13 +79,7 @@ impl Origin {
         let plume = Plume::new(&self.sources, &area, &terrain, self.seed, settings)?
             .with_obstacles(solids)?
             .led_round(water.blocked())?;
-        Ok(Ocean {
-            area,
-            terrain,
-            obstacles,
-            water,
-            plume,
-        })
+        Ok(Ocean::new(area, terrain, obstacles, water, plume, self))
     }
 
     /// How long the plume develops before the mission, s.
@@ -147,6 +126,3 @@ fn content(path: &Path) -> Option<String> {
     digest.bytes(&bytes);
     Some(digest.hex())
 }
-
-#[cfg(test)]
-mod tests;

@@ -1,7 +1,7 @@
 //! Water and plume after the spin-up, kept so that runs that share them pay for it once.
 //!
 //! A spin-up knows no robot: what comes out of it follows from the blocks of the scenario that make its water and plume,
-//! the files these name and the seed alone (see `ocean.rs`). Runs that agree in these, say the arms of one seed of a
+//! the files these name and the seed alone (see [`Origin`]). Runs that agree in these, say the arms of one seed of a
 //! campaign, start from the same state bit for bit, whether they spin up themselves or take it over.
 //!
 //! ```no_run
@@ -17,7 +17,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use crate::ocean::Origin;
+use super::Origin;
 use plumes::filaments::Plume;
 use plumes::flow::Water;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ struct State {
 }
 
 impl SpunUp {
-    pub(crate) fn new(origin: Origin, water: Water, plume: Plume) -> Self {
+    pub(crate) fn new(origin: Origin, (water, plume): (Water, Plume)) -> Self {
         Self(Arc::new(State {
             origin,
             water,

@@ -1,0 +1,28 @@
+//! The ocean in the tick: the only systems that write to it.
+
+use super::{DriftEvery, Ocean};
+use bevy_ecs::prelude::{Res, ResMut};
+use world::clock::Clock;
+use world::digest::Digest;
+
+/// Water and plume at the end of this step.
+pub(crate) fn drift(clock: Res<Clock>, every: Res<DriftEvery>, mut ocean: ResMut<Ocean>) {
+    let t1 = clock.t_next_s();
+    ocean.advance_water(t1);
+    if (clock.step + 1).is_multiple_of(every.0.steps) {
+        let t0 = t1 - every.0.period_s(clock.dt_s);
+        ocean.drift_plume(t0, t1);
+    }
+}
+
+/// The plume into the digest, whenever it has drifted.
+pub(crate) fn digest_plume(
+    clock: Res<Clock>,
+    every: Res<DriftEvery>,
+    ocean: Res<Ocean>,
+    mut digest: ResMut<Digest>,
+) {
+    if (clock.step + 1).is_multiple_of(every.0.steps) {
+        ocean.plume().digest_into(&mut digest);
+    }
+}
