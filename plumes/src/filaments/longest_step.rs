@@ -17,6 +17,8 @@ use world::terrain::Terrain;
 
 /// Mixed water counts as even if no 24th of its depth is further off than this part.
 pub const EVEN: f64 = 0.05;
+/// The deviation is no more than this times dt·max|K''|: twice what any of the waters of `evenness` came to.
+const AT_MOST: f64 = 8.0;
 /// Places along and across the area.
 const PLACES: usize = 5;
 /// Times from the beginning to the end.
@@ -93,6 +95,13 @@ impl SharpestMixing {
             t_s: c.t_s,
         });
         all.max_by(|a, b| a.part.total_cmp(&b.part))
+    }
+
+    /// Whether steps of `dt_s` are so short that nothing has to be worked out.
+    #[must_use]
+    pub fn surely_even(&self, dt_s: f64) -> bool {
+        let bends = self.columns.iter().map(|c| c.profile.sharpest());
+        AT_MOST * dt_s * bends.fold(0.0, f64::max) <= EVEN
     }
 
     /// The longest step up to `most_s` that keeps mixed water within [`EVEN`] for `lasts_s`, s, to a twentieth below; `None` if it would have

@@ -80,6 +80,28 @@ fn at_the_longest_step_water_is_even_and_beyond_it_no_more() {
     }
 }
 
+#[test]
+fn steps_that_are_surely_even_are() {
+    let mut sure = 0;
+    for dt_s in [0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0] {
+        for of in [
+            sharpest(parabola(0.006)),
+            sharpest(parabola(0.02)),
+            sharpest(interface(0.001, 0.2)),
+            sharpest(interface(0.02, 0.3)),
+            sharpest(interface(0.03, 2.0)),
+            sharpest(gap(3e-2)),
+            sharpest(|z: f64| 1e-5 + 1e-2 * math::exp(z / 0.3)),
+        ] {
+            if of.surely_even(dt_s) {
+                sure += 1;
+                assert!(of.uneven(dt_s, 16_000.0).unwrap().part <= EVEN, "{dt_s} s");
+            }
+        }
+    }
+    assert!(sure >= 10, "{sure}");
+}
+
 /// What was met: 0.3 m at K_z of 1e-2 m²/s is 7 % off in steps of 1 s and 37 % in steps of 5 s; mixing by the bed alone is not.
 #[test]
 fn sharp_interfaces_need_short_steps_and_gentle_mixing_does_not() {

@@ -32,6 +32,9 @@ pub(super) fn steps(
             spin_up_s,
         ),
     ] {
+        if sharpest.surely_even(dt_s) {
+            continue;
+        }
         let Some(uneven) = sharpest.uneven(dt_s, lasts_s).filter(|u| u.part > EVEN) else {
             continue;
         };
