@@ -3,4 +3,5 @@
 pub mod error;
 pub mod filaments;
 pub mod flow;
+mod quad;
 pub mod release;

@@ -1,5 +1,6 @@
 //! The never-rules of README, checked from manifests and `use` lines.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -62,20 +63,124 @@ fn naming<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
         .collect()
 }
 
+/// All crates with their folders, each after those it may know.
+const CRATES: [(&str, &str, &[&str]); 7] = [
+    ("world", "world", &[]),
+    ("plumes", "plumes", &["world"]),
+    ("robots", "robots", &["world"]),
+    (
+        "rheotaxis",
+        "scenarios/simulation",
+        &["plumes", "robots", "world"],
+    ),
+    (
+        "output",
+        "scenarios/output",
+        &["plumes", "rheotaxis", "robots", "world"],
+    ),
+    (
+        "studies",
+        "scenarios/studies",
+        &["output", "plumes", "rheotaxis", "robots", "world"],
+    ),
+    (
+        "command",
+        "scenarios/command",
+        &[
+            "output",
+            "plumes",
+            "rheotaxis",
+            "robots",
+            "studies",
+            "world",
+        ],
+    ),
+];
+
+/// The `src` folders of all crates.
+const SOURCES: [&str; 7] = [
+    "world/src",
+    "plumes/src",
+    "robots/src",
+    "scenarios/simulation/src",
+    "scenarios/output/src",
+    "scenarios/studies/src",
+    "scenarios/command/src",
+];
+
 #[test]
-fn world_knows_no_crate_of_ours_and_plumes_and_robots_know_only_world() {
-    let ours = ["world", "plumes", "robots", "rheotaxis", "tests"];
-    let of = |krate: &str| -> Vec<String> {
-        let mut d = dependencies(krate);
-        d.retain(|n| ours.contains(&n.as_str()));
-        d
-    };
-    assert_eq!(of("world"), Vec::<String>::new());
-    assert_eq!(of("plumes"), ["world"]);
-    assert_eq!(of("robots"), ["world"]);
-    let mut all = of("scenarios");
-    all.sort();
-    assert_eq!(all, ["plumes", "robots", "world"]);
+fn crates_know_only_those_below_them() {
+    for (krate, folder, known) in CRATES {
+        let mut ours = dependencies(folder);
+        ours.retain(|d| CRATES.iter().any(|(name, ..)| name == d) || d == "tests");
+        for d in &ours {
+            assert!(known.contains(&d.as_str()), "{krate} depends on {d}");
+        }
+    }
+    // What a user's crate builds on costs no engine of pictures, tables, wires or terminals.
+    let library = dependencies("scenarios/simulation");
+    for heavy in [
+        "zenoh", "parquet", "resvg", "clap", "miette", "mcap", "image",
+    ] {
+        assert!(
+            !library.iter().any(|d| d == heavy),
+            "the library needs {heavy}"
+        );
+    }
+}
+
+/// Rooms are the folders and files directly below a crate's `src`. What two of them need in turn belongs into a third.
+#[test]
+fn rooms_of_a_crate_make_no_circle() {
+    for folder in SOURCES {
+        let mut knows: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
+        for (file, text) in sources(folder) {
+            let room = |part: &str| part.trim_end_matches(".rs").to_string();
+            let inside = file
+                .strip_prefix(folder)
+                .expect("below it")
+                .trim_start_matches('/');
+            let own = room(inside.split('/').next().expect("a file"));
+            let name = file.rsplit('/').next().expect("a file");
+            if ["lib", "main", "sample", "sample_gantry"].contains(&own.as_str())
+                || name.contains("test")
+            {
+                continue;
+            }
+            let code = text.split("#[cfg(test)]").next().expect("the whole");
+            for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
+                for (i, _) in line.match_indices("crate::") {
+                    let rest = &line[i + "crate::".len()..];
+                    let end = rest.find(|c: char| !c.is_alphanumeric() && c != '_');
+                    let other = rest[..end.unwrap_or(rest.len())].to_string();
+                    if other != own && !other.is_empty() {
+                        knows.entry(own.clone()).or_default().insert(other);
+                    }
+                }
+            }
+        }
+        // Take away rooms that know none of those left, until none is left.
+        while !knows.is_empty() {
+            let free: Vec<String> = (knows.iter())
+                .filter(|(_, others)| others.iter().all(|o| !knows.contains_key(o)))
+                .map(|(room, _)| room.clone())
+                .collect();
+            assert!(!free.is_empty(), "{folder}: a circle among {knows:#?}");
+            free.iter().for_each(|room| drop(knows.remove(room)));
+        }
+    }
+}
+
+/// Searchers read the ocean; only its own systems write to it.
+#[test]
+fn searchers_do_not_write_to_the_ocean() {
+    for (file, text) in sources("scenarios/simulation/src") {
+        let own = file.starts_with("scenarios/simulation/src/ocean/");
+        assert!(
+            own || !text.contains("ResMut<Ocean>"),
+            "{file} writes to the ocean"
+        );
+    }
 }
 
 #[test]
@@ -91,10 +196,17 @@ fn each_engine_stays_in_its_room() {
             ],
         ),
         ("urdf_rs", &["robots/src/vehicles"]),
-        ("zenoh", &["scenarios/src/live", "tests/it"]),
-        ("ron", &["scenarios/src", "tests/it"]),
+        ("zenoh", &["scenarios/output/src/live", "tests/it"]),
+        (
+            "ron",
+            &[
+                "scenarios/simulation/src",
+                "scenarios/studies/src",
+                "tests/it",
+            ],
+        ),
     ];
-    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/src"] {
+    for folder in SOURCES {
         for (file, text) in sources(folder) {
             for (engine, allowed) in rooms {
                 if allowed.iter().any(|a| file.starts_with(a)) {
@@ -112,7 +224,7 @@ fn each_engine_stays_in_its_room() {
 
 #[test]
 fn only_systems_speak_ecs() {
-    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/src"] {
+    for folder in SOURCES {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();
             if ["system.rs", "tick.rs", "assemble.rs"].contains(&name) {
@@ -216,7 +328,7 @@ fn files_are_opened_in_one_room() {
         ".save(",
         ".save_with_format(",
     ];
-    for folder in ["world/src", "plumes/src", "robots/src", "scenarios/src"] {
+    for folder in SOURCES {
         for (file, text) in sources(folder) {
             let name = file.rsplit('/').next().unwrap();
             if file.starts_with("world/src/files/") || name.contains("test") {

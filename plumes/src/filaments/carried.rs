@@ -15,9 +15,9 @@
 
 use super::cells::Cells as Lookup;
 use super::kernel::{BLOCK, Block, Path};
-use super::quad::Quad;
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
+use crate::quad::Quad;
 use world::fields::Flow;
 use world::math;
 

@@ -230,9 +230,9 @@ pub(super) fn folded(z: f32, bed: f32, up: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::super::lookup::trilinear;
-    use super::super::quad::Quad;
     use super::*;
     use crate::flow::grid::{FlowGrid, GridShape};
+    use crate::quad::Quad;
     use nalgebra::{Vector2, Vector3};
     use world::area::Area;
     use world::fields::{Flow, Mixing};

@@ -8,7 +8,7 @@
 
 use super::cells::{Cells, Column, Level};
 use super::kernel::BLOCK;
-use super::quad::Quad;
+use crate::quad::Quad;
 
 /// The columns of a block, side by side.
 pub(super) struct Columns {

@@ -14,7 +14,6 @@ mod lookup;
 mod noise;
 mod open_place;
 mod plume;
-pub(crate) mod quad;
 mod rebound;
 mod room;
 mod size;

@@ -1,7 +1,7 @@
 //! Why a run's files could not be written, and how to go on when one could not.
 
 use crate::charts::png;
-use crate::record::RecordError;
+use crate::mcap::RecordError;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};

@@ -16,8 +16,8 @@
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
 use crate::error::PlumeError;
-use crate::filaments::quad::Quad;
 use crate::flow::channel::Channel;
+use crate::quad::Quad;
 use nalgebra::{Vector2, Vector3};
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};

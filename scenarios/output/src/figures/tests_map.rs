@@ -6,13 +6,14 @@ use super::series_panels::event;
 use crate::charts::canvas::{Anchor, Canvas};
 use crate::charts::panel::Panel;
 use crate::charts::room::Room;
-use crate::report::{
-    BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunOutcome, RunReport, SourceTruth,
-    SummaryBuilder, Totals, TrackTable,
+use crate::results::{
+    BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals,
+    TrackTable,
 };
 use crate::sample::{area, frames, info, plume, robots, source, terrain};
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
+use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
 use std::sync::Arc;
 use world::area::Area;

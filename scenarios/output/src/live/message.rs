@@ -281,7 +281,7 @@ pub(super) fn with(object: Value, name: &str, number: Option<f64>) -> Value {
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
-    use crate::sample_gantry;
+    use crate::sample_gantry as sample;
     use nalgebra::{Vector2, Vector3};
     use robots::handoff::{ActuatorCommand, Attitude, Behaviour, Estimate, GantryBehaviour};
     use world::frames::{Pose, Truth};

@@ -69,7 +69,7 @@ pub(super) fn gantry(t_s: f64, g: &GantryFrame) -> Vec<Message> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::sample_gantry;
+    use crate::sample_gantry as sample;
     use robots::handoff::{GantryBehaviour, ProbeScan};
 
     fn said(g: &GantryFrame, topic: &str) -> Option<Value> {

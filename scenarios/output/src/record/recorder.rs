@@ -2,11 +2,11 @@
 
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
-use super::{
+use crate::files::ReportError;
+use crate::mcap::{
     Kind, McapFile, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
     point_cloud, pose_stamped, text, transforms, vector3_stamped,
 };
-use crate::files::ReportError;
 use crate::results::{Echoes, RunInfo};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};

@@ -1,7 +1,7 @@
 //! A gantry's part of a recording: joints, probes, what its searcher works with and decides.
 
 use super::recorder::{WORLD, on_plane};
-use super::{
+use crate::mcap::{
     Joint, Kind, McapFile, RecordError, float64, joint_state, nanoseconds, pose_stamped, text,
 };
 use nalgebra::{UnitQuaternion, Vector3};

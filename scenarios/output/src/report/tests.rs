@@ -1,13 +1,15 @@
 //! A whole report of a made-up run, and of runs in which little or nothing happened.
 
-use super::{
-    BeliefTrack, MassBalance, Recorder, RunEnd, RunOutcome, RunReport, Summary, SummaryBuilder,
-    Totals, Track, TrackTable, write_all,
+use super::write_all;
+use crate::record::Recorder;
+use crate::results::{
+    BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable,
 };
 use crate::sample::{area, folder, frames, info, plume, robots, source, terrain};
 use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame};
+use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Picture, Region, RegionState, Regions, Verdict};
 use std::fs;
 use std::sync::Arc;

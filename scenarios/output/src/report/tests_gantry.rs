@@ -1,13 +1,16 @@
 //! Table, recording and figures of a made-up gantry: a sweep, a few steps up a plume, a stop.
 
-use super::{
-    GantryInfo, ProbeTables, Recorder, ReportError, RunEnd, RunOutcome, RunReport, SourceTruth,
-    Summary, SummaryBuilder, Totals, Track, write_all,
+use super::write_all;
+use crate::files::ReportError;
+use crate::record::Recorder;
+use crate::results::{
+    GantryInfo, ProbeTables, RunEnd, RunReport, SourceTruth, Summary, SummaryBuilder, Totals, Track,
 };
 use crate::sample::{folder, info};
-use crate::sample_gantry;
+use crate::sample_gantry as sample;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
+use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, GantryBehaviour, MAX_PROBES, ProbeScan};
 use std::fs;
 use std::path::{Path, PathBuf};

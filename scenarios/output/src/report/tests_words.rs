@@ -1,7 +1,7 @@
 //! What a report says in words and numbers: kinds of declarations, ends of searches, title and rule, masses.
 
-use super::TrackTable;
 use super::tests::told;
+use crate::results::TrackTable;
 use crate::sample::{area, frames, plume};
 use nalgebra::Vector2;
 use rheotaxis::frame::Frame;

@@ -206,8 +206,8 @@ impl McapFile {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ros_messages::{clock, float64};
     use super::*;
+    use crate::mcap::{clock, float64};
     use std::fs;
 
     fn messages(bytes: &[u8]) -> Vec<(String, u64)> {
