@@ -1,4 +1,4 @@
-//! What can be wrong with the space itself before a run starts.
+//! Faults of the space itself, found before a run starts.
 
 /// Setup error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,5 +1,5 @@
-//! Poses and velocities, in monogram notation: `p_WB` is B's origin seen from W, in W's axes;
-//! `v_WB_B` the velocity of B relative to W, in B's axes; `R_WB` takes B's axes to W's.
+//! Poses and velocities in monogram notation. `p_WB` is the origin of B seen from W, in the axes of W. `v_WB_B` is the
+//! velocity of B relative to W, in the axes of B. `R_WB` rotates the axes of B to those of W.
 
 use crate::units::Heading;
 use bevy_ecs::prelude::Component;
@@ -45,7 +45,7 @@ impl Pose {
     }
 }
 
-/// The true state of a rigid body: what exists, never what a searcher knows.
+/// The true state of a rigid body. A searcher never sees it.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Pose of the body frame.

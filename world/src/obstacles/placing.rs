@@ -1,22 +1,22 @@
 //! Whether obstacles make sense where they stand.
 //!
-//! *Source*: none; what a scenario's author most likely did not mean.
+//! *Source*: none; these are placements that a scenario's author most likely did not intend.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: obstacles may overlap, as piles and the quay on them do: they are one solid then, for hull, ranging, filaments, voxels and
-//! water alike.
+//! *Deviations*: obstacles may overlap, as piles and the quay on them do. They then form one solid for hull, ranging,
+//! filaments, voxels and water alike.
 
 use super::{Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use crate::area::Area;
 use crate::terrain::Terrain;
 use nalgebra::{Vector2, Vector3};
 
-/// A surface from a file this many times wider than the area's diagonal was not meant in metres.
+/// If a surface from a file is this many times wider than the area's diagonal, its unit was not the metre.
 const TOO_WIDE: f64 = 5.0;
 /// One narrower than this was neither, m.
 const TOO_NARROW_M: f64 = 0.02;
-/// Points along, across and upwards at which open water is looked for.
+/// Number of points along, across and upwards at which open water is looked for.
 const LOOKS: [usize; 3] = [64, 64, 8];
 
 /// Something odd about an obstacle.
@@ -106,7 +106,7 @@ impl Obstacle {
 }
 
 impl ObstacleSpec {
-    /// Whether it differs from another in nothing but its name.
+    /// Whether it differs from another obstacle only in its name.
     #[must_use]
     pub fn is_copy_of(&self, other: &Self) -> bool {
         let renamed = Self {
@@ -116,7 +116,7 @@ impl ObstacleSpec {
         renamed == *other
     }
 
-    /// The file its shape comes from, as the scenario names it.
+    /// The file with its shape, as the scenario names it.
     #[must_use]
     pub fn file(&self) -> Option<&str> {
         match &self.shape {
@@ -135,7 +135,7 @@ impl Obstacles {
         Self(self.0.iter().filter(stays).cloned().collect())
     }
 
-    /// Whether they leave open water in the area, as far as a closely meshed look shows.
+    /// Whether the obstacles leave open water in the area, tested on a dense grid of points.
     #[must_use]
     pub fn leave_water(&self, area: &Area, terrain: &Terrain) -> bool {
         let part = |n: usize, d: usize| (n as f64 + 0.5) / LOOKS[d] as f64;
