@@ -1,6 +1,6 @@
-//! What a plume holds: how many filaments, how much dye, each filament, and all of it in a digest.
+//! What a plume contains: the number of filaments, the mass of dye, each filament, and a digest of all of it.
 //!
-//! A filament that is shown for others (`decimated`) carries the mass of all of them.
+//! A filament that is shown in place of others (`decimated`) carries the mass of all of them.
 
 use super::plume::Plume;
 use super::store::Store;
@@ -39,7 +39,7 @@ impl Plume {
         self.stores.iter().map(|s| s.left).sum()
     }
 
-    /// How often a filament was turned back at a solid.
+    /// How often a filament was reflected at a solid.
     #[must_use]
     pub fn turned_back(&self) -> u64 {
         self.turned_back
@@ -79,17 +79,17 @@ impl Plume {
         &self.grid
     }
 
-    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked water one in that part of an
-    /// obstacle that its cells leave open is shown at the nearest free place.
+    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked
+    /// water, cells may leave a part of an obstacle open; a filament in it is shown at the nearest free place.
     pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
         self.stores
             .iter()
             .flat_map(move |s| (0..s.len()).map(move |n| self.filament(s, n)))
     }
 
-    /// Every k-th filament of each source, k the least that leaves at most `max_n` (but one of each source at least); the
-    /// same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it stands for, so that
-    /// the masses of a source sum to what is in the water of it, and how many those are.
+    /// Every k-th filament of each source, with the smallest k that leaves at most `max_n` (but at least one of each
+    /// source); the same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it
+    /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
     #[must_use]
     pub fn decimated(&self, max_n: usize) -> Vec<[f32; 6]> {
         let shown =
@@ -131,7 +131,7 @@ impl Plume {
         }
     }
 
-    /// East, north, up of every filament, as carried.
+    /// East, north, up of every filament at its mean place.
     #[cfg(test)]
     pub(super) fn all(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let of = |s: &Store, n: usize| [s.x[n], s.y[n], s.z[n]];

@@ -41,7 +41,7 @@ pub(super) struct Course {
     /// Something pushed it or was in it.
     pub(super) moved: bool,
     pub(super) contact: ContactReport,
-    /// Impulses on each slide of a gantry, N s. Then the greatest impulse, who gave it and where.
+    /// Impulses on each slide of a gantry, N s. Next: the greatest one, who gave it and where.
     pub(super) slides_N_s: [Vector3<f64>; 2],
     pub(super) hardest: Option<(f64, BodyId, Vector3<f64>)>,
 }
