@@ -1,4 +1,4 @@
-//! Work whose panic is an answer: kept off the screen and told to whoever asked.
+//! Work whose panic is an answer: it is kept off the screen and returned to the caller.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
@@ -22,7 +22,7 @@ thread_local! {
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Panics of such work stay off the screen; all others are shown as ever.
+/// Keeps the panics of such work off the screen; all others are shown as usual.
 fn hush() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

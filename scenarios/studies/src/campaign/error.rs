@@ -1,4 +1,4 @@
-//! What can go wrong with a campaign as a whole; what goes wrong in a run is a row.
+//! Errors of a campaign as a whole. An error in one run becomes a row.
 
 use rheotaxis::scenario::ScenarioError;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use world::files::OutputError;
 /// A campaign cannot be planned, run or read.
 #[derive(Debug, thiserror::Error)]
 pub enum CampaignError {
-    /// The campaign's file, its base scenario, or what an arm makes of it.
+    /// The campaign's file, its base scenario, or the scenario of an arm is wrong.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// The path of an override leads nowhere in the scenario.
@@ -36,7 +36,7 @@ pub enum CampaignError {
         /// Why.
         problem: String,
     },
-    /// A file or folder cannot be written: not writable, disk full.
+    /// A file or folder cannot be written: no permission, or the disk is full.
     #[error("cannot write {}: {problem}", path.display())]
     Write {
         /// Which.
@@ -60,7 +60,7 @@ pub enum CampaignError {
         /// How it was found out.
         problem: String,
     },
-    /// Which share of the work this process has cannot be told.
+    /// This process cannot tell which share of the work is its own.
     #[error("{0}")]
     Shard(String),
     /// The campaign has no such run.

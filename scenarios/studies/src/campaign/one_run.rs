@@ -1,4 +1,4 @@
-//! One run of a campaign, whatever becomes of it: a row.
+//! One run of a campaign. Whatever happens to it, it becomes a row.
 #![allow(
     clippy::disallowed_methods,
     reason = "wall times are columns of the table; nothing of them enters the run"
@@ -34,13 +34,13 @@ pub struct RunName {
     pub seed: u64,
 }
 
-/// Makes the run. A run that fails or panics is a row too, with its error.
+/// Makes the run. A run that fails or panics also becomes a row, with its error.
 #[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
     guarded(name, || attempt(loaded, name, None))
 }
 
-/// Makes the run, taking over a spin-up of `spun` that fits or leaving its own there.
+/// Makes the run. It takes over a fitting spin-up from `spun`, or adds its own to it.
 pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
     guarded(name, || attempt(loaded, name, Some(spun)))
 }
@@ -94,7 +94,7 @@ fn attempt(
     Ok(row(name, &summary, within_m))
 }
 
-/// Makes a row of `run`, or of the error it returns, or of its panic.
+/// Makes a row from `run`, from the error that it returns, or from its panic.
 pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
     match contained(run) {
         Ok(Ok(row)) => row,
@@ -150,7 +150,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         })
     };
     let sources_declared = summary.sources.iter().filter(near).count() as u64;
-    // Several gantries share a row only where nobody asks for the path of one.
+    // Several gantries share a row only if nobody asks for the path of one of them.
     let gantry = summary.gantries.first();
     let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
     let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) = (

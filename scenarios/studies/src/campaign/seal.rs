@@ -1,7 +1,7 @@
-//! A seal at the head of a block: a hash of all its bytes, tried before anything in the file is believed.
+//! A seal at the beginning of a block: a hash of all its bytes, checked before anything in the file is used.
 //!
-//! A reader of Parquet goes by the places that the footer names, so it passes over what stands between the
-//! mark at the head of the file and the first column. There the seal stands: [`MARK`] and 32 hexadecimal digits.
+//! A reader of Parquet goes to the positions that the footer names, so it skips what stands between the mark at the
+//! beginning of the file and the first column. The seal stands there: [`MARK`] and 32 hexadecimal digits.
 
 use std::io::{Read, Result, Seek, SeekFrom};
 use world::digest::Digest;
@@ -42,7 +42,7 @@ pub(super) fn close(bytes: &mut [u8]) {
     bytes[digits..digits + DIGITS].copy_from_slice(digest.hex().as_bytes());
 }
 
-/// Reads a file through, in small pieces, and holds it against its seal.
+/// Reads a file in small pieces and compares it with its seal.
 ///
 /// # Errors
 /// If it cannot be read.

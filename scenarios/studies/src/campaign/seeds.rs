@@ -7,18 +7,18 @@ use world::seeds::key;
 /// Most seeds of a campaign, and most runs.
 pub(super) const MOST: u64 = 1 << 40;
 
-/// The seeds under each condition; every arm runs with each of them.
+/// The seeds under each condition. Every arm runs with each of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seeds {
-    /// Consecutive ones, the same under each condition: those of `rheotaxis run --seed`.
+    /// Consecutive seeds, the same under each condition: those of `rheotaxis run --seed`.
     Literal {
         /// The first.
         first: u64,
         /// How many.
         count: u64,
     },
-    /// Each a hash of this seed, the condition and its index: others under each condition, and none that anybody
-    /// would give by hand.
+    /// Each seed is a hash of this seed, the condition and its index. They differ between conditions, and nobody would
+    /// give them by hand.
     Hashed {
         /// What they are made from.
         seed: u64,
@@ -36,7 +36,7 @@ impl Seeds {
         }
     }
 
-    /// The seed of that index, from 0, under a condition.
+    /// The seed with an index, from 0, under a condition.
     #[must_use]
     pub fn seed(self, condition: u64, index: u64) -> u64 {
         match self {
@@ -62,7 +62,7 @@ impl Seeds {
         }
     }
 
-    /// What is wrong with its numbers: the field within `seeds`, and what.
+    /// What is wrong with its numbers: the field in `seeds`, and the problem.
     pub(super) fn fault(self) -> Option<(&'static str, String)> {
         let count = self.count();
         if !(1..=MOST).contains(&count) {
@@ -80,7 +80,7 @@ impl Seeds {
     }
 }
 
-/// As the file has it: a number means seeds 1 to that number in version 2, hashed ones in version 1.
+/// The form in the file. A number means seeds 1 to that number in version 2, and hashed seeds in version 1.
 #[derive(Clone, Debug)]
 pub(super) enum Asked {
     Number(u64),

@@ -45,7 +45,7 @@ pub struct Status {
 }
 
 impl Status {
-    /// Looks through a folder.
+    /// Examines a folder.
     ///
     /// # Errors
     /// If there is no campaign in it.

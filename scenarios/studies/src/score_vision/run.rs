@@ -1,4 +1,4 @@
-//! All scenes rendered, looked at in every way, and counted.
+//! All scenes: rendered, examined with every method, and counted.
 
 use super::draw::{Drawn, draw};
 use super::methods::{METHODS, Method};
@@ -54,11 +54,11 @@ pub enum ScoreError {
     Interrupted,
 }
 
-/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one a core). The rows stand in order and do not depend on `jobs`; `done` is
-/// given every scene with its picture as it comes.
+/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one for each core). The rows are in order and do not
+/// depend on `jobs`. `done` gets every scene with its picture when it is finished.
 ///
 /// # Errors
-/// If threads cannot be started, a scene not be built, or `stop` is set.
+/// If threads cannot be started, if a scene cannot be built, or if `stop` is set.
 pub fn score(
     seed: u64,
     scenes: u64,

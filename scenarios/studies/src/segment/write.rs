@@ -1,4 +1,4 @@
-//! What a segmentation leaves: a picture for each step, the clusters, a sheet of all, and the numbers.
+//! The files of a segmentation: a picture for each step, the clusters, a sheet of all, and the numbers.
 
 use super::clusters::{clusters, fate};
 use super::overlay::overlay;
@@ -58,7 +58,7 @@ impl Segmented {
 /// Writes everything into a folder; returns the sheet's path.
 ///
 /// # Errors
-/// If a file cannot be written, each that could not; all others are.
+/// If files cannot be written; names each such file. All others are written.
 pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
     let mut kept = Kept::new(out);
     for pass in &s.parts.passes {

@@ -1,6 +1,6 @@
 //! One figure of a plume, and all of them.
 
-/// Beyond this factor from what is expected a figure is flagged.
+/// A figure is flagged if it differs from the expectation by more than this factor.
 const FACTOR: f64 = 2.0;
 
 /// A figure of ours beside what is expected.
@@ -14,7 +14,7 @@ pub struct Figure {
     pub ours: f64,
     /// What is expected, where something is.
     pub expected: Option<f64>,
-    /// Where the expectation comes from, or how ours is defined.
+    /// Where the expectation comes from, or how our figure is defined.
     pub source: &'static str,
 }
 
@@ -40,7 +40,7 @@ pub struct Statistics {
     pub name: String,
     /// Seed of the run.
     pub seed: u64,
-    /// How long the plume was watched after the spin-up, s.
+    /// How long the plume was observed after the spin-up, s.
     pub watched_s: f64,
     /// The figures.
     pub figures: Vec<Figure>,

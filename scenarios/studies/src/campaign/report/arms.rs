@@ -1,4 +1,4 @@
-//! The figures of each arm, over all conditions and in each.
+//! The figures of each arm, over all conditions and under each.
 
 use super::restricted::{Restricted, restricted};
 use super::unit::Unit;
@@ -7,17 +7,17 @@ use crate::campaign::stats::{
     Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson,
 };
 
-/// Seed of the bootstrap: a report made again from the same rows is the same.
+/// Seed of the bootstrap, fixed so that a report of the same rows is always the same.
 pub(super) const SEED: u64 = 1;
 
 /// What is measured of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Time of the first declaration, of runs that declared.
+    /// Time of the first declaration, for runs that declared.
     Time,
-    /// Way travelled by all robots, of runs that did not fail.
+    /// Distance travelled by all robots, for runs that did not fail.
     Path,
-    /// Distance of the declaration from the nearest true source, of runs that declared.
+    /// Distance of the declaration from the nearest true source, for runs that declared.
     Error,
 }
 
@@ -44,7 +44,7 @@ impl Measure {
         }
     }
 
-    /// Of one run; none where there is nothing to measure.
+    /// The value for one run; `None` if there is nothing to measure.
     #[must_use]
     pub fn of(self, row: &RunRow) -> Option<f64> {
         match self {
@@ -64,7 +64,7 @@ pub struct Measured {
     pub n: u64,
     /// Median.
     pub median: Option<f64>,
-    /// Its 95 % bootstrap interval; none of too few.
+    /// Its 95 % bootstrap interval; `None` for too few values.
     pub median_interval: Option<Interval>,
     /// 90 % quantile.
     pub q90: Option<f64>,
@@ -101,7 +101,7 @@ impl Share {
 pub struct ArmFigures {
     /// Its name.
     pub arm: String,
-    /// Runs that failed: they count as neither declared nor successful.
+    /// Runs that failed; they count as neither declared nor successful.
     pub failed: u64,
     pub(super) success: Share,
     pub(super) declared: Share,
@@ -163,7 +163,7 @@ fn measured(measure: Measure, rows: &[&RunRow]) -> Measured {
     }
 }
 
-/// Success of each arm under each condition, in the order of the rows; nothing where there is only one.
+/// Success of each arm under each condition, in the order of the rows; empty if there is only one condition.
 pub(super) fn conditions(arms: &[String], rows: &[RunRow]) -> Vec<ConditionFigures> {
     use std::collections::BTreeMap;
     let mut order: Vec<&str> = Vec::new();

@@ -1,4 +1,4 @@
-//! Arm against arm on the same seeds and conditions.
+//! Comparison of arms on the same seeds and conditions.
 
 use super::arms::{Measure, SEED, of_arm};
 use super::restricted::time_s;
@@ -9,7 +9,7 @@ use crate::campaign::stats::{
 };
 use std::collections::BTreeMap;
 
-/// Up to so many arms each is compared with each; of more, each with the first.
+/// Up to this many arms, each is compared with each; of more arms, each is compared with the first.
 pub(super) const EACH_WITH_EACH: usize = 5;
 
 /// What two arms are compared by.
@@ -139,8 +139,8 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
     Compares::ALL.map(one).to_vec()
 }
 
-/// Where both declared the arm that fails more is the faster: times of declarations that the other arm made in the hard runs
-/// are not in it.
+/// Among the pairs where both declared, the arm that fails more looks faster: the hard runs, in which only the other
+/// arm declared, are not among them.
 fn looks_faster(
     names: [&str; 2],
     pairs: &[Pair<'_>],

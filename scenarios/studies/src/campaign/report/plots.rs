@@ -26,7 +26,7 @@ fn colour(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 
-/// After the seventh, colours come again with dashes.
+/// After seven colours, they repeat with dashes.
 fn line_style(k: usize) -> Style<'static> {
     let style = Style::line(colour(k), 2.0);
     match k / COLOURS.len() {
@@ -36,7 +36,8 @@ fn line_style(k: usize) -> Style<'static> {
     }
 }
 
-/// Step curves with their bands. `until_end` draws each on to its end (survival), else to the right edge.
+/// Step curves with their bands. With `until_end`, each curve goes to its own end (survival), otherwise to the right
+/// edge.
 pub(super) fn curves(
     name: &str,
     title: &str,

@@ -1,11 +1,11 @@
 //! Time to success when some runs have none: the restricted mean.
 //!
-//! *Source*: restricted mean survival time, Royston & Parmar, BMC Med. Res. Methodol. 13 (2013) 152: the mean of the time to the
-//! event or to a limit, whichever comes first; the area under the curve of those that wait. It is of all runs, so an
-//! arm that fails more does not look faster by its failures being left out.
-//! *Parameters*: the limit: the scenario's time limit, the least of the arms and conditions where they differ.
-//! *Deviations*: nobody is lost from sight: a run that ended early without success never has any, and counts as
-//! the limit. Success is what the scenario calls so; failed runs have no time and are left out.
+//! *Source*: restricted mean survival time, Royston & Parmar, BMC Med. Res. Methodol. 13 (2013) 152: the mean of the
+//! time to the event or to a limit, whichever comes first; it is the area under the survival curve. It covers all runs,
+//! so an arm that fails more does not look faster because its failures are left out.
+//! *Parameters*: the limit: the scenario's time limit, or the shortest one if arms or conditions set it.
+//! *Deviations*: there is no censoring. A run that ended early without success never has any, and counts as the limit.
+//! Success is what the scenario defines; failed runs have no time and are left out.
 
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, positive_mean_interval};
@@ -25,7 +25,7 @@ pub struct Restricted {
     pub interval: Option<Interval>,
 }
 
-/// Time to success, at most the limit, s; none of a failed run.
+/// Time to success, at most the limit, s; `None` for a failed run.
 pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
     let t_s = match (&row.error, row.success) {
         (Some(_), _) => return None,
@@ -35,8 +35,8 @@ pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
     Some(t_s.min(limit_s))
 }
 
-/// When a successful run had its success: at the declaration that did it, the last where it takes several; without any
-/// declaration at its end.
+/// When a successful run had its success: at the declaration that brought it, which is the last one if it takes
+/// several; without any declaration, at its end.
 fn success_s(row: &RunRow) -> f64 {
     let mut kept = (row.declarations.iter())
         .filter(|d| d.verdict != "rejected")

@@ -38,7 +38,7 @@ impl Unit {
     #[must_use]
     pub fn show_interval(self, i: Interval) -> String {
         let (low, high) = (self.show(i.low), self.show(i.high));
-        // The unit once, where both ends have the same.
+        // The unit once, if both ends have the same.
         match (low.split_once(' '), high.split_once(' ')) {
             (Some((bare, unit)), Some((_, other))) if unit == other => format!("{bare} to {high}"),
             _ => format!("{low} to {high}"),
