@@ -1,8 +1,8 @@
 //! What runs leave behind: charts, figures, tables, reports, recordings, live state.
 //!
-//! Rooms, each of which knows only those before it: [`charts`] draws axes and shapes, [`record`] writes MCAP files of
-//! ROS 2 messages, [`files`] writes what can fail, [`results`] gathers what a run's frames say, [`figures`] draws that,
-//! [`report`] puts it into a folder. [`live`] is the only place that touches zenoh.
+//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`record`] writes MCAP files of ROS 2
+//! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`figures`]
+//! draws them, and [`report`] puts them into a folder. [`live`] is the only place that uses zenoh.
 
 pub mod charts;
 pub mod figures;

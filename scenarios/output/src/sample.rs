@@ -1,4 +1,4 @@
-//! A made-up run for the tests: a zig-zag up a straight plume, a bowtie, a declaration, home.
+//! An invented run for the tests: a zig-zag up a straight plume, a bowtie, a declaration, the way home.
 
 use crate::results::{RobotInfo, RunInfo, SourceTruth};
 use nalgebra::{Vector2, Vector3};
@@ -77,7 +77,7 @@ pub(crate) fn odour(t_s: f64) -> Odour {
     }
 }
 
-/// A belief that draws together round the source.
+/// A belief that converges round the source.
 pub(crate) fn belief(t_s: f64) -> Belief {
     let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 15, 1]);
     let wide = 400.0 / (1.0 + t_s / 10.0);

@@ -51,7 +51,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same with an edge.
+    /// Adds an edge.
     pub fn edged(self, colour: &'a str, width: f64) -> Self {
         Self {
             stroke: Some(colour),
@@ -60,7 +60,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same, dashed.
+    /// Makes the line dashed.
     pub fn dashed(self, dash: &'a str) -> Self {
         Self {
             dash: Some(dash),
@@ -68,7 +68,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same, partly transparent.
+    /// Makes it partly transparent.
     pub fn faint(self, opacity: f64) -> Self {
         Self {
             opacity: Some(opacity),
@@ -109,7 +109,7 @@ pub struct Canvas {
     pub height: f64,
     body: String,
     clips: usize,
-    // Where things show now; what lies far beyond is cut off: the library that makes pixels of it cannot take it.
+    // The visible part of the sheet. Shapes far outside it are cut off, because the rasteriser cannot handle them.
     shows: Option<Frame>,
     /// Room that texts, keys and marks take.
     taken: Vec<Room>,
@@ -236,14 +236,14 @@ impl Canvas {
         self.taken.push(room);
     }
 
-    /// How much of a label would lie on what is there, or outside the panel, px².
+    /// The area of a label that would cover other things or lie outside the panel, px².
     fn in_the_way(&self, room: &Room, panel: &Panel) -> f64 {
         let on_others: f64 = self.taken.iter().map(|t| room.shared(t)).sum();
         on_others + room.outside(panel)
     }
 
-    /// Rimmed text at the first of several places at which it lies on nothing else and within the panel; where there is
-    /// none, at that at which it hides least, or not at all if it may be left out.
+    /// Draws rimmed text at the first of several places where it covers nothing and lies within the panel. If there is
+    /// none, it takes the place where it covers least, or omits the text if that is allowed.
     pub fn label_at(
         &mut self,
         places: &[([f64; 2], Anchor)],
@@ -306,7 +306,7 @@ impl Canvas {
         .expect(TEXT);
     }
 
-    /// Everything until [`Canvas::unclip`] shows only inside the rectangle.
+    /// Until [`Canvas::unclip`], only the part inside the rectangle is visible.
     pub fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
         self.clips += 1;
         self.shows = Some([x, y, x + w, y + h]);
@@ -324,7 +324,7 @@ impl Canvas {
         self.body.push_str("</g>\n");
     }
 
-    /// The whole figure; `name` keeps its inner ids apart from other figures on one page.
+    /// The whole figure. `name` distinguishes its inner ids from those of other figures on the same page.
     pub fn svg(&self, name: &str) -> String {
         let (w, h) = (self.width, self.height);
         let body = self
@@ -339,7 +339,7 @@ impl Canvas {
     }
 }
 
-/// Text safe inside XML and HTML; characters that XML forbids become spaces.
+/// Text that is safe inside XML and HTML; characters that XML forbids become spaces.
 pub fn escaped(s: &str) -> String {
     let mut out = String::with_capacity(s.len());
     for c in s.chars() {

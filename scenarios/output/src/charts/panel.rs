@@ -1,10 +1,10 @@
-//! One pair of axes: from values to pixels, ticks, frame.
+//! A pair of axes: conversion from values to pixels, ticks, frame.
 
 use super::canvas::{Anchor, Canvas, Style};
 use super::palette::{GRID, INK};
 use world::math;
 
-/// A rectangle of the sheet that shows a rectangle of values; `y` up unless `y_lo > y_hi`.
+/// A rectangle of the sheet that shows a rectangle of values. `y` points up unless `y_lo > y_hi`.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
     /// Left edge, px.
@@ -57,7 +57,7 @@ impl Panel {
         self.width / (self.x[1] - self.x[0])
     }
 
-    /// Hides what is drawn outside it until the next unclip.
+    /// Hides what is drawn outside the panel until the next unclip.
     pub fn clip(&self, c: &mut Canvas) {
         c.clip(self.left, self.top, self.width, self.height);
     }
@@ -126,7 +126,7 @@ pub fn decade(x: f64) -> i32 {
     (math::ln(x) / std::f64::consts::LN_10 + 1e-12).floor() as i32
 }
 
-/// 1, 2 or 5 times a power of ten, for about `wanted` steps over `span`.
+/// 1, 2 or 5 times a power of ten, such that `span` has about `wanted` steps.
 pub fn nice_step(span: f64, wanted: f64) -> f64 {
     let raw = span.max(1e-9) / wanted.max(1.0);
     let base = power_of_ten(decade(raw));
@@ -137,7 +137,7 @@ pub fn nice_step(span: f64, wanted: f64) -> f64 {
         .unwrap_or(10.0)
 }
 
-/// Multiples of `step` within the range, which may run either way.
+/// Multiples of `step` within the range, which may be descending.
 pub fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
     let (lo, hi) = (range[0].min(range[1]), range[0].max(range[1]));
     let first = (lo / step - 1e-9).ceil() as i64;
@@ -145,7 +145,7 @@ pub fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// A number with the decimals its step asks for and a true minus sign.
+/// A number with as many decimals as its step needs, and a true minus sign.
 pub fn number(v: f64, step: f64) -> String {
     let decimals = usize::try_from(-decade(step)).unwrap_or(0);
     let text = format!("{:.decimals$}", v.abs());
@@ -157,7 +157,7 @@ pub fn number(v: f64, step: f64) -> String {
     }
 }
 
-/// A range that contains every number given, widened by a share and never empty.
+/// A range that contains all given numbers, widened by a share; it is never empty.
 pub fn range_of(values: impl Iterator<Item = f64>, widen: f64) -> Option<[f64; 2]> {
     let mut range: Option<[f64; 2]> = None;
     for v in values.filter(|v| v.is_finite()) {

@@ -1,5 +1,5 @@
-//! Where odour was believed to be met, at chosen times: chance of detection, its way to the vehicle, the vehicle's best way to
-//! it (the products of Farrell, Pang & Li 2003 beside the source map).
+//! Where odour was believed to be, at chosen times: probability of detection, the odour's way to the vehicle, and the
+//! vehicle's best way to the odour (products of Farrell, Pang & Li 2003 in addition to the source map).
 
 use super::belief::{axes, bounds, scale, shades};
 use super::map_layers as layers;
@@ -22,7 +22,7 @@ const PANELS: usize = 4;
 const CAME: &str = "#009e73";
 const WALK: &str = "#0072b2";
 
-/// What one robot's map said of the odour, as SVG.
+/// What one robot's map said about the odour, as SVG.
 pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let last = robot.odour.len() - 1;
     let mut times: Vec<usize> = (0..PANELS).map(|k| k * last / (PANELS - 1)).collect();

@@ -1,4 +1,4 @@
-//! Solid things on a sheet: what water and dye pass under, over or through hides nothing of the plume.
+//! Solid things on a sheet. Where water and dye pass under, over or through a solid, it must not hide the plume.
 
 use crate::charts::canvas::{Canvas, Style};
 use crate::charts::palette::INK;
@@ -12,7 +12,7 @@ const GAP: f64 = 0.02;
 /// Distance between the lines of a hatch, px.
 const HATCH_PX: f64 = 7.0;
 
-/// The way that water has past an obstacle, beside the way round it.
+/// How water passes an obstacle, other than round it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Passage {
     /// From the bed to the surface: none.

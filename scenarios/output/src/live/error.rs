@@ -1,4 +1,4 @@
-//! What can go wrong when live state is set up; once running it cannot fail a run.
+//! Errors of setting up live state. Once it runs, it cannot make a run fail.
 
 use std::path::PathBuf;
 
@@ -27,7 +27,7 @@ pub enum LiveError {
         /// Last port tried.
         last: u16,
     },
-    /// The endpoint to listen on is not written as zenoh writes them.
+    /// The endpoint to listen on does not have zenoh's form.
     #[error("`{endpoint}` is not a zenoh endpoint; write one like tcp/127.0.0.1:7447")]
     Endpoint {
         /// As given.

@@ -1,4 +1,4 @@
-//! `report.html`: one file that needs nothing beside it.
+//! `report.html`: one self-contained file.
 
 use crate::charts::escaped;
 use crate::results::GantrySummary;
@@ -96,7 +96,7 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
         |p: crate::results::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
     let in_region = d.region_name.as_deref();
     if d.kind == DeclaredKind::UpFlowEdge {
-        // No source is said to be here: how far one is away would be no error.
+        // This declaration does not claim a source here, so the distance to the nearest one is no error.
         let what = format!(
             "the plume leads on over it, {} at {:.0} s",
             place(d.position),

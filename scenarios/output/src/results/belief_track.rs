@@ -1,4 +1,4 @@
-//! `belief-<robot>.csv`: how a map of where the source may be drew together; and maps kept for the figures.
+//! `belief-<robot>.csv`: how a map of where the source may be converged. Also the maps kept for the figures.
 
 use super::SourceTruth;
 use nalgebra::Vector3;
@@ -7,9 +7,9 @@ use robots::handoff::{Belief, Odour};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Most rows kept of a robot; beyond, every other is left out.
+/// Most rows kept for a robot; beyond that, every other row is dropped.
 const ROWS: usize = 40_000;
-/// Most numbers kept in the maps of a robot between first and last.
+/// Most numbers kept in a robot's maps between the first and the last.
 const NUMBERS: usize = 2_000_000;
 /// Most maps kept between first and last.
 const MAPS: usize = 64;
@@ -29,11 +29,11 @@ pub struct BeliefRow {
     pub best: Vector3<f64>,
     /// Its probability.
     pub p_best: f64,
-    /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in space).
+    /// Size of the smallest set of cells that contains 95 % of the probability, m² (m³ in space).
     pub credible_95: f64,
 }
 
-/// A map with what was planned on it, and the plume as it was last shown.
+/// A map with its plan, and the plume as it was last shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefSnapshot {
     /// The map.
@@ -49,7 +49,7 @@ pub struct BeliefSnapshot {
 pub struct RobotBelief {
     /// Which robot.
     pub id: String,
-    /// Its updates; thinned evenly when the run is long.
+    /// Its updates; evenly thinned if the run is long.
     pub rows: Vec<BeliefRow>,
     /// The last map before the first detection.
     pub before: Option<BeliefSnapshot>,
@@ -135,7 +135,7 @@ impl RobotBelief {
         thin(&mut self.between, old, most, &mut self.thinning[1]);
     }
 
-    /// When the most probable cell came to where it was at the end, and stayed, s.
+    /// When the most probable cell reached its final place and stayed there, s.
     #[must_use]
     pub fn settled_s(&self) -> Option<f64> {
         let end = self.rows.last()?;
@@ -144,7 +144,7 @@ impl RobotBelief {
     }
 }
 
-/// Keeps every so many, and half of them when there are too many.
+/// Keeps one of every few values, and drops half of them if there are too many.
 fn thin<T>(list: &mut Vec<T>, new: T, most: usize, (stride, skip): &mut (usize, usize)) {
     if *skip > 0 {
         *skip -= 1;
@@ -181,7 +181,7 @@ pub(crate) fn off(best: &Vector3<f64>, sources: &[SourceTruth]) -> Option<f64> {
     away.min_by(f64::total_cmp)
 }
 
-/// The table; the size of the credible region has its unit in the header.
+/// The table; its header gives the unit of the credible region's size.
 pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
     let plane = robot.last.belief.grid.n[2] == 1;
     let unit = if plane { "m2" } else { "m3" };
@@ -189,7 +189,7 @@ pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
         "t_s,updates,informed,entropy_nat,best_east_m,best_north_m,best_up_m,best_probability,off_m,credible_95_{unit}\n"
     );
     for r in &robot.rows {
-        // A map of the plane says nothing of the height.
+        // A map of the plane does not tell the height.
         let up = if plane {
             String::new()
         } else {

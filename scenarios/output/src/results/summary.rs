@@ -26,11 +26,11 @@ pub struct SourceSummary {
     pub position: Position,
     /// Its depth below the still surface, m.
     pub depth_m: f64,
-    /// Where the mean flow at the source goes, degrees from north; none in still water.
+    /// Where the mean flow at the source goes, degrees from north; `None` in still water.
     pub flow_heading_deg: Option<f64>,
 }
 
-/// A declared position against the nearest true source.
+/// A declared position compared with the nearest true source.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceError {
     /// The nearest true source.
@@ -39,9 +39,9 @@ pub struct SourceError {
     pub position: Position,
     /// Horizontal distance, m.
     pub total_m: f64,
-    /// Part along the mean flow at the source, m; positive: declared too far down-flow.
+    /// Component along the mean flow at the source, m; positive if declared too far down-flow.
     pub along_flow_m: Option<f64>,
-    /// Part across it, m; positive: declared too far to the right, looking down-flow.
+    /// Component across it, m; positive if declared too far to the right, looking down-flow.
     pub across_flow_m: Option<f64>,
     /// Declared minus true, m.
     pub east_m: f64,
@@ -55,20 +55,20 @@ pub struct SourceError {
 pub enum DeclaredKind {
     /// A source, at the place.
     Source,
-    /// A plume, traced to where it crosses the up-flow edge of a subregion: its source is beyond.
+    /// A plume that was traced to the up-flow edge of a subregion; its source is beyond.
     UpFlowEdge,
 }
 
 /// A declaration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DeclarationSummary {
-    /// Its number among the robot's, from 0, edges included.
+    /// Its number among the robot's declarations, from 0, including edges.
     pub number: u32,
     /// Of a source or of an edge.
     pub kind: DeclaredKind,
-    /// Its name in report and pictures: `source 1` and so on, edges not counted, or `edge of A`.
+    /// Its name in report and pictures: `source 1` and so on, without counting edges, or `edge of A`.
     pub name: String,
-    /// Subregion in which it was made, from 0; none where the area is one.
+    /// Subregion in which it was made, from 0; `None` if the area is not divided.
     pub region: Option<u32>,
     /// That subregion's name: a letter.
     pub region_name: Option<String>,
@@ -78,19 +78,19 @@ pub struct DeclarationSummary {
     pub rule: String,
     /// Where.
     pub position: Position,
-    /// How wrong, or how far the nearest source is from an edge; none in a scenario without a source.
+    /// Its error, or the distance of an edge from the nearest source; `None` in a scenario without a source.
     pub error: Option<SourceError>,
-    /// The last detection points it rests on, where the rule is one on them.
+    /// The last detection points on which it rests, if its rule uses them.
     pub evidence: Option<Evidence>,
     /// What a look at it said.
     pub verdict: Verdict,
-    /// Where the sidescan had the source, as the vehicle believed.
+    /// Where the sidescan found the source, in the vehicle's believed coordinates.
     pub surveyed: Option<Position>,
     /// How wrong that was.
     pub surveyed_error: Option<SourceError>,
-    /// Straight distance from the first detection in this area, or subregion, to it, m.
+    /// Straight distance from the first detection in this area or subregion to it, m.
     pub traced_m: Option<f64>,
-    /// How far a position fix moved what the robot believed in the minute before, the farthest, m; none without one.
+    /// The largest shift by a position fix of what the robot believed, in the minute before, m; `None` without a fix.
     pub fix_m: Option<f64>,
 }
 
@@ -118,9 +118,9 @@ pub struct RobotSummary {
     pub declarations: Vec<DeclarationSummary>,
     /// How many of these are sources.
     pub sources_declared: usize,
-    /// How many are plumes traced to the up-flow edge of a subregion.
+    /// Number of plumes that were traced to the up-flow edge of a subregion.
     pub up_flow_edges: usize,
-    /// The subregions of its mission, in the order of their search; none where the area is one.
+    /// The subregions of its mission, in the order of their search; empty if the area is not divided.
     pub regions: Vec<RegionSummary>,
     /// How many of these had their time run out.
     pub regions_timed_out: usize,
@@ -132,9 +132,9 @@ pub struct RobotSummary {
     pub detections: u64,
     /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
     pub traced_m: Option<f64>,
-    /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
+    /// When the most probable cell of its map became that of a true source and stayed so to the end, s.
     pub correct_cell_s: Option<f64>,
-    /// What its map came to; none for a robot without.
+    /// The final state of its map; `None` for a robot without a map.
     pub map: Option<MapEnd>,
     /// Length of the true path, m.
     pub travelled_m: f64,
@@ -193,7 +193,7 @@ pub struct MassBalance {
     pub in_water_kg: f64,
     /// Carried out of it, kg.
     pub left_kg: f64,
-    /// Released − in the water − carried out, kg: rounding only.
+    /// Released − in the water − carried out, kg: only rounding.
     pub imbalance_kg: f64,
 }
 
@@ -225,11 +225,11 @@ pub struct Totals {
     pub steps: u64,
     /// Filaments at the end.
     pub filaments: usize,
-    /// Where the chemical went; none without a source.
+    /// Where the chemical went; `None` without a source.
     pub mass: Option<MassBalance>,
 }
 
-/// [`Totals`] with the speeds that follow from it.
+/// [`Totals`] with the resulting speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RunSummary {
     /// What was counted.
@@ -237,14 +237,14 @@ pub struct RunSummary {
     pub totals: Totals,
     /// Simulated over wall time, mission only.
     pub real_time_factor: Option<f64>,
-    /// Simulated mission time over all wall time, spin-up's included: what a user waits for.
+    /// Simulated mission time divided by all wall time, including the spin-up: what a user waits for.
     pub real_time_factor_with_spin_up: Option<f64>,
 }
 
-/// Version of rapier3d that the program is built with; the joints of gantries, which it moves, go into the digest.
+/// Version of rapier3d in the program. It moves the joints of gantries, which are part of the digest.
 const RAPIER: &str = "0.36.1";
 
-/// By what a run was made: equal digests are promised for equal versions.
+/// The versions that made a run: equal digests are promised for equal versions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Versions {
     /// The program.
@@ -278,7 +278,7 @@ pub struct Summary {
     pub seed: u64,
     /// What it was run by.
     pub versions: Versions,
-    /// Digest of the whole state sequence; the same run again gives the same.
+    /// Digest of the whole state sequence; the same run has the same digest.
     pub digest: String,
     /// How it ended.
     pub outcome: RunOutcome,
