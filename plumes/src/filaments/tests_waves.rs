@@ -16,8 +16,8 @@ use world::ranges::{HeadingDeg, NonNegative};
 use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: 10.0 };
-/// Height above the bed, at 1.5 m depth. A wave of 0.3 m and 4 s has an orbit of radius 0.104 m and a drift of 3.9 mm/s
-/// there.
+/// Height of the source above the bed, that is 1.5 m of depth. There, a wave of 0.3 m and 4 s has an orbit of radius
+/// 0.104 m and a drift of 3.9 mm/s.
 const HEIGHT: f64 = 8.5;
 
 /// Waves along a current of 5 cm/s, without mixing.

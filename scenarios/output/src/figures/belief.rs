@@ -20,7 +20,7 @@ const TOP: f64 = 70.0;
 const GAP: [f64; 2] = [70.0, 92.0];
 /// Height of the key, px.
 const KEY: f64 = 58.0;
-/// Range of probabilities shown, in decades below the largest.
+/// Range of probabilities shown, in decades below the largest, and the number of shades for it.
 const DECADES: f64 = 4.0;
 const SHADES: usize = 12;
 /// Planned path.

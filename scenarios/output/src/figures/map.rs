@@ -12,7 +12,7 @@ use crate::charts::panel::{Panel, nice_step, range_of};
 use crate::results::{RobotTrack, RunReport, SourceTruth};
 use nalgebra::Vector2;
 
-/// Largest size of the map's panel with keys beside it, px.
+/// Largest size of the map's panel with keys beside it and with keys below it, px.
 const LARGEST_TALL: [f64; 2] = [660.0, 840.0];
 const LARGEST_WIDE: [f64; 2] = [900.0, 720.0];
 const LEAST: [f64; 2] = [420.0, 120.0];

@@ -20,7 +20,7 @@ const LEVELS: [f64; 7] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
 pub(super) struct Axes {
     origin: Vector2<f64>,
     down: Vector2<f64>,
-    /// Range of x that contains the track and the source, cm.
+    /// Ranges of both axes, which contain the track and the source, cm.
     pub(super) x: [f64; 2],
     pub(super) y: [f64; 2],
     /// The sides of the area, if it lies along the stream, cm.

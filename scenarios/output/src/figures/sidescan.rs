@@ -8,7 +8,7 @@ use crate::charts::panel::Panel;
 use crate::results::{RobotEchoes, RobotTrack, RunReport};
 use robots::survey::{DetectSpec, Row, Waterfall, detect};
 
-/// Largest number of waterfalls.
+/// Largest number of waterfalls, and the greatest length shown of one, m.
 const MOST: usize = 3;
 const LONGEST_M: f64 = 80.0;
 /// Passes farther than this from the declared place belong to another place, m.
@@ -21,7 +21,7 @@ const WATERFALL_PX: f64 = 5.6;
 const MAP_PX: f64 = 9.0;
 /// Number of lines and columns of a waterfall that are drawn as one cell.
 const BLOCK: usize = 2;
-/// Range of levels shown below and above the median, dB.
+/// Range of levels shown below and above the middle one, dB, and the number of shades for it.
 const RANGE_DB: [f64; 2] = [-14.0, 18.0];
 const SHADES: usize = 12;
 /// Where the sidescan has the source.
