@@ -5,7 +5,7 @@ use bevy_ecs::prelude::Resource;
 /// Simulated time. Time is always `step · dt`, never an accumulated sum.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
-    /// Steps done so far.
+    /// Number of steps done so far.
     pub step: u64,
     /// Length of a step, s.
     pub dt_s: f64,
@@ -30,7 +30,7 @@ impl Clock {
         (self.step + 1) as f64 * self.dt_s
     }
 
-    /// One step on.
+    /// Advances by one step.
     pub fn advance(&mut self) {
         self.step += 1;
     }

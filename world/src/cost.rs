@@ -34,7 +34,7 @@ impl Times {
         self.spin_up_s + self.mission_s
     }
 
-    /// Steps of the plume.
+    /// Number of steps of the plume.
     #[must_use]
     pub fn drifts(&self) -> f64 {
         self.spin_up_s / self.spin_up_period_s + self.mission_s / self.drift_period_s
@@ -54,7 +54,7 @@ impl Times {
 pub struct Rule {
     /// The field's value.
     pub value: f64,
-    /// The power.
+    /// The exponent.
     pub power: f64,
 }
 
@@ -124,7 +124,7 @@ impl Part {
     }
 }
 
-/// To three digits, up or down.
+/// Rounds to three digits, up or down.
 fn rounded(v: f64, up: bool) -> f64 {
     let text = format!("{v:.2e}");
     let near: f64 = text.parse().unwrap_or(v);
@@ -150,7 +150,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Of one part.
+    /// A cost with one part.
     #[must_use]
     pub fn of(part: Part) -> Self {
         Self { parts: vec![part] }

@@ -22,7 +22,7 @@ pub struct SideWalls {
     pub centre: Vector2<f64>,
     /// Unit vector (east, north) from one to the other.
     pub across: Vector2<f64>,
-    /// Half their distance, m.
+    /// Half of their distance, m.
     pub half_width_m: f64,
 }
 

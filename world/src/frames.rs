@@ -10,12 +10,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub struct Pose {
     /// Origin of B in W, m.
     pub p_WB: Vector3<f64>,
-    /// Rotation taking B's axes to W's.
+    /// Rotation from B's axes to W's.
     pub R_WB: UnitQuaternion<f64>,
 }
 
 impl Pose {
-    /// A body at `p` with the given heading, level.
+    /// A level body at `p` with the given heading.
     #[must_use]
     pub fn level(p: Vector3<f64>, heading: Heading) -> Self {
         Self {
@@ -57,7 +57,7 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// At rest at a pose.
+    /// A body at rest with a pose.
     #[must_use]
     pub fn at_rest(pose: Pose) -> Self {
         Self {

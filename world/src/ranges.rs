@@ -79,7 +79,7 @@ ranged! {
 }
 
 impl HeadingDeg {
-    /// As a heading.
+    /// The same direction as a [`Heading`](crate::units::Heading).
     #[must_use]
     pub fn heading(self) -> crate::units::Heading {
         crate::units::Heading::from_deg(self.0)

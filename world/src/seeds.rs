@@ -28,7 +28,7 @@ impl Stream {
         self.rng.random::<f64>()
     }
 
-    /// Next 64 random bits.
+    /// The next 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.rng.next_u64()
     }

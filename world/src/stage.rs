@@ -17,9 +17,9 @@ pub enum Stage {
     Guide,
     /// Commands become actuator set-points.
     Actuate,
-    /// Bodies move.
+    /// Bodies move and touch.
     Physics,
-    /// Water and what is dissolved in it move.
+    /// Water and dissolved matter move.
     Drift,
     /// The state is digested, recorded and published.
     Report,

@@ -185,7 +185,7 @@ mod tests {
                     assert!(over > 0.0);
                     met[3] += 1;
                 }
-                // Nothing was passed through on the way.
+                // The ray passed nothing solid on its way.
                 for part in 1..20 {
                     let p = from + dir * (way.unwrap_or(60.0) * f64::from(part) / 20.0);
                     assert!(p.z - t.bed_z(p.x, p.y) > -1e-9);

@@ -28,7 +28,7 @@ const GENTLE: f32 = 0.25;
 /// More faces than this in one step mean that something is wrong.
 const MOST_FACES: usize = 1_000_000;
 
-/// What carries filaments from face to face.
+/// Carries filaments from face to face.
 #[derive(Clone, Debug)]
 pub(super) struct Carrier {
     // Speeds along, across and upwards at the lower and the upper face, in cell sizes per second. Laid out as the
@@ -42,7 +42,7 @@ pub(super) struct Carrier {
     still_bed: bool,
 }
 
-/// Room for what is worked out about a block.
+/// Memory for what is computed about a block.
 pub(super) struct Way {
     column: [u32; BLOCK],
     level: [u32; BLOCK],
@@ -157,7 +157,7 @@ impl Carrier {
             (level[l], part[2][l]) = (v.below, v.part);
         }
         for from in (0..BLOCK).step_by(4) {
-            // The first four and the last four of the six.
+            // The first four and the last four of six values.
             let at = |l: usize, first: usize| {
                 let n = column[from + l] as usize * self.levels + level[from + l] as usize;
                 debug_assert!(n < self.rates.len());
@@ -290,7 +290,7 @@ impl Carrier {
         b.bed[l] = bed;
     }
 
-    /// Where a filament comes to in a time, s.
+    /// Position of a filament after a time, s.
     fn path(&self, mut at: Inside, mut left_s: f64) -> Inside {
         let n = [self.n[0], self.n[1], self.levels];
         for _ in 0..MOST_FACES {

@@ -20,7 +20,7 @@ pub(super) struct Cells {
     origin: [f32; 2],
     /// Axis i and axis j, divided by the spacing: cells per metre.
     axes: [[f32; 2]; 2],
-    /// Last node along i, j as a number.
+    /// Last node along i and j, as numbers.
     last: [f32; 2],
     dims: [i32; 3],
     stretch: f32,
@@ -30,24 +30,24 @@ pub(super) struct Cells {
     pub(super) even_k_h: Option<f32>,
 }
 
-/// Where a point lies among the columns.
+/// Position of a point among the columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Column {
     /// Column of the cell's lower corner, i·ny + j.
     pub(super) at: u32,
-    /// Parts of the cell passed along i and j.
+    /// Position in the cell along i and j, as parts of it.
     pub(super) f: f32,
     pub(super) g: f32,
-    /// Beyond the grid.
+    /// Whether the point is outside the grid.
     pub(super) outside: bool,
 }
 
-/// Where a height lies among the levels.
+/// Position of a height among the levels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Level {
     /// Level below.
     pub(super) below: u32,
-    /// Part of the way to the next.
+    /// Position between it and the next, as a part.
     pub(super) part: f32,
     /// Reciprocal of the distance between the two, 1/m.
     pub(super) per_m: f32,

@@ -68,7 +68,7 @@ impl MixingProfile {
         let cell = self.depth / CELLS as f64;
         let gained = self.gained(dt_s, cell);
         let mut off = vec![0.0; CELLS];
-        // Between two cells, 1/s.
+        // Exchange between two cells, 1/s.
         let per: Vec<f64> = (1..CELLS)
             .map(|n| self.at(n as f64 * cell).0 / (cell * cell))
             .collect();
@@ -195,7 +195,7 @@ impl Sums {
         let high = high.max(low + 1e-9 * self.cell);
         let rise = mass / (high - low);
         for (from, rise) in [(low, rise), (high, -rise)] {
-            // The first face at or above it.
+            // The first face at or above `from`.
             let face = (from / self.cell).ceil() as usize;
             let face = face.min(CELLS + 1);
             self.rise[face] += rise;

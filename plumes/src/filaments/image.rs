@@ -31,20 +31,20 @@ pub(super) struct Felt {
     up: [f64; 2],
 }
 
-/// A point that is asked for its concentration.
+/// A point at which the concentration is asked for.
 pub(super) struct Spot<'a> {
     pub(super) room: &'a Room,
     pub(super) lookup: &'a Lookup,
-    /// East, north, up, m: in the water.
+    /// East, north, up, m; the point lies in the water.
     pub(super) p: [f32; 3],
     at: Option<Place>,
-    // The farthest that any filament reaches, m.
+    // Longest reach of any filament, m.
     reach: f64,
     ends: OnceCell<[[f64; 2]; 2]>,
 }
 
 impl<'a> Spot<'a> {
-    /// None where no water is near.
+    /// `None` if no water is near.
     pub(super) fn new(room: &'a Room, lookup: &'a Lookup, p: [f32; 3], reach: f64) -> Option<Self> {
         let mut query = Self {
             room,
@@ -99,7 +99,7 @@ impl Felt {
         })
     }
 
-    /// What it adds at a point, kg/m³.
+    /// Its contribution at a point, kg/m³.
     pub(super) fn add(&self, query: &Spot<'_>) -> f64 {
         let Some(to) = &query.at else { return 0.0 };
         let from = &self.at;
@@ -140,7 +140,7 @@ impl Felt {
         0.5 * self.kg * sum
     }
 
-    /// Bounds beyond which nothing is felt, m.
+    /// Bounds beyond which the contribution is zero, m.
     pub(super) fn bounds(&self, room: &Room) -> ([f32; 3], [f32; 3]) {
         let p = room.point(&self.at);
         let reach = f64::from(CUT_SIGMAS) * 1.000_01;

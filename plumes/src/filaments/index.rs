@@ -19,7 +19,7 @@ use super::thread;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 
-/// Filaments a group, at most.
+/// Most filaments in a group.
 const GROUP: usize = 1024;
 
 /// All groups of all stores at one time.
@@ -27,7 +27,7 @@ const GROUP: usize = 1024;
 pub(super) struct Index {
     groups: Vec<Group>,
     now_s: f64,
-    /// The farthest that any filament reaches, m.
+    /// Longest reach of any filament, m.
     reach: f64,
 }
 
@@ -156,7 +156,7 @@ impl Index {
     }
 }
 
-/// What is asked, and of whom.
+/// A question, and the data that answer it.
 struct Asked<'a> {
     p: [f32; 3],
     query: &'a Spot<'a>,

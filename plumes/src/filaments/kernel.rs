@@ -38,7 +38,7 @@ use super::cells::{Cells, clamped};
 use super::lookup::{Columns, Levels, Water, fetch};
 use super::noise::normals;
 
-/// Filaments a block.
+/// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
 
 /// A block of filaments during a step.
@@ -50,11 +50,11 @@ pub(super) struct Block {
     pub(super) bed: [f32; BLOCK],
     pub(super) dt: [f32; BLOCK],
     pub(super) number: [u32; BLOCK],
-    /// Part of the diffusivities that kicks it.
+    /// Part of the diffusivities that kicks each.
     pub(super) kicked: [f32; BLOCK],
     /// Set by the step: 1 if it has left the grid.
     pub(super) outside: [u32; BLOCK],
-    /// How many of it are filaments.
+    /// Number of filaments in it.
     pub(super) used: usize,
 }
 
@@ -95,7 +95,7 @@ impl Work {
 /// Which version of the step the machine can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Path {
-    /// What every machine of the target runs.
+    /// Runs on every machine of the target.
     Portable,
     /// AVX2.
     #[cfg(target_arch = "x86_64")]
@@ -103,7 +103,7 @@ pub(super) enum Path {
 }
 
 impl Path {
-    /// The fastest this machine has.
+    /// The fastest version that this machine can run.
     pub(super) fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {

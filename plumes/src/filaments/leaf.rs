@@ -20,7 +20,7 @@ pub const CUT_SIGMAS: f32 = 4.0;
 /// Part of the mass within the cut: erf(4/√2) − √(2/π)·4·e⁻⁸.
 const WITHIN_CUT: f64 = 0.998_865_98;
 
-/// Filaments a leaf.
+/// Filaments in a leaf.
 pub(super) const LEAF: usize = 32;
 
 /// Neighbouring filaments in arrays of fixed length; empty places have no mass.
@@ -156,7 +156,7 @@ fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
         + ((total[1] + total[5]) + (total[3] + total[7]))
 }
 
-/// exp(−8w) for w ≤ 1, nothing beyond.
+/// exp(−8w) for w ≤ 1, zero beyond.
 #[inline(always)]
 pub(super) fn falling(w: f32) -> f32 {
     // Interpolates exp(−w) at the Chebyshev points of [0, 1].

@@ -22,7 +22,7 @@ pub const EVEN: f64 = 0.05;
 const PLACES: usize = 5;
 /// Times from the beginning to the end.
 const TIMES: usize = 9;
-/// No step below this is looked for, s.
+/// Shortest step that is considered, s.
 const SHORTEST_S: f64 = 1e-3;
 
 /// The columns of a water in which K_z bends most sharply, that is, those that suffer most from a long step.
@@ -47,9 +47,9 @@ struct Column {
 pub struct Uneven {
     /// Greatest deviation of any 24th of the depth, as a part of even.
     pub part: f64,
-    /// Where (east, north), m.
+    /// Place (east, north), m.
     pub place: Vector2<f64>,
-    /// With the water of which time, s.
+    /// Time of the water, s.
     pub t_s: f64,
 }
 

@@ -19,7 +19,7 @@ const FAR: usize = 12;
 const INSIDE: f64 = 1e-3;
 
 impl Room {
-    /// A point in the water, or the nearest such.
+    /// A point itself if it is in the water, otherwise the nearest point that is.
     pub(super) fn in_water(&self, lookup: &Lookup, p: [f32; 3]) -> [f32; 3] {
         if !self.has_solids() {
             return p;

@@ -35,7 +35,7 @@ use world::obstacles::Obstacles;
 use world::seeds;
 use world::terrain::Terrain;
 
-/// How finely the plume sees the water.
+/// How finely the plume resolves the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlumeSettings {
     /// The grid on which the flow is evaluated; filaments that leave it are removed.
@@ -53,7 +53,7 @@ impl Default for PlumeSettings {
     }
 }
 
-/// All filaments, now.
+/// All filaments at the present time.
 #[derive(Resource, Clone, Debug)]
 pub struct Plume {
     pub(super) sources: Vec<Source>,
@@ -175,7 +175,7 @@ impl Plume {
             self.room.between(walls);
         }
         let carried_s = *self.carried_s.get_or_insert(t0_s);
-        // A hair early, as for the refresh.
+        // Slightly early, as for the refresh.
         let carries = t1_s - carried_s >= CARRY_S - 1e-6;
         for n in 0..self.stores.len() {
             let key = step_key(self.keys[n], self.steps);

@@ -20,7 +20,7 @@ use nalgebra::Vector2;
 /// Distance of a mirrored filament from an obstacle, m: more than the rounding of single-precision positions of a
 /// kilometre.
 const CLEAR_M: f64 = 5e-4;
-/// Walls met one after the other in a step.
+/// Most walls that a filament may meet in a step.
 const IN_A_ROW: usize = 10_000;
 
 /// Mirrors a coordinate at the ends of a way, as often as necessary.
@@ -44,7 +44,7 @@ pub(super) fn folded(x: f64, [low, high]: [f64; 2]) -> f64 {
     (low + back).clamp(low, high)
 }
 
-/// Where a filament came to.
+/// Result of a filament's motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turned {
     /// East, north, up, m.
@@ -55,14 +55,14 @@ pub(super) struct Turned {
     pub(super) left: bool,
 }
 
-/// What kicks a filament upwards.
+/// A vertical kick of a filament.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kick {
     /// Two standard normals.
     pub(super) noise: [f32; 2],
     /// Step, s.
     pub(super) dt_s: f32,
-    /// Part of the diffusivity that kicks.
+    /// Part of the diffusivity that kicks it.
     pub(super) part: f32,
 }
 

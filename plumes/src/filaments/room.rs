@@ -41,7 +41,7 @@ impl Place {
     }
 }
 
-/// What filaments cannot go through.
+/// Everything that filaments cannot pass.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
     origin: Vector2<f64>,
@@ -49,7 +49,7 @@ pub(super) struct Room {
     pub(super) spacing: [f64; 2],
     // Nodes across.
     across: usize,
-    /// Solids: the walls if there are no cells.
+    /// Solids; they are the walls if there are no cells.
     pub(super) solids: Solids,
     /// Cells of blocked water.
     pub(super) cells: Option<Arc<Cells>>,
@@ -121,7 +121,7 @@ impl Room {
         self.cells.is_some() || !self.solids.is_empty()
     }
 
-    /// The place of a point; none beyond the grid.
+    /// The place of a point; `None` outside the grid.
     pub(super) fn place(&self, lookup: &Lookup, p: [f32; 3]) -> Option<Place> {
         let c = lookup.column(p[0], p[1]);
         if c.outside {
@@ -216,7 +216,7 @@ impl Room {
         let per = 1.0 / self.spacing[0].min(self.spacing[1]) as f32;
         for l in 0..BLOCK {
             at[l] = lookup.column(from[0][l], from[1][l]).at;
-            // A hair more, against rounding.
+            // Slightly more, against rounding.
             let way = (to[0][l] - from[0][l]).abs() + (to[1][l] - from[1][l]).abs();
             columns[l] = 1.001 + 1.001 * per * way;
         }

@@ -58,7 +58,7 @@ impl Size {
         }
     }
 
-    /// Whether growth takes its part of the kicks.
+    /// Whether growth takes a part of the diffusivity from the kicks.
     pub(super) fn shares(&self) -> bool {
         self.eddies.is_some()
     }

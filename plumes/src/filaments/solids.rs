@@ -69,7 +69,7 @@ impl Solids {
                 .all(|o| o.contains(from) || o.ray(from, &way, far).is_none())
     }
 
-    /// The one a point lies in.
+    /// The obstacle that contains a point.
     pub(super) fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
         self.meeting(*p, *p).find(|o| o.contains(p))
     }

@@ -16,7 +16,7 @@ pub(super) struct Store {
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     pub(super) z: Vec<f32>,
-    /// Height of the bed under each, m (negative).
+    /// Height of the bed under each filament, m (negative).
     pub(super) bed: Vec<f32>,
     /// Number in the order of release; it is the counter of the filament's noise.
     pub(super) number: Vec<u32>,
@@ -24,11 +24,11 @@ pub(super) struct Store {
     pub(super) born_s: Vec<f64>,
     /// Growth law.
     pub(super) size: Size,
-    /// Mass of each, kg.
+    /// Mass of each filament, kg.
     pub(super) filament_kg: f64,
-    /// How many were ever released.
+    /// Number of filaments ever released.
     pub(super) released: u64,
-    /// How many have left the domain.
+    /// Number of filaments that have left the domain.
     pub(super) left: u64,
 }
 

@@ -9,31 +9,31 @@ use crate::release::Source;
 use world::digest::Digest;
 
 impl Plume {
-    /// Time of the latest drift's end, s.
+    /// End of the latest drift, s.
     #[must_use]
     pub fn now_s(&self) -> f64 {
         self.now_s
     }
 
-    /// Filaments in the domain.
+    /// Number of filaments in the domain.
     #[must_use]
     pub fn len(&self) -> usize {
         self.stores.iter().map(Store::len).sum()
     }
 
-    /// Whether there is none.
+    /// Whether there are no filaments.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Filaments ever released.
+    /// Number of filaments ever released.
     #[must_use]
     pub fn released(&self) -> u64 {
         self.stores.iter().map(|s| s.released).sum()
     }
 
-    /// Filaments that have left the domain.
+    /// Number of filaments that have left the domain.
     #[must_use]
     pub fn left(&self) -> u64 {
         self.stores.iter().map(|s| s.left).sum()
@@ -73,7 +73,7 @@ impl Plume {
         &self.sources
     }
 
-    /// The flow as the filaments see it.
+    /// The flow that the filaments see.
     #[must_use]
     pub fn grid(&self) -> &FlowGrid {
         &self.grid

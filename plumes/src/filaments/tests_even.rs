@@ -25,9 +25,9 @@ struct Scene {
     water: Water,
     plume: Plume,
     rng: Stream,
-    /// Filaments a m³.
+    /// Filaments per m³.
     density: f64,
-    /// Columns of the frame.
+    /// Width of the frame, in columns.
     frame: usize,
 }
 

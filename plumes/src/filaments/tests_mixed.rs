@@ -28,7 +28,7 @@ fn start(water: &impl Flow, part: f64) -> Plume {
     pour(&mut p, FILAMENTS, -DEPTH, |_| {
         [0.0, 0.0, -DEPTH * (1.0 - part * r.uniform())]
     });
-    // Fills the grid; a nanosecond moves nobody.
+    // Fills the grid; a nanosecond moves no filament.
     p.drift(water, -1e-9, 0.0);
     p
 }

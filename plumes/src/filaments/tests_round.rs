@@ -1,4 +1,4 @@
-//! Filaments in water that goes round a block.
+//! Filaments in water that flows round a block.
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, source};

@@ -19,7 +19,7 @@ pub(super) const CARRY_S: f64 = 0.2;
 pub(super) fn carry(flow: &dyn Flow, store: &mut Store, since_s: f64, now_s: f64) {
     let whole = (now_s - since_s) as f32;
     let mut dt = vec![whole; store.len()];
-    // The newest come last.
+    // The newest filaments come last.
     for (dt, born) in dt.iter_mut().zip(&store.born_s).rev() {
         if *born <= since_s {
             break;

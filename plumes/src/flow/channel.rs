@@ -29,7 +29,7 @@ pub const INTENSITIES: [f64; 3] = [2.30, 1.63, 1.27];
 /// Fischer's transverse diffusivity in units of u_*H.
 pub const TRANSVERSE: f64 = 0.15;
 
-/// A channel between walls.
+/// A channel between two walls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OpenChannelSpec {

@@ -22,7 +22,7 @@ pub struct ColouredNoise {
     rng: Stream,
 }
 
-/// What a step of fixed length does.
+/// The effect of a step of fixed length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseStep {
     phi: [[f64; 2]; 2],
@@ -76,7 +76,7 @@ impl ColouredNoise {
         self.x
     }
 
-    /// One step on.
+    /// Advances by one step.
     pub fn advance(&mut self, step: &NoiseStep) {
         let (a, b) = (self.rng.normal(), self.rng.normal());
         let [[p, q], [r, s]] = step.phi;

@@ -15,7 +15,7 @@ const NODE_S: [f64; 2] = [60e-9, 25e-9];
 const ROUND_S: f64 = 250e-9;
 
 impl WaterSpec {
-    /// What it takes; paths begin with `water`.
+    /// Memory and time that it needs; paths begin with `water`.
     #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64, times: &Times) -> Cost {
         let mut cost = Cost::default();

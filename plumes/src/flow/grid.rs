@@ -21,7 +21,7 @@ use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::terrain::Terrain;
 
-/// How fine the grid is.
+/// Resolution and extent of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridShape {
     /// Wanted horizontal spacing, m; reduced to fit the extent, never enlarged.
@@ -81,9 +81,9 @@ impl GridShape {
 pub struct FlowGrid {
     /// World (east, north) of node (0, 0), m.
     pub origin: [f32; 2],
-    /// Unit vector (east, north) of growing i.
+    /// Unit vector (east, north) of increasing i.
     pub along: [f32; 2],
-    /// Unit vector (east, north) of growing j.
+    /// Unit vector (east, north) of increasing j.
     pub across: [f32; 2],
     /// Spacing along and across, m.
     pub spacing: [f32; 2],
@@ -99,11 +99,11 @@ pub struct FlowGrid {
     pub bed: Vec<f32>,
     /// Horizontal diffusivity (m²/s) at column i·ny + j, taken at mid-depth.
     pub k_h: Vec<f32>,
-    /// Time the values hold for, s.
+    /// Time for which the values hold, s.
     pub t_s: f64,
 }
 
-/// What a filament asks for at its place.
+/// The values that a filament needs at its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GridSample {
     /// Velocity, ENU, m/s.

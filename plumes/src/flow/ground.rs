@@ -21,7 +21,7 @@ pub struct Floor {
     pub slope: Vector2<f64>,
 }
 
-/// A terrain made quick to ask.
+/// A terrain prepared for fast evaluation.
 #[derive(Clone, Debug)]
 pub(crate) enum Ground {
     Level(f64),

@@ -36,7 +36,7 @@ const GAP: f64 = 0.02;
 pub struct LayeredSpec {
     /// One to four layers, top first.
     pub layers: Vec<LayerSpec>,
-    /// One fewer than layers, top first.
+    /// One fewer than there are layers, top first.
     #[serde(default)]
     pub interfaces: Vec<InterfaceSpec>,
 }

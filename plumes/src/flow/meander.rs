@@ -64,7 +64,7 @@ const fn farrell_damping() -> Positive {
 
 /// Most cells along a side; the cost of the projection grows with their cube.
 const MOST_CELLS: f64 = 100.0;
-/// Steps a radian of the noise.
+/// Steps per radian of the noise.
 const STEPS_PER_RADIAN: f64 = 10.0;
 /// Steps before time zero, during which the inside forgets that it began as the mean of the corners.
 const PRE_ROLL: usize = 200;

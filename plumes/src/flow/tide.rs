@@ -24,7 +24,7 @@ use crate::error::PlumeError;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TideSpec {
-    /// One at least.
+    /// At least one.
     pub constituents: Vec<ConstituentSpec>,
 }
 
@@ -43,7 +43,7 @@ pub struct ConstituentSpec {
     pub minor_m_s: Finite,
     /// Where the water goes at the greatest speed, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
-    /// When: degrees of a period after time zero.
+    /// Time of the greatest speed: degrees of a period after time zero.
     #[serde(default = "none")]
     pub phase_deg: Finite,
 }

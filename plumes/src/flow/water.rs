@@ -40,17 +40,17 @@ use crate::flow::mixing::{self, MixingSpec};
 use crate::flow::tide::Tide;
 use crate::flow::waves::Waves;
 
-/// The water of a scenario; by default still.
+/// The water of a scenario; still by default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WaterSpec {
-    /// Currents that add up; none is still water.
+    /// Currents that add up; without any, the water is still.
     pub currents: Vec<CurrentSpec>,
-    /// Bed friction; absent: the currents slip.
+    /// Bed friction; if absent, the currents slip.
     pub bed: Option<BedSpec>,
     /// Diffusivities.
     pub mixing: MixingSpec,
-    /// Density where no layers give it, kg/m³.
+    /// Density where no layers set it, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
     /// Obstacles and bed divert the currents; if absent, currents pass through obstacles.
@@ -69,7 +69,7 @@ impl Default for WaterSpec {
     }
 }
 
-/// The water, ready to be asked.
+/// The water, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Water {
     ground: Ground,
@@ -203,7 +203,7 @@ impl WaterSpec {
 }
 
 impl Water {
-    /// The channel, if the water is one.
+    /// The channel, if the water is a channel.
     #[must_use]
     pub fn channel(&self) -> Option<&Channel> {
         self.flume.as_ref().map(|f| &f.channel)
@@ -239,7 +239,7 @@ impl Water {
             && self.layered.as_ref().is_none_or(Layered::is_steady)
     }
 
-    /// Whether friction holds it at the bed.
+    /// Whether friction stops it at the bed.
     pub(crate) fn stands_at_bed(&self) -> bool {
         self.bed.is_some() || self.flume.is_some()
     }

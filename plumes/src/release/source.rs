@@ -21,7 +21,7 @@ use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 
-/// A source, as the scenario file gives it.
+/// A source as in the scenario file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SourceSpec {
@@ -39,10 +39,10 @@ pub struct SourceSpec {
     /// Depth below the still surface, m; either this or `height_m`.
     #[serde(default)]
     pub depth_m: Option<Finite>,
-    /// Mass given off, g/s.
+    /// Mass released, g/s.
     #[serde(deserialize_with = "world::limits::source_g_s")]
     pub rate_g_s: Positive,
-    /// In what portions.
+    /// How it is divided into filaments.
     #[serde(default)]
     pub release: ReleaseSpec,
 }
@@ -51,7 +51,7 @@ pub struct SourceSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReleaseSpec {
-    /// Filaments a second, 1/s.
+    /// Filaments per second, 1/s.
     pub rate_hz: Positive,
     /// Size (standard deviation of the kernel) at release, m.
     #[serde(deserialize_with = "world::limits::filament_m")]
@@ -92,7 +92,7 @@ const FILAMENT_S: f64 = 17e-9;
 const EDDIES_S: f64 = 60e-9;
 
 impl NozzleSpec {
-    /// Volume given off, m³/s.
+    /// Volume released, m³/s.
     #[must_use]
     pub fn volume_m3_s(&self) -> f64 {
         let d = self.diameter_m.get();
@@ -135,7 +135,7 @@ impl ReleaseSpec {
         let stays_s = (area.length_m + area.width_m) / carries_m_s.max(1e-9);
         let whole_s = times.whole_s();
         let most = rate_hz * whole_s.min(stays_s);
-        // Their number rises to the most, then stays.
+        // Their number rises to its maximum and then stays.
         let rising = (0.5 * stays_s / whole_s).clamp(0.0, 0.5);
         let each_s = FILAMENT_S
             + if self.eddy_size_m.is_some() {
@@ -165,7 +165,7 @@ impl Default for ReleaseSpec {
     }
 }
 
-/// A source put into the water.
+/// A source placed in the water.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// Name.
@@ -174,7 +174,7 @@ pub struct Source {
     pub p_W: Vector3<f64>,
     /// Mass of one filament, kg.
     pub filament_kg: f64,
-    /// In what portions.
+    /// How it is divided into filaments.
     pub release: ReleaseSpec,
 }
 

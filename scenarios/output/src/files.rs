@@ -38,7 +38,7 @@ pub enum ReportError {
 }
 
 impl ReportError {
-    /// One of several; none of none.
+    /// One error for several; `None` if there are none.
     #[must_use]
     pub fn of(mut failures: Vec<ReportError>) -> Option<Self> {
         match failures.len() {
@@ -48,7 +48,7 @@ impl ReportError {
     }
 }
 
-/// Makes a folder and those above it.
+/// Makes a folder and its parents.
 pub fn make_folder(path: &Path) -> Result<(), ReportError> {
     files::make_folder(path).map_err(|source| ReportError::Folder {
         path: path.to_owned(),
@@ -62,7 +62,7 @@ pub fn begin_folder(path: &Path, command: &str) -> Result<Folder, ReportError> {
     Ok(Folder::begin(path, command)?)
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file completely or not at all.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
     Ok(files::write(path, bytes)?)
 }
@@ -76,7 +76,7 @@ pub struct Kept<'a> {
 }
 
 impl<'a> Kept<'a> {
-    /// None yet.
+    /// Begins without any file.
     pub fn new(folder: &'a Folder) -> Self {
         Self {
             folder,
@@ -109,7 +109,7 @@ impl<'a> Kept<'a> {
         self.draw(&format!("{name}.png"), guarded(|| png(svg)).flatten());
     }
 
-    /// Takes in how writing another file went.
+    /// Adds the result of writing another file.
     pub fn take(&mut self, written: Result<PathBuf, ReportError>) {
         match written {
             Ok(path) => self.files.push(path),

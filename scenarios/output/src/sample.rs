@@ -102,7 +102,7 @@ pub(crate) fn belief(t_s: f64) -> Belief {
     }
 }
 
-/// Layers of a planner that does this.
+/// States of a planner's layers for a behaviour.
 fn layers(b: Behaviour) -> Arc<[Layer]> {
     let names = ["find", "maintain", "reacquire", "go_home"];
     let holds = match b {
@@ -125,7 +125,7 @@ fn layers(b: Behaviour) -> Arc<[Layer]> {
         .collect()
 }
 
-/// Frames 10 a second for `seconds`.
+/// Frames at 10 Hz for `seconds`.
 pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
     let terrain = terrain();
     let flow = Heading::from_deg(158.0);

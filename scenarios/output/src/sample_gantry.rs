@@ -1,4 +1,4 @@
-//! Gantries made by hand for tests.
+//! Invented gantries for tests.
 
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::gantry::GantryFrame;

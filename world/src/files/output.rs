@@ -22,7 +22,7 @@ pub struct OutputError {
 }
 
 impl OutputError {
-    /// Of a file and what went wrong with it.
+    /// The error of a file, with its cause.
     pub fn new(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         Self { path, source }
@@ -87,13 +87,13 @@ impl Output {
         Ok(output)
     }
 
-    /// Where it is written until it has its name.
+    /// The temporary path, until the file has its name.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary
     }
 
-    /// The error of this file.
+    /// An error of this file.
     #[must_use]
     pub fn failed(&self, source: io::Error) -> OutputError {
         OutputError::new(&self.path, source)

@@ -37,7 +37,7 @@ impl Obstacle {
         Some((met.time_of_impact, from_parry(met.normal)))
     }
 
-    /// Middle and radius of a ball round it, m.
+    /// Centre and radius of a ball that encloses it, m.
     #[must_use]
     pub fn ball(&self) -> (Vector3<f64>, f64) {
         let (low, high) = self.bounds();

@@ -16,7 +16,7 @@ use std::path::Path;
 
 /// How far the solid reaches below its lowest height, so that even a flat field encloses a volume.
 pub(super) const SKIRT_M: f64 = 1.0;
-/// Most heights.
+/// Largest number of heights.
 const MOST: usize = 500_000;
 /// Longest file read, bytes: enough for that many heights with all their digits.
 const LONGEST: u64 = 32 << 20;

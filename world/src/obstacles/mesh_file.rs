@@ -85,7 +85,7 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
     Ok(triangles)
 }
 
-/// What went wrong, with the place.
+/// What is wrong, and the place.
 pub(super) type Wrong = (String, String);
 
 /// Most triangles of a surface: with all that is built from them, they take half a gigabyte.

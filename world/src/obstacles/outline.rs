@@ -1,11 +1,11 @@
-//! The outline of a solid as a map shows it.
+//! The outline of a solid for a map.
 
 use super::Obstacle;
 use crate::math;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
-/// Corners that stand for a circle.
+/// Number of corners that represent a circle.
 const ROUND: usize = 32;
 
 impl Obstacle {

@@ -14,19 +14,19 @@ use nalgebra::{Vector2, Vector3};
 
 /// If a surface from a file is this many times wider than the area's diagonal, its unit was not the metre.
 const TOO_WIDE: f64 = 5.0;
-/// One narrower than this was neither, m.
+/// A surface narrower than this was not meant in metres either, m.
 const TOO_NARROW_M: f64 = 0.02;
 /// Number of points along, across and upwards at which open water is looked for.
 const LOOKS: [usize; 3] = [64, 64, 8];
 
-/// Something odd about an obstacle.
+/// Something suspicious about an obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
-    /// Whether a run makes no sense with it.
+    /// Whether a run with it makes no sense.
     pub wrong: bool,
-    /// What.
+    /// The problem.
     pub problem: String,
-    /// What to do about it.
+    /// How to solve it.
     pub hint: String,
 }
 
@@ -39,7 +39,7 @@ fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
 }
 
 impl Obstacle {
-    /// What is odd about its size and place.
+    /// What is suspicious about its size and place.
     #[must_use]
     pub fn remarks(&self, spec: &ObstacleSpec, area: &Area, terrain: &Terrain) -> Vec<Remark> {
         let (low, high) = self.bounds();
@@ -128,7 +128,7 @@ impl ObstacleSpec {
 }
 
 impl Obstacles {
-    /// Those whose ids are not among `ids`.
+    /// The obstacles whose ids are not among `ids`.
     #[must_use]
     pub fn without(&self, ids: &[String]) -> Self {
         let stays = |o: &&Obstacle| !ids.contains(&o.id);

@@ -184,7 +184,7 @@ pub(super) fn from_parry(v: Vector) -> Vector3<f64> {
 pub struct Obstacles(pub Vec<Obstacle>);
 
 impl Obstacles {
-    /// The one a point lies in, if any.
+    /// The obstacle that contains a point, if any.
     #[must_use]
     pub fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
         self.0.iter().find(|o| o.contains(p))

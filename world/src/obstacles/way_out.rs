@@ -7,7 +7,7 @@ use parry3d::math::Vector;
 use parry3d::query::Ray;
 use std::f64::consts::TAU;
 
-/// Directions tried sideways.
+/// Number of directions that are tried sideways.
 const SIDES: usize = 8;
 /// How far outside a surface the way ends, m: more than the rounding of single-precision positions of a kilometre.
 const CLEAR_M: f64 = 1e-3;

@@ -14,7 +14,7 @@ use super::solid::{BodyId, ContactReport, Physics};
 use crate::frames::{Pose, Truth};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 
-/// Who moves.
+/// A mover: a body or a gantry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Who {
     Body(usize),
@@ -28,7 +28,7 @@ pub(super) struct Course {
     /// Centre of mass and attitude of a body.
     pub(super) p_WG: Vector3<f64>,
     pub(super) R_WB: UnitQuaternion<f64>,
-    /// Attitude if nothing were in the way.
+    /// Attitude that it would have without obstacles.
     R_alone: UnitQuaternion<f64>,
     /// Joints of a gantry, m.
     pub(super) joints_m: [f64; 2],
@@ -36,9 +36,9 @@ pub(super) struct Course {
     mean: Vector6<f64>,
     /// Velocities at the end of the step if nothing is in the way.
     pub(super) end: Vector6<f64>,
-    /// What impulses added to the velocities.
+    /// Velocities that impulses added.
     pub(super) gained: Vector6<f64>,
-    /// Something pushed it or was in it.
+    /// Whether something pushed it or was in it.
     pub(super) moved: bool,
     pub(super) contact: ContactReport,
     /// Impulses on each slide of a gantry, N s. Next: the greatest one, who gave it and where.
@@ -96,7 +96,7 @@ impl Physics {
         bodies.chain(gantries).collect()
     }
 
-    /// No point of a mover goes faster, m/s.
+    /// Speed that no point of a mover exceeds, m/s.
     pub(super) fn fastest_m_s(&self, course: &Course) -> f64 {
         let rate = course.rate();
         let (v, w) = (rate.fixed_rows::<3>(0), rate.fixed_rows::<3>(3));
@@ -156,7 +156,7 @@ impl Course {
         }
     }
 
-    /// Velocities on its way.
+    /// Present velocities.
     pub(super) fn rate(&self) -> Vector6<f64> {
         let alone = match self.who {
             Who::Body(_) => {

@@ -21,7 +21,7 @@ use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use rapier3d::prelude as r;
 
-/// Names a gantry of one [`Physics`].
+/// Identifies a gantry of one [`Physics`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GantryId(pub(super) usize);
 
@@ -29,11 +29,11 @@ pub struct GantryId(pub(super) usize);
 /// joints at zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisSpec {
-    /// Direction of travel, of length 1.
+    /// Unit vector in the direction of travel.
     pub along_B: Vector3<f64>,
     /// Least and greatest position, m.
     pub travel_m: [f64; 2],
-    /// Mass that moves, kg.
+    /// Moving mass, kg.
     pub mass_kg: f64,
     /// Collision shapes.
     pub shapes: Vec<(Pose, Shape)>,
@@ -42,7 +42,7 @@ pub struct AxisSpec {
 /// A gantry as the solver needs it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GantryBodySpec {
-    /// Name for messages.
+    /// Name for error messages.
     pub id: String,
     /// Where its base stands.
     pub base: Pose,
@@ -54,10 +54,10 @@ pub struct GantryBodySpec {
     pub start_m: [f64; 2],
 }
 
-/// What a drive is told in one step.
+/// Command to a drive for one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisDrive {
-    /// Speed to take, m/s.
+    /// Speed to reach, m/s.
     pub speed_m_s: f64,
     /// Greatest force, N.
     pub max_force_N: f64,
@@ -65,7 +65,7 @@ pub struct AxisDrive {
     pub response_s: f64,
 }
 
-/// How a joint stands after the latest step.
+/// State of a joint after the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointState {
     /// Position, m.
@@ -129,7 +129,7 @@ impl Physics {
                 "gantry {id}: axis {k} cannot start at {} m in {low} to {high} m",
                 spec.start_m[k]
             );
-            // It never turns: any inertia does.
+            // It never turns, so any inertia will do.
             let props = r::MassProperties::new(
                 r::Vector::ZERO,
                 axis.mass_kg,
@@ -195,7 +195,7 @@ impl Physics {
         }
     }
 
-    /// Moves the joints by so much, at once.
+    /// Shifts the joints at once.
     pub(super) fn shift(&mut self, gantry: usize, by_m: [f64; 2]) {
         let joint = self.gantries[gantry].joints[1];
         let set = &mut self.world.multibody_joints;

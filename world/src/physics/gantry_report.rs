@@ -25,14 +25,14 @@ pub struct GantryContact {
     /// Deepest overlap at the beginning of the step, as the solver had it, m. The solver keeps contacts that hardly
     /// moved, so the value may be short by hundredths of a millimetre.
     pub max_penetration_m: f64,
-    /// What pushed back most.
+    /// The thing that pushed back most.
     pub with: Option<Solid>,
-    /// Where that was, world axes, m.
+    /// Place of that contact, world axes, m.
     pub at_W: Option<Vector3<f64>>,
 }
 
 impl GantryContact {
-    /// Something pushed back.
+    /// Whether anything pushed back.
     #[must_use]
     pub fn touching(&self) -> bool {
         self.with.is_some()

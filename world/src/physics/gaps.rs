@@ -22,9 +22,9 @@ const SKIN_M: f64 = 1e-3;
 /// A point where two solids are next to each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Between the two surfaces, world axes, m.
+    /// Point between the two surfaces, world axes, m.
     pub(super) at_W: Vector3<f64>,
-    /// Towards the first solid, of length 1.
+    /// Unit normal towards the first solid.
     pub(super) normal_W: Vector3<f64>,
     /// Distance, m; negative where they overlap.
     pub(super) gap_m: f64,
@@ -46,7 +46,7 @@ impl Point {
     }
 }
 
-/// A shape where it is.
+/// A shape at its place.
 #[derive(Clone)]
 pub(super) struct Placed {
     pose: r::Pose,
@@ -54,7 +54,7 @@ pub(super) struct Placed {
     /// The shape from which distances are measured, and the distance of the surface from it, m.
     core: SharedShape,
     margin_m: f64,
-    /// How far its surface is from `shape`, m.
+    /// Distance of its surface from `shape`, m.
     skin_m: f64,
     bounds: Aabb,
 }

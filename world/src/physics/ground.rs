@@ -20,7 +20,7 @@ pub(super) struct Fixed {
     pub(super) pose: r::Pose,
     pub(super) shape: SharedShape,
     bounds: Aabb,
-    /// For messages.
+    /// Name for error messages.
     pub(super) name: String,
     /// rapier's handle; invalid until rapier has the collider.
     pub(super) collider: ColliderHandle,

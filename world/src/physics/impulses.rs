@@ -11,7 +11,7 @@
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// Rounds at most.
+/// Largest number of rounds.
 const ROUNDS: usize = 400;
 /// The rounds end when no velocity at a contact changes by more than this, m/s.
 const SETTLED_M_S: f64 = 1e-13;
@@ -24,7 +24,7 @@ pub(super) struct Row {
     pub(super) on: [Option<(usize, [Vector6<f64>; 3])>; 2],
     /// Normal towards the first solid, and two tangents, world axes.
     pub(super) axes_W: [Vector3<f64>; 3],
-    /// Where, world axes, m.
+    /// Place, world axes, m.
     pub(super) at_W: Vector3<f64>,
     /// Distance, m; negative where they overlap.
     pub(super) gap_m: f64,

@@ -17,16 +17,16 @@ use super::impulses::{Row, solve};
 use super::solid::{FRICTION, Physics};
 use nalgebra::{Vector3, Vector6};
 
-/// Solids this close touch, m.
+/// Solids closer than this touch, m.
 const TOUCH_M: f64 = 1e-4;
 /// Anything closer than this is followed point by point, and moves by at most this in a sub-step, m.
 const CREEP_M: f64 = 2e-3;
-/// Overlap that is left alone, m.
+/// Overlap that is tolerated, m.
 const SLACK_M: f64 = 1e-6;
-/// Fastest undoing of an overlap, m/s.
+/// Greatest speed at which an overlap is undone, m/s.
 const UNDO_M_S: f64 = 0.5;
 
-/// A shape that may be met.
+/// A shape that may be touched.
 struct Thing {
     placed: Placed,
     /// Index among the courses, and the slide of a gantry; `None` is fixed.
@@ -37,7 +37,7 @@ struct Thing {
 struct Near {
     things: [usize; 2],
     nearest: Point,
-    /// Fastest approach, m/s.
+    /// Greatest speed of approach, m/s.
     fastest_m_s: f64,
 }
 
@@ -55,7 +55,7 @@ impl Physics {
                 let allowed_m = (n.nearest.gap_m - TOUCH_M / 2.0).max(CREEP_M);
                 h = h.min(allowed_m / n.fastest_m_s);
             }
-            // A remainder of rounding is no sub-step.
+            // A remainder that is only rounding is no sub-step.
             if left_s - h < 1e-9 * self.dt_s() {
                 h = left_s;
             }
@@ -114,7 +114,7 @@ impl Physics {
         note(courses, &rows, &impulses, &inverse);
     }
 
-    /// What stands fast.
+    /// Fixed things.
     fn still(&self) -> Vec<Placed> {
         let fixed = self.fixed.iter().map(|f| Placed::new(f.pose, &f.shape));
         let bases =
@@ -122,7 +122,7 @@ impl Physics {
         fixed.chain(bases).collect()
     }
 
-    /// What moves, bodies first.
+    /// Moving things, bodies first.
     fn things(&self, courses: &[Course]) -> Vec<Thing> {
         let mut things = Vec::new();
         for (m, course) in courses.iter().enumerate() {

@@ -32,7 +32,7 @@ pub enum Shape {
         /// Edge lengths, m.
         size_m: Vector3<f64>,
     },
-    /// Convex hull of some points.
+    /// Convex hull of points.
     Hull {
         /// The points, m.
         points_m: Vec<Vector3<f64>>,

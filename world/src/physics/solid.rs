@@ -29,13 +29,13 @@ const NEAR_M: f64 = 0.1;
 /// Friction coefficient of a hull on sand or concrete.
 pub(super) const FRICTION: f64 = 0.4;
 
-/// In which steps contacts are looked for.
+/// The steps in which contacts are searched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
     /// Those in which a body has something in reach.
     #[default]
     WhenInReach,
-    /// All, with the same result.
+    /// All steps, with the same result.
     Always,
     /// None: rapier moves its own rigid bodies alone, as a cross-check (`rapier_alone.rs`). Not possible with gantries.
     /// To be chosen before bodies are added.
@@ -45,7 +45,7 @@ pub enum Solver {
 /// A body as the solver needs it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySpec {
-    /// Name for messages.
+    /// Name for error messages.
     pub id: String,
     /// Where it starts.
     pub truth: Truth,
@@ -58,14 +58,14 @@ pub struct BodySpec {
     pub mass: Matrix6<f64>,
 }
 
-/// Names a body of one [`Physics`].
+/// Identifies a body of one [`Physics`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BodyId(pub(super) usize);
 
 /// What a body touched in the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactReport {
-    /// Something pushed back.
+    /// Whether anything pushed back.
     pub touching: bool,
     /// Deepest overlap in the step, m.
     pub max_penetration_m: f64,
@@ -132,7 +132,7 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Empty water, stepped by `dt_s`, s.
+    /// Empty water with steps of `dt_s`, s.
     #[must_use]
     pub fn new(dt_s: f64) -> Self {
         let mut world = r::PhysicsWorld::new();
@@ -303,7 +303,7 @@ impl Physics {
         }
     }
 
-    /// Puts what met something where that left it.
+    /// Puts a body that touched something where the contact left it.
     fn touch(&mut self) {
         let courses = self.meet();
         let (bodies, gantries) = courses.split_at(self.bodies.len());

@@ -110,7 +110,7 @@ impl Voxels {
         }
     }
 
-    /// Marks what an obstacle fills or touches.
+    /// Marks the cells that an obstacle fills or touches.
     fn fill(&mut self, obstacle: &Obstacle) {
         let (low, high) = obstacle.bounds();
         let mut range = [(f64::INFINITY, f64::NEG_INFINITY); 3];
@@ -165,7 +165,7 @@ impl Voxels {
         self.solid[at] = solid;
     }
 
-    /// Cells along, across and upwards.
+    /// Number of cells along, across and upwards.
     #[must_use]
     pub fn size(&self) -> [usize; 3] {
         self.n
@@ -177,7 +177,7 @@ impl Voxels {
         self.cell_m
     }
 
-    /// The area the cells fill.
+    /// The area that the cells fill.
     #[must_use]
     pub fn area(&self) -> &Area {
         &self.area
@@ -197,7 +197,7 @@ impl Voxels {
         self.solid[self.index([i, j, k])]
     }
 
-    /// All of them, by [number](Self::index).
+    /// All cells, by [number](Self::index).
     #[must_use]
     pub fn solids(&self) -> &[bool] {
         &self.solid
@@ -211,7 +211,7 @@ impl Voxels {
         f64::from(self.clearance[self.index(cell)])
     }
 
-    /// All of them, by [number](Self::index), m.
+    /// Clearances of all cells, by [number](Self::index), m.
     #[must_use]
     pub fn clearances(&self) -> &[f32] {
         &self.clearance
@@ -233,7 +233,7 @@ impl Voxels {
             .then(|| [0, 1, 2].map(|d| (c[d] as usize).min(self.n[d] - 1)))
     }
 
-    /// Middle of a cell (ENU), m.
+    /// Centre of a cell (ENU), m.
     #[must_use]
     pub fn centre(&self, [i, j, k]: [usize; 3]) -> Vector3<f64> {
         let p = self
@@ -242,7 +242,7 @@ impl Voxels {
         Vector3::new(p.x, p.y, self.low_z + (k as f64 + 0.5) * self.cell_m[2])
     }
 
-    /// (along, across) of a place in cells, m.
+    /// Position (along, across), m, for coordinates in cells.
     fn local_of(&self, c: [f64; 2]) -> Vector2<f64> {
         Vector2::new(
             c[0] * self.cell_m[0] - self.area.length_m / 2.0,

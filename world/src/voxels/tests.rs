@@ -1,4 +1,4 @@
-//! Voxels against what geometry says.
+//! Voxels compared with geometry.
 
 use super::Voxels;
 use crate::area::Area;

@@ -29,11 +29,11 @@ const AHEAD_S: f64 = 1.0;
 /// Velocity (m/s), gradient (1/s) and rate of change (m/s²).
 type Sample = (Vector3<f64>, Matrix3<f64>, Vector3<f64>);
 
-/// The water's way round obstacles.
+/// Water that flows round obstacles.
 #[derive(Clone, Debug)]
 pub struct Blocked {
     cells: Arc<Cells>,
-    // None once steady water is worked out.
+    // `None` once steady water has been solved.
     projector: Option<Arc<Projector>>,
     // The unblocked water, advanced to the last of the three moments.
     free: Box<Water>,
@@ -191,7 +191,7 @@ impl Blocked {
         ([&*self.fields[n], &*self.fields[n + 1]], at - n as f64)
     }
 
-    /// Velocity, m/s; none beyond the cells.
+    /// Velocity, m/s; `None` outside the cells.
     pub(crate) fn velocity(
         &self,
         p: &Vector3<f64>,
@@ -234,7 +234,7 @@ impl Blocked {
         }
     }
 
-    /// Whether the water stands still at the bed.
+    /// Whether friction stops the water at the bed.
     pub(crate) fn still_bed(&self) -> bool {
         self.still_bed
     }

@@ -30,7 +30,7 @@ pub(crate) struct Faces<T> {
 }
 
 impl<T> Faces<T> {
-    /// Those across a direction.
+    /// The values on the faces across a direction.
     #[inline]
     pub(super) fn across(&self, d: usize) -> &[T] {
         [&self.x, &self.y, &self.s][d]
@@ -54,14 +54,14 @@ pub(crate) struct Cells {
     pub(crate) axes: [Vector2<f64>; 2],
     /// Sizes along and across, m.
     pub(crate) d: [f64; 2],
-    /// Cells along, across, upwards.
+    /// Number of cells along, across and upwards.
     pub(crate) n: [usize; 3],
     stretch: f64,
     /// s of the faces, 0 at the bed to 1 at the surface.
     pub(crate) s: Vec<f64>,
     /// Cell (i·ny + j)·nz + k is open.
     pub(crate) open: Vec<bool>,
-    // Faces that something may go through.
+    // Faces that let water and dye pass.
     pass: Faces<bool>,
     /// For each obstacle, whether it contains the centre of a cell or separates two.
     pub(super) felt: Vec<bool>,
@@ -89,7 +89,7 @@ impl Cells {
         let count = extent.map(|e| (e / spec.cell_m.get()).ceil().max(1.0));
         let nz = spec.levels as usize - 1;
         let cells = count[0] * count[1] * nz as f64;
-        // What is not a number is too much.
+        // NaN counts as too many.
         if !(cells <= MOST_CELLS) {
             let problem = format!(
                 "{} m makes {} x {} x {nz} = {cells:.3e} cells over {:.0} x {:.0} m; at most {MOST_CELLS:e} fit: take larger cells, fewer levels or a smaller margin_m",
@@ -338,12 +338,12 @@ impl Cells {
         [0, 1].map(|d| q.dot(&self.axes[d]) / self.d[d])
     }
 
-    /// s in the middle of level k.
+    /// s at the centre of level k.
     pub(super) fn middle(&self, k: usize) -> f64 {
         0.5 * (self.s[k] + self.s[k + 1])
     }
 
-    /// Level of an s from 0 to 1.
+    /// Level that contains an s from 0 to 1.
     #[inline]
     pub(crate) fn level(&self, s: f64) -> usize {
         let (a, nz) = (self.stretch, self.n[2]);
@@ -352,7 +352,7 @@ impl Cells {
         ((xi * nz as f64) as usize).min(nz - 1)
     }
 
-    /// Open cells.
+    /// Number of open cells.
     pub(super) fn open_count(&self) -> usize {
         self.open.iter().filter(|o| **o).count()
     }

@@ -17,7 +17,7 @@ pub(super) struct Level {
     pub(super) n: [usize; 3],
     /// Coupling of a cell to the next one along, across and upwards.
     pub(super) next: [Vec<f64>; 3],
-    /// To what is fixed at zero beyond the sides.
+    /// Coupling to the fixed zero beyond the sides.
     pub(super) edge: Vec<f64>,
     pub(super) diag: Vec<f64>,
     // Reciprocal pivots of the columns.
@@ -154,7 +154,7 @@ impl Level {
     }
 }
 
-/// The operator on ever fewer columns.
+/// The operator on levels with fewer and fewer columns.
 #[derive(Clone, Debug)]
 pub(super) struct Multigrid {
     levels: Vec<Level>,
@@ -193,7 +193,7 @@ impl Multigrid {
         }
     }
 
-    /// `x` about A⁻¹ b, linear and symmetric in b.
+    /// `x` approximates A⁻¹ b; it is linear and symmetric in b.
     pub(super) fn cycle(&self, b: &[f64], x: &mut [f64], scratch: &mut Scratch) {
         let Scratch { sides, line } = scratch;
         descend(&self.levels, b, x, sides, line);

@@ -24,14 +24,14 @@ const TOLERANCE: f64 = 1e-7;
 /// Most conjugate-gradient steps; 10 to 30 are usual, so more mean that something is wrong.
 const MOST_STEPS: usize = 300;
 
-/// How a solution went.
+/// Report on a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solved {
-    /// Open cells.
+    /// Number of open cells.
     pub open_cells: usize,
-    /// All cells.
+    /// Number of all cells.
     pub cells: usize,
-    /// Steps of the conjugate gradients.
+    /// Number of conjugate-gradient steps.
     pub steps: usize,
     /// Largest divergence left, in units of the fastest current divided by the cell size.
     pub divergence: f64,
@@ -43,7 +43,7 @@ pub(super) struct Projector {
     grid: Multigrid,
     // Conductance of each face, m; 0 where nothing passes.
     through: Faces<f64>,
-    // Depth at the middle of each column, m.
+    // Depth at the centre of each column, m.
     depth: Vec<f64>,
 }
 

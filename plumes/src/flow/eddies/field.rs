@@ -151,7 +151,7 @@ fn drawn(shape: &Shape) -> Arc<Stretch> {
 }
 
 impl Eddies {
-    /// The spectrum they follow.
+    /// The spectrum of the eddies.
     #[must_use]
     pub fn spectrum(&self) -> &Spectrum {
         &self.shape.spectrum
@@ -313,7 +313,7 @@ impl Now<'_> {
     }
 }
 
-/// Cell and the part of it passed.
+/// Cell, and the position in it as a part.
 #[inline]
 fn cell(c: f32, cells: usize) -> (usize, f32) {
     let c = c.clamp(0.0, cells as f32);

@@ -23,10 +23,10 @@ use world::seeds::Stream;
 
 /// Nodes along the stream; a power of two.
 pub(super) const LENGTH: usize = 512;
-/// Cells of the shortest wave.
+/// Length of the shortest wave, in cells.
 pub(super) const CELLS_A_WAVE: f64 = 4.0;
 
-/// What a stretch is made from.
+/// The parameters of a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
     pub(super) width_m: f64,
@@ -160,7 +160,7 @@ fn sq(x: f64) -> f64 {
 }
 
 impl Stretch {
-    /// Draws one; `seed` names it.
+    /// Draws a stretch; `seed` identifies it.
     pub(super) fn new(shape: &Shape, seed: u64) -> Self {
         let strength = shape.strengths(shape.spectrum.resolved());
         let (ny, nz) = (shape.across + 1, shape.up + 1);

@@ -123,7 +123,7 @@ fn intensities_are_those_stated() {
             let mut sum = [0.0; 3];
             let mut count = 0.0;
             for (n, v) in nodes.chunks_exact(shape.up + 1).enumerate() {
-                // Ends of the width count half.
+                // The ends of the width count half.
                 let j = n % (shape.across + 1);
                 let w = if j == 0 || j == shape.across {
                     0.5

@@ -17,7 +17,7 @@ use world::fields::WaterSample;
 use world::math;
 use world::units::GRAVITY_M_S2;
 
-/// A wave, ready to be asked.
+/// A wave, ready to be evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Airy {
     amplitude: f64,

@@ -44,7 +44,7 @@ pub struct WavesSpec {
     /// Regular waves.
     #[serde(default)]
     pub trains: Vec<TrainSpec>,
-    /// A sea raised by the wind.
+    /// A wind sea.
     #[serde(default)]
     pub spectrum: Option<SpectrumSpec>,
     /// Whether Stokes' drift carries the plume.
@@ -59,10 +59,10 @@ pub struct WavesSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainSpec {
-    /// From trough to crest, m.
+    /// Height from trough to crest, m.
     #[serde(deserialize_with = "world::limits::wave_m")]
     pub height_m: Positive,
-    /// At a fixed place, s.
+    /// Period at a fixed place, s.
     #[serde(deserialize_with = "world::limits::wave_s")]
     pub period_s: Positive,
     /// Where the train travels, degrees clockwise from north.
@@ -80,7 +80,7 @@ const fn ichiye() -> NonNegative {
     NonNegative::new(0.028)
 }
 
-/// The waves, ready to be asked.
+/// The waves, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Waves {
     waves: Vec<Airy>,
@@ -169,7 +169,7 @@ impl WavesSpec {
 }
 
 impl WavesSpec {
-    /// How many waves are summed.
+    /// Number of waves that are summed.
     #[must_use]
     pub fn count(&self) -> f64 {
         let sea = self.spectrum.as_ref().map_or(0, |s| s.components);
@@ -177,7 +177,7 @@ impl WavesSpec {
     }
 }
 
-/// Anticlockwise by an angle, rad.
+/// Rotation anticlockwise by an angle, rad.
 fn turn(angle: f64) -> nalgebra::Matrix2<f64> {
     let (sin, cos) = math::sin_cos(angle);
     nalgebra::Matrix2::new(cos, -sin, sin, cos)

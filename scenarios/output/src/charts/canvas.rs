@@ -1,18 +1,18 @@
-//! A sheet to draw on, as SVG text.
+//! A sheet for drawing, as SVG text.
 
 use super::far::{self, Frame};
 use super::panel::Panel;
 use super::room::Room;
 use std::fmt::Write as _;
 
-/// Where a text stands relative to its point.
+/// Position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
-    /// The point is its beginning.
+    /// The text begins at the point.
     Start,
-    /// The point is its middle.
+    /// The text is centred on the point.
     Middle,
-    /// The point is its end.
+    /// The text ends at the point.
     End,
 }
 
@@ -34,7 +34,7 @@ pub struct Style<'a> {
 }
 
 impl<'a> Style<'a> {
-    /// A filled shape without edge.
+    /// A filled shape without an edge.
     pub fn fill(colour: &'a str) -> Self {
         Self {
             fill: Some(colour),
@@ -111,7 +111,7 @@ pub struct Canvas {
     clips: usize,
     // The visible part of the sheet. Shapes far outside it are cut off, because the rasteriser cannot handle them.
     shows: Option<Frame>,
-    /// Room that texts, keys and marks take.
+    /// Space that texts, keys and marks occupy.
     taken: Vec<Room>,
 }
 
@@ -225,13 +225,13 @@ impl Canvas {
         self.label(at, size, anchor, s, " font-weight=\"bold\"");
     }
 
-    /// Text with a white rim, readable on anything.
+    /// Text with a white rim, readable on any background.
     pub fn rimmed(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
         let rim = " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
         self.label(at, size, anchor, s, rim);
     }
 
-    /// Room that labels shall keep free.
+    /// Reserves space that labels must keep free.
     pub fn keep_free(&mut self, room: Room) {
         self.taken.push(room);
     }
@@ -272,13 +272,13 @@ impl Canvas {
         }
     }
 
-    /// Room taken so far.
+    /// Space occupied so far.
     #[cfg(test)]
     pub fn taken(&self) -> &[Room] {
         &self.taken
     }
 
-    /// Text turned a quarter left, centred.
+    /// Text turned a quarter to the left, centred.
     pub fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
         let turn = format!(" transform=\"rotate(-90 {x:.1} {y:.1})\"");
         self.write_text([x, y], size, Anchor::Middle, s, &turn);
@@ -318,7 +318,7 @@ impl Canvas {
         .expect(TEXT);
     }
 
-    /// Ends the newest clip.
+    /// Ends the latest clip.
     pub fn unclip(&mut self) {
         self.shows = None;
         self.body.push_str("</g>\n");

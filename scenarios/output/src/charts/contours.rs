@@ -16,7 +16,7 @@ pub struct Grid {
     pub origin: [f64; 2],
     /// Distance between nodes.
     pub step: [f64; 2],
-    /// Row by row, x fastest.
+    /// Values row by row, x fastest.
     pub values: Vec<f64>,
 }
 
@@ -24,7 +24,7 @@ pub struct Grid {
 type Edge = (usize, usize, u8);
 
 impl Grid {
-    /// Of a function over a rectangle.
+    /// Evaluates a function over a rectangle.
     pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
         let step = [
             (x[1] - x[0]) / (n[0] - 1) as f64,

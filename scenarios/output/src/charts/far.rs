@@ -7,7 +7,7 @@
 //!
 //! *Deviations*: none.
 
-/// Beyond this a coordinate is far, px.
+/// A coordinate beyond this is far away, px.
 const FAR: f64 = 1e5;
 /// Distance beyond the frame at which a shape is cut, px; the cut must not be visible.
 const BEYOND: f64 = 100.0;
@@ -17,7 +17,7 @@ pub type Frame = [f64; 4];
 
 /// Whether a point is far outside any sheet, or not finite.
 pub fn is_far(p: [f64; 2]) -> bool {
-    // Nor what is not a number.
+    // NaN counts as far, too.
     !(p[0].abs() <= FAR && p[1].abs() <= FAR)
 }
 
@@ -30,7 +30,7 @@ pub fn near(lines: &[Vec<[f64; 2]>], closed: bool, frame: Frame) -> Option<Vec<V
     let wider = [left - BEYOND, top - BEYOND, right + BEYOND, bottom + BEYOND];
     let real = lines.iter().map(|line| {
         let points = line.iter().copied();
-        // Products of larger ones would be infinite.
+        // Products of larger numbers would be infinite.
         let real = points.filter(|p| p.iter().all(|v| v.is_finite()));
         real.map(|p| p.map(|v| v.clamp(-1e100, 1e100)))
             .collect::<Vec<_>>()

@@ -4,7 +4,7 @@ use robots::handoff::{Behaviour, GantryBehaviour};
 
 /// Ink of axes and frames.
 pub const INK: &str = "#222222";
-/// Ink of what stands back.
+/// Ink of things in the background.
 pub const GREY: &str = "#7f7f7f";
 /// Grid lines.
 pub const GRID: &str = "#e3e3e3";

@@ -22,22 +22,22 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Pixels from the left of a value of x.
+    /// Horizontal position of a value of x, px.
     pub fn px(&self, x: f64) -> f64 {
         self.left + (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width
     }
 
-    /// Pixels from the top of a value of y.
+    /// Vertical position of a value of y, px.
     pub fn py(&self, y: f64) -> f64 {
         self.top + self.height - (y - self.y[0]) / (self.y[1] - self.y[0]) * self.height
     }
 
-    /// Place of a pair of values, px.
+    /// Position of a pair of values, px.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.px(x), self.py(y)]
     }
 
-    /// Places of pairs of values, px.
+    /// Positions of pairs of values, px.
     pub fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         points.iter().map(|p| self.at(*p)).collect()
     }
@@ -62,7 +62,7 @@ impl Panel {
         c.clip(self.left, self.top, self.width, self.height);
     }
 
-    /// Draws its edge.
+    /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(
             self.left,
@@ -121,7 +121,7 @@ pub fn power_of_ten(n: i32) -> f64 {
     10f64.powi(n)
 }
 
-/// Greatest n with 10ⁿ ≤ x.
+/// Largest n with 10ⁿ ≤ x.
 pub fn decade(x: f64) -> i32 {
     (math::ln(x) / std::f64::consts::LN_10 + 1e-12).floor() as i32
 }

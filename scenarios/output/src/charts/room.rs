@@ -17,7 +17,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// Round a point.
+    /// A square round a point.
     pub fn round([x, y]: [f64; 2], reach: f64) -> Self {
         Self {
             left: x - reach,
@@ -27,7 +27,7 @@ impl Room {
         }
     }
 
-    /// Of a line of text that stands at a point.
+    /// The space of a line of text at a point.
     pub fn of_text([x, y]: [f64; 2], size: f64, anchor: Anchor, s: &str) -> Self {
         let width = width_of(s, size);
         let left = match anchor {

@@ -14,7 +14,7 @@ const LEFT: f64 = 92.0;
 const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 22.0;
-/// The ranges compared (cm), near first.
+/// The ranges compared (cm), the near one first.
 const RANGES: [[f64; 2]; 2] = [[0.0, 50.0], [50.0, 100.0]];
 const SHADES: [&str; 2] = ["#eef3f8", "#f8f3ea"];
 
@@ -25,7 +25,7 @@ struct Motion {
     away: f64,
     /// Mean distance from the line along the stream through the source, cm.
     aside: f64,
-    /// Way over time, cm/s.
+    /// Speed: distance over time, cm/s.
     speed: f64,
 }
 
@@ -160,7 +160,7 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
     found
 }
 
-/// A range's mean as a line across it.
+/// Draws a range's mean as a line across it.
 fn mean_of(c: &mut Canvas, panel: &Panel, [a, b]: [f64; 2], mean: f64, unit: &str) {
     let y = panel.py(mean);
     c.line(

@@ -176,7 +176,7 @@ pub(super) fn vehicle(c: &mut Canvas, p: [f64; 2]) {
     c.circle(p, 4.0, &Style::fill(PLAN).edged("#ffffff", 1.2));
 }
 
-/// What the summary remarks of a robot's map.
+/// The remark in the summary on a robot's map.
 pub(super) fn remark<'a>(run: &'a RunReport<'_>, id: &str) -> Option<&'a str> {
     let of = run.summary.robots.iter().find(|r| r.id == id)?;
     of.map.as_ref()?.remark.as_deref()
@@ -255,7 +255,7 @@ pub(super) fn scale(c: &mut Canvas, [x, y]: [f64; 2], words: &str, from: f64) {
     c.text([end, y + 14.0], 9.0, Anchor::Middle, "1");
 }
 
-/// Shades, and what the signs mean.
+/// Key of the shades and signs.
 fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
     let words = if space {
         "Probability (summed over the depth), share of the largest:"
@@ -303,7 +303,7 @@ fn sample(c: &mut Canvas, [x, y]: [f64; 2], style: &Style<'_>) {
     c.line([x - 12.0, y], [x + 12.0, y], style);
 }
 
-/// East and north ranges that hold the area.
+/// East and north ranges that contain the area.
 pub(super) fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     let corners = run.area.corners();
     let along = |k: usize| range_of(corners.iter().map(|p| p[k]), 0.02).unwrap_or([-1.0, 1.0]);

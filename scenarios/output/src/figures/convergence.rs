@@ -16,7 +16,7 @@ const GAP: f64 = 22.0;
 const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
 ];
-/// Points of a curve, at most.
+/// Most points of a curve.
 const POINTS: usize = 3000;
 
 /// The convergence of all robots' maps as SVG.

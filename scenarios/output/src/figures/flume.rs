@@ -31,7 +31,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
             .and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye))
     };
     let section = z.and_then(at_height);
-    // Below the probes, where the plume is.
+    // The field below the probes, at the height of the source.
     let below = run.sources.first().and_then(|s| at_height(s.position.z));
     panel.clip(&mut c);
     if let Some(section) = &section {
@@ -118,7 +118,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     Some(c.svg(&format!("flume{}", t.info.id)))
 }
 
-/// A panel with one scale both ways.
+/// A panel with the same scale in both directions.
 fn place(axes: &Axes) -> Panel {
     let (dx, dy) = (axes.x[1] - axes.x[0], axes.y[1] - axes.y[0]);
     let scale = (LARGEST[0] / dx).min(LARGEST[1] / dy);

@@ -34,7 +34,7 @@ pub(super) fn layers(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
         let mut i = 0;
         while i < t.layers.len() {
             let (begin, state) = (t.layers[i].0, t.layers[i].1[k].state);
-            // Changes of other layers do not cut the bar.
+            // Changes of other layers do not interrupt the bar.
             let rest = t.layers[i..].iter();
             i += rest.take_while(|l| l.1[k].state == state).count();
             let until = t.layers.get(i).map_or(end, |l| l.0);

@@ -92,7 +92,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     c
 }
 
-/// The closer look, and its box on the map.
+/// Draws the inset, and its frame on the map.
 fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
     draw(c, run, inset, &Bed::of(run, inset), None, true);
     inset.frame(c, 1.0);

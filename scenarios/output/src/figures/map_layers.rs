@@ -75,13 +75,13 @@ fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
     lines.iter().map(|l| panel.all(l)).collect()
 }
 
-/// Where the robot believed it was.
+/// The believed track.
 pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     let points = thinned(t.rows.iter().map(|r| panel.at(r.believed)));
     c.polyline(points, &Style::line(BELIEVED, 0.6).dashed("2 2"));
 }
 
-/// Where it truly was, coloured by what it did.
+/// The true track, coloured by behaviour.
 pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) {
     let width = if close { 2.2 } else { 1.9 };
     let mut k = 0;
@@ -255,7 +255,7 @@ pub(super) fn plume_at_edge(c: &mut Canvas, [x, y]: [f64; 2]) {
     c.polygon(triangle, &Style::fill("#ffffff").edged(INK, 1.4));
 }
 
-/// Of the points that a declaration rests on.
+/// A ring round the points on which a declaration rests.
 pub(super) fn zone(c: &mut Canvas, p: [f64; 2], r: f64) {
     c.circle(p, r, &Style::line("#ffffff", 3.2));
     c.circle(p, r, &Style::line(INK, 1.4));
@@ -314,7 +314,7 @@ fn scale_length(panel: &Panel) -> (f64, f64) {
     (length, length * panel.px_per_unit())
 }
 
-/// A bar of round length, bottom left.
+/// A scale bar of round length, bottom left.
 pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
     let (length, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);

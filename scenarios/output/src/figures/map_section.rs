@@ -23,13 +23,13 @@ const HALF: [f64; 2] = [0.02, 0.1];
 const BED: &str = "#b9a48b";
 const INTERFACE: &str = "#1f4e79";
 
-/// Where the section lies.
+/// Position of the section.
 struct Cut {
     origin: Vector2<f64>,
     along: Vector2<f64>,
-    /// From and to, m down-flow of the source.
+    /// Beginning and end, m down-flow of the source.
     s: [f64; 2],
-    /// Half the width it stands for, m.
+    /// Half of the width for which it stands, m.
     half_m: f64,
 }
 
@@ -246,7 +246,7 @@ fn beside_style() -> Style<'static> {
 /// outlined.
 fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> bool {
     let mut outlined = false;
-    // No farther than the sheet can tell.
+    // No farther than the sheet can resolve.
     let at =
         |s: f64, z: f64| panel.at([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
     for o in run.obstacles {
@@ -325,7 +325,7 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
     }
 }
 
-/// A width in few digits.
+/// A width with few digits.
 fn short_m(m: f64) -> String {
     if m < 3.0 {
         format!("{m:.1}")
@@ -378,7 +378,7 @@ mod tests {
             crest - mean > 0.1 * (high.z - low.z),
             "{mean} below {crest}"
         );
-        // Without the shape its bounds stand for it.
+        // Without the shape, its bounds represent it.
         assert_eq!(profile(&outline, None, &cut, range).len(), 4);
     }
 

@@ -16,7 +16,7 @@ const LARGEST: [f64; 2] = [560.0, 430.0];
 const LEFT: f64 = 66.0;
 const TOP: f64 = 62.0;
 const GAP: [f64; 2] = [70.0, 92.0];
-/// Most panels.
+/// Largest number of panels.
 const PANELS: usize = 4;
 /// The odour's way, and the vehicle's.
 const CAME: &str = "#009e73";
@@ -101,7 +101,7 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
 fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     panel.clip(c);
     let layer = o.grid.n[0] * o.grid.n[1];
-    // The likeliest of all depths.
+    // The greatest value over all depths.
     let mut plan = vec![0.0_f64; layer];
     for (i, p) in o.detection.iter().enumerate() {
         plan[i % layer] = plan[i % layer].max(*p);

@@ -22,7 +22,7 @@ pub(super) struct PlumeLoad {
 }
 
 impl PlumeLoad {
-    /// None when there is nothing to show.
+    /// `None` if there is nothing to show.
     pub(super) fn of(plume: &PlumeFrame, panel: &Panel) -> Option<Self> {
         if plume.points.is_empty() {
             return None;

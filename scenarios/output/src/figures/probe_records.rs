@@ -20,7 +20,7 @@ const WHOLE: f64 = 104.0;
 const RATE: f64 = 72.0;
 const BEHAVIOUR: f64 = 84.0;
 const CLOSER: f64 = 220.0;
-/// How long the closer look is, s.
+/// Length of the enlarged part, s.
 const CLOSER_S: f64 = 20.0;
 /// Lowest output above clean water on a logarithmic axis, V: about one step of a 12-bit converter.
 const LOWEST_V: f64 = 0.003;
@@ -41,7 +41,7 @@ pub fn probe_records(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         summary.scenario, summary.seed, t.info.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
-    // The first picture is a step after the start.
+    // The first frame is one step after the start.
     let x = [0.0_f64.min(t.rows[0].t_s), t.rows[t.rows.len() - 1].t_s];
     let mut top = 40.0;
     let mut next = |height: f64| {
@@ -101,7 +101,7 @@ fn name(t: &GantryTrack, k: usize) -> String {
 /// The probe with the most spikes, and the window that contains most of them.
 fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     let spikes = |k: usize| t.rows.iter().filter(move |r| r.spike[k]);
-    // The first of equals.
+    // The first, if several are equal.
     let most = (0..probes)
         .rev()
         .max_by_key(|k| spikes(*k).count())
@@ -121,7 +121,7 @@ fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     (most, [from.1, from.1 + length])
 }
 
-/// Frame, time's ticks, and where it stopped.
+/// Draws the frame, the ticks of the time axis, and the stop.
 fn finish(c: &mut Canvas, panel: &Panel, t: &GantryTrack, numbers: bool) {
     if let Some((s, _)) = t.stopped {
         panels::event(c, panel, s, "");

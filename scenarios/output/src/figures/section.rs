@@ -28,7 +28,7 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    /// None for a gantry that was never seen.
+    /// `None` for a gantry that appears in no frame.
     pub(super) fn of(run: &RunReport<'_>, track: &GantryTrack) -> Option<Self> {
         let first = Vector2::from(track.rows.first()?.head);
         let last = Vector2::from(track.rows.last()?.head);
@@ -65,13 +65,13 @@ impl Axes {
         Some(axes)
     }
 
-    /// A place in the world on the axes, cm.
+    /// A place in the world in coordinates of the axes, cm.
     pub(super) fn cm(&self, p: [f64; 2]) -> [f64; 2] {
         let d = (Vector2::from(p) - self.origin) * 100.0;
         [d.dot(&self.down), self.down.perp(&d)]
     }
 
-    /// A place on the axes in the world, m.
+    /// A place on the axes in world coordinates, m.
     fn world(&self, x: f64, y: f64) -> Vector2<f64> {
         let left = Vector2::new(-self.down.y, self.down.x);
         self.origin + (self.down * x + left * y) / 100.0
@@ -84,7 +84,7 @@ pub(super) struct Section {
     grid: Grid,
     /// Levels from thin to dense, as shown.
     pub(super) levels: Vec<f64>,
-    /// What they are.
+    /// Their unit.
     pub(super) unit: &'static str,
     scale: f64,
 }

@@ -212,7 +212,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     panel.key(c, &key);
 }
 
-/// Behaviour as bands, a row each.
+/// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let seen: Vec<Behaviour> = Behaviour::ALL
         .into_iter()

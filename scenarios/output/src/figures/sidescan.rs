@@ -16,7 +16,7 @@ const NEAR_M: f64 = 80.0;
 /// Half the width of the map, m, and its cells.
 const HALF_M: f64 = 25.0;
 const CELL_M: f64 = 0.4;
-/// Pixels of a metre of waterfall, and of map.
+/// Pixels per metre of waterfall, and of map.
 const WATERFALL_PX: f64 = 5.6;
 const MAP_PX: f64 = 9.0;
 /// Number of lines and columns of a waterfall that are drawn as one cell.
@@ -24,7 +24,7 @@ const BLOCK: usize = 2;
 /// Range of levels shown below and above the middle one, dB, and the number of shades for it.
 const RANGE_DB: [f64; 2] = [-14.0, 18.0];
 const SHADES: usize = 12;
-/// Where the sidescan has the source.
+/// Colour of the source's place by the sidescan.
 const FOUND: &str = "#56b4e9";
 
 /// Distance between places in the plane, m.
@@ -181,7 +181,7 @@ impl Cells {
     }
 }
 
-/// Mean of the levels that are numbers.
+/// Mean of the finite levels.
 fn mean<'a>(levels: impl Iterator<Item = &'a f32>) -> Option<f64> {
     let (mut sum, mut n) = (0.0, 0);
     for v in levels.filter(|v| v.is_finite()) {

@@ -153,7 +153,7 @@ mod tests {
             (&header["port"], &header["starboard"]),
             (&json!(2), &json!(1))
         );
-        // No altitude has been heard.
+        // The altimeter has heard nothing.
         assert_eq!(header.get("altitude_m"), None);
     }
 }

@@ -26,13 +26,13 @@ pub(super) enum Work {
     Close,
 }
 
-/// What is sent beside the states.
+/// What is sent in addition to states.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Rest {
     pub(super) plume: Option<PlumeFrame>,
-    /// The newest of each vehicle.
+    /// The newest picture of each vehicle.
     pub(super) pictures: Vec<Numbered<PictureFrame>>,
-    /// The newest of each vehicle.
+    /// The newest ping of each vehicle.
     pub(super) pings: Vec<Numbered<PingFrame>>,
 }
 
@@ -62,7 +62,7 @@ impl Slots {
         ]
     }
 
-    /// All that waits beside the state.
+    /// Everything that waits, except the state.
     fn rest(&mut self) -> Rest {
         Rest {
             plume: self.plume.take(),
@@ -71,7 +71,7 @@ impl Slots {
         }
     }
 
-    /// What of it is due.
+    /// The part of it that is due.
     fn rest_due(&mut self, now: Instant) -> Option<Rest> {
         let mut due = Rest::default();
         let mut any = false;
@@ -166,7 +166,7 @@ impl Mailbox {
         }
     }
 
-    /// The first end counts.
+    /// Only the first end counts.
     pub(super) fn end(&self, digest: &str) {
         let mut slots = self.slots();
         if !slots.ended {

@@ -14,7 +14,7 @@ pub(super) struct Message {
     pub(super) key: String,
     pub(super) payload: Vec<u8>,
     pub(super) packed: Payload,
-    /// Header of a payload that is no JSON.
+    /// Header of a payload that is not JSON.
     pub(super) attachment: Option<Vec<u8>>,
 }
 
@@ -28,7 +28,7 @@ impl Message {
         }
     }
 
-    /// Numbers behind a header.
+    /// Packed numbers with a header.
     pub(super) fn numbers(
         key: impl Into<String>,
         numbers: impl Iterator<Item = f32>,
@@ -56,7 +56,7 @@ pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Mes
     )
 }
 
-/// All messages of a state but the clock.
+/// All messages of a state except the clock.
 pub(super) fn state(frame: &Frame) -> Vec<Message> {
     let robots = (frame.robots.iter()).flat_map(|r| robot(frame.t_s, r, &frame.abnormal));
     let gantries = frame.gantries.iter().flat_map(|g| gantry(frame.t_s, g));

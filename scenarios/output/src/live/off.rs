@@ -24,7 +24,7 @@ impl Live {
         "none (built without the feature `live`)"
     }
 
-    /// Something the user should know, in one line.
+    /// A line for the user.
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
         Some("built without the feature `live`: nothing is published")
@@ -51,7 +51,7 @@ impl Live {
     /// Does nothing.
     pub fn end(&self, _digest: &str) {}
 
-    /// Does nothing: nobody can come.
+    /// Does nothing, because no subscriber can come.
     pub fn linger(&self, _time: Duration, _stop: impl Fn() -> bool) {}
 
     /// Does nothing.

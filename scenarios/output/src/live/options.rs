@@ -1,4 +1,4 @@
-//! How live state is set up.
+//! Options of live state.
 
 use super::LiveError;
 use std::path::PathBuf;
@@ -66,7 +66,7 @@ pub struct LiveMeta {
     pub version: String,
 }
 
-/// What became of the states handed over.
+/// What happened to the states that were passed in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LiveCounts {
     /// States passed to [`Live::publish`](super::Live::publish).
@@ -83,7 +83,7 @@ pub fn run_id(scenario: &str, seed: u64) -> String {
     format!("{}_{seed}", chunk(scenario))
 }
 
-/// A name as a chunk of a key.
+/// Turns a name into a chunk of a key.
 pub(super) fn chunk(name: &str) -> String {
     if name.is_empty() {
         return "_".to_owned();

@@ -31,7 +31,7 @@ pub struct Live {
     notice: Option<String>,
 }
 
-/// What the thread tells once it is up.
+/// What the thread reports when it is running.
 type Up = Result<String, LiveError>;
 
 impl Live {
@@ -50,7 +50,7 @@ impl Live {
             let (mailbox, options) = (Arc::clone(&mailbox), options.clone());
             move || {
                 publish(config, &options, &meta, &mailbox, &up);
-                // Nobody may be waiting any more.
+                // There may be nobody waiting any more.
                 let _late = going.try_send(());
             }
         };
@@ -83,12 +83,12 @@ impl Live {
         self.notice.as_deref()
     }
 
-    /// Hands a state over; never waits for anybody.
+    /// Passes on a state; never waits.
     pub fn publish(&self, frame: &Frame) {
         self.mailbox.put_frame(frame);
     }
 
-    /// Hands a plume over; never waits for anybody.
+    /// Passes on a plume; never waits.
     pub fn plume(&self, plume: &PlumeFrame) {
         self.mailbox.put_plume(plume);
     }
@@ -103,7 +103,7 @@ impl Live {
         self.mailbox.put_ping(ping);
     }
 
-    /// What became of the states so far.
+    /// What happened to the states so far.
     #[must_use]
     pub fn counts(&self) -> LiveCounts {
         self.mailbox.counts()
@@ -142,7 +142,7 @@ impl Drop for Live {
     }
 }
 
-/// The life of the thread.
+/// Main function of the thread.
 fn publish(
     config: Config,
     options: &LiveOptions,

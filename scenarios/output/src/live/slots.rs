@@ -10,7 +10,7 @@ pub(super) struct Numbered<T> {
     pub(super) value: T,
 }
 
-/// The newest of each vehicle.
+/// The newest value of each vehicle.
 #[derive(Debug)]
 pub(super) struct Newest<T> {
     waiting: BTreeMap<String, Numbered<T>>,
@@ -27,7 +27,7 @@ impl<T> Default for Newest<T> {
 }
 
 impl<T> Newest<T> {
-    /// Whether nothing waited before.
+    /// Stores a value. Returns whether nothing waited before.
     pub(super) fn put(&mut self, robot: &str, value: T) -> bool {
         let first = self.waiting.is_empty();
         let count = self.taken.entry(robot.to_owned()).or_default();
@@ -37,7 +37,7 @@ impl<T> Newest<T> {
         first
     }
 
-    /// Whether something waits.
+    /// Whether anything waits.
     pub(super) fn waits(&self) -> bool {
         !self.waiting.is_empty()
     }
@@ -48,7 +48,7 @@ impl<T> Newest<T> {
     }
 }
 
-/// Lets something pass once a period.
+/// Lets something pass once per period.
 #[derive(Debug)]
 pub(super) struct Gate {
     period: Duration,

@@ -23,7 +23,7 @@ pub enum Kind {
     GantryBehaviour,
     /// One of these words.
     Word(&'static [&'static str]),
-    /// So many numbers.
+    /// A fixed number of numbers.
     Vector(usize),
     /// Any number of (east, north).
     Points,
@@ -75,11 +75,11 @@ pub struct Field {
     pub kind: Kind,
     /// Always present; otherwise the field is omitted if it has no value.
     pub required: bool,
-    /// What it is.
+    /// What it means.
     pub what: &'static str,
 }
 
-/// How a message is packed.
+/// Encoding of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// The payload is a JSON object.
@@ -99,11 +99,11 @@ pub struct Topic {
     pub name: &'static str,
     /// Key below `rheotaxis/<run>/`.
     pub key: &'static str,
-    /// What it says.
+    /// What it contains.
     pub what: &'static str,
-    /// How often.
+    /// How often it is published.
     pub rate: &'static str,
-    /// How it is packed.
+    /// Its encoding.
     pub payload: Payload,
     /// Fields of the payload, or of the attachment if the payload is packed.
     pub fields: &'static [Field],

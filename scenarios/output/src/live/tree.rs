@@ -20,7 +20,7 @@ pub(super) struct Tree<'a> {
     session: &'a Session,
     base: String,
     kept: Kept,
-    // Held for what their existence tells others.
+    // Kept because others see that they exist.
     meta: Vec<AdvancedPublisher<'static>>,
     _asked: Queryable<()>,
     _alive: LivelinessToken,

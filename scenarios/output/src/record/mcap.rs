@@ -36,7 +36,7 @@ pub enum RecordError {
         /// What was wrong.
         source: McapError,
     },
-    /// It is whole but cannot be given its name.
+    /// It is complete but cannot be given its name.
     #[error("cannot rename the recording {} to {}: {source}", from.display(), to.display())]
     Rename {
         /// The temporary name.
@@ -96,7 +96,7 @@ impl McapFile {
         })
     }
 
-    /// Where it is written until it is whole.
+    /// The temporary path, until the file is complete.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary

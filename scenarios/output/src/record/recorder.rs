@@ -87,7 +87,7 @@ impl Recorder {
         })
     }
 
-    /// Where it is written until it is whole.
+    /// The temporary path, until the recording is complete.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         self.file.temporary()

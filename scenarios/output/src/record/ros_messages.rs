@@ -160,7 +160,7 @@ pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Ve
     c.finish()
 }
 
-/// A joint at an instant, for a `JointState`.
+/// State of a joint at one time, for a `JointState`.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint<'a> {
     /// Its name in the URDF.

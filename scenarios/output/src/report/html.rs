@@ -7,7 +7,7 @@ use crate::results::{DeclarationSummary, DeclaredKind, Summary};
 use robots::handoff::Verdict;
 use std::fmt::Write as _;
 
-/// Look of all pages.
+/// Style sheet of all pages.
 pub const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
 h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
 table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\

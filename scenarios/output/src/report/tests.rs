@@ -297,7 +297,7 @@ fn runs_in_which_nothing_happened() {
         report_of(&nobody, &none, &[], None, &area(), &terrain()).len(),
         4
     );
-    // Zero frames, a robot known beforehand.
+    // No frames, and a robot known beforehand.
     let track = TrackTable::in_memory(robots()).finish();
     report_of(&nobody, &track, &[], None, &area(), &terrain());
     // One frame; an empty plume.

@@ -21,11 +21,11 @@ pub struct BeliefRow {
     pub t_s: f64,
     /// Updates so far.
     pub updates: u64,
-    /// A detection went into it.
+    /// Whether it includes a detection.
     pub informed: bool,
     /// Entropy, nat.
     pub entropy_nat: f64,
-    /// Middle of the most probable cell (ENU), m.
+    /// Centre of the most probable cell (ENU), m.
     pub best: Vector3<f64>,
     /// Its probability.
     pub p_best: f64,
@@ -47,7 +47,7 @@ pub struct BeliefSnapshot {
 /// All that is kept of a robot's map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotBelief {
-    /// Which robot.
+    /// Id of the robot.
     pub id: String,
     /// Its updates; evenly thinned if the run is long.
     pub rows: Vec<BeliefRow>,
@@ -55,9 +55,9 @@ pub struct RobotBelief {
     pub before: Option<BeliefSnapshot>,
     /// The first map with a detection in it.
     pub first: Option<BeliefSnapshot>,
-    /// Maps in between, evenly.
+    /// Maps in between, at even intervals.
     pub between: Vec<BeliefSnapshot>,
-    /// What else the map said of the odour, evenly.
+    /// What the map said about the odour, at even intervals.
     pub odour: Vec<Arc<Odour>>,
     /// The last map.
     pub last: BeliefSnapshot,
@@ -67,13 +67,13 @@ pub struct RobotBelief {
 /// The maps of all robots that keep one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeliefTrack {
-    /// A robot each.
+    /// One entry for each robot.
     pub robots: Vec<RobotBelief>,
     plume: Option<Arc<PlumeFrame>>,
 }
 
 impl BeliefTrack {
-    /// Takes in what is new in a frame.
+    /// Adds what is new in a frame.
     pub fn push(&mut self, frame: &Frame) {
         for r in &frame.robots {
             let Some(belief) = &r.belief else { continue };
@@ -85,7 +85,7 @@ impl BeliefTrack {
         }
     }
 
-    /// Takes in the newest picture of the plume.
+    /// Adds the newest snapshot of the plume.
     pub fn plume(&mut self, plume: &PlumeFrame) {
         self.plume = Some(Arc::new(plume.clone()));
     }
@@ -115,7 +115,7 @@ impl RobotBelief {
 
     fn push(&mut self, new: BeliefSnapshot) {
         if new.belief.updates == self.last.belief.updates {
-            // The plan may have changed on the same map.
+            // The plan may have changed although the map is the same.
             self.last = new;
             return;
         }

@@ -7,7 +7,7 @@ use robots::survey::{Row, Waterfall};
 const TURNING_RAD_S: f64 = 0.05;
 /// A pass ends if it gets no ping for this long, s.
 const APART_S: f64 = 2.0;
-/// A pass of fewer lines is left out.
+/// Passes with fewer lines are omitted.
 const FEWEST: usize = 40;
 /// Most passes kept for a robot: the newest ones.
 const MOST: usize = 32;
@@ -15,7 +15,7 @@ const MOST: usize = 32;
 /// The passes of one robot.
 #[derive(Clone, Debug)]
 pub struct RobotEchoes {
-    /// Which.
+    /// Id of the robot.
     pub id: String,
     passes: Vec<Waterfall>,
     last_s: f64,
@@ -31,7 +31,7 @@ impl RobotEchoes {
 /// The passes of all robots with a sidescan.
 #[derive(Clone, Debug, Default)]
 pub struct Echoes {
-    /// A robot each.
+    /// One entry for each robot.
     pub robots: Vec<RobotEchoes>,
 }
 
@@ -93,7 +93,7 @@ mod tests {
         for k in 0..1000 {
             let t_s = f64::from(k) * 0.1;
             estimate.t_s = t_s;
-            // 30 s straight, 10 s of turning, and again.
+            // 30 s straight, 10 s of turning, and the same again.
             estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
             let frame = PingFrame {
                 t_s,

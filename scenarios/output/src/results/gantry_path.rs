@@ -38,7 +38,7 @@ pub struct GantryPath {
     declaration: Option<Declaration>,
 }
 
-/// What a gantry did.
+/// The results of a gantry.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GantrySummary {
     /// Its id in the scenario.
@@ -47,15 +47,15 @@ pub struct GantrySummary {
     pub stopped: Option<bool>,
     /// Its declaration.
     pub declaration: Option<DeclarationSummary>,
-    /// Time at which its first sweep was over, s.
+    /// End of its first sweep, s.
     pub sweep_s: Option<f64>,
     /// Time of the first spike, s.
     pub first_spike_s: Option<f64>,
-    /// Scans with a spike on any probe.
+    /// Number of scans with a spike on any probe.
     pub spikes: u64,
-    /// Steps up-stream, casts and full sweeps.
+    /// Number of steps up-stream, casts and full sweeps.
     pub moves: [u32; 3],
-    /// A drive gave up against something.
+    /// Whether a drive gave up against an obstacle.
     pub blocked: bool,
     /// Length of the whole path, m.
     pub travelled_m: f64,
@@ -72,7 +72,7 @@ pub struct GantrySummary {
 }
 
 impl GantryPath {
-    /// From its first picture.
+    /// Begins with the first frame.
     #[must_use]
     pub fn new(g: &GantryFrame) -> Self {
         Self {
@@ -95,7 +95,7 @@ impl GantryPath {
         }
     }
 
-    /// The next picture.
+    /// Adds the next frame.
     pub fn observe(&mut self, t_s: f64, g: &GantryFrame) {
         let head = g.head_W.xy();
         self.travelled_m += (head - self.last).norm();
@@ -131,7 +131,7 @@ impl GantryPath {
         self.declaration = self.declaration.or(g.declaration);
     }
 
-    /// What it came to, against the true sources.
+    /// The results, compared with the true sources.
     #[must_use]
     pub fn summary(&self, sources: &[SourceTruth]) -> GantrySummary {
         let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));

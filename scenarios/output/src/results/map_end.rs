@@ -15,7 +15,7 @@ const CELLS_OFF: f64 = 3.0;
 /// The end of a robot's map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MapEnd {
-    /// Middle of the most probable cell.
+    /// Centre of the most probable cell.
     pub best: Position,
     /// Its probability.
     pub probability: f64,
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn it_says_when_a_map_is_sure_of_a_wrong_cell() {
         let s = source();
-        // Cells of 27 by 24 m: four of them off.
+        // Cells of 27 by 24 m; the place is four cells away.
         let away = s.position.xy() + Vector2::new(60.0, -85.0);
         let end = MapEnd::of(
             &sure_of(away, 0.99),

@@ -4,7 +4,7 @@ use robots::handoff::Odour;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Cells with a lesser chance are left out.
+/// Cells with a smaller probability are omitted.
 const LEAST: f64 = 1e-4;
 
 /// The table: for each time, the cells where odour may be detected, then the two paths cell by cell.

@@ -22,14 +22,14 @@ pub struct ShownPicture {
     pub file: String,
     /// Which robot took it.
     pub robot: String,
-    /// When, s.
+    /// Time, s.
     pub t_s: f64,
     /// The picture, small enough for a page.
     jpeg: Vec<u8>,
 }
 
 impl ShownPicture {
-    /// Words under it in the page.
+    /// Caption in the page.
     pub(crate) fn title(&self) -> String {
         format!("{} at {:.1} s", self.robot, self.t_s)
     }
@@ -54,7 +54,7 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Into a folder; at most `most` pictures.
+    /// Writes into a folder, at most `most` pictures.
     #[must_use]
     pub fn new(out: &Folder, most: u32) -> Self {
         Self {

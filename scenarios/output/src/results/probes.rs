@@ -37,9 +37,9 @@ pub struct GantryRow {
     pub volts: Option<[f64; MAX_PROBES]>,
     /// Threshold of each probe, V.
     pub threshold_v: [f64; MAX_PROBES],
-    /// The scan before this one was a spike.
+    /// Whether the scan before this one was a spike.
     pub spike: [bool; MAX_PROBES],
-    /// Spikes a second lately, Hz.
+    /// Recent rate of spikes, Hz.
     pub spike_hz: f64,
     /// What the searcher was doing.
     pub behaviour: GantryBehaviour,
@@ -50,7 +50,7 @@ pub struct GantryRow {
 /// A gantry's whole run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GantryTrack {
-    /// Which gantry.
+    /// Data of the gantry.
     pub info: GantryInfo,
     /// Its moments; evenly thinned if the run is long.
     pub rows: Vec<GantryRow>,
@@ -166,7 +166,7 @@ impl ProbeTables {
         })
     }
 
-    /// Kept for the figures only, no files.
+    /// Keeps data for the figures only, without files.
     #[must_use]
     pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl ProbeTables {
     }
 }
 
-/// An id may hold what a file's name may not.
+/// An id may contain characters that a file's name must not.
 pub(crate) fn file_name(id: &str) -> String {
     id.chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })

@@ -7,14 +7,14 @@ use world::fields::Concentration;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
-/// Which run this is.
+/// The identity of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunInfo {
     /// Name of the scenario.
     pub scenario_name: String,
     /// Its title.
     pub title: String,
-    /// When it counts as a success, in words.
+    /// Its rule of success, in words.
     pub success: String,
     /// Text of its file.
     pub scenario_text: String,
@@ -33,24 +33,24 @@ pub struct ObstacleOutline {
     pub corners: Vec<[f64; 2]>,
     /// Heights of its lowest and highest point (z, ENU), m.
     pub z: [f64; 2],
-    /// Water and dye pass through it.
+    /// Whether water and dye pass through it.
     pub permeable: bool,
 }
 
 /// The input from which [`write_all`](crate::report::write_all) makes files.
 #[derive(Clone)]
 pub struct RunReport<'a> {
-    /// What the run came to.
+    /// The results of the run.
     pub summary: &'a Summary,
-    /// Where the robots went.
+    /// The tracks of the robots.
     pub track: &'a Track,
-    /// What the gantries did.
+    /// The tracks of the gantries.
     pub gantries: &'a [GantryTrack],
     /// The robots' maps of where the source may be.
     pub beliefs: &'a BeliefTrack,
     /// Pictures that cameras took; their files already exist.
     pub pictures: &'a [ShownPicture],
-    /// What sidescan sonars heard.
+    /// The echoes of sidescan sonars.
     pub echoes: &'a Echoes,
     /// Some of the plume's filaments at the end; `None` in a run without a plume.
     pub plume: Option<&'a PlumeFrame>,

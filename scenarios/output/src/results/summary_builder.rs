@@ -23,13 +23,13 @@ use world::units::Heading;
 pub struct SourceTruth {
     /// Its id in the scenario.
     pub id: String,
-    /// Where it is (ENU), m.
+    /// Its position (ENU), m.
     pub position: Vector3<f64>,
     /// Mean flow there (east, north), m/s: where the water goes.
     pub flow: Vector2<f64>,
 }
 
-/// Flow too slow to have a direction, m/s.
+/// Slower flow has no direction, m/s.
 const STILL_M_S: f64 = 1e-6;
 
 impl SourceTruth {
@@ -61,7 +61,7 @@ fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> 
 }
 
 impl DeclarationSummary {
-    /// A declaration against the true sources.
+    /// A declaration compared with the true sources.
     #[must_use]
     pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
         let region_name = d.region.map(region_name);
@@ -303,7 +303,7 @@ pub struct SummaryBuilder {
 }
 
 impl SummaryBuilder {
-    /// For a run that has not begun.
+    /// Begins the summary of a run.
     #[must_use]
     pub fn new(run: &RunInfo) -> Self {
         Self {
@@ -319,7 +319,7 @@ impl SummaryBuilder {
         self.abnormal = abnormal.to_vec();
     }
 
-    /// Takes in a frame.
+    /// Adds a frame.
     pub fn observe(&mut self, frame: &Frame) {
         self.abnormal.clone_from(&frame.abnormal);
         if self.robots.is_empty() {

@@ -18,9 +18,9 @@ pub struct RobotInfo {
     pub full_scale_ug_l: Option<f64>,
     /// Detection threshold as a share of full scale.
     pub threshold: Option<f64>,
-    /// Its mission has subregions.
+    /// Whether its mission has subregions.
     pub regions: bool,
-    /// Its planner has layers.
+    /// Whether its planner has layers.
     pub layered: bool,
 }
 
@@ -35,9 +35,9 @@ pub struct TrackRow {
     pub believed: [f64; 2],
     /// True altitude, m.
     pub altitude_m: f64,
-    /// Altitude asked for, m.
+    /// Commanded altitude, m.
     pub altitude_asked_m: Option<f64>,
-    /// Depth asked for, m.
+    /// Commanded depth, m.
     pub depth_asked_m: Option<f64>,
     /// Chemical reading as a share of full scale.
     pub reading: Option<f64>,
@@ -48,7 +48,7 @@ pub struct TrackRow {
 /// A robot's whole track.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
-    /// Which robot.
+    /// Data of the robot.
     pub info: RobotInfo,
     /// Its moments; evenly thinned if the run is long.
     pub rows: Vec<TrackRow>,
@@ -71,7 +71,7 @@ pub struct RobotTrack {
 /// The tracks of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Track {
-    /// One a robot, in the scenario's order.
+    /// One for each robot, in the scenario's order.
     pub robots: Vec<RobotTrack>,
 }
 
@@ -114,7 +114,7 @@ impl RobotTrack {
         if r.detected && self.detections.len() < KEPT {
             self.detections.push([p.x, p.y]);
         }
-        // Those of subregions searched before stay.
+        // Those of earlier subregions are kept.
         if r.regions.now.is_some() && r.regions.now != self.region {
             self.region = r.regions.now;
             self.lost_before = self.lost_points.len();
@@ -187,7 +187,7 @@ pub struct TrackTable {
     layered: bool,
     line: String,
     track: Track,
-    /// The table has the column of subregions.
+    /// Whether the table has the column of subregions.
     regions: bool,
 }
 
@@ -213,7 +213,7 @@ impl TrackTable {
         Ok(table)
     }
 
-    /// Kept for the figures only, no file.
+    /// Keeps data for the figures only, without a file.
     #[must_use]
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
         Self {

@@ -14,7 +14,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_on_disk};
 
-/// How a block stands.
+/// The state of a block.
 #[derive(Debug)]
 pub enum BlockState {
     /// No file yet.
@@ -28,7 +28,7 @@ pub enum BlockState {
 }
 
 impl BlockState {
-    /// The rows there are; none of a broken one.
+    /// The rows that exist; none of a damaged block.
     #[must_use]
     pub fn rows(self) -> Vec<RunRow> {
         match self {

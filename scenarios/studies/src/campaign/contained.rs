@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use std::sync::Once;
 
-/// What `work` returns, or what its panic said.
+/// The result of `work`, or the message of its panic.
 pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     hush();
     let before = QUIET.replace(true);
@@ -18,7 +18,7 @@ pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 thread_local! {
-    /// Whether this thread is within such work.
+    /// Whether this thread is doing such work.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 

@@ -5,7 +5,7 @@ use super::plan::Campaign;
 /// Wall time of a block on one thread, s, if a run is short enough.
 const BLOCK_S: f64 = 30.0;
 
-/// Most runs in a block that nobody asked for.
+/// Most runs in a block unless another length is asked for.
 pub const LONGEST: u64 = 256;
 
 /// Least number of blocks per share, where the campaign has enough runs, so that work can be distributed.
@@ -42,7 +42,7 @@ mod tests {
         let of = |spin_up_s, mission_s, shares| block_of(&campaign, spin_up_s, mission_s, shares);
         assert_eq!(of(4.0, 1.0, 1), 18);
         assert_eq!(of(3600.0, 60.0, 1), 6);
-        // 100 seeds in 4 blocks at least.
+        // 100 seeds in at least 4 blocks.
         assert_eq!(of(0.0, 0.01, 1), 150);
         assert_eq!(of(0.0, 0.0, 1), 150);
         assert_eq!(of(0.0, 0.01, 5), 30);

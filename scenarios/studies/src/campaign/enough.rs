@@ -17,7 +17,7 @@ use std::path::Path;
 /// What a campaign needs, as far as its rows tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted {
-    /// The runs from 0 to this one, exclusive.
+    /// Runs from 0 to this one, exclusive.
     pub runs: u64,
     /// The number will not grow: all runs exist and suffice, or no more are allowed.
     pub decided: bool,

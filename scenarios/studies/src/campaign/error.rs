@@ -15,7 +15,7 @@ pub enum CampaignError {
     Override {
         /// Campaign, arm and condition.
         variant: String,
-        /// The path given.
+        /// The given path.
         path: String,
         /// What is wrong.
         problem: String,
@@ -25,7 +25,7 @@ pub enum CampaignError {
     Differs {
         /// The folder.
         dir: PathBuf,
-        /// What differs, each with both values.
+        /// What differs, with both values.
         what: Vec<String>,
     },
     /// The folder holds no campaign.
@@ -33,13 +33,13 @@ pub enum CampaignError {
     NoCampaign {
         /// The folder.
         dir: PathBuf,
-        /// Why.
+        /// The reason.
         problem: String,
     },
     /// A file or folder cannot be written: no permission, or the disk is full.
     #[error("cannot write {}: {problem}", path.display())]
     Write {
-        /// Which.
+        /// The path.
         path: PathBuf,
         /// What the system said.
         problem: String,
@@ -47,7 +47,7 @@ pub enum CampaignError {
     /// A file cannot be read.
     #[error("cannot read {}: {problem}", path.display())]
     Read {
-        /// Which.
+        /// The path.
         path: PathBuf,
         /// What the system said.
         problem: String,
@@ -57,7 +57,7 @@ pub enum CampaignError {
     Broken {
         /// The file.
         path: PathBuf,
-        /// How it was found out.
+        /// How the damage was found.
         problem: String,
     },
     /// This process cannot tell which share of the work is its own.
@@ -66,9 +66,9 @@ pub enum CampaignError {
     /// The campaign has no such run.
     #[error("there is no run {run}: the campaign has {runs}, counted from 0")]
     NoRun {
-        /// Asked for.
+        /// The run asked for.
         run: u64,
-        /// How many there are.
+        /// The number of runs.
         runs: u64,
     },
 }

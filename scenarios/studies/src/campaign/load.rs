@@ -1,4 +1,4 @@
-//! Reading a campaign file.
+//! Reads campaign files.
 
 use super::error::CampaignError;
 use super::plan::Campaign;

@@ -14,7 +14,7 @@ pub(super) const FILE: &str = "campaign.json";
 /// Longest one read, bytes: it holds two escaped texts of at most a megabyte each.
 const LONGEST: u64 = 16 << 20;
 
-/// What `campaign.json` says.
+/// The content of `campaign.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Name of the campaign.
@@ -27,7 +27,7 @@ pub struct Manifest {
     pub scenario_hash: String,
     /// Runs in a block.
     pub block: u64,
-    /// Runs in all.
+    /// Total number of runs.
     pub runs: u64,
     /// The runs' seeds, for people; the campaign's text is what counts.
     #[serde(default)]

@@ -19,7 +19,7 @@ use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
 use robots::handoff::Verdict;
 use std::time::Instant;
 
-/// What names a run in the table.
+/// What identifies a run in the table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunName {
     /// Index of the run in the campaign.
@@ -28,7 +28,7 @@ pub struct RunName {
     pub arm: String,
     /// Name of the condition.
     pub condition: String,
-    /// Which of the seeds.
+    /// Index of the seed.
     pub seed_index: u64,
     /// The seed itself.
     pub seed: u64,
@@ -216,7 +216,7 @@ fn declared_at(d: &DeclarationSummary) -> DeclaredAt {
     }
 }
 
-/// A row of a run that came to nothing.
+/// The row of a run that failed.
 fn failed(name: &RunName, error: String) -> RunRow {
     RunRow {
         run: name.run,
@@ -230,7 +230,7 @@ fn failed(name: &RunName, error: String) -> RunRow {
     }
 }
 
-/// As in `summary.json`.
+/// The name that `summary.json` uses.
 fn outcome_name(outcome: RunOutcome) -> String {
     match serde_json::to_value(outcome) {
         Ok(serde_json::Value::String(name)) => name,

@@ -13,9 +13,9 @@ use world::seeds::Stream;
 /// A campaign, read and laid out.
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    /// What its file says.
+    /// The content of its file.
     pub spec: CampaignSpec,
-    /// Name: the file's without its ending.
+    /// Name: that of the file, without its ending.
     pub name: String,
     /// The name that errors use: the file as it was asked for.
     pub shown: String,
@@ -27,14 +27,14 @@ pub struct Campaign {
     pub base: Loaded,
 }
 
-/// Where a run stands in its campaign.
+/// The position of a run in its campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Index of the run.
     pub run: u64,
     /// Index of its condition.
     pub condition: u64,
-    /// Which of the seeds.
+    /// Index of the seed.
     pub seed_index: u64,
     /// Index of its arm.
     pub arm: usize,
@@ -78,13 +78,13 @@ impl Campaign {
         self.spec.arms.len() as u64
     }
 
-    /// Arms under each condition.
+    /// Number of arms under each condition, times conditions.
     #[must_use]
     pub fn n_cells(&self) -> u64 {
         self.spec.n_conditions() * self.n_arms()
     }
 
-    /// The arm of that index.
+    /// The arm with an index.
     #[must_use]
     pub fn arm(&self, arm: usize) -> &Arm {
         &self.spec.arms[arm]
@@ -111,7 +111,7 @@ impl Campaign {
         }
     }
 
-    /// What a condition sets: paths and values.
+    /// The paths and values that a condition sets.
     #[must_use]
     pub fn condition(&self, condition: u64) -> Vec<(String, String)> {
         match &self.spec.conditions {

@@ -59,12 +59,12 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
     }
 }
 
-/// What a merge wrote.
+/// The result of a merge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// Rows in the file.
+    /// Number of rows in the file.
     pub rows: u64,
-    /// Runs the campaign wants, as far as is known.
+    /// Number of runs that the campaign wants, as far as is known.
     pub of: u64,
 }
 

@@ -28,9 +28,9 @@ pub struct RunRow {
     pub first_detection_s: Option<f64>,
     /// First declaration by any robot, s.
     pub declared_s: Option<f64>,
-    /// Where it was (east, north), m.
+    /// Its position east, m.
     pub declared_east_m: Option<f64>,
-    /// Where it was (east, north), m.
+    /// Its position north, m.
     pub declared_north_m: Option<f64>,
     /// Its distance from the nearest true source, m.
     pub error_m: Option<f64>,
@@ -48,11 +48,11 @@ pub struct RunRow {
     pub declarations: Vec<DeclaredAt>,
     /// True sources declared within the distance that the scenario's success requires; 0 if it requires none.
     pub sources_declared: u64,
-    /// Way travelled by all robots, m.
+    /// Distance travelled by all robots, m.
     pub travelled_m: f64,
-    /// Detections by all robots.
+    /// Number of detections by all robots.
     pub detections: u64,
-    /// When a gantry's first sweep was over, s.
+    /// End of a gantry's first sweep, s.
     pub sweep_s: Option<f64>,
     /// A gantry's speed along its path from there to its stop, m/s.
     pub speed_m_s: Option<f64>,
@@ -79,15 +79,15 @@ pub struct RunRow {
 pub struct DeclaredAt {
     /// Subregion in which it was made, from 0.
     pub region: Option<u32>,
-    /// By which rule.
+    /// Name of the rule that declared it.
     pub rule: String,
     /// The verdict of a look at it: `unchecked`, `verified` or `rejected`.
     pub verdict: String,
-    /// When, s.
+    /// Time, s.
     pub t_s: f64,
-    /// Where (east), m.
+    /// Position east, m.
     pub east_m: f64,
-    /// Where (north), m.
+    /// Position north, m.
     pub north_m: f64,
     /// Its distance from the nearest true source, m.
     pub error_m: Option<f64>,

@@ -30,7 +30,7 @@ const SAVE: Duration = Duration::from_secs(30);
 pub struct RunOptions {
     /// The share of the blocks.
     pub shard: Shard,
-    /// Runs at a time; 0 for one a core.
+    /// Number of runs at a time; 0 means one for each core.
     pub jobs: usize,
     /// Runs in a block, made a multiple of the number of arms. Without it, that of the folder, or what
     /// [`block_of`](super::block_of) derives from the cost of the first run.
@@ -46,20 +46,20 @@ pub struct RunOptions {
 pub enum Event<'a> {
     /// Before the first run: the number of runs of this share, and how many of them are done.
     Begun {
-        /// Of this share.
+        /// Number of runs of this share.
         runs: u64,
-        /// Done before.
+        /// Number of runs done before.
         done: u64,
     },
     /// A block is not whole and is computed again.
     Broken(&'a CampaignError),
     /// A run has ended.
     Ran(&'a RunRow),
-    /// A block was written that has all its rows.
+    /// A block was written with all its rows.
     Wrote(u64),
 }
 
-/// How it ended.
+/// How the campaign ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnded {
     /// Every run of the share has its row.
@@ -68,12 +68,12 @@ pub enum RunEnded {
     Stopped {
         /// Number of runs done since the start; their rows are written.
         done: u64,
-        /// Runs of the share still to do.
+        /// Number of runs of the share still to do.
         left: u64,
     },
     /// The share is done as far as is known. Whether more runs are needed depends on blocks of other shares.
     Waiting {
-        /// Blocks of other shares that are not there.
+        /// Number of missing blocks of other shares.
         missing: u64,
     },
 }
@@ -158,7 +158,7 @@ pub fn run(
     }
 }
 
-/// Blocks below a run that lack rows.
+/// Blocks up to a run that lack rows.
 fn missing_blocks(dir: &Path, manifest: &Manifest, end: u64) -> Result<u64, CampaignError> {
     let whole = |block: &u64| {
         let runs = manifest.runs_of(*block);

@@ -6,29 +6,29 @@
 use std::io::{Read, Result, Seek, SeekFrom};
 use world::digest::Digest;
 
-/// What a seal begins with.
+/// Beginning of a seal.
 const MARK: &[u8] = b"rheotaxis sealed ";
 const DIGITS: usize = 32;
-/// Where it stands: behind Parquet's own mark.
+/// Position of the seal: behind Parquet's own mark.
 const AT: usize = 4;
 
-/// How a file's seal is.
+/// The state of a file's seal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seal {
-    /// There is none.
+    /// There is no seal.
     Missing,
-    /// It fits the file.
+    /// The seal fits the file.
     Whole,
-    /// The bytes are not those that were sealed.
+    /// The bytes differ from those that were sealed.
     Wrong,
 }
 
-/// Room for a seal, to be written first of all.
+/// Space for a seal, to be written before everything else.
 pub(super) fn room() -> Vec<u8> {
     [MARK, &[b'0'; DIGITS]].concat()
 }
 
-/// Puts the seal into the room for it.
+/// Puts the seal into its space.
 pub(super) fn close(bytes: &mut [u8]) {
     let digits = AT + MARK.len();
     assert_eq!(

@@ -1,4 +1,4 @@
-//! Which seeds the runs of a campaign have.
+//! The seeds of a campaign's runs.
 
 use ron::value::RawValue;
 use serde::{Deserialize, Deserializer};
@@ -12,23 +12,23 @@ pub(super) const MOST: u64 = 1 << 40;
 pub enum Seeds {
     /// Consecutive seeds, the same under each condition: those of `rheotaxis run --seed`.
     Literal {
-        /// The first.
+        /// The first seed.
         first: u64,
-        /// How many.
+        /// Number of seeds.
         count: u64,
     },
     /// Each seed is a hash of this seed, the condition and its index. They differ between conditions, and nobody would
     /// give them by hand.
     Hashed {
-        /// What they are made from.
+        /// The seed from which they are made.
         seed: u64,
-        /// How many.
+        /// Number of seeds.
         count: u64,
     },
 }
 
 impl Seeds {
-    /// How many under each condition.
+    /// Number of seeds under each condition.
     #[must_use]
     pub fn count(self) -> u64 {
         match self {
@@ -49,7 +49,7 @@ impl Seeds {
         }
     }
 
-    /// For people.
+    /// The seeds in words.
     #[must_use]
     pub fn words(self) -> String {
         match self {
@@ -85,7 +85,7 @@ impl Seeds {
 pub(super) enum Asked {
     Number(u64),
     Form(Seeds),
-    /// Neither: what is wrong with it.
+    /// Neither of them: what is wrong with it.
     Odd(String),
 }
 

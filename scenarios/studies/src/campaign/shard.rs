@@ -6,9 +6,9 @@ use std::str::FromStr;
 /// A share: that of process `index` (from 0) of `count` processes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 0.
+    /// Index of this process, from 0.
     pub index: u64,
-    /// Of how many.
+    /// Number of processes.
     pub count: u64,
 }
 

@@ -36,11 +36,11 @@ pub(super) struct Share<'a> {
 struct Line {
     /// The next run to look at: the first arm of a seed.
     next: u64,
-    /// Blocks that need nothing more.
+    /// Blocks that are complete.
     whole: BTreeSet<u64>,
-    /// Runs that are done of blocks that need more.
+    /// Finished runs of incomplete blocks.
     there: BTreeMap<u64, BTreeSet<u64>>,
-    /// New rows of blocks in hand.
+    /// New rows of incomplete blocks.
     open: BTreeMap<u64, Open>,
     kept: u64,
 }
@@ -48,7 +48,7 @@ struct Line {
 #[derive(Default)]
 struct Open {
     rows: Vec<RunRow>,
-    /// How many of them are on the disk.
+    /// Number of rows that are on the disk.
     written: usize,
 }
 
@@ -120,7 +120,7 @@ impl<'a> Share<'a> {
         Ok(share)
     }
 
-    /// The runs of a block that are wanted.
+    /// The wanted runs of a block.
     fn asked(&self, manifest: &Manifest, block: u64) -> std::ops::Range<u64> {
         let runs = manifest.runs_of(block);
         runs.start..runs.end.min(self.end)
@@ -195,7 +195,7 @@ impl<'a> Share<'a> {
         Ok(())
     }
 
-    /// Writes what is done of the blocks in hand.
+    /// Writes the finished rows of incomplete blocks.
     pub(super) fn write_out(&self) -> Result<(), CampaignError> {
         let Some(manifest) = self.manifest.get() else {
             return Ok(());

@@ -1,4 +1,4 @@
-//! What a campaign file says.
+//! The content of a campaign file.
 
 use super::seeds::{Asked, MOST, Seeds};
 use rheotaxis::scenario::{Fault, Found, Outline, ScenarioError, read};
@@ -12,7 +12,7 @@ const VERSION: u32 = 2;
 pub struct CampaignSpec {
     /// Version of the file.
     pub version: u32,
-    /// What is compared, in a line.
+    /// What is compared, in one line.
     pub title: String,
     /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
     pub base: String,
@@ -20,9 +20,9 @@ pub struct CampaignSpec {
     pub seeds: Seeds,
     /// Stop earlier, once every success share is known precisely enough.
     pub until: Option<Until>,
-    /// What is compared.
+    /// The things compared.
     pub arms: Vec<Arm>,
-    /// Circumstances in which it is compared.
+    /// The conditions under which they are compared.
     pub conditions: Conditions,
 }
 
@@ -44,7 +44,7 @@ struct File {
     conditions: Conditions,
 }
 
-/// When enough is known.
+/// When enough is known to stop.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Until {
@@ -76,10 +76,10 @@ impl Arm {
     }
 }
 
-/// Circumstances, the same for every arm.
+/// Conditions, the same for every arm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Conditions {
-    /// The scenario as it is.
+    /// Only the scenario as it is.
     #[default]
     Single,
     /// Every combination of these values; the last path changes fastest.
@@ -92,7 +92,7 @@ pub enum Conditions {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomConditions {
-    /// How many conditions, 1 to 2^40.
+    /// Number of conditions, 1 to 2^40.
     pub n: u64,
     /// Seed of the random values; 1 by default. In a file of version 1, the `seed` of the file.
     #[serde(default)]
@@ -108,7 +108,7 @@ pub enum Draw {
     Uniform(f64, f64),
     /// Its logarithm is uniform between the logarithms of two positive numbers.
     LogUniform(f64, f64),
-    /// One of these values, each as likely.
+    /// One of these values, all equally likely.
     Choice(Vec<String>),
 }
 

@@ -14,7 +14,7 @@ use parquet::schema::parser::parse_message_type;
 use std::io::Write;
 use std::sync::Arc;
 
-/// How a column is got from a row and put back.
+/// How a column is read from a row and written to it.
 enum Column {
     Number(fn(&RunRow) -> u64, fn(&mut RunRow, u64)),
     Truth(fn(&RunRow) -> bool, fn(&mut RunRow, bool)),
@@ -145,7 +145,7 @@ impl<W: Write + Send> TableWriter<W> {
         Ok(self.0.write_all(bytes)?)
     }
 
-    /// Adds rows, as a group of their own.
+    /// Adds rows as a group.
     pub(super) fn rows(&mut self, rows: &[RunRow]) -> Result<()> {
         let mut group = self.0.next_row_group()?;
         for (_, optional, column) in &COLUMNS {

@@ -17,13 +17,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How often the thread that waits looks up.
+/// How often the waiting thread checks for a stop.
 const LOOK: Duration = Duration::from_millis(100);
 
 /// Number of conditions whose scenarios are kept in memory.
 const CONDITIONS: usize = 64;
 
-/// Until when runs are begun.
+/// Limits up to which runs begin.
 pub(super) struct Limits<'a> {
     begun: Instant,
     max_wall: Option<Duration>,
@@ -50,7 +50,7 @@ impl<'a> Limits<'a> {
     }
 }
 
-/// What the threads of one process work on.
+/// The common data of one process's threads.
 pub(super) struct Work<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) limits: &'a Limits<'a>,
@@ -113,7 +113,7 @@ impl Work<'_> {
                 }
             }
             drop(over);
-            // Ends when every thread has dropped its end.
+            // Ends when every thread has dropped its sender.
             while waiting.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if let Err(error) = meanwhile(!going()) {
                     fail(error);

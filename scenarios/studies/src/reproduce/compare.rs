@@ -1,4 +1,4 @@
-//! One figure of ours against the paper's.
+//! One figure of ours, compared with the paper's.
 
 use super::quantity::Estimate;
 use super::row::{Figure, Paper, Row};
@@ -34,16 +34,16 @@ impl Standing {
     }
 }
 
-/// A figure with both sides.
+/// A figure of ours and of the paper.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The figure.
     pub figure: Figure,
-    /// Ours.
+    /// Our value.
     pub ours: Estimate,
     /// Wilson's interval of the paper's counts.
     pub papers_interval: Option<Interval>,
-    /// Where the paper's stands.
+    /// How the paper's value compares.
     pub standing: Standing,
 }
 

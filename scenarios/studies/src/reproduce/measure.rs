@@ -4,13 +4,13 @@ use crate::campaign::report::Unit;
 use crate::campaign::{DeclaredAt, RunRow};
 use serde::{Deserialize, Serialize};
 
-/// Something that happened in a run, or not.
+/// Something that did or did not happen in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Event {
     /// It succeeded as the scenario defines it.
     Success,
-    /// A source was declared, wherever.
+    /// A source was declared, at any place.
     Declared,
     /// Among runs that declared: the error is larger along the flow than across.
     MostlyAlong,
@@ -84,7 +84,7 @@ pub enum Measure {
     IdentificationS,
     /// That time divided by the number of intervals between those points, s.
     LcdpIntervalS,
-    /// Way travelled, m, in runs that did not fail.
+    /// Distance travelled, m, in runs that did not fail.
     TravelledM,
     /// Time from the end of a gantry's sweep to its stop, s.
     TrackedS,
@@ -99,7 +99,7 @@ pub enum Measure {
     OffsetGainM,
     /// Time at which the belief's best cell finally became that of the source, s.
     CorrectCellS,
-    /// Declarations of a run.
+    /// Number of declarations of a run.
     Declarations,
     /// Declarations of a run at least so many metres from every true source and on no subregion's edge.
     FarDeclarations(u32),
@@ -142,7 +142,7 @@ impl Measure {
         matches!(self, Measure::NearGainMS | Measure::OffsetGainM)
     }
 
-    /// Of a run; none where it has none.
+    /// The value for a run; `None` if the run has none.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<f64> {
         let sound = |count: usize| r.error.is_none().then_some(count as f64);

@@ -22,14 +22,14 @@ pub enum Quantity {
     Quantile(Measure, f64),
 }
 
-/// A quantity as our runs have it.
+/// A quantity computed from our runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Values behind it.
+    /// Number of values.
     pub n: u64,
-    /// Of them counted, for a share.
+    /// For a share: the number of values that count.
     pub count: Option<u64>,
-    /// The figure; none where nothing is behind it.
+    /// The figure; `None` if there are no values.
     pub value: Option<f64>,
     /// Its 95 % interval: Wilson's for shares and bootstrap for quantiles. For means, Student's on the logarithm's
     /// scale, or on the plain scale for quantities of either sign. With fewer than 5 values there is none, except for

@@ -20,7 +20,7 @@ const LONGEST: u64 = 1 << 20;
 pub struct Row {
     /// Its name.
     pub id: String,
-    /// What is done.
+    /// What the experiment does.
     pub what: String,
     /// Paper, section, table or figure.
     pub source: String,
@@ -29,7 +29,7 @@ pub struct Row {
     /// Changes to the scenario, by arm; all arms run with the same seeds. Without arms, the scenario runs as it is.
     #[serde(default)]
     pub arms: Vec<Arm>,
-    /// What is compared.
+    /// The figures compared.
     pub figures: Vec<Figure>,
 }
 
@@ -37,12 +37,12 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
-    /// What people call it.
+    /// Its name for people.
     pub name: String,
-    /// Of which arm; needed where there are any.
+    /// Name of the arm; required if the row has arms.
     #[serde(default)]
     pub arm: Option<String>,
-    /// Of those runs only in which this happened.
+    /// Only runs in which this happened count.
     #[serde(default)]
     pub among: Option<Event>,
     /// What is computed from our runs.
@@ -50,7 +50,7 @@ pub struct Figure {
     /// The paper's figure; absent if there is nothing to compare.
     #[serde(default)]
     pub paper: Option<Paper>,
-    /// What must be known to compare.
+    /// A remark that is needed for the comparison.
     #[serde(default)]
     pub note: String,
 }
@@ -62,7 +62,7 @@ pub enum Paper {
     Value(f64),
     /// A figure of a single run, in the quantity's unit.
     Run(f64),
-    /// So many of so many.
+    /// A count: so many of so many.
     Count(u64, u64),
     /// So few of so few that it is no share: one run that did or did not.
     RunCount(u64, u64),
@@ -89,22 +89,22 @@ impl Paper {
 /// Why a row cannot be reproduced.
 #[derive(Debug, thiserror::Error)]
 pub enum ReproduceError {
-    /// No such row.
+    /// There is no such row.
     #[error(
         "there is no row `{name}`; there are: {known}. A row file of your own may be named, too"
     )]
     Unknown {
-        /// As asked.
+        /// The name asked for.
         name: String,
-        /// Those there are.
+        /// The existing names.
         known: String,
     },
-    /// No row asked for has such an arm.
+    /// No row that was asked for has such an arm.
     #[error("no row asked for has an arm `{name}`; there are: {known}")]
     Arm {
-        /// As asked.
+        /// The name asked for.
         name: String,
-        /// Those there are.
+        /// The existing names.
         known: String,
     },
     /// A row file that cannot be read.
@@ -115,16 +115,16 @@ pub enum ReproduceError {
         /// What is wrong.
         problem: String,
     },
-    /// Its scenario.
+    /// Its scenario is wrong.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// Its results.
+    /// Its results cannot be written.
     #[error(transparent)]
     Report(#[from] ReportError),
-    /// The threads.
+    /// The threads cannot be started.
     #[error("cannot start {jobs} threads: {problem}")]
     Threads {
-        /// As asked; 0 for one a core.
+        /// The number asked for; 0 means one for each core.
         jobs: usize,
         /// What the system said.
         problem: String,

@@ -15,17 +15,17 @@ const BATCH: u64 = 50;
 /// How many runs, on how many threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Seeds; with `until_half_width` at most.
+    /// Number of seeds; with `until_half_width`, the greatest number.
     pub n: u64,
     /// The first seed; the others follow it.
     pub first_seed: u64,
     /// Stop when the half width of the success interval is at most this.
     pub until_half_width: Option<f64>,
-    /// Threads; 0 for one a core.
+    /// Number of threads; 0 means one for each core.
     pub jobs: usize,
 }
 
-/// A row with what our runs came to.
+/// A row with our results.
 #[derive(Clone, Debug)]
 pub struct Reproduced {
     /// The row.

@@ -97,7 +97,7 @@ pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError
         ("figures.csv", figures_csv(all)),
         ("rows.csv", runs_csv(&runs)),
     ];
-    // One that cannot be written costs no other.
+    // If one file cannot be written, the others are not affected.
     let mut failures = Vec::new();
     let mut written = Vec::new();
     for (name, text) in files {

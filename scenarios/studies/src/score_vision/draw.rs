@@ -7,17 +7,17 @@ use world::seeds::Stream;
 /// Ranges of visibility by which results are shown, m.
 pub const BINS: [(f64, f64); 4] = [(1.5, 3.0), (3.0, 6.0), (6.0, 12.0), (12.0, 24.0)];
 
-/// What stands and drifts before the camera.
+/// The objects in front of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
-    /// The source, giving off dye.
+    /// The source, releasing dye.
     Source,
     /// Dye alone: the plume some metres down-flow.
     Dye,
     /// A body that looks like the source but releases nothing.
     Body,
-    /// Water and bed.
+    /// Only water and bed.
     Nothing,
 }
 
@@ -49,21 +49,21 @@ impl Content {
 pub struct Drawn {
     /// Its number, from 0.
     pub n: u64,
-    /// What is there.
+    /// Its content.
     pub content: Content,
-    /// How far one sees, m.
+    /// Visibility, m.
     pub visibility_m: f64,
     /// Daylight on the surface, klx.
     pub illuminance_klx: f64,
     /// Height of the sun, °.
     pub sun_elevation_deg: f64,
-    /// Where it stands, °.
+    /// Direction of the sun, °.
     pub sun_heading_deg: f64,
     /// Mean current, m/s.
     pub current_m_s: f64,
-    /// Dye given off, g/min.
+    /// Dye released, g/min.
     pub dye_g_min: f64,
-    /// Share of light that the body throws back.
+    /// Share of light that the body reflects.
     pub albedo: f64,
     /// Direction of the body's long side, °.
     pub body_heading_deg: f64,

@@ -8,7 +8,7 @@ use image::{GrayImage, Luma, RgbImage};
 use robots::vision::{ColourSpec, Edges, Sighting, Target, Verifier, VerifierSpec, segment};
 use serde::Serialize;
 
-/// One way.
+/// A method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
@@ -26,7 +26,7 @@ pub enum Method {
     Plain,
 }
 
-/// All ways, in the order of the tables.
+/// All methods, in the order of the tables.
 pub const METHODS: [Method; 6] = [
     Method::AllPasses,
     Method::Clusters,
@@ -36,7 +36,7 @@ pub const METHODS: [Method; 6] = [
     Method::Plain,
 ];
 
-/// Redder than the median share of red by this.
+/// Dye is redder than the median share of red by this.
 const REDDER: f64 = 0.06;
 /// A body is darker than this share of the median brightness.
 const DARKER: f64 = 0.6;
@@ -126,7 +126,7 @@ mod tests {
             let want = match method {
                 // Three passes towards red take the whole picture.
                 Method::AllPasses => (4800, 0, false),
-                // They take the body from the source's passes.
+                // These methods take the body from the source's passes.
                 Method::Clusters | Method::ClustersByReference => (300, 0, false),
                 Method::GivenBack | Method::Dehazed | Method::Plain => (300, 300, true),
             };

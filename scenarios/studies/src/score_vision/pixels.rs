@@ -13,22 +13,22 @@ use image::GrayImage;
 use serde::Serialize;
 use world::seeds::Stream;
 
-/// Resamples behind an interval.
+/// Number of resamples for an interval.
 pub(super) const RESAMPLES: usize = 2000;
 
 /// Pixels of one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
-    /// Found and there.
+    /// Number of true pixels that were found.
     pub hit: u64,
-    /// Found, not there.
+    /// Number of found pixels that are not true.
     pub false_alarm: u64,
-    /// There, not found.
+    /// Number of true pixels that were not found.
     pub missed: u64,
 }
 
 impl Counts {
-    /// Of what was found against what is there.
+    /// Compares found pixels with true pixels.
     #[must_use]
     pub fn of(found: &GrayImage, there: &GrayImage) -> Self {
         let mut counts = Self::default();
@@ -47,9 +47,9 @@ impl Counts {
 /// A share of pooled pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ratio {
-    /// Pictures that count.
+    /// Number of pictures that count.
     pub pictures: usize,
-    /// The share; none of no pixels.
+    /// The share; `None` if there are no pixels.
     pub value: Option<f64>,
     /// Its 95 % interval.
     pub interval: Option<Interval>,

@@ -45,7 +45,7 @@ pub(super) const CLEAR: f32 = 0.02;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizePx(pub u32, pub u32);
 
-/// A picture of known truth.
+/// A picture with known content.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The picture.

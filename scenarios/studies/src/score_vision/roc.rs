@@ -22,16 +22,16 @@ pub struct Scored {
     pub source: bool,
 }
 
-/// What the scores of many pictures say.
+/// Evaluation of the scores of many pictures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Roc {
     /// Pictures with a source, and how many of them are verified.
     pub with: (u64, u64),
-    /// Share of them, 95 % (Wilson).
+    /// Interval of their share, 95 % (Wilson).
     pub true_share: Interval,
     /// Pictures without a source, and how many of them are verified nevertheless.
     pub without: (u64, u64),
-    /// Share of them, 95 % (Wilson).
+    /// Interval of their share, 95 % (Wilson).
     pub false_share: Interval,
     /// Area under the curve.
     pub area: Option<f64>,

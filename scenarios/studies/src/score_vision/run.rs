@@ -10,12 +10,12 @@ use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What one way made of one scene.
+/// The result of one method for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// The scene.
     pub scene: Drawn,
-    /// The way.
+    /// The method.
     pub method: Method,
     /// Its pixels of dye.
     pub dye: Counts,
@@ -38,10 +38,10 @@ pub enum ScoreError {
         /// What is wrong.
         problem: String,
     },
-    /// The threads.
+    /// The threads cannot be started.
     #[error("cannot start {jobs} threads: {problem}")]
     Threads {
-        /// As asked; 0 for one a core.
+        /// The number asked for; 0 means one for each core.
         jobs: usize,
         /// What the system said.
         problem: String,

@@ -13,12 +13,12 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use world::files::Folder;
 
-/// What was asked for.
+/// The plan of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
     /// Seed of the scenes.
     pub seed: u64,
-    /// How many.
+    /// Number of scenes.
     pub scenes: u64,
     /// Width and height of the pictures, px.
     pub size_px: [u32; 2],

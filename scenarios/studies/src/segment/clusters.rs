@@ -15,9 +15,9 @@ const ROW: f64 = 26.0;
 const SIDE: f64 = 18.0;
 /// Where the columns of the table begin.
 const COLUMNS: [f64; 6] = [30.0, 90.0, 125.0, 285.0, 455.0, 610.0];
-/// Colour of what is dropped.
+/// Colour of dropped patterns.
 const DROPPED: &str = "#d55e00";
-/// Band in which the first criterion keeps.
+/// Band in which the first criterion keeps a pattern.
 const BAND: &str = "#dcefe6";
 
 fn hex(rgb: [u8; 3]) -> String {

@@ -7,14 +7,14 @@ use world::files;
 
 /// Greatest width and height, px.
 pub const MOST_SIDE: u32 = 32_768;
-/// Most pixels.
+/// Largest number of pixels.
 pub const MOST_PIXELS: u64 = 64_000_000;
 /// Longest file, bytes.
 const MOST_BYTES: u64 = 512 << 20;
 /// Most memory for decoding, bytes: a whole picture of 16 bits with alpha, and the same again.
 const MOST_MEMORY: u64 = 16 * MOST_PIXELS;
 
-/// Why there is no picture.
+/// Why a picture cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// It cannot be opened or read.
@@ -25,18 +25,18 @@ pub enum PictureError {
         /// What the system said.
         source: std::io::Error,
     },
-    /// It is none of the formats.
+    /// Its format is unknown.
     #[error("{}: not a picture that can be read here", path.display())]
     NotAPicture {
         /// The file.
         path: PathBuf,
     },
-    /// It is one, but not whole or not sound.
+    /// It is a picture, but incomplete or damaged.
     #[error("{}: a broken {format} file: {problem}", path.display())]
     Broken {
         /// The file.
         path: PathBuf,
-        /// Which format it begins as.
+        /// The format with which it begins.
         format: &'static str,
         /// What is wrong.
         problem: String,
@@ -46,13 +46,13 @@ pub enum PictureError {
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// How large.
+        /// Its size, in words.
         what: String,
     },
 }
 
 impl PictureError {
-    /// How to put it right.
+    /// How to solve the problem.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         match self {

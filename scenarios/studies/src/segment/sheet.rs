@@ -8,7 +8,7 @@ use output::charts::palette::GREY;
 use output::charts::png;
 use robots::vision::Target;
 
-/// Tiles side by side.
+/// Number of tiles in a row.
 const COLUMNS: usize = 5;
 /// Width of a tile.
 const TILE: f64 = 240.0;

@@ -12,18 +12,18 @@ use std::io::Cursor;
 use std::path::PathBuf;
 use world::files::Folder;
 
-/// A picture taken apart and judged.
+/// A picture, analysed and judged.
 #[derive(Clone, Debug)]
 pub struct Segmented {
     /// The file's name.
     pub name: String,
     /// The picture.
     pub picture: RgbImage,
-    /// With which parameters.
+    /// The parameters.
     pub spec: VerifierSpec,
-    /// Its parts.
+    /// The results of the passes.
     pub parts: Segmentation,
-    /// What it shows.
+    /// The verdict.
     pub sighting: Sighting,
 }
 
@@ -37,7 +37,7 @@ struct Numbers<'a> {
 }
 
 impl Segmented {
-    /// Takes a picture apart and judges it.
+    /// Analyses a picture and judges it.
     #[must_use]
     pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
         let (parts, sighting) = Verifier::new(&spec).look(&picture);

@@ -10,7 +10,7 @@
 
 use plumes::flow::channel::{Channel, TRANSVERSE};
 
-/// Elder's depth mean over u_*H.
+/// Elder's depth mean divided by u_*H.
 const VERTICAL: f64 = 0.067;
 
 /// Figures of a channel.

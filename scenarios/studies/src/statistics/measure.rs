@@ -39,10 +39,10 @@ pub enum StatisticsError {
     /// Stopped from outside.
     #[error("interrupted: nothing was written")]
     Interrupted,
-    /// Nothing is released.
+    /// The scenario releases nothing.
     #[error("{0} has no source: there is no plume to measure; add one under `sources`")]
     NoSource(String),
-    /// The water stands at the source.
+    /// The water at the source stands still.
     #[error(
         "the water at the source of {0} stands still: there is no down-stream to measure along"
     )]
@@ -52,16 +52,16 @@ pub enum StatisticsError {
         "no odour reached {distance_m:.2} m down-stream of the source of {name} in {watched_s} s: watch it longer (--seconds)"
     )]
     Clean {
-        /// Scenario.
+        /// Name of the scenario.
         name: String,
         /// Nearest distance, m.
         distance_m: f64,
-        /// Time watched, s.
+        /// Time of observation, s.
         watched_s: f64,
     },
 }
 
-/// What is collected while the plume goes by.
+/// Data collected during the observation.
 pub(super) struct Watch {
     pub(super) source: Vector3<f64>,
     pub(super) bed_z: f64,

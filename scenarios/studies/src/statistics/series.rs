@@ -18,7 +18,7 @@ impl Series {
         self.values.iter().sum::<f64>() / self.values.len() as f64
     }
 
-    /// Share of the time above a threshold.
+    /// Share of the time during which it is above a threshold.
     pub(super) fn above(&self, threshold: f64) -> f64 {
         let n = self.values.iter().filter(|v| **v > threshold).count();
         n as f64 / self.values.len() as f64

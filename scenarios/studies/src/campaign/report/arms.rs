@@ -10,7 +10,7 @@ use crate::campaign::stats::{
 /// Seed of the bootstrap, fixed so that a report of the same rows is always the same.
 pub(super) const SEED: u64 = 1;
 
-/// What is measured of a run.
+/// A quantity measured in each run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
     /// Time of the first declaration, for runs that declared.
@@ -22,10 +22,10 @@ pub enum Measure {
 }
 
 impl Measure {
-    /// All of them, in the order of tables.
+    /// All measures, in the order of the tables.
     pub const ALL: [Measure; 3] = [Measure::Time, Measure::Path, Measure::Error];
 
-    /// In words.
+    /// Its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -58,9 +58,9 @@ impl Measure {
 /// A measure over many runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// What.
+    /// The measure.
     pub measure: Measure,
-    /// Runs behind it.
+    /// Number of runs.
     pub n: u64,
     /// Median.
     pub median: Option<f64>,
@@ -72,7 +72,7 @@ pub struct Measured {
     pub q90_interval: Option<Interval>,
 }
 
-/// A share with what it was counted from.
+/// A share and the counts behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Share {
     pub(super) count: u64,
@@ -96,7 +96,7 @@ impl Share {
     }
 }
 
-/// What an arm came to.
+/// The figures of an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmFigures {
     /// Its name.
@@ -105,13 +105,13 @@ pub struct ArmFigures {
     pub failed: u64,
     pub(super) success: Share,
     pub(super) declared: Share,
-    /// Mean time to success, failures at the limit.
+    /// Mean time to success; failures count as the limit.
     pub restricted: Restricted,
     /// Time, path and error.
     pub measured: Vec<Measured>,
 }
 
-/// What an arm came to under one condition.
+/// The figures of an arm under one condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConditionFigures {
     /// The condition.

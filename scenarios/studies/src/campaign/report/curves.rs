@@ -6,7 +6,7 @@ use crate::campaign::stats::{Ecdf, Interval, Survival};
 /// Steps of a curve that are kept; more would not be visible.
 const MOST: usize = 1000;
 
-/// From `x` on the curve stands at `y`.
+/// From `x` on, the curve has the value `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Time, s, or distance, m.
@@ -20,13 +20,13 @@ pub struct Point {
 /// A step curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Of which arm.
+    /// Name of the arm.
     pub arm: String,
     /// Its steps in order, at most 1000 of them, evenly selected.
     pub points: Vec<Point>,
     /// Where it ends.
     pub end: f64,
-    /// Trials behind it.
+    /// Number of trials.
     pub n: u64,
 }
 
@@ -73,7 +73,7 @@ pub(super) fn errors(arm: &str, rows: &[&RunRow]) -> Curve {
     }
 }
 
-/// First, last and evenly taken ones between.
+/// The first, the last, and evenly selected points between.
 fn thinned(points: Vec<Point>) -> Vec<Point> {
     let n = points.len();
     if n <= MOST {

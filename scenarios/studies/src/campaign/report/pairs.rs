@@ -12,19 +12,19 @@ use std::collections::BTreeMap;
 /// Up to this many arms, each is compared with each; of more arms, each is compared with the first.
 pub(super) const EACH_WITH_EACH: usize = 5;
 
-/// What two arms are compared by.
+/// The quantity by which two arms are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compares {
     /// Share of successes.
     Success,
-    /// Mean time to success, failures at the limit.
+    /// Mean time to success; failures count as the limit.
     Restricted,
     /// Median of the differences of a measure, over pairs where both have it.
     Measure(Measure),
 }
 
 impl Compares {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Compares; 5] = [
         Compares::Success,
         Compares::Restricted,
@@ -33,7 +33,7 @@ impl Compares {
         Compares::Measure(Measure::Error),
     ];
 
-    /// In words.
+    /// Its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -61,13 +61,13 @@ pub struct Comparison {
     pub first: String,
     /// Second arm.
     pub second: String,
-    /// By what.
+    /// The quantity.
     pub by: Compares,
-    /// The difference; none without a pair.
+    /// The difference; `None` without a pair.
     pub difference: Option<Difference>,
-    /// Which pairs it rests on.
+    /// The pairs on which it rests, in words.
     pub rests_on: String,
-    /// What must be known before it is believed.
+    /// What one must know before one believes it.
     pub warning: Option<String>,
 }
 

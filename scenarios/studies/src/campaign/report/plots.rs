@@ -19,7 +19,7 @@ const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
 /// Height of a line of a list.
 const LINE: f64 = 24.0;
-/// Room for names left of a list.
+/// Space for names to the left of a list.
 const NAMES: f64 = 300.0;
 
 fn colour(k: usize) -> &'static str {

@@ -15,9 +15,9 @@ use crate::campaign::stats::{Interval, positive_mean_interval};
 pub struct Restricted {
     /// The limit, s.
     pub limit_s: f64,
-    /// Runs behind it.
+    /// Number of runs.
     pub n: u64,
-    /// Of them, those without success by the limit.
+    /// Number of runs without success by the limit.
     pub at_limit: u64,
     /// Mean time to success, at most the limit, s.
     pub mean_s: Option<f64>,
@@ -49,7 +49,7 @@ fn success_s(row: &RunRow) -> f64 {
     at.or(row.declared_s).unwrap_or(row.mission_s)
 }
 
-/// Of an arm's rows.
+/// From the rows of an arm.
 pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> Restricted {
     let times: Vec<f64> = rows.iter().filter_map(|r| time_s(r, limit_s)).collect();
     let n = times.len() as u64;
@@ -84,9 +84,9 @@ mod tests {
         };
         let r = restricted(&[&found, &wrong, &none, &error], 1200.0);
         assert_eq!((r.n, r.at_limit, r.mean_s), (3, 2, Some(1100.0)));
-        // Three are too few for an interval.
+        // Three values are too few for an interval.
         assert_eq!(r.interval, None);
-        // After the limit is no success by the limit.
+        // A success after the limit does not count.
         assert_eq!(time_s(&found, 800.0), Some(800.0));
         let many: Vec<RunRow> = (0..10).map(|k| row(k, Some((1.0, 1.0)))).collect();
         let r = restricted(&many.iter().collect::<Vec<_>>(), 950.0);

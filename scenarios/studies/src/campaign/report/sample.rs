@@ -1,4 +1,4 @@
-//! Rows made by hand for tests.
+//! Invented rows for tests.
 
 use crate::campaign::RunRow;
 

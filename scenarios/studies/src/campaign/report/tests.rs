@@ -1,4 +1,4 @@
-//! The whole report from rows made by hand.
+//! The whole report of invented rows.
 
 use super::sample::row;
 use super::*;

@@ -46,7 +46,7 @@ pub(crate) fn csv_field(text: &str) -> String {
     }
 }
 
-/// Rows of runs as CSV, every column.
+/// Rows of runs as CSV, with all columns.
 pub(crate) fn runs_csv(rows: &[RunRow]) -> String {
     let mut out = csv_head();
     out.push('\n');

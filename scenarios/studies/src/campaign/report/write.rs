@@ -34,7 +34,7 @@ pub struct About<'a> {
     pub planned: u64,
 }
 
-/// What a report came to.
+/// A report that was written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// The tables as plain text.

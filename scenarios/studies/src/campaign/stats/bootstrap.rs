@@ -15,7 +15,7 @@ use super::quantile::{between, place, quantile};
 use world::math;
 use world::seeds::Stream;
 
-/// Resamples behind an interval.
+/// Number of resamples for an interval.
 pub const RESAMPLES: usize = 4000;
 
 /// 95 % bootstrap interval of the `p` quantile of sorted values; `None` if there are none. `name` separates the random

@@ -23,13 +23,13 @@ impl Ecdf {
         Self { sorted, n }
     }
 
-    /// Values in order.
+    /// Sorted values.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.sorted
     }
 
-    /// Trials behind it.
+    /// Number of trials.
     #[must_use]
     pub fn n(&self) -> u64 {
         self.n

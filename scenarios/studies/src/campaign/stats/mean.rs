@@ -38,7 +38,7 @@ pub fn positive_mean_interval(values: &[f64]) -> Option<Interval> {
     })
 }
 
-/// The mean and half of its interval.
+/// The mean, and half the width of its interval.
 fn student(values: &[f64]) -> Option<(f64, f64)> {
     let n = values.len();
     if n < LEAST_VALUES {
@@ -65,7 +65,7 @@ fn quantile_of_t(freedom: usize) -> f64 {
     0.5 * (low + high)
 }
 
-/// Chance that |t| is at most this.
+/// Probability that |t| is at most this.
 fn within(t: f64, freedom: usize) -> f64 {
     let theta = math::atan2(t, (freedom as f64).sqrt());
     let (sine, cosine) = math::sin_cos(theta);
@@ -139,7 +139,7 @@ mod tests {
                 (None, None)
             );
         }
-        // Student's would reach far below 0.
+        // Student's interval would reach far below 0.
         let skewed = [1.0, 1.0, 2.0, 3.0, 500.0];
         assert!(mean_interval(&skewed).unwrap().low < -100.0);
         let i = positive_mean_interval(&skewed).unwrap();

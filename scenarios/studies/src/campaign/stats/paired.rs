@@ -10,19 +10,19 @@
 
 use super::{Interval, Z95, finite_sorted, mean_interval, quantile, quantile_interval};
 
-/// Pairs needed for a verdict.
+/// Least number of pairs for a verdict.
 pub const LEAST_PAIRS: usize = 6;
 
-/// Which way is better.
+/// Which direction is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
-    /// More of it.
+    /// A larger value is better.
     More,
-    /// Less of it.
+    /// A smaller value is better.
     Less,
 }
 
-/// What a difference says.
+/// The verdict of a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The first arm is better than the second.
@@ -34,7 +34,7 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// In words.
+    /// The verdict in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Verdict {
 /// First arm minus second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Pairs behind it.
+    /// Number of pairs.
     pub pairs: usize,
     /// The difference.
     pub estimate: f64,

@@ -5,7 +5,7 @@
 //! *Parameters*: p, from 0 to 1.
 //! *Deviations*: none; values that are not finite are left out first.
 
-/// The finite values, in order.
+/// The finite values, sorted.
 #[must_use]
 pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();

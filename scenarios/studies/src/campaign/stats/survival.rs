@@ -9,14 +9,14 @@
 use super::{Interval, Z95, wilson};
 use world::math;
 
-/// The curve from an event on.
+/// A step of the curve, at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurvivalStep {
     /// Time of the event, s; 0 for the beginning.
     pub t_s: f64,
-    /// Trials at risk just before.
+    /// Number of trials at risk just before.
     pub at_risk: u64,
-    /// Events then.
+    /// Number of events at that time.
     pub events: u64,
     /// Share without the event from then on.
     pub share: f64,
@@ -29,9 +29,9 @@ pub struct SurvivalStep {
 pub struct Survival {
     /// Beginning and events, in order of time.
     pub steps: Vec<SurvivalStep>,
-    /// Until when anybody was looked at, s.
+    /// End of the longest observation, s.
     pub end_s: f64,
-    /// Trials.
+    /// Number of trials.
     pub n: u64,
 }
 

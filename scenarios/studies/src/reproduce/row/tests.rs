@@ -1,4 +1,4 @@
-//! Rows as they are read, chosen and refused.
+//! How rows are read, selected and refused.
 
 use super::*;
 
