@@ -1,6 +1,6 @@
-//! Physical ranges of fields, stated where a field is declared: `#[serde(deserialize_with =
-//! "world::limits::density_kg_m3")]`. The reader reports place, value and range, as it does for the types of
-//! [`crate::ranges`], which keep the sign.
+//! Physical ranges of fields, stated where a field is declared:
+//! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader reports place, value and range, as it does
+//! for the types of [`crate::ranges`], which keep the sign.
 //!
 //! A limit does not judge whether a value is good. It marks where the models end: no water, instrument or hull lies
 //! beyond.

@@ -13,7 +13,6 @@
 //! implicit along one axis and then the other (stable at any step). K is raised to |u|h where advection would make the
 //! grid oscillate (Spalding 1972). Velocities are linear in time between levels. (4) U is the depth mean of the other
 //! currents at the area's centre. (5) Outside the area, the value at the nearest edge applies.
-//! the area's centre. (5) Outside the area the nearest edge's value holds.
 
 use std::collections::VecDeque;
 

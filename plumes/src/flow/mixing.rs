@@ -2,8 +2,7 @@
 //!
 //! *Source*: K_z = κ u_* z′(1 − z′/h), h the depth of the stream, Elder 1959, J. Fluid Mech. 5, 544 (depth mean κu_*H/6
 //! = 0.067 u_*H); damping (1 + 10/3 Ri)^(−3/2) of the diffusivity, Munk & Anderson 1948, J. Mar. Res. 7, 276;
-//! transverse K = 0.15 u_*H,
-//! Fischer et al. 1979, Mixing in Inland and Coastal Waters, section 5.1.
+//! transverse K = 0.15 u_*H, Fischer et al. 1979, Mixing in Inland and Coastal Waters, section 5.1.
 //!
 //! *Parameters*: `horizontal_m2_s` and `background_vertical_m2_s` (m²/s), added everywhere; `transverse`, times u_*H,
 //! added to the horizontal one (Fischer 0.15; 0 omits it). κ = 0.4.

@@ -4,6 +4,7 @@
 //! coordinate s = 1 − z/b, Phillips 1957, J. Meteorol. 14, 184.
 //!
 //! *Parameters*: those of [`BlockageSpec`]. The cells lie between the nodes of the plume's flow grid of the same shape.
+//!
 //! *Deviations*: a cell is solid if its centre is inside an obstacle. Obstacles that overlap form their union, and a
 //! round one becomes a staircase. A wall thinner than the cells closes the faces between the centres that it separates.
 //! An obstacle that does neither, or a pile or pipe thinner than half a cell, is not felt. Water enclosed on all sides

@@ -2,9 +2,10 @@
 //!
 //! *Source*: Kaplan & Meier, J. Am. Stat. Assoc. 53 (1958) 457-481, eq. (3a); variance by Greenwood's formula, eq.
 //! (3b); the interval on the scale of ln(-ln S): Kalbfleisch & Prentice, The Statistical Analysis of Failure Time Data
-//! (1980), section 1.3, which keeps it between 0 and 1. *Parameters*: z = 1.96 (pointwise 95 %). *Deviations*: where
-//! the curve has reached 0, or is 1 before the first event, Greenwood's formula gives nothing. There, the interval is
-//! Wilson's for that share of those at risk (before the first event: of all trials).
+//! (1980), section 1.3, which keeps it between 0 and 1.
+//! *Parameters*: z = 1.96 (pointwise 95 %).
+//! *Deviations*: where the curve has reached 0, or is 1 before the first event, Greenwood's formula gives nothing.
+//! There, the interval is Wilson's for that share of those at risk (before the first event: of all trials).
 
 use super::{Interval, Z95, wilson};
 use world::math;
