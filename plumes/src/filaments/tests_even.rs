@@ -107,7 +107,7 @@ impl Scene {
         }
     }
 
-    /// Fills the frame anew and drifts.
+    /// Fills the frame again and drifts.
     fn step(&mut self, t: f64, dt: f64) {
         let cells = self.cells();
         let keep: Vec<[f32; 4]> = {

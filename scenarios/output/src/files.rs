@@ -15,7 +15,7 @@ pub enum ReportError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// A file cannot be written: the folder is not writable, the disk is full, or something else has its name.

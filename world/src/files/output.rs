@@ -17,7 +17,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct OutputError {
     /// The file.
     pub path: PathBuf,
-    /// What the system said, or what is in its place.
+    /// The message of the system, or what has the name instead.
     pub source: io::Error,
 }
 

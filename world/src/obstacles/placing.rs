@@ -16,7 +16,7 @@ use nalgebra::{Vector2, Vector3};
 const TOO_WIDE: f64 = 5.0;
 /// A surface narrower than this was not meant in metres either, m.
 const TOO_NARROW_M: f64 = 0.02;
-/// Number of points along, across and upwards at which open water is looked for.
+/// Number of points along, across and upwards at which open water is searched.
 const LOOKS: [usize; 3] = [64, 64, 8];
 
 /// Something suspicious about an obstacle.

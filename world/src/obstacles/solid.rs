@@ -41,7 +41,7 @@ impl std::fmt::Debug for Obstacle {
 }
 
 impl Obstacle {
-    /// Builds an obstacle; `base_dir` is where mesh files are looked for.
+    /// Builds an obstacle; mesh files are searched in `base_dir`.
     ///
     /// # Errors
     /// If a mesh file is missing, corrupt or does not enclose a volume.

@@ -149,7 +149,7 @@ impl Physics {
         }
     }
 
-    /// Chooses in which steps contacts are looked for.
+    /// Chooses the steps in which contacts are searched.
     #[must_use]
     pub fn with_solver(mut self, solver: Solver) -> Self {
         self.solver = solver;

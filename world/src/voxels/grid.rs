@@ -1,7 +1,7 @@
 //! The area and its water divided into boxes, each open or solid.
 //!
 //! *Source*: solid voxelisation by intersection tests against the obstacles' own shapes (Gottschalk, Lin and Manocha
-//! 1996 for box against box, as parry has it); clearance as in `distance`.
+//! 1996 for box against box, as in parry); clearance as in `distance`.
 //!
 //! *Parameters*: cell sizes (m) along the area's axis, across it and upwards; they are reduced to fit, never enlarged.
 //!

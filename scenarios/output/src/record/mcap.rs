@@ -25,7 +25,7 @@ pub enum RecordError {
     Create {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// Writing failed, most often a full disk.
@@ -43,7 +43,7 @@ pub enum RecordError {
         from: PathBuf,
         /// The name it should get.
         to: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
 }

@@ -41,7 +41,7 @@ pub enum CampaignError {
     Write {
         /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// A file cannot be read.
@@ -49,7 +49,7 @@ pub enum CampaignError {
     Read {
         /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// A block that is not whole.

@@ -126,7 +126,7 @@ pub enum ReproduceError {
     Threads {
         /// The number asked for; 0 means one for each core.
         jobs: usize,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// Ctrl-C or a termination signal.

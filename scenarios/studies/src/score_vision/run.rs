@@ -43,7 +43,7 @@ pub enum ScoreError {
     Threads {
         /// The number asked for; 0 means one for each core.
         jobs: usize,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// Results cannot be written.

@@ -22,7 +22,7 @@ pub enum PictureError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
     /// Its format is unknown.
