@@ -5,7 +5,7 @@
 #   docs/cluster/gnu_parallel.sh CAMPAIGN DIR SHARDS [--sshloginfile HOSTS] [more options of parallel]
 #
 # A shard that stops with exit code 75, or that fails, is started again; runs that are done are not repeated.
-# Variables of the environment: PROGRAM; BLOCK, the runs in a block (by default from their cost); JOBS, the number of runs
+# Environment variables: PROGRAM; BLOCK, the runs in a block (by default from their cost); JOBS, the number of runs
 # that a shard makes at a time.
 set -eu
 campaign=$1 dir=$2 shards=$3
