@@ -3,7 +3,7 @@
 //! *Source*: polygons, Sutherland & Hodgman 1974, Commun. ACM 17, 32; lines, Liang & Barsky 1984, ACM Trans. Graph. 3,
 //! 1.
 //!
-//! *Parameters*: none; nothing nearer than [`FAR`] is changed.
+//! *Parameters*: none; nothing nearer than `FAR` is changed.
 //!
 //! *Deviations*: none.
 
