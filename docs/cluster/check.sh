@@ -1,6 +1,7 @@
 #!/bin/sh
 # Runs the recipes for GNU parallel and Ray on a small campaign and compares their rows with those of one process.
-# Outside the quick tests: needs GNU parallel, and a Python (PYTHON) with ray, duckdb and polars. About two minutes.
+# Not part of the quick tests. It needs GNU parallel and a Python (PYTHON) with ray, duckdb and polars, and takes about
+# two minutes.
 #
 #   cargo build --release && docs/cluster/check.sh
 set -eu
@@ -16,7 +17,7 @@ sed 's/seeds: 10,/seeds: 3,/' "$here/../../scenarios/catalog/campaigns/uniform_b
 grep -q 'seeds: 3,' small.ron
 "$PROGRAM" campaign run small.ron --out one --block 12 --jobs 1 --quiet
 
-# Each shard of the recipes is stopped at its first try: they must take it up again.
+# Each shard of the recipes is stopped at its first try; the recipes must start it again.
 cat > stopped_once <<END
 #!/bin/sh
 mark=$work/tried-\$(echo "\$*" | cksum | cut -d' ' -f1)

@@ -1,10 +1,12 @@
 #!/bin/sh
-# Runs a campaign with GNU parallel: here, or on the hosts of a file (ssh; DIR and the program seen by all).
+# Runs a campaign with GNU parallel, on this machine or on the hosts of a file (by ssh). All hosts must see DIR and have
+# the program.
 #
 #   docs/cluster/gnu_parallel.sh CAMPAIGN DIR SHARDS [--sshloginfile HOSTS] [more options of parallel]
 #
-# A shard that stops in order (exit 75) or fails is started again; what is done is not done again.
-# PROGRAM, BLOCK (runs in a block; without it by their cost) and JOBS (runs at a time in a shard) may be set in the environment.
+# A shard that stops with exit code 75, or that fails, is started again; runs that are done are not repeated.
+# Environment variables: PROGRAM; BLOCK, the runs in a block (by default from their cost); JOBS, the number of runs
+# that a shard makes at a time.
 set -eu
 campaign=$1 dir=$2 shards=$3
 shift 3

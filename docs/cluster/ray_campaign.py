@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Runs a campaign on a Ray cluster: each shard is a task; one that is stopped (exit 75) or lost goes on elsewhere.
+"""Runs a campaign on a Ray cluster. Each shard is a task. A task that is stopped (exit 75) or lost continues elsewhere.
 
     pip install ray
     python docs/cluster/ray_campaign.py duck_beta --out /shared/beta --shards 64 --cpus 2
 
-DIR must be a folder that all nodes see, the program the same version on each.
+DIR must be a folder that all nodes see. The program must have the same version on each node.
 """
 
 import argparse
@@ -14,11 +14,11 @@ import sys
 
 import ray
 
-FINAL = (0, 1, 2)  # done, error, usage; all else (75: stopped in order, or killed) is worth another try
+FINAL = (0, 1, 2)  # done, error, usage; after any other code (75: stopped, or killed) the shard is tried again
 
 
 def shard(command: list[str], i: int, n: int, cpus: int) -> int:
-    """Does one share; what is done already is not done again, so a lost task may simply be started anew."""
+    """Does one shard. Runs that are done are not repeated, so a lost task can simply be started again."""
     share = ["--shard", f"{i}/{n}", "--jobs", str(cpus), "--quiet"]
     code = subprocess.run(command + share).returncode
     if code not in FINAL:

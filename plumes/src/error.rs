@@ -1,4 +1,4 @@
-//! What can be wrong with water or sources before a run starts.
+//! Faults of water or sources, found before a run starts.
 
 /// Setup error, with the field it concerns.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,4 +1,4 @@
-//! What drifts: flow, stratification, filament plumes. The truth; knows no robot.
+//! What drifts: flow, stratification, filament plumes. This is the truth; it knows no robot.
 
 pub mod error;
 pub mod filaments;

@@ -1,11 +1,12 @@
 //! Four f32 side by side: the four numbers at a node of the flow grid.
 //!
-//! *Source*: none. Left to itself the compiler puts four filaments side by side instead, and then fetches every number of
-//! every node alone, which halves the speed; SSE2 is part of every x86-64.
+//! *Source*: none. On its own, the compiler puts four filaments side by side and then fetches every number of every
+//! node separately, which halves the speed. SSE2 is part of every x86-64.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: on other machines plain arrays, with the same operations in the same order and so the same bits.
+//! *Deviations*: on other machines these are plain arrays, with the same operations in the same order, hence the same
+//! bits.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as x86;

@@ -367,6 +367,8 @@ fn top_level_holds_only_the_story() {
         "Cargo.toml",
         "Cargo.lock",
         "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
         "world",
         "robots",
         "plumes",

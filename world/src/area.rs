@@ -1,4 +1,4 @@
-//! The operating area: a rectangle, turned to any heading, centred on the datum.
+//! The operating area: a rectangle at any heading, centred on the datum.
 
 use crate::units::Heading;
 use bevy_ecs::prelude::Resource;
@@ -18,7 +18,7 @@ pub struct Area {
 }
 
 impl Area {
-    /// (along, across) coordinates of a world point: along the axis, and to its right.
+    /// Coordinates of a world point in the area: (distance along the axis, distance to the right of it), m.
     #[must_use]
     pub fn local(&self, p: Vector2<f64>) -> Vector2<f64> {
         let d = p - self.centre;
@@ -27,7 +27,7 @@ impl Area {
         Vector2::new(d.dot(&a), d.dot(&r))
     }
 
-    /// World point (east, north) of (along, across) coordinates.
+    /// World point (east, north) for the area's coordinates (along, across).
     #[must_use]
     pub fn world(&self, local: Vector2<f64>) -> Vector2<f64> {
         let a = self.axis.unit();

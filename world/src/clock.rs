@@ -1,11 +1,11 @@
-//! Simulated time: a step count times a step, and stages that run every so many steps.
+//! Simulated time: the number of steps times the length of a step. Slow stages run every n steps.
 
 use bevy_ecs::prelude::Resource;
 
 /// Simulated time. Time is always `step · dt`, never an accumulated sum.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct Clock {
-    /// Steps done so far.
+    /// Number of steps done so far.
     pub step: u64,
     /// Length of a step, s.
     pub dt_s: f64,
@@ -30,13 +30,13 @@ impl Clock {
         (self.step + 1) as f64 * self.dt_s
     }
 
-    /// One step on.
+    /// Advances by one step.
     pub fn advance(&mut self) {
         self.step += 1;
     }
 }
 
-/// Runs something every `n` steps: slow stages divide the step, they never look at the wall clock.
+/// Runs something every `n` steps. Slow stages count steps; they never read the wall clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Every {
     /// Steps between two runs, at least 1.
@@ -44,7 +44,7 @@ pub struct Every {
 }
 
 impl Every {
-    /// The divisor nearest to `period_s` for steps of `dt_s`.
+    /// The number of steps that is nearest to `period_s`, for steps of `dt_s`.
     #[must_use]
     pub fn period(period_s: f64, dt_s: f64) -> Self {
         let steps = (period_s / dt_s).round().max(1.0) as u64;
@@ -57,7 +57,7 @@ impl Every {
         clock.step.is_multiple_of(self.steps)
     }
 
-    /// The period it really has, s.
+    /// The period that results, s.
     #[must_use]
     pub fn period_s(self, dt_s: f64) -> f64 {
         self.steps as f64 * dt_s

@@ -1,11 +1,11 @@
-//! What a scenario will hold and do, reckoned in plain arithmetic before any of it is built.
+//! Memory and time that a scenario will need, estimated by plain arithmetic before anything is built.
 //!
-//! Every specification whose size or work follows from numbers of the file has a `cost` beside its `build`. Numbers are `f64`:
-//! a product too large becomes infinite, and [`Cost::fits`] takes what is not a number for too much.
+//! Every specification whose size or work depends on numbers in the file has a method `cost` beside `build`. All
+//! numbers are `f64`: a product that is too large becomes infinite, and [`Cost::fits`] treats NaN as too much.
 //!
-//! *Calibration*: seconds are those of one core of an AMD EPYC in a virtual machine, from the benchmarks of README and from runs of
-//! duck_st, uniform_channel, flume_crab, harbour_3d, wp_laminar and moth_eyes; a run as a whole was within a factor of two of its
-//! estimate for the time that it lasted. Missions that end before `time.limit_s` take less.
+//! *Calibration*: times are for one core of an AMD EPYC in a virtual machine. They come from README's benchmarks and
+//! from runs of duck_st, uniform_channel, flume_crab, harbour_3d, wp_laminar and moth_eyes. The time of a whole run was
+//! within a factor of two of its estimate. Missions that end before `time.limit_s` take less.
 
 use crate::limits::shown;
 use crate::math;
@@ -15,15 +15,15 @@ use crate::math;
 pub struct Times {
     /// Step of the physics.
     pub step_s: f64,
-    /// Spin-up, and the plume's step in it.
+    /// Length of the spin-up.
     pub spin_up_s: f64,
-    /// See above.
+    /// Step of the plume during the spin-up.
     pub spin_up_period_s: f64,
-    /// Longest mission, and the plume's step in it.
+    /// Longest mission.
     pub mission_s: f64,
-    /// See above.
+    /// Step of the plume during the mission.
     pub drift_period_s: f64,
-    /// Time between two sums of the flow for the plume; 0: every step of the plume.
+    /// Time between two evaluations of the flow for the plume; 0 means every step of the plume.
     pub flow_period_s: f64,
 }
 
@@ -34,13 +34,13 @@ impl Times {
         self.spin_up_s + self.mission_s
     }
 
-    /// Steps of the plume.
+    /// Number of steps of the plume.
     #[must_use]
     pub fn drifts(&self) -> f64 {
         self.spin_up_s / self.spin_up_period_s + self.mission_s / self.drift_period_s
     }
 
-    /// How often the flow is summed for the plume.
+    /// How often the flow is evaluated for the plume.
     #[must_use]
     pub fn sums(&self) -> f64 {
         let every = |period_s: f64| self.flow_period_s.max(period_s);
@@ -49,32 +49,32 @@ impl Times {
     }
 }
 
-/// How the need of a part follows from its field: as the value to a power.
+/// How the need of a part depends on its field: proportional to a power of the field's value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rule {
     /// The field's value.
     pub value: f64,
-    /// The power.
+    /// The exponent.
     pub power: f64,
 }
 
 /// One thing that takes memory or time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Part {
-    /// Path of the field that rules it, such as `sources[0].release.rate_hz`.
+    /// Path of the field that determines it, such as `sources[0].release.rate_hz`.
     pub path: String,
-    /// What it is and how many.
+    /// What it is, and how many there are.
     pub what: String,
     /// Memory, bytes.
     pub bytes: f64,
-    /// Time of computing for the whole run, s.
+    /// Computing time for the whole run, s.
     pub seconds: f64,
-    /// How they follow from the field, where that is a power of its value.
+    /// How memory and time depend on the field, if as a power of its value.
     pub rule: Option<Rule>,
 }
 
 impl Part {
-    /// A part that rules itself by no single number.
+    /// A part that depends on no single number.
     #[must_use]
     pub fn new(path: impl Into<String>, what: impl Into<String>) -> Self {
         Self {
@@ -86,32 +86,32 @@ impl Part {
         }
     }
 
-    /// Takes so much memory, bytes.
+    /// Sets the memory that it takes, bytes.
     #[must_use]
     pub fn holds(mut self, bytes: f64) -> Self {
         self.bytes = bytes;
         self
     }
 
-    /// Takes so much time, s.
+    /// Sets the time that it takes, s.
     #[must_use]
     pub fn takes(mut self, seconds: f64) -> Self {
         self.seconds = seconds;
         self
     }
 
-    /// Both go as `value` to a `power`.
+    /// Memory and time are proportional to `value` to the power `power`.
     #[must_use]
     pub fn by(mut self, value: f64, power: f64) -> Self {
         self.rule = Some(Rule { value, power });
         self
     }
 
-    /// Values of its field with which it needs no more than `bytes`: "must be at most 3.2".
+    /// The values of the field for which the part needs at most `bytes`, in words: "must be at most 3.2".
     #[must_use]
     pub fn legal(&self, bytes: f64) -> Option<String> {
         let rule = self.rule?;
-        // Two digits on the safe side.
+        // One percent less, to stay on the safe side.
         let most = rule.value * math::powf(0.99 * bytes / self.bytes, 1.0 / rule.power);
         let legal = most.is_finite() && most > 0.0;
         let side = if rule.power > 0.0 { "most" } else { "least" };
@@ -124,7 +124,7 @@ impl Part {
     }
 }
 
-/// To three digits, up or down.
+/// Rounds to three digits, up or down.
 fn rounded(v: f64, up: bool) -> f64 {
     let text = format!("{v:.2e}");
     let near: f64 = text.parse().unwrap_or(v);
@@ -142,7 +142,7 @@ fn rounded(v: f64, up: bool) -> f64 {
     format!("{off:.2e}").parse().unwrap_or(off)
 }
 
-/// What a specification, or a whole scenario, needs.
+/// What a specification or a whole scenario needs.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cost {
     /// Each thing that takes memory or time.
@@ -150,18 +150,18 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Of one part.
+    /// A cost with one part.
     #[must_use]
     pub fn of(part: Part) -> Self {
         Self { parts: vec![part] }
     }
 
-    /// Takes in another's parts.
+    /// Adds the parts of another cost.
     pub fn add(&mut self, other: Cost) {
         self.parts.extend(other.parts);
     }
 
-    /// With all paths below another.
+    /// Puts a prefix in front of all paths.
     #[must_use]
     pub fn under(mut self, path: &str) -> Self {
         for part in &mut self.parts {
@@ -180,13 +180,13 @@ impl Cost {
         self.parts.iter().map(|p| p.bytes).sum()
     }
 
-    /// Time of computing, s.
+    /// Computing time, s.
     #[must_use]
     pub fn seconds(&self) -> f64 {
         self.parts.iter().map(|p| p.seconds).sum()
     }
 
-    /// Whether the memory is enough; not if it is not known.
+    /// Whether `bytes` of memory suffice; false if the need is not known.
     #[must_use]
     pub fn fits(&self, bytes: f64) -> bool {
         self.bytes() <= bytes
@@ -195,7 +195,7 @@ impl Cost {
     /// The part that takes most memory.
     #[must_use]
     pub fn largest(&self) -> Option<&Part> {
-        // NaN last, and so greatest.
+        // NaN sorts last, so it counts as the greatest.
         self.parts.iter().max_by(|a, b| a.bytes.total_cmp(&b.bytes))
     }
 
@@ -208,7 +208,7 @@ impl Cost {
     }
 }
 
-/// A time as people say it.
+/// A time in words.
 #[must_use]
 pub fn duration(seconds: f64) -> String {
     match seconds {
@@ -222,7 +222,7 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// A size of memory as people say it.
+/// A size of memory in words.
 #[must_use]
 pub fn memory(bytes: f64) -> String {
     match bytes {
@@ -250,14 +250,14 @@ mod tests {
 
     #[test]
     fn the_legal_value_needs_no_more_than_is_there() {
-        // 1000 filaments a hertz, 100 bytes each.
+        // 1000 filaments for each hertz, 100 bytes each.
         let at = |hz: f64| {
             Part::new("rate_hz", "filaments")
                 .holds(1e5 * hz)
                 .by(hz, 1.0)
         };
         assert_eq!(at(1e6).legal(1e9).unwrap(), "must be at most 9900");
-        // Cells of a plane: bytes go as the inverse square.
+        // Cells of a plane: memory goes with the inverse square of their size.
         let of = |m: f64| {
             Part::new("cell_m", "cells")
                 .holds(1e6 / (m * m))

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::Resource;
 use xxhash_rust::xxh3::Xxh3;
 
-/// Running digest over every number that makes up the state, in the order of the tick.
+/// Running digest of every number of the state, in the order of the tick.
 #[derive(Resource, Clone)]
 pub struct Digest {
     hash: Xxh3,
@@ -16,23 +16,23 @@ impl Default for Digest {
 }
 
 impl Digest {
-    /// Takes in numbers by their bits.
+    /// Adds numbers by their bits.
     pub fn f64s(&mut self, values: &[f64]) {
         self.words(values, |v| v.to_bits().to_le_bytes());
     }
 
-    /// Takes in single-precision numbers by their bits.
+    /// Adds single-precision numbers by their bits.
     pub fn f32s(&mut self, values: &[f32]) {
         self.words(values, |v| v.to_bits().to_le_bytes());
     }
 
-    /// Takes in text, with its length.
+    /// Adds text and its length.
     pub fn text(&mut self, s: &str) {
         self.hash.update(&(s.len() as u64).to_le_bytes());
         self.hash.update(s.as_bytes());
     }
 
-    /// Takes in bytes as they are; cutting them differently changes nothing.
+    /// Adds bytes as they are; how they are divided into calls makes no difference.
     pub fn bytes(&mut self, bytes: &[u8]) {
         self.hash.update(bytes);
     }
@@ -43,7 +43,8 @@ impl Digest {
         format!("{:032x}", self.hash.digest128())
     }
 
-    /// Little-endian whatever the machine, hashed in blocks: word by word the hash would cost more than the drift.
+    /// Adds words in little-endian order on every machine. It hashes them in blocks, because hashing word by word would
+    /// cost more than the drift.
     fn words<T: Copy, const N: usize>(&mut self, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
         const WORDS: usize = 256;
         let mut block = [0_u8; WORDS * 8];

@@ -1,4 +1,4 @@
-//! What can be wrong with the space itself before a run starts.
+//! Faults of the space itself, found before a run starts.
 
 /// Setup error.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum WorldError {
         path: String,
         /// Where in it, beginning with a colon (":12", ": triangle 3"); empty for the file as a whole.
         place: String,
-        /// What is wrong and what would be right.
+        /// What is wrong, and what would be right.
         problem: String,
     },
     /// A field is outside what the model can do.
@@ -18,7 +18,7 @@ pub enum WorldError {
     Invalid {
         /// Path of the field, as in the scenario file.
         field: String,
-        /// What is wrong and what would be legal.
+        /// What is wrong, and what would be legal.
         problem: String,
     },
 }

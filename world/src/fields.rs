@@ -1,4 +1,4 @@
-//! What fills the space: moving water and what is dissolved in it. The truth, whoever makes it.
+//! What fills the space: moving water and what is dissolved in it. These are the truth, whoever implements them.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 
@@ -22,7 +22,7 @@ pub struct SideWalls {
     pub centre: Vector2<f64>,
     /// Unit vector (east, north) from one to the other.
     pub across: Vector2<f64>,
-    /// Half their distance, m.
+    /// Half of their distance, m.
     pub half_width_m: f64,
 }
 
@@ -35,13 +35,13 @@ pub struct Mixing {
     pub k_z_m2_s: f64,
 }
 
-/// The water: one answer for the hull, the sensors, the plume and the reports.
+/// The water: one source of answers for the hull, the sensors, the plume and the reports.
 ///
-/// `advance` is called with growing times before anything is asked at `t`; questions may be asked
-/// within a second or so after the latest `advance` (a flow with inner state interpolates).
+/// `advance` must be called with increasing times, and before any question about the time `t`. Questions may refer to a
+/// time up to about a second after the latest `advance`, because a flow with inner state interpolates.
 pub trait Flow: Send + Sync {
-    /// Brings inner state (meander, turbulence) up to `t_s`, s. The result must not depend on how
-    /// the way there is cut into calls.
+    /// Brings inner state (meander, turbulence) up to `t_s`, s. The result must not depend on the number of calls that
+    /// lead there.
     fn advance(&mut self, _t_s: f64) {}
 
     /// Velocity over ground at `p` (ENU, m) and time `t_s`, m/s.
@@ -57,9 +57,9 @@ pub trait Flow: Send + Sync {
         Mixing::default()
     }
 
-    /// Velocity and diffusivity at several heights above one place (east, north), m: what is the same
-    /// in the whole column may then be worked out once. Eddies given by [`Flow::carry`] are left out, and of waves given
-    /// by [`Flow::displacement`] only the mean drift is in: what is here moves mean places.
+    /// Velocity and diffusivity at several heights above one place (east, north), m. An implementation can compute only
+    /// once what is the same in the whole column. The velocity excludes eddies that [`Flow::carry`] adds. Of waves that
+    /// [`Flow::displacement`] adds, it contains only the mean drift, because it moves mean places.
     fn column(
         &self,
         place: Vector2<f64>,
@@ -73,36 +73,37 @@ pub trait Flow: Send + Sync {
         }
     }
 
-    /// Carries places (ENU, m) with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place for `dt_s[n]`.
-    /// By default there are none.
+    /// Moves places (ENU, m) with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place by
+    /// `dt_s[n]`. The default has no eddies.
     fn carry(&self, _t_s: f64, _dt_s: &[f32], _places: [&mut [f32]; 3]) {}
 
-    /// Fills in what carries mean places through the cells in which the water was worked out, if it was: along, across and upwards the
-    /// speed at a cell's lower and upper face in parts of the cell a second, each component a straight line between the two and the volume
-    /// kept; the layout is that of whoever made the cells. False without cells.
+    /// Fills in the face velocities that carry mean places through the cells in which the water was computed, and
+    /// returns true; returns false if there are no cells. For each cell, the six values are the velocities at its lower
+    /// and upper faces along, across and upwards, in cell sizes per second. Between two faces each component varies
+    /// linearly, so that volume is conserved. The order of the cells is that of their maker.
     fn rates(&self, _t_s: f64, _cells: &mut Vec<[f32; 6]>) -> bool {
         false
     }
 
-    /// Way of the water whose mean place is `p` from there at this moment, m: the orbits of waves, which [`Flow::column`] leaves out.
-    /// None without waves.
+    /// Displacement at time `t_s` of the water whose mean place is `p`, m: the orbital motion of waves, which
+    /// [`Flow::column`] leaves out. `None` without waves.
     fn displacement(&self, _p: &Vector3<f64>, _t_s: f64) -> Option<Vector3<f64>> {
         None
     }
 
-    /// Head of the waves' pressure at `p`, m of water, beside the still water's.
+    /// Pressure head of the waves at `p`, m of water, in addition to that of still water.
     fn head(&self, _p: &Vector3<f64>, _t_s: f64) -> f64 {
         0.0
     }
 
-    /// Vertical walls along both sides, if the water stands between such.
+    /// Vertical walls along both sides, if the water stands between walls.
     fn walls(&self) -> Option<SideWalls> {
         None
     }
 
     /// Velocity with gradient, rate of change and density; central differences unless overridden.
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
-        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
+        // Small compared with layer thicknesses (0.1 m), large compared with rounding at positions of 10³ m.
         const H: f64 = 1e-3;
         let mut gradient = Matrix3::zeros();
         for j in 0..3 {

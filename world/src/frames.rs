@@ -1,5 +1,5 @@
-//! Poses and velocities, in monogram notation: `p_WB` is B's origin seen from W, in W's axes;
-//! `v_WB_B` the velocity of B relative to W, in B's axes; `R_WB` takes B's axes to W's.
+//! Poses and velocities in monogram notation. `p_WB` is the origin of B seen from W, in the axes of W. `v_WB_B` is the
+//! velocity of B relative to W, in the axes of B. `R_WB` rotates the axes of B to those of W.
 
 use crate::units::Heading;
 use bevy_ecs::prelude::Component;
@@ -10,12 +10,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub struct Pose {
     /// Origin of B in W, m.
     pub p_WB: Vector3<f64>,
-    /// Rotation taking B's axes to W's.
+    /// Rotation from B's axes to W's.
     pub R_WB: UnitQuaternion<f64>,
 }
 
 impl Pose {
-    /// A body at `p` with the given heading, level.
+    /// A level body at `p` with the given heading.
     #[must_use]
     pub fn level(p: Vector3<f64>, heading: Heading) -> Self {
         Self {
@@ -45,7 +45,7 @@ impl Pose {
     }
 }
 
-/// The true state of a rigid body: what exists, never what a searcher knows.
+/// The true state of a rigid body. A searcher never sees it.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Truth {
     /// Pose of the body frame.
@@ -57,7 +57,7 @@ pub struct Truth {
 }
 
 impl Truth {
-    /// At rest at a pose.
+    /// A body at rest with a pose.
     #[must_use]
     pub fn at_rest(pose: Pose) -> Self {
         Self {

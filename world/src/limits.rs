@@ -1,21 +1,22 @@
-//! Ranges that physics sets to a field, stated where the field is declared:
-//! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader then says place, value and range, as for the types of
-//! [`crate::ranges`], which keep the sign.
+//! Physical ranges of fields, stated where a field is declared:
+//! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader reports place, value and range, as it does
+//! for the types of [`crate::ranges`], which keep the sign.
 //!
-//! A limit is no judgement of a good value. It is where the models stop: beyond it there is no such water, instrument or hull.
+//! A limit does not judge whether a value is good. It marks where the models end: no water, instrument or hull lies
+//! beyond.
 
 use crate::ranges::{Finite, Fraction, NonNegative, Positive};
 use serde::{Deserialize, Deserializer, de::Error};
 
 /// What a field with a limit holds: a number, or several.
 pub trait Limited: Sized {
-    /// As it is read.
+    /// The form in which it is read.
     type Raw;
 
-    /// Takes it if all numbers lie in a range, ends included.
+    /// Accepts it if all numbers lie in a range, ends included.
     ///
     /// # Errors
-    /// Says the range and the number that does not; of a wrong sign, or no number, what its own type says.
+    /// States the range and the number that is outside. For a wrong sign or NaN, the error of the number's own type.
     fn limited(raw: Self::Raw, range: &Range) -> Result<Self, String>;
 }
 
@@ -26,7 +27,7 @@ pub struct Range(pub f64, pub f64, pub &'static str);
 impl Range {
     fn refuses(&self, v: f64) -> Option<String> {
         let Range(low, high, unit) = self;
-        // Not `v < low || v > high`, which lets pass what is not a number.
+        // Not `v < low || v > high`, which would accept NaN.
         if v >= *low && v <= *high {
             return None;
         }
@@ -46,7 +47,8 @@ macro_rules! one {
             type Raw = f64;
             fn limited(raw: f64, range: &Range) -> Result<Self, String> {
                 let typed = Self::try_from(raw);
-                // Too large or too small for its type, but of the right sign: the narrower range is what helps.
+                // It is too large or too small for its type but has the right sign: the narrower range is the more
+                // helpful message.
                 let signed = raw.is_finite() && Self::try_from(raw.signum()).is_ok();
                 match (range.refuses(raw), typed) {
                     (Some(said), Ok(_)) => Err(said),
@@ -85,7 +87,7 @@ impl<T: Limited> Limited for (T, T, T) {
     }
 }
 
-/// A number as a person writes it.
+/// A number as a person would write it.
 #[must_use]
 pub fn shown(v: f64) -> String {
     let size = v.abs();
@@ -101,7 +103,7 @@ macro_rules! limits {
         $(#[$doc])*
         ///
         /// # Errors
-        /// When it is none, or out of range.
+        /// If it is no number, or out of range.
         pub fn $name<'de, D, T>(from: D) -> Result<T, D::Error>
         where
             D: Deserializer<'de>,
@@ -114,7 +116,8 @@ macro_rules! limits {
 }
 
 limits! {
-    /// East or north of the datum, m: half way round the Earth. Filaments know their place to 2 m there, to 1 mm 10 km from the datum.
+    /// East or north of the datum, m: half way round the Earth. There filaments resolve positions to 2 m; 10 km from
+    /// the datum, to 1 mm.
     place_m: -2e7, 2e7, "m";
     /// Size of something solid, m: from a pebble to an island.
     solid_m: 1e-3, 1e6, "m";
@@ -124,21 +127,21 @@ limits! {
     depth_m: 1e-4, 12_000.0, "m";
     /// Roughness length of a bed, m.
     roughness_m: 1e-9, 10.0, "m";
-    /// The same where zero is a smooth bed, m.
+    /// Roughness length of a bed, m; zero means a smooth bed.
     sand_m: 0.0, 10.0, "m";
-    /// Density of water, kg/m³: the Dead Sea has 1240, brines 1300; the lightest, hot and fresh, 950.
+    /// Density of water, kg/m³. The Dead Sea has 1240, brines have 1300; hot fresh water, the lightest, has 950.
     density_kg_m3: 900.0, 1400.0, "kg/m3";
-    /// Kinematic viscosity of water, m²/s: 0.3e-6 when it boils, 1.8e-6 at the freezing point; 1e-4 is oil.
+    /// Kinematic viscosity of water, m²/s: 0.3e-6 when boiling, 1.8e-6 at the freezing point. Oil has 1e-4.
     viscosity_m2_s: 1e-7, 1e-4, "m2/s";
     /// Speed of a stream, m/s: the strongest tidal streams reach 10.
     stream_m_s: 0.0, 15.0, "m/s";
-    /// The same of a component that has a sign.
+    /// Component of a stream's velocity, with its sign, m/s.
     component_m_s: -15.0, 15.0, "m/s";
-    /// Speed of a stream that runs, m/s.
+    /// Speed of a stream that is not at rest, m/s.
     running_m_s: 1e-4, 15.0, "m/s";
     /// Standard deviation of a current, m/s.
     std_m_s: 0.0, 5.0, "m/s";
-    /// Frequency of a current's wandering, rad/s: from months to a second.
+    /// Frequency of a current's fluctuation, rad/s: from months to a second.
     wander_rad_s: 1e-7, 6.0, "rad/s";
     /// Damping ratio of an oscillation.
     damping: 1e-3, 1.0, "";
@@ -148,15 +151,15 @@ limits! {
     vertical_m2_s: 0.0, 100.0, "m2/s";
     /// Diffusivity in units of friction velocity times depth: 0.15 in straight channels, 3 in rivers that bend.
     transverse: 0.0, 100.0, "";
-    /// Height of surface waves, m: the highest measured had 30.
+    /// Height of surface waves, m; the highest measured waves had 30.
     wave_m: 1e-4, 40.0, "m";
     /// Period of surface waves, s: from ripples to the longest swell.
     wave_s: 0.05, 60.0, "s";
-    /// Peak enhancement of a wave spectrum: 1 to 7 are measured.
+    /// Peak enhancement of a wave spectrum; measured values are 1 to 7.
     peakedness: 0.1, 20.0, "";
-    /// Directional spreading of waves: 10 in a wind sea, 75 in swell.
+    /// Directional spreading of waves: 10 in a wind sea, 75 in a swell.
     spreading: 0.0, 1000.0, "";
-    /// Mixing by waves, in units of height squared by period.
+    /// Mixing by waves, in units of the squared height divided by the period.
     wave_mixing: 0.0, 10.0, "";
     /// Amplitude of an internal wave, m.
     internal_m: 0.0, 1000.0, "m";
@@ -166,7 +169,7 @@ limits! {
     internal_s: 0.01, 1e8, "s";
     /// Period of a tide, h.
     tide_h: 0.01, 1e6, "h";
-    /// Mass that a source gives off, g/s: from a picogram to a tonne.
+    /// Mass that a source releases, g/s: from a picogram to a tonne.
     source_g_s: 1e-12, 1e6, "g/s";
     /// Size of a filament or of what releases it, m.
     filament_m: 1e-5, 1000.0, "m";
@@ -174,19 +177,19 @@ limits! {
     growth_m2_s: 0.0, 1000.0, "m2/s";
     /// Diameter of a nozzle, m.
     nozzle_m: 1e-5, 10.0, "m";
-    /// Speed of what leaves a nozzle, m/s.
+    /// Speed of the fluid that leaves a nozzle, m/s.
     nozzle_m_s: 1e-4, 100.0, "m/s";
     /// Speed of a vehicle under water, m/s.
     vehicle_m_s: 0.0, 15.0, "m/s";
-    /// Error of a place, m.
+    /// Error of a position, m.
     error_m: 0.0, 1e5, "m";
     /// Range of a sonar, m.
     sonar_m: 0.01, 5000.0, "m";
     /// Turning radius of a vehicle, m.
     turn_m: 0.0, 10_000.0, "m";
-    /// How far a planner looks, m.
+    /// Distance that a planner looks ahead, m.
     look_m: 0.01, 1e5, "m";
-    /// Spread of dye in a second, m/√s: 100 make a kilometre in two minutes.
+    /// Spread of dye per square root of time, m/√s; 100 makes a kilometre in two minutes.
     spread_m_rts: 1e-6, 100.0, "m/s^0.5";
     /// How long something lasts, s: from a millisecond to 30 years.
     lasting_s: 1e-3, 1e9, "s";
@@ -200,7 +203,7 @@ limits! {
     level_db: -300.0, 300.0, "dB";
     /// Distance that can be seen in water, m.
     visibility_m: 0.01, 1000.0, "m";
-    /// Loss of light on its way, 1/m.
+    /// Loss of light along its path, 1/m.
     loss_per_m: 0.0, 1000.0, "1/m";
 }
 

@@ -1,8 +1,8 @@
 //! Transcendental functions with the same bits on every machine.
 //!
-//! The platform's C library picks code by CPU and version, so `f64::sin` may differ in the last bit
-//! between machines and a chaotic run then parts ways. Everything inside a tick uses these
-//! (pure-Rust `libm`); clippy's `disallowed-methods` keeps it so. `sqrt` is exact everywhere.
+//! The platform's C library chooses code by CPU and version, so the last bit of `f64::sin` may differ between machines,
+//! and a chaotic run then diverges. All code inside a tick uses these functions (pure-Rust `libm`); clippy's
+//! `disallowed-methods` enforces it. `sqrt` is exact everywhere.
 
 macro_rules! via_libm {
     ($($(#[$doc:meta])* $name:ident($($arg:ident),+) = $libm:path;)*) => {

@@ -1,4 +1,4 @@
-//! Numbers that a file may only give within a legal range; the reader points at the place and says the range.
+//! Numbers that must lie in a legal range. The reader points at the place in the file and states the range.
 
 #![allow(
     clippy::manual_range_contains,
@@ -7,10 +7,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Smallest number above zero that a file may give: nothing in this program's units is smaller, and its powers stay
-/// numbers, in `f32` too.
+/// Smallest number above zero that a file may give. No quantity of this program is smaller, and its powers do not
+/// underflow, in `f32` either.
 pub const SMALLEST: f64 = 1e-18;
-/// Largest number that a file may give, for the same reason. What physics allows a field is narrower: see [`crate::limits`].
+/// Largest number that a file may give; its powers do not overflow. Physics narrows many ranges: see [`crate::limits`].
 pub const LARGEST: f64 = 1e18;
 
 macro_rules! ranged {
@@ -28,10 +28,10 @@ macro_rules! ranged {
                 self.0
             }
 
-            /// A default written in code.
+            /// A default in code.
             ///
             /// # Panics
-            /// If the number is out of range: a slip in the code, not in a file.
+            /// If the number is out of range: a mistake in the code, not in a file.
             #[must_use]
             pub const fn new($v: f64) -> Self {
                 assert!($ok, $says);
@@ -61,7 +61,7 @@ macro_rules! ranged {
 }
 
 ranged! {
-    /// Any finite number up to [`LARGEST`], either way.
+    /// Any finite number of either sign up to [`LARGEST`].
     Finite: "must be a finite number", "must be from -1e18 to 1e18",
         |v| v.is_finite(), |v| v <= LARGEST && v >= -LARGEST;
     /// Greater than zero, from [`SMALLEST`] to [`LARGEST`].
@@ -79,7 +79,7 @@ ranged! {
 }
 
 impl HeadingDeg {
-    /// As a heading.
+    /// The same direction as a [`Heading`](crate::units::Heading).
     #[must_use]
     pub fn heading(self) -> crate::units::Heading {
         crate::units::Heading::from_deg(self.0)

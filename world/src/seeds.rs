@@ -1,12 +1,12 @@
-//! One seed a run; from it a stream of random numbers for each (entity, purpose).
+//! One seed for each run; from it, one stream of random numbers for each pair (entity, purpose).
 //!
-//! A stream's key is a stable hash of its names, so adding a sensor shifts nobody else's numbers.
+//! The key of a stream is a stable hash of its names, so adding a sensor does not change the numbers of the others.
 
 use crate::math;
 use rand::{Rng, RngExt, SeedableRng};
 use xxhash_rust::xxh3::xxh3_64_with_seed;
 
-/// A portable random stream (ChaCha8), held by the one who uses it.
+/// A portable random stream (ChaCha8). Its user holds it.
 #[derive(Clone, Debug)]
 pub struct Stream {
     rng: rand_chacha::ChaCha8Rng,
@@ -28,7 +28,7 @@ impl Stream {
         self.rng.random::<f64>()
     }
 
-    /// Next 64 random bits.
+    /// The next 64 random bits.
     pub fn bits(&mut self) -> u64 {
         self.rng.next_u64()
     }
@@ -50,7 +50,7 @@ impl Stream {
     }
 }
 
-/// Stable key of a stream: depends on the seed and the two names, on nothing else.
+/// Stable key of a stream: it depends on the seed and the two names, and on nothing else.
 #[must_use]
 pub fn key(seed: u64, entity: &str, purpose: &str) -> u64 {
     xxh3_64_with_seed(format!("{entity}\u{1f}{purpose}").as_bytes(), seed)

@@ -1,27 +1,27 @@
-//! The tick's stages, in the order in which `scenarios/src/tick.rs` chains them.
+//! The stages of the tick, in the order in which `scenarios/simulation/src/tick.rs` chains them.
 
 use bevy_ecs::prelude::SystemSet;
 
 /// One stage of the tick.
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Stage {
-    /// Instruments read the truth, with their noise, rate and range.
+    /// Instruments measure the truth, with their noise, rate and range.
     Sense,
-    /// Readings become what the vehicle believes of itself and the water.
+    /// Readings become the vehicle's estimate of its own state and of the water.
     Estimate,
     /// Belief about where the source may be.
     Map,
     /// A strategy chooses behaviour and goal.
     Decide,
-    /// A goal becomes heading, speed and depth commands.
+    /// A goal becomes commands for heading, speed and depth.
     Guide,
     /// Commands become actuator set-points.
     Actuate,
-    /// Bodies move.
+    /// Bodies move and touch.
     Physics,
-    /// Water and what is dissolved in it move.
+    /// Water and dissolved matter move.
     Drift,
-    /// What happened is digested, recorded and published.
+    /// The state is digested, recorded and published.
     Report,
 }
 

@@ -1,4 +1,4 @@
-//! The bed: its height anywhere, and as a surface that bodies can hit.
+//! The bed: its height at any place, and its surface for bodies.
 
 use crate::area::Area;
 use crate::units::Heading;
@@ -13,7 +13,7 @@ pub enum Terrain {
         /// Water depth, m.
         depth_m: f64,
     },
-    /// A plane rising towards `shoreward`, levelling off at the two depths.
+    /// A plane that rises towards `shoreward` and levels off at the two depths.
     Slope {
         /// Point (east, north) at which the depth is the mean of the two.
         middle: Vector2<f64>,
@@ -74,14 +74,16 @@ impl Terrain {
         Vector3::new(-dx, -dy, 1.0).normalize()
     }
 
-    /// Way along a ray from `from` (ENU, m) in the unit direction `dir` to the bed within `max_m`, m; zero from below it.
+    /// Distance along a ray from `from` (ENU, m) in the unit direction `dir` to the bed within `max_m`, m; zero if it
+    /// starts below the bed.
     #[must_use]
     pub fn ray(&self, from: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         let above = |way: f64| {
             let p = from + dir * way;
             p.z - self.bed_z(p.x, p.y)
         };
-        // The bed is flat between the lines where the slope begins and ends: so is the height above it along the ray.
+        // The bed is flat between the lines where the slope begins and ends, so the height above it is linear along the
+        // ray.
         let mut bends = [max_m; 3];
         if let Terrain::Slope {
             middle,
@@ -183,7 +185,7 @@ mod tests {
                     assert!(over > 0.0);
                     met[3] += 1;
                 }
-                // Nothing was passed through on the way.
+                // The ray passed nothing solid on its way.
                 for part in 1..20 {
                     let p = from + dir * (way.unwrap_or(60.0) * f64::from(part) / 20.0);
                     assert!(p.z - t.bed_z(p.x, p.y) > -1e-9);

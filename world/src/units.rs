@@ -1,4 +1,4 @@
-//! Angles and the one unit whose meaning can be mistaken: the compass heading.
+//! Angles, and the compass heading: a unit of its own, because its meaning is easily mistaken.
 
 use crate::math;
 use nalgebra::Vector2;
@@ -45,7 +45,7 @@ impl Heading {
         Self::from_rad(deg.to_radians())
     }
 
-    /// From an ENU yaw (radians anticlockwise from east).
+    /// From a yaw in ENU (radians anticlockwise from east).
     #[must_use]
     pub fn from_yaw(yaw_rad: f64) -> Self {
         Self::from_rad(FRAC_PI_2 - yaw_rad)
@@ -69,7 +69,7 @@ impl Heading {
         self.0.to_degrees()
     }
 
-    /// ENU yaw, radians anticlockwise from east, in (−π, π].
+    /// Yaw in ENU, radians anticlockwise from east, in (−π, π].
     #[must_use]
     pub fn yaw(self) -> f64 {
         wrap_pi(FRAC_PI_2 - self.0)

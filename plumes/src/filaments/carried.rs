@@ -1,17 +1,19 @@
-//! Carries filaments through the cells of blocked water, along the path that the flow through the cells' faces prescribes.
+//! Carries filaments through the cells of blocked water, along paths that the flow through the cells' faces determines.
 //!
-//! *Source*: Pollock 1988, Ground Water 26, 743: in a cell each component is a straight line between two faces, so the path through it is
-//! known in closed form; the field is that of Raviart and Thomas 1977, Lect. Notes Math. 606, 292.
+//! *Source*: Pollock 1988, Ground Water 26, 743: in a cell each velocity component is linear between two faces, so the
+//! path has a closed form. The field is that of Raviart and Thomas 1977, Lect. Notes Math. 606, 292.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: bed-following cells: along, across and s a filament goes through the cell as through a box, with the cell's mean depth
-//! (Piola's transform; Matringe et al. 2006, J. Comput. Phys. 219, 992): even dye stays even from cell to cell, within a cell by the change of depth
-//! over half of it. Where friction holds the water at the bed, the current in the lowest cells grows in a straight line from nothing
-//! at the bed to twice its mean; that is still free of divergence and has a path in closed form. The field stands still between two refreshes.
+//! *Deviations*: the cells follow the bed. In the coordinates along, across and s, a filament passes the cell as it
+//! would a box with the cell's mean depth (Piola's transform; Matringe et al. 2006, J. Comput. Phys. 219, 992). Dye
+//! that is evenly mixed stays even from cell to cell; within a cell, to the change of depth over half of it. Where
+//! friction holds the water at the bed, the current in the lowest cells grows linearly from zero at the bed to twice
+//! its mean; that field is still free of divergence and its paths still have a closed form. The field is constant
+//! between two refreshes.
 //!
-//! A filament that stays in its cell moves by a series in f32, eight at once; one that leaves it goes from face to face in f64. No
-//! step is too long: nothing goes through a closed face, and the volume of any cloud is kept.
+//! A filament that stays in its cell moves by a series in f32, eight at once. One that leaves its cell goes from face
+//! to face in f64. No step is too long: nothing passes a closed face, and the volume of any cloud is conserved.
 
 use super::cells::Cells as Lookup;
 use super::kernel::{BLOCK, Block, Path};
@@ -23,23 +25,24 @@ use world::math;
 
 /// Greatest growth over a step (rate · time) for the series.
 const GENTLE: f32 = 0.25;
-/// Faces passed in a step after which something is wrong.
+/// More faces than this in one step mean that something is wrong.
 const MOST_FACES: usize = 1_000_000;
 
-/// What carries filaments from face to face.
+/// Carries filaments from face to face.
 #[derive(Clone, Debug)]
 pub(super) struct Carrier {
-    // Along, across, upwards: parts of the cell a second at the lower and the upper face; laid out as the grid's columns, without the last level.
+    // Speeds along, across and upwards at the lower and the upper face, in cell sizes per second. Laid out as the
+    // columns of the grid, without the last level.
     rates: Vec<[f32; 6]>,
     levels: usize,
     // Columns along, across.
     n: [usize; 2],
-    // Depth between two levels as a part of the whole.
+    // Distance between two levels as a part of the depth.
     ds: Vec<f32>,
     still_bed: bool,
 }
 
-/// Room for what is worked out about a block.
+/// Memory for what is computed about a block.
 pub(super) struct Way {
     column: [u32; BLOCK],
     level: [u32; BLOCK],
@@ -65,7 +68,7 @@ impl Way {
     }
 }
 
-/// A filament in a cell: cell, parts of it passed.
+/// A filament in a cell: the cell, and its position there as parts of the cell.
 #[derive(Clone, Copy, Debug)]
 struct Inside {
     cell: [usize; 3],
@@ -85,10 +88,10 @@ impl Carrier {
         }
     }
 
-    /// Asks the flow again.
+    /// Evaluates the flow again.
     ///
     /// # Panics
-    /// If it was not worked out in cells, or gives what is not a number.
+    /// If the flow was not computed in cells, or returns NaN.
     pub(super) fn refresh(&mut self, flow: &dyn Flow, t_s: f64) {
         assert!(
             flow.rates(t_s, &mut self.rates),
@@ -154,12 +157,12 @@ impl Carrier {
             (level[l], part[2][l]) = (v.below, v.part);
         }
         for from in (0..BLOCK).step_by(4) {
-            // The first four and the last four of the six.
+            // The first four and the last four of six values.
             let at = |l: usize, first: usize| {
                 let n = column[from + l] as usize * self.levels + level[from + l] as usize;
                 debug_assert!(n < self.rates.len());
-                // SAFETY: column and level are those of a cell's lower corner (`Cells::column`, `Cells::level`, for any input), and each
-                // such cell has its rates (`Blocked::rates`, `refresh`).
+                // SAFETY: column and level are those of a cell's lower corner (`Cells::column`, `Cells::level`, for any
+                // input), and each such cell has its rates (`Blocked::rates`, `refresh`).
                 let rates = unsafe { self.rates.get_unchecked(n) };
                 let four = rates[first..].first_chunk().expect("four of the six");
                 Quad::new(four)
@@ -175,7 +178,7 @@ impl Carrier {
         }
         let mut time = b.dt;
         if self.still_bed {
-            // In the lowest cell over a still bed: time as the current at the filament's height counts it.
+            // In the lowest cell over a no-slip bed, time runs as the current at the filament's height measures it.
             for l in 0..BLOCK {
                 let x = (rate[5][l] - rate[4][l]) * part[2][l] * b.dt[l];
                 let counted = 2.0 * part[2][l] * b.dt[l] * current_time(x);
@@ -206,7 +209,7 @@ impl Carrier {
                 to[2][l] = if lowest { end } else { to[2][l] };
             }
         }
-        // Who does not fit stays where it is, to be carried by itself.
+        // A filament that does not stay in its cell is left where it is and carried individually later.
         for d in 0..3 {
             for l in 0..BLOCK {
                 to[d][l] = if fits[l] == 0 { part[d][l] } else { to[d][l] };
@@ -287,13 +290,13 @@ impl Carrier {
         b.bed[l] = bed;
     }
 
-    /// Where a filament comes to in a time, s.
+    /// Position of a filament after a time, s.
     fn path(&self, mut at: Inside, mut left_s: f64) -> Inside {
         let n = [self.n[0], self.n[1], self.levels];
         for _ in 0..MOST_FACES {
             let r = self.of(at.cell).map(f64::from);
             let still = self.still_bed && at.cell[2] == 0;
-            // Speeds at the lower faces and their growth; over a still bed as the current's own time counts them.
+            // Speeds at the lower faces and their growth; over a no-slip bed, in the current's own time.
             let growth = [
                 r[1] - r[0],
                 r[3] - r[2],
@@ -316,13 +319,14 @@ impl Carrier {
                 if speed[d] == 0.0 {
                     continue;
                 }
-                // Speed at the face is speed + growth · way; the face is reached unless it has turned by then.
+                // The speed at the face is speed + growth · way. The filament reaches the face unless the speed changes
+                // sign before.
                 let q = growth[d] * way / speed[d];
                 if q <= -1.0 {
                     continue;
                 }
                 let time = (way / speed[d] * logarithm(q)).max(0.0);
-                // Not `<`: a time that is not a number (infinite current's time) is none.
+                // Not `<`: a time that is NaN (that of an infinite current) does not count.
                 if time < first || (first.is_infinite() && time.is_finite()) {
                     (first, through) = (time, Some((d, to)));
                 }
@@ -381,7 +385,7 @@ fn expansion(x: f64) -> f64 {
     (math::exp(x) - 1.0) / x
 }
 
-/// ln(1 + x)/x; infinite at −1 and below, where it is never reached.
+/// ln(1 + x)/x; infinite at −1 and below, which is never reached.
 fn logarithm(x: f64) -> f64 {
     if x.abs() < 1e-2 {
         return 1.0

@@ -1,11 +1,13 @@
-//! The flow grid as the drift reads it: cell of a point, level of a height, bed and horizontal diffusivity in a cell.
+//! The flow grid as the drift reads it: the cell of a point, the level of a height, and bed and horizontal diffusivity
+//! in a cell.
 //!
-//! *Source*: the layout and the vertical map are those of `flow::grid`; this file only turns them into arithmetic
-//! without branches, for many filaments at once.
+//! *Source*: the layout and the vertical map are those of `flow::grid`. This file turns them into arithmetic without
+//! branches, for many filaments at once.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: bed and K_h within a cell are bilinear, written as c0 + c1·f + c2·g + c3·f·g so that one read gives all.
+//! *Deviations*: bed and K_h are bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns
+//! all.
 
 use crate::flow::grid::FlowGrid;
 
@@ -18,34 +20,34 @@ pub(super) struct Cells {
     origin: [f32; 2],
     /// Axis i and axis j, divided by the spacing: cells per metre.
     axes: [[f32; 2]; 2],
-    /// Last node along i, j as a number.
+    /// Last node along i and j, as numbers.
     last: [f32; 2],
     dims: [i32; 3],
     stretch: f32,
     bed: Vec<Bilinear>,
     k_h: Vec<Bilinear>,
-    /// The one horizontal diffusivity, if it is the same everywhere.
+    /// The horizontal diffusivity, if it is the same everywhere.
     pub(super) even_k_h: Option<f32>,
 }
 
-/// Where a point lies among the columns.
+/// Position of a point among the columns.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Column {
     /// Column of the cell's lower corner, i·ny + j.
     pub(super) at: u32,
-    /// Parts of the cell passed along i and j.
+    /// Position in the cell along i and j, as parts of it.
     pub(super) f: f32,
     pub(super) g: f32,
-    /// Beyond the grid.
+    /// Whether the point is outside the grid.
     pub(super) outside: bool,
 }
 
-/// Where a height lies among the levels.
+/// Position of a height among the levels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Level {
     /// Level below.
     pub(super) below: u32,
-    /// Part of the way to the next.
+    /// Position between it and the next, as a part.
     pub(super) part: f32,
     /// Reciprocal of the distance between the two, 1/m.
     pub(super) per_m: f32,
@@ -70,7 +72,7 @@ impl Cells {
         }
     }
 
-    /// Takes over what a refresh of the grid has changed.
+    /// Takes over the values that a refresh of the grid has changed.
     pub(super) fn refresh(&mut self, grid: &FlowGrid) {
         let first = grid.k_h[0];
         self.even_k_h = grid.k_h.iter().all(|k| *k == first).then_some(first);
@@ -79,14 +81,14 @@ impl Cells {
         }
     }
 
-    /// Nodes in a column, and from one column to the next along i.
+    /// Nodes in a column, and nodes from one column to the next along i.
     #[inline(always)]
     pub(super) fn strides(&self) -> (usize, usize) {
         let nz = self.dims[2] as usize;
         (nz, nz * self.dims[1] as usize)
     }
 
-    /// The column cell of a point; beyond the grid that of the nearest edge.
+    /// The column cell of a point; for a point outside the grid, that of the nearest edge.
     #[inline(always)]
     pub(super) fn column(&self, x: f32, y: f32) -> Column {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
@@ -103,7 +105,7 @@ impl Cells {
         }
     }
 
-    /// Where a height lies among the levels; `up` is the reciprocal of the depth.
+    /// Position of a height among the levels; `up` is the reciprocal of the depth.
     #[inline(always)]
     pub(super) fn level(&self, z: f32, up: f32) -> Level {
         let s = clamped(1.0 + z * up, 1.0);
@@ -119,7 +121,7 @@ impl Cells {
         let xi = k as f32 * h;
         let s0 = xi * (b + a * xi);
         let per = 1.0 / (h * (b + a * (2.0 * xi + h)));
-        // Rounding of the square root may name the neighbouring level; the clamp keeps it continuous.
+        // Rounding of the square root may give the neighbouring level; the clamp keeps the result continuous.
         Level {
             below: k as u32,
             part: clamped((s - s0) * per, 1.0),
@@ -148,17 +150,17 @@ fn value(q: &Bilinear, c: Column) -> f32 {
     q[0] + c.g * q[2] + c.f * (q[1] + c.g * q[3])
 }
 
-/// Cell index in 0..n−1 and the part of the cell passed.
+/// Cell index in 0..n−1, and the position in the cell as a part of it.
 #[inline(always)]
 fn split(c: f32, last: f32, n: i32) -> (i32, f32) {
     let c = clamped(c, last);
-    // SAFETY: between 0 and the number of nodes, which fits; what is not a number has become 0.
+    // SAFETY: the value lies between 0 and the number of nodes, which fits; NaN has become 0.
     let i = unsafe { c.to_int_unchecked::<i32>() };
     let i = if i < n - 2 { i } else { n - 2 };
     (i, c - i as f32)
 }
 
-/// Between 0 and `hi`; 0 for what is not a number. Written so that it is two instructions.
+/// Limits a value to 0 to `hi`; NaN becomes 0. Written so that it compiles to two instructions.
 #[inline(always)]
 pub(super) fn clamped(v: f32, hi: f32) -> f32 {
     let v = if v > 0.0 { v } else { 0.0 };

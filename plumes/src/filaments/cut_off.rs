@@ -1,4 +1,4 @@
-//! Sources that blocked water does not come by: in a closed cell, or on the other side of a thin wall than their cell's middle.
+//! Sources that blocked water does not reach: in a closed cell, or separated from their cell's centre by a thin wall.
 //!
 //! *Source*: none.
 //!
@@ -20,7 +20,8 @@ use world::area::Area;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
-/// What is wrong with each source whose water is cut off, without solving anything; those that cannot be placed at all are left out.
+/// What is wrong with each source that no water reaches, without solving any flow. Sources that cannot be placed at all
+/// are left out.
 ///
 /// # Errors
 /// If the cells cannot be made.

@@ -1,17 +1,19 @@
-//! The plume as a probe at a fixed place meets it at one moment: swung to and fro by the orbits of the waves.
+//! The plume as a probe at a fixed place meets it at one moment, moved to and fro by the orbits of the waves.
 //!
-//! *Source*: Andrews & McIntyre 1978, J. Fluid Mech. 89, 609: what the Lagrangian mean carries at a mean place X is found at X + ξ(X, t).
+//! *Source*: Andrews & McIntyre 1978, J. Fluid Mech. 89, 609: dye that the Lagrangian mean carries to a mean place X is
+//! found at X + ξ(X, t).
 //!
 //! *Parameters*: none; ξ is [`Flow::displacement`].
 //!
-//! *Deviations*: X = p − ξ(p, t), wrong by (ξ·∇)ξ: for waves of steepness ak a part ak of the displacement, at most some millimetres to centimetres
-//! in waves that do not break. The filaments' mean places are those of the latest drift.
+//! *Deviations*: X = p − ξ(p, t), which has an error of (ξ·∇)ξ. For waves of steepness ak it is a part ak of the
+//! displacement: some millimetres to centimetres at most in waves that do not break. The filaments' mean places are
+//! those of the latest drift.
 
 use super::plume::Plume;
 use nalgebra::Vector3;
 use world::fields::{Concentration, Flow};
 
-/// Concentration now, with the waves' displacement; without waves that of the plume itself.
+/// Concentration now, with the displacement by waves; without waves, that of the plume itself.
 #[derive(Clone, Copy)]
 pub struct Displaced<'a> {
     plume: &'a Plume,
@@ -20,7 +22,7 @@ pub struct Displaced<'a> {
 }
 
 impl<'a> Displaced<'a> {
-    /// What a probe meets at time `t_s` of the flow, s.
+    /// What a probe measures at time `t_s` of the flow, s.
     #[must_use]
     pub fn new(plume: &'a Plume, flow: &'a dyn Flow, t_s: f64) -> Self {
         Self { plume, flow, t_s }

@@ -1,30 +1,33 @@
-//! How far a step of a given length leaves mixed water from even: the error of the kernel's vertical step, worked out and not sampled.
+//! How far a step of a given length disturbs mixed water: the error of the kernel's vertical step, computed, not
+//! sampled.
 //!
-//! *Source*: the well-mixed condition (Thomson 1987, J. Fluid Mech. 180, 529) applied to one step of `kernel.rs`. What a step of dt makes
-//! of even water is 1 + q dt; the deviation r then obeys ∂r/∂t = ∂(K ∂r/∂z)/∂z + q, which is solved from even water.
-//! That dt is to be short against 1/|K''|: Visser 1997, Mar. Ecol. Prog. Ser. 158, 275; Ross & Sharples 2004, Limnol. Oceanogr. Methods 2, 289.
+//! *Source*: the well-mixed condition (Thomson 1987, J. Fluid Mech. 180, 529) applied to one step of `kernel.rs`. A
+//! step of dt turns even water into 1 + q dt. The deviation r then obeys ∂r/∂t = ∂(K ∂r/∂z)/∂z + q, which is solved
+//! from even water. That dt must be short compared with 1/|K''|: Visser 1997, Mar. Ecol. Prog. Ser. 158, 275; Ross &
+//! Sharples 2004, Limnol. Oceanogr. Methods 2, 289.
 //!
 //! *Parameters*: dt the step (s), how long it is used (s), K_z at the levels of one column of the flow grid (m²/s).
 //!
-//! *Deviations*: dt·max|K''| alone does not do. Over parabolas, interfaces 0.2 to 2 m thick at 0.001 to 0.03 m²/s, gaps and waves, in 6 m and 24
-//! levels, the worst 24th of the depth is off by 0.5 to 3.6 times it; what is worked out here agrees with 150 000 filaments
-//! to 2 % of even plus a tenth of the error (`tests_evenness.rs`). Filaments that share their mixing (`eddy_size_m`) err less.
+//! *Deviations*: dt·max|K''| alone is not sufficient. The tests cover parabolas, interfaces 0.2 to 2 m thick at 0.001
+//! to 0.03 m²/s, gaps and waves, in 6 m of water and 24 levels. There the worst 24th of the depth deviates by 0.5 to
+//! 3.6 times that number. The value computed here agrees with 150 000 filaments to 2 % of even plus a tenth of the
+//! error (`tests_evenness.rs`). The error is smaller for filaments that share their mixing (`eddy_size_m`).
 
 use world::math;
 
-/// Parts of the depth that are compared with even water: as many as the usual grid has levels.
+/// Parts of the depth that are compared with even water: as many as the default grid has levels.
 const PARTS: usize = 24;
 /// Cells of the depth on which the deviation spreads.
 const CELLS: usize = 20 * PARTS;
-/// Steps of the two normal numbers in the sums over them, in standard deviations; and how many they are followed out.
+/// Step of the two normal numbers in the sums over them, and the limit of the sums, in standard deviations.
 const NORMAL: (f64, f64) = (0.5, 4.0);
-/// Starts are as far apart as this part of the kick at the nearest level, or of the distance to it.
+/// Distance between starting heights, as a part of the kick at the nearest level or of the distance to it.
 const FINE: f64 = 1.0 / 6.0;
 /// Implicit steps of the deviation, each longer than the one before by [`GROWTH`].
 const STEPS: i32 = 60;
 const GROWTH: f64 = 1.15;
 
-/// K_z between bed and surface as the filaments of one place see it: a straight line from level to level.
+/// K_z between bed and surface as the filaments of one place see it: linear from level to level.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MixingProfile {
     /// Depth, m.
@@ -45,12 +48,12 @@ impl MixingProfile {
         }
     }
 
-    /// Whether all of it are numbers that can be reckoned with.
+    /// Whether all of its numbers are finite.
     pub(crate) fn is_finite(&self) -> bool {
         self.depth > 0.0 && self.k.iter().all(|k| (0.0..1e12).contains(k))
     }
 
-    /// Greatest |K''| at a level, by the slopes beside it, 1/s.
+    /// Greatest |K''| at a level, from the slopes on both sides, 1/s.
     pub(crate) fn sharpest(&self) -> f64 {
         let slope = |n: usize| (self.k[n] - self.k[n - 1]) / (self.height[n] - self.height[n - 1]);
         let bend = |n: usize| {
@@ -59,12 +62,13 @@ impl MixingProfile {
         (1..self.k.len() - 1).map(bend).fold(0.0, f64::max)
     }
 
-    /// Greatest deviation, as a part of even, of a 24th of the depth after `lasts_s` in steps of `dt_s`, from even water.
+    /// Greatest deviation from even water of any 24th of the depth, as a part of even, after `lasts_s` in steps of
+    /// `dt_s`.
     pub(crate) fn unevenness(&self, dt_s: f64, lasts_s: f64) -> f64 {
         let cell = self.depth / CELLS as f64;
         let gained = self.gained(dt_s, cell);
         let mut off = vec![0.0; CELLS];
-        // Between two cells, 1/s.
+        // Exchange between two cells, 1/s.
         let per: Vec<f64> = (1..CELLS)
             .map(|n| self.at(n as f64 * cell).0 / (cell * cell))
             .collect();
@@ -85,7 +89,7 @@ impl MixingProfile {
         (self.k[n - 1] + slope * (height - self.height[n - 1]), slope)
     }
 
-    /// What one step adds to even water, a second: by cell, as a part of even.
+    /// What one step adds to even water per second: by cell, as a part of even.
     fn gained(&self, dt_s: f64, cell: f64) -> Vec<f64> {
         let starts = self.starts(dt_s);
         let here: Vec<(f64, f64)> = starts.iter().map(|h| self.at(*h)).collect();
@@ -107,7 +111,7 @@ impl MixingProfile {
                 *m = (h + kick, 0.25 * dt_s * (slope + secant));
             }
             for y in nodes(0) {
-                // Only the square of the second number counts: both its signs at once.
+                // Only the square of the second number counts, so both of its signs are taken together.
                 let sides = if y > 0.0 { 2.0 } else { 1.0 };
                 let part = sides * weight(x) * weight(y) / (all * all);
                 let end = |(to, drift): (f64, f64)| self.folded(to + drift * (x * x + y * y));
@@ -123,13 +127,13 @@ impl MixingProfile {
         density.iter().map(|c| (c - 1.0) / dt_s).collect()
     }
 
-    /// Heights from bed to surface that are followed: close together beside a level, where the slope bends within a kick.
+    /// Starting heights from bed to surface, close together near a level, where the slope bends within a kick.
     fn starts(&self, dt_s: f64) -> Vec<f64> {
         let mut starts = vec![0.0];
         for n in 1..self.k.len() {
             let (low, high) = (self.height[n - 1], self.height[n]);
             let kicks = [n - 1, n].map(|n| (2.0 * self.k[n] * dt_s).sqrt());
-            // No finer than rounding and the count of starts allow.
+            // No finer than rounding and the number of starts allow.
             let least = (high - low) / 2000.0;
             let mut h = low;
             while h < high {
@@ -187,11 +191,11 @@ impl Sums {
     /// A mass between two heights.
     fn add(&mut self, a: f64, b: f64, mass: f64) {
         let (low, high) = (a.min(b), a.max(b));
-        // A piece pressed to a point would have no density.
+        // A piece compressed to a point would have no density.
         let high = high.max(low + 1e-9 * self.cell);
         let rise = mass / (high - low);
         for (from, rise) in [(low, rise), (high, -rise)] {
-            // The first face at or above it.
+            // The first face at or above `from`.
             let face = (from / self.cell).ceil() as usize;
             let face = face.min(CELLS + 1);
             self.rise[face] += rise;

@@ -1,15 +1,17 @@
-//! What a filament near walls adds to the concentration at a point: its kernel mirrored at every wall that it reaches.
+//! Concentration at a point from a filament near walls: its kernel is mirrored at every wall that it reaches.
 //!
-//! *Source*: images of a source at walls, Csanady 1973, Turbulent Diffusion in the Environment, ch. 3; between two walls the rows of images of
-//! Carslaw & Jaeger 1959, Conduction of Heat in Solids, section 14.3.
+//! *Source*: images of a source at walls, Csanady 1973, Turbulent Diffusion in the Environment, ch. 3; between two
+//! walls, the rows of images of Carslaw & Jaeger 1959, Conduction of Heat in Solids, section 14.3.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: the way from filament to point is taken along the three axes in turn, and along each the Gaussian is mirrored at both ends of the
-//! free way; the mean of along-across-up and up-across-along, which is the same from either end. Each of the three has the integral 1 over its
-//! way, from the point's side as from the filament's, so all of the mass is in the water and even dye has one concentration everywhere, at a wall,
-//! in a corner, in a narrow gap. Nothing is felt through a wall, however thin; round a wall's edge as far as the ways lead. Cut at 4σ along each
-//! axis. Between walls less than 4/3 σ apart it is even, to 3e-5.
+//! *Deviations*: the way from filament to point is taken along the three axes in turn. Along each axis the Gaussian is
+//! mirrored at both ends of the free way. The result is the mean of the orders along-across-up and up-across-along, so
+//! that it is the same from either end. Each of the three factors has the integral 1 over its way, from the point's
+//! side as well as from the filament's. Therefore all of the mass is in the water, and even dye has one concentration
+//! everywhere: at a wall, in a corner, in a narrow gap. Nothing is felt through a wall, however thin; round the edge of
+//! a wall, the kernel reaches as far as the ways lead. It is cut at 4σ along each axis. Between walls less than 4/3 σ
+//! apart it is even, to 3e-5.
 
 use super::cells::Cells as Lookup;
 use super::leaf::{CUT_SIGMAS, falling};
@@ -29,20 +31,20 @@ pub(super) struct Felt {
     up: [f64; 2],
 }
 
-/// A point that is asked for its concentration.
+/// A point at which the concentration is asked for.
 pub(super) struct Spot<'a> {
     pub(super) room: &'a Room,
     pub(super) lookup: &'a Lookup,
-    /// East, north, up, m: in the water.
+    /// East, north, up, m; the point lies in the water.
     pub(super) p: [f32; 3],
     at: Option<Place>,
-    // The farthest that any filament reaches, m.
+    // Longest reach of any filament, m.
     reach: f64,
     ends: OnceCell<[[f64; 2]; 2]>,
 }
 
 impl<'a> Spot<'a> {
-    /// None where no water is near.
+    /// `None` if no water is near.
     pub(super) fn new(room: &'a Room, lookup: &'a Lookup, p: [f32; 3], reach: f64) -> Option<Self> {
         let mut query = Self {
             room,
@@ -74,7 +76,7 @@ impl<'a> Spot<'a> {
 }
 
 impl Felt {
-    /// A filament of `kg` at `p` with horizontal and vertical sizes (m), if a wall is near enough to be felt.
+    /// A filament of `kg` at `p` with horizontal and vertical sizes (m), if a wall is near enough to matter.
     pub(super) fn new(
         room: &Room,
         lookup: &Lookup,
@@ -97,7 +99,7 @@ impl Felt {
         })
     }
 
-    /// What it adds at a point, kg/m³.
+    /// Its contribution at a point, kg/m³.
     pub(super) fn add(&self, query: &Spot<'_>) -> f64 {
         let Some(to) = &query.at else { return 0.0 };
         let from = &self.at;
@@ -138,7 +140,7 @@ impl Felt {
         0.5 * self.kg * sum
     }
 
-    /// Bounds beyond which nothing is felt, m.
+    /// Bounds beyond which the contribution is zero, m.
     pub(super) fn bounds(&self, room: &Room) -> ([f32; 3], [f32; 3]) {
         let p = room.point(&self.at);
         let reach = f64::from(CUT_SIGMAS) * 1.000_01;
@@ -156,7 +158,7 @@ fn within(x: f64, [low, high]: [f64; 2]) -> bool {
     x >= low && x <= high
 }
 
-/// Gaussian of standard deviation `size` round `from`, mirrored at both ends of a way, 1/m.
+/// Gaussian of standard deviation `size` about `from`, mirrored at both ends of a way, 1/m.
 fn density(x: f64, from: f64, size: f64, [low, high]: [f64; 2]) -> f64 {
     let eighth = 1.0 / (16.0 * size * size);
     let term = |at: f64| f64::from(falling(((x - at) * (x - at) * eighth) as f32));
@@ -166,7 +168,7 @@ fn density(x: f64, from: f64, size: f64, [low, high]: [f64; 2]) -> f64 {
         return 1.0 / long;
     } else if long.is_finite() {
         sum += term(2.0 * low - from);
-        // Rows of images as far as the cut: 4σ is at most three ways.
+        // Rows of images up to the cut: 4σ is at most three ways.
         for n in [-2.0, -1.0, 1.0, 2.0] {
             let shift = 2.0 * n * long;
             sum += term(from + shift) + term(2.0 * low - from + shift);
@@ -183,7 +185,7 @@ fn density(x: f64, from: f64, size: f64, [low, high]: [f64; 2]) -> f64 {
 mod tests {
     use super::*;
 
-    /// The integral over the way is 1 from the point's side as from the filament's.
+    /// The integral over the way is 1, from the point's side as well as from the filament's.
     #[test]
     fn density_is_one_over_the_way_however_wide_it_is() {
         for size in [0.05, 0.3, 0.7, 0.76, 1.0, 4.0] {

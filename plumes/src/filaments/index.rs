@@ -1,12 +1,12 @@
-//! Finds the filaments that can be felt at a point: groups in the order of release, each parted into leaves where it is asked.
+//! Finds the filaments that contribute at a point: groups in the order of release, divided into leaves where needed.
 //!
 //! *Source*: k-d tree, Bentley 1975, Commun. ACM 18, 509, as bounding boxes of leaves.
 //!
-//! *Parameters*: 1024 filaments a group, 32 a leaf; speed in `benches/filaments.rs`.
+//! *Parameters*: 1024 filaments in a group, 32 in a leaf; speed in `benches/filaments.rs`.
 //!
-//! *Deviations*: neighbours in the order of release are neighbours in the water, so a group needs no sorting, only its
-//! bounds, and most groups are never near a robot. A group is halved again and again, as far as what is asked lies near a
-//! half; what it answers does not depend on what was asked before, so a viewer that asks too changes nothing.
+//! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
+//! no sorting, and most groups are never near a robot. A group is halved repeatedly, but only where a question falls
+//! near a half. Answers do not depend on earlier questions, so a viewer that asks too changes nothing.
 
 use super::cells::Cells;
 use super::image::{Felt, Spot};
@@ -19,7 +19,7 @@ use super::thread;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 
-/// Filaments a group, at most.
+/// Most filaments in a group.
 const GROUP: usize = 1024;
 
 /// All groups of all stores at one time.
@@ -27,7 +27,7 @@ const GROUP: usize = 1024;
 pub(super) struct Index {
     groups: Vec<Group>,
     now_s: f64,
-    /// The farthest that any filament reaches, m.
+    /// Longest reach of any filament, m.
     reach: f64,
 }
 
@@ -38,14 +38,14 @@ struct Group {
     n: usize,
     lo: [f32; 3],
     hi: [f32; 3],
-    /// Size of the oldest member, the largest: horizontal, and vertical wherever it may be.
+    /// Sizes of the oldest member, which is the largest: horizontal, and vertical at any place.
     largest: [f32; 2],
-    /// How much farther up and down it reaches over a steep bed, m.
+    /// Additional vertical reach over a steep bed, m.
     steep: f32,
     whole: OnceLock<Part>,
 }
 
-/// Members of a group, in the order of release, with the box they are in; parted when first asked near it.
+/// Members of a group in the order of release, with their bounding box. Divided when first asked near it.
 #[derive(Clone, Debug)]
 struct Part {
     members: Vec<u16>,
@@ -61,7 +61,7 @@ enum Inside {
     Leaf(Box<Bounded>),
 }
 
-/// A leaf with its bounds, and the filaments beside it that feel a wall.
+/// A leaf with its bounds, and the filaments that feel a wall and are therefore not in the leaf.
 #[derive(Clone, Debug)]
 struct Bounded {
     leaf: Leaf,
@@ -71,7 +71,8 @@ struct Bounded {
 }
 
 impl Index {
-    /// Over a bed and solids as steep as `steepest` the heights at which a filament near a wall is felt reach farther; 0 without walls.
+    /// Builds the index. `steepest` is the slope of bed and solids: over a steep slope, a filament near a wall is felt
+    /// over a larger range of heights. 0 without walls.
     pub(super) fn new(stores: &[Store], now_s: f64, steepest: f32) -> Self {
         let mut groups = Vec::new();
         let mut farthest = 0.0_f64;
@@ -112,7 +113,7 @@ impl Index {
         }
     }
 
-    /// Concentration at a point, kg/m³; nothing above the surface. In a solid it is that of the nearest water.
+    /// Concentration at a point, kg/m³; zero above the surface. In a solid it is that of the nearest water.
     pub(super) fn at(
         &self,
         stores: &[Store],
@@ -155,7 +156,7 @@ impl Index {
     }
 }
 
-/// What is asked, and of whom.
+/// A question, and the data that answer it.
 struct Asked<'a> {
     p: [f32; 3],
     query: &'a Spot<'a>,
@@ -187,7 +188,7 @@ impl Part {
         }
     }
 
-    /// Adds what its leaves make felt, one after the other.
+    /// Adds the contributions of its leaves, one after the other.
     fn add(&self, asked: &Asked, now_s: f64, total: &mut f64) {
         // More than the leaves' own bounds, which decide.
         let reach = asked.g.largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
@@ -249,7 +250,7 @@ impl Part {
         }
     }
 
-    /// Halves the members along their longest side (in units of the kernel's reach), full leaves to each.
+    /// Halves the members along their longest side (in units of the kernel's reach), so that leaves are full.
     fn halves(&self, Asked { g, s, .. }: &Asked) -> [Self; 2] {
         let n = self.members.len();
         let horizontal = g.largest[0];
@@ -262,7 +263,7 @@ impl Part {
                 d = other;
             }
         }
-        // Coordinate in 22 bits, member in 10: plain numbers without ties, which select fast.
+        // Coordinate in 22 bits, member in 10 bits: plain numbers without ties are fast to select from.
         let (lo, side) = (self.lo[d], side(d));
         let scale = if side > 0.0 { 4_194_300.0 / side } else { 0.0 };
         let key = |(v, m): (&f32, &u16)| (((v - lo) * scale) as u32) << 10 | u32::from(*m);

@@ -1,43 +1,47 @@
-//! Moves a block of filaments one step: carried by the mean flow, kicked by the eddies, turned back at bed and surface.
+//! Moves a block of filaments by one step: the mean flow carries them, eddies kick them, bed and surface reflect them.
 //!
-//! *Source*: the random walk dx = (u + ∇K)dt + √(2K)dW that keeps a mixed cloud mixed (Thomson 1987, J. Fluid Mech.
-//! 180, 529; Visser 1997, Mar. Ecol. Prog. Ser. 158, 275). Vertically dz = √(2K dt)ξ₁ + ½K'dt(ξ₁² + ξ₂²): Milstein's step
-//! (Kloeden & Platen 1992, Numerical Solution of Stochastic Differential Equations, section 10.3) with ξ₂² in place of its mean.
-//! Where K is a straight line √K is then the length of a vector kicked in two dimensions (squared Bessel process of
-//! dimension 2; Revuz & Yor 1999, Continuous Martingales and Brownian Motion, ch. XI), so the step is exact for any dt
-//! and never passes the point where K is zero.
+//! *Source*: the random walk dx = (u + ∇K)dt + √(2K)dW, which keeps a mixed cloud mixed (Thomson 1987, J. Fluid Mech.
+//! 180, 529; Visser 1997, Mar. Ecol. Prog. Ser. 158, 275). Vertically dz = √(2K dt)ξ₁ + ½K'dt(ξ₁² + ξ₂²): Milstein's
+//! step (Kloeden & Platen 1992, Numerical Solution of Stochastic Differential Equations, section 10.3) with ξ₂² in
+//! place of its mean. Where K is linear, √K is then the length of a vector kicked in two dimensions (squared Bessel
+//! process of dimension 2; Revuz & Yor 1999, Continuous Martingales and Brownian Motion, ch. XI). So the step is exact
+//! for any dt and never passes the point where K is zero.
 //!
-//! *Parameters*: dt the step (s), different for filaments released within it; K_h, K_z, u from the flow grid.
+//! *Parameters*: the step dt (s), shorter for filaments released within it; K_h, K_z, u from the flow grid.
 //!
-//! *Deviations*: K_z is a straight line between two levels of the grid and kinked at each. K' is therefore the mean of the
-//! slope at z and of the secant from z to z* = z + √(2K dt)ξ₁ (folded for K's value): with the slope alone a cloud drifts to one
-//! side of a kink, with the secant alone to the other, and in one cell the two agree. What remains is of the order
-//! of K''dt; `evenness` works it out for any column, and [`SharpestMixing`](super::SharpestMixing) the longest step. Measured in 6 m of water, 24 bins, steps of 0.25 to 1 s: with 60 000 filaments chi-square stays below its 0.999
-//! quantile for a parabola at u_* = 6 mm/s and 2 cm/s, for the same damped 190-fold at an interface, and for a gap of
-//! 1e-5 m²/s half a metre wide in 5e-3. With 300 000 at 1 s, standard error 0.9 %: no error in the parabola, single bins
-//! up to 3.5 % off at the interface (2 cm/s) and 2.9 % in the gap. Beside such a gap in 3e-2 m²/s, at 1 s, where one kick
-//! is as wide as the gap, bins are up to 12 % off; the test of that limit allows 20 %.
+//! *Deviations*: K_z is linear between two levels of the grid and has a kink at each. Therefore K' is the mean of the
+//! slope at z and of the secant from z to z* = z + √(2K dt)ξ₁ (reflected for K's value). With the slope alone a cloud
+//! drifts to one side of a kink, with the secant alone to the other; within one cell the two agree. The remaining error
+//! is of the order of K''dt; `evenness` computes it for any column, and [`SharpestMixing`](super::SharpestMixing) the
+//! longest step.
 //!
-//! Tried and dropped: LaBolle et al. 2000 (Water Resour. Res. 36, 651), at 1 s and 2 cm/s 10 % too little in the outer
-//! 0.25 m of the parabola and 19 % at the interface; a Metropolis test on the step, which leaves mixed water exactly
-//! mixed but slows what crosses a gap by 8 % at 0.5 s and 17 % at 1 s.
+//! Measured in 6 m of water, 24 bins, steps of 0.25 to 1 s. With 60 000 filaments, chi-square stays below its 0.999
+//! quantile for a parabola at u_* = 6 mm/s and 2 cm/s, for the same parabola damped 190-fold at an interface, and for a
+//! gap of 1e-5 m²/s half a metre wide in 5e-3. With 300 000 filaments at 1 s (standard error 0.9 %), the parabola shows
+//! no error; single bins deviate by up to 3.5 % at the interface (2 cm/s) and 2.9 % in the gap. Beside such a gap in
+//! 3e-2 m²/s, at 1 s, one kick is as wide as the gap, and bins deviate by up to 12 %; the test of that limit allows 20
+//! %.
 //!
-//! u is the mean of its values at z and z* (trapezium), which makes the stretching of a cloud by vertical shear
-//! second order in dt; horizontally Euler, the flow's horizontal scales being long against a step. Where K_h varies its
-//! gradient is added as drift (Itô form). The bed is the grid's, bilinear in a cell: where the slope bends within a cell it
-//! may lie some centimetres below that of the terrain.
+//! Tried and rejected: LaBolle et al. 2000 (Water Resour. Res. 36, 651), which at 1 s and 2 cm/s gives 10 % too little
+//! in the outer 0.25 m of the parabola and 19 % at the interface; and a Metropolis test of the step, which leaves mixed
+//! water exactly mixed but slows transport across a gap by 8 % at 0.5 s and 17 % at 1 s.
 //!
-//! Everything is f32 and written once; the compiler makes of it a portable version and one for AVX2 (no fused
+//! u is the mean of its values at z and z* (trapezium), so the stretching of a cloud by vertical shear is second order
+//! in dt. Horizontally the step is Euler's, because the flow's horizontal scales are long compared with a step. Where
+//! K_h varies, its gradient is added as drift (Itô form). The bed is that of the grid, bilinear in a cell; where the
+//! slope bends within a cell, it may lie some centimetres below the terrain's.
+//!
+//! All arithmetic is f32 and written once. The compiler makes a portable version and one for AVX2 from it (no fused
 //! multiply-add in either), which give the same bits.
 
 use super::cells::{Cells, clamped};
 use super::lookup::{Columns, Levels, Water, fetch};
 use super::noise::normals;
 
-/// Filaments a block.
+/// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
 
-/// A block of filaments on its way through the step.
+/// A block of filaments during a step.
 #[derive(Clone)]
 pub(super) struct Block {
     pub(super) x: [f32; BLOCK],
@@ -46,15 +50,15 @@ pub(super) struct Block {
     pub(super) bed: [f32; BLOCK],
     pub(super) dt: [f32; BLOCK],
     pub(super) number: [u32; BLOCK],
-    /// Part of the diffusivities that kicks it.
+    /// Part of the diffusivities that kicks each.
     pub(super) kicked: [f32; BLOCK],
     /// Set by the step: 1 if it has left the grid.
     pub(super) outside: [u32; BLOCK],
-    /// How many of it are filaments.
+    /// Number of filaments in it.
     pub(super) used: usize,
 }
 
-/// Room for what a step works out about its block; every step writes all of it anew.
+/// Memory for what a step computes about its block; every step overwrites all of it.
 pub(super) struct Work {
     noise: [[f32; BLOCK]; 4],
     column: Columns,
@@ -91,7 +95,7 @@ impl Work {
 /// Which version of the step the machine can run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Path {
-    /// What every machine of the target runs.
+    /// Runs on every machine of the target.
     Portable,
     /// AVX2.
     #[cfg(target_arch = "x86_64")]
@@ -99,7 +103,7 @@ pub(super) enum Path {
 }
 
 impl Path {
-    /// The fastest this machine has.
+    /// The fastest version that this machine can run.
     pub(super) fn detect() -> Self {
         #[cfg(target_arch = "x86_64")]
         if std::arch::is_x86_feature_detected!("avx2") {
@@ -109,7 +113,7 @@ impl Path {
     }
 }
 
-/// Moves all filaments of the block by their `dt`.
+/// Moves all filaments of the block, each by its `dt`.
 pub(super) fn step(
     path: Path,
     cells: &Cells,
@@ -188,7 +192,7 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &
     }
     for l in 0..BLOCK {
         let half = 0.5 * b.dt[l];
-        // Secant of K_z over the kick; over a hundred-thousandth of the depth it would be rounding alone.
+        // Secant of K_z over the kick. For a kick below a hundred-thousandth of the depth it would be only rounding.
         let long = kick[l].abs() * up[l] > 1e-5;
         let secant = (there[3][l] - here[3][l]) / kick[l];
         let secant = if long { secant } else { slope[l] };
@@ -212,8 +216,8 @@ fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &
     }
 }
 
-/// Mirrors a height into the water between `bed` (negative) and the surface at 0, as often as it takes; `up` is
-/// the reciprocal of the depth.
+/// Reflects a height into the water between `bed` (negative) and the surface at 0, as often as necessary; `up` is the
+/// reciprocal of the depth.
 #[inline(always)]
 pub(super) fn folded(z: f32, bed: f32, up: f32) -> f32 {
     let depth = -bed;
@@ -305,7 +309,7 @@ mod tests {
                     assert!((got[d] - want.velocity[d]).abs() < 1e-5);
                 }
                 assert!((got[3] - want.k_z).abs() < 1e-6);
-                // Next to a level either cell's slope is right.
+                // Next to a level, the slope of either cell is right.
                 let slope = Quad::columns([rise; 4])[3][0] * level.per_m;
                 assert!((slope - want.dk_dz).abs() < 1e-6 || !(1e-3..0.999).contains(&level.part));
                 assert!((b.bed[l] - want.bed_z).abs() < 1e-5);

@@ -1,16 +1,16 @@
-//! What a handful of neighbouring filaments add to the concentration at a point.
+//! Concentration at a point from a few neighbouring filaments.
 //!
-//! *Source*: Gaussian kernel with mirror images at bed and surface (Csanady 1973, Turbulent Diffusion in the Environment,
-//! ch. 3; any text on plumes); the kernel's form is that of `size.rs`.
+//! *Source*: Gaussian kernel with mirror images at bed and surface (Csanady 1973, Turbulent Diffusion in the
+//! Environment, ch. 3; any text on plumes); the kernel's form is that of `size.rs`.
 //!
 //! *Parameters*: [`CUT_SIGMAS`]: the kernel is zero beyond this many standard deviations.
 //!
-//! *Deviations*: cut at 4σ, where it has fallen to 3.4e-4 of its peak, and divided by the 0.998866 of its mass that lies
-//! within, so that it integrates to 1: inside, every value is 0.11 % higher than the uncut kernel. The bed counts
-//! as level under each filament, at its height there. Images: one at each boundary, and, where the kernel is
-//! deep enough to reach it, one more of each; vertical sizes of at most half the depth need no others. The exponential
-//! is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments within reach of any other wall are not in leaves: file
-//! `image`.
+//! *Deviations*: the kernel is cut at 4σ, where it has fallen to 3.4e-4 of its peak, and divided by the 0.998866 of its
+//! mass that lies within, so that it integrates to 1. Inside the cut every value is therefore 0.11 % higher than that
+//! of the uncut kernel. The bed counts as level under each filament, at its height there. There is one image at each
+//! boundary and, where the kernel reaches it, one more of each; vertical sizes of at most half the depth need no
+//! others. The exponential is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments
+//! within reach of any other wall are not in leaves; see the file `image`.
 
 use super::kernel::Path;
 
@@ -20,17 +20,17 @@ pub const CUT_SIGMAS: f32 = 4.0;
 /// Part of the mass within the cut: erf(4/√2) − √(2/π)·4·e⁻⁸.
 const WITHIN_CUT: f64 = 0.998_865_98;
 
-/// Filaments a leaf.
+/// Filaments in a leaf.
 pub(super) const LEAF: usize = 32;
 
-/// Neighbours in arrays of fixed length; empty places have no mass.
+/// Neighbouring filaments in arrays of fixed length; empty places have no mass.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf {
     x: [f32; LEAF],
     y: [f32; LEAF],
     z: [f32; LEAF],
     bed: [f32; LEAF],
-    /// 1 / (16 σ²), horizontal and vertical: exponents come in eighths.
+    /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths.
     h: [f32; LEAF],
     v: [f32; LEAF],
     /// Concentration at the centre, kg/m³.
@@ -74,11 +74,11 @@ impl Leaf {
         self.count += 1;
     }
 
-    /// Bounds beyond which nothing is felt, m: (lowest, highest) corner.
+    /// Bounds beyond which the contribution is zero, m: (lowest, highest) corner.
     pub(super) fn bounds(&self) -> ([f32; 3], [f32; 3]) {
         let (mut lo, mut hi) = ([f32::MAX; 3], [f32::MIN; 3]);
         for n in 0..self.count {
-            // 1/(16σ²) back to σ, a hair more against rounding.
+            // From 1/(16σ²) back to σ, slightly enlarged against rounding.
             let r = |eighth: f32| CUT_SIGMAS * 1.000_01 / (4.0 * eighth.sqrt());
             let p = [self.x[n], self.y[n], self.z[n]];
             let reach = [r(self.h[n]), r(self.h[n]), r(self.v[n])];
@@ -156,7 +156,7 @@ fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
         + ((total[1] + total[5]) + (total[3] + total[7]))
 }
 
-/// exp(−8w) for w ≤ 1, nothing beyond.
+/// exp(−8w) for w ≤ 1, zero beyond.
 #[inline(always)]
 pub(super) fn falling(w: f32) -> f32 {
     // Interpolates exp(−w) at the Chebyshev points of [0, 1].

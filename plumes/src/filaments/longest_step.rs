@@ -1,12 +1,13 @@
-//! The longest step of the plume that leaves mixed water even, in a water as it is.
+//! The longest step of the plume that leaves mixed water even, for given water.
 //!
-//! *Source*: see `evenness`, which works out what a step does to one column.
+//! *Source*: see `evenness`, which computes what a step does to one column.
 //!
-//! *Parameters*: [`EVEN`], how far from even still counts as even.
+//! *Parameters*: [`EVEN`], the deviation that still counts as even.
 //!
-//! *Deviations*: asked are [`PLACES`] by [`PLACES`] places over the area at [`TIMES`] times, and of each time the column whose K_z bends most
-//! sharply; a meander is taken as it is at its latest advance. A filament is taken to stay as long as the slowest of these columns takes to cross
-//! the area's diagonal, if that is shorter than the time for which the step is used.
+//! *Deviations*: the water is examined at [`PLACES`] by [`PLACES`] places over the area at [`TIMES`] times. For each
+//! time, the column whose K_z bends most sharply counts. A meander is taken as it is at its latest advance. A filament
+//! is assumed to stay in the area as long as the slowest of these columns takes to cross the diagonal, if that is
+//! shorter than the time for which the step is used.
 
 use super::evenness::MixingProfile;
 use crate::flow::grid::GridShape;
@@ -15,7 +16,7 @@ use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::terrain::Terrain;
 
-/// Mixed water counts as even if no 24th of its depth is further off than this part.
+/// Mixed water counts as even if no 24th of its depth deviates by more than this part.
 pub const EVEN: f64 = 0.05;
 /// The deviation is no more than this times dt·max|K''|: twice what any of the waters of `evenness` came to.
 const AT_MOST: f64 = 8.0;
@@ -23,14 +24,14 @@ const AT_MOST: f64 = 8.0;
 const PLACES: usize = 5;
 /// Times from the beginning to the end.
 const TIMES: usize = 9;
-/// No step below this is looked for, s.
+/// Shortest step that is considered, s.
 const SHORTEST_S: f64 = 1e-3;
 
-/// The columns of a water in which K_z bends most sharply: those that a long step treats worst.
+/// The columns of a water in which K_z bends most sharply, that is, those that suffer most from a long step.
 #[derive(Clone, Debug)]
 pub struct SharpestMixing {
     columns: Vec<Column>,
-    /// A filament is carried out of the area by then, s; infinite in water that stands still anywhere.
+    /// Time after which a filament has left the area, s; infinite if the water stands still anywhere.
     stay_s: f64,
 }
 
@@ -39,23 +40,23 @@ struct Column {
     place: Vector2<f64>,
     t_s: f64,
     profile: MixingProfile,
-    /// Of the water's mean velocity over the depth, m/s.
+    /// Speed of the water's mean velocity over the depth, m/s.
     speed_m_s: f64,
 }
 
-/// How far from even a step leaves mixed water, where it is worst.
+/// How far from even a step leaves mixed water, at the worst place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uneven {
-    /// Greatest deviation of a 24th of the depth, as a part of even.
+    /// Greatest deviation of any 24th of the depth, as a part of even.
     pub part: f64,
-    /// Where (east, north), m.
+    /// Place (east, north), m.
     pub place: Vector2<f64>,
-    /// With the water of which time, s.
+    /// Time of the water, s.
     pub t_s: f64,
 }
 
 impl SharpestMixing {
-    /// Those over an area in the time from 0 to `until_s`, as a plume on a grid of this shape meets them.
+    /// The sharpest columns of an area from time 0 to `until_s`, as a plume on a grid of this shape sees them.
     #[must_use]
     pub fn of(
         flow: &dyn Flow,
@@ -86,7 +87,8 @@ impl SharpestMixing {
         }
     }
 
-    /// What steps of `dt_s` make of mixed water within `lasts_s`, or as long as it stays in the area; `None` if K_z is a number nowhere.
+    /// How steps of `dt_s` disturb mixed water within `lasts_s`, or for as long as it stays in the area. `None` if K_z
+    /// is finite nowhere.
     #[must_use]
     pub fn uneven(&self, dt_s: f64, lasts_s: f64) -> Option<Uneven> {
         let all = self.columns.iter().map(|c| Uneven {
@@ -104,8 +106,8 @@ impl SharpestMixing {
         AT_MOST * dt_s * bends.fold(0.0, f64::max) <= EVEN
     }
 
-    /// The longest step up to `most_s` that keeps mixed water within [`EVEN`] for `lasts_s`, s, to a twentieth below; `None` if it would have
-    /// to be shorter than a millisecond.
+    /// The longest step up to `most_s` that keeps mixed water within [`EVEN`] for `lasts_s`, s; it may be a twentieth
+    /// too short. `None` if it would be shorter than a millisecond.
     #[must_use]
     pub fn longest_step_s(&self, most_s: f64, lasts_s: f64) -> Option<f64> {
         let even = |dt_s: f64| self.uneven(dt_s, lasts_s).is_none_or(|u| u.part <= EVEN);
@@ -129,7 +131,7 @@ impl SharpestMixing {
     }
 }
 
-/// Places over the whole area, its edges among them.
+/// Places over the whole area, including its edges.
 fn places(area: &Area) -> impl Iterator<Item = Vector2<f64>> {
     let part = |n: usize| n as f64 / (PLACES - 1) as f64 - 0.5;
     let along = move |i: usize| part(i) * area.length_m;

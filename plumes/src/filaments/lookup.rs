@@ -1,4 +1,4 @@
-//! Reads the water at the places of a block of filaments, four filaments side by side.
+//! Reads the water at the places of a block of filaments, four filaments at a time.
 //!
 //! *Source*: trilinear interpolation in the layout of `flow::grid`.
 //!
@@ -56,7 +56,7 @@ impl Levels {
         }
     }
 
-    /// Returns what is not kept: the reciprocal of the distance between the levels.
+    /// Stores a level. Returns the part that is not stored: the reciprocal of the distance between the levels.
     #[inline(always)]
     pub(super) fn set(&mut self, l: usize, v: Level) -> f32 {
         (self.below[l], self.part[l]) = (v.below, v.part);
@@ -67,8 +67,8 @@ impl Levels {
 /// u, v, w and K_z of a block.
 pub(super) type Water = [[f32; BLOCK]; 4];
 
-/// Fills in the water at the places of a block; multiplies `slope`, the reciprocal distance of the levels, by the rise of
-/// K_z from one to the other.
+/// Fills in the water at the places of a block. Multiplies `slope`, the reciprocal distance of the levels, by the
+/// difference of K_z between them.
 #[inline(always)]
 pub(super) fn fetch(
     cells: &Cells,
@@ -97,7 +97,7 @@ pub(super) fn fetch(
     }
 }
 
-/// `[u, v, w, K_z]` at a point of a column cell, and its rise from the level below to the one above.
+/// `[u, v, w, K_z]` at a point of a column cell, and its difference between the levels below and above.
 #[inline(always)]
 pub(super) fn trilinear(
     cells: &Cells,

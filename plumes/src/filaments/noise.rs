@@ -1,19 +1,20 @@
-//! Four standard normals for one filament in one step, by hashing instead of a stream.
+//! Four standard normals for one filament in one step, from a hash instead of a stream.
 //!
 //! *Source*: counter-based generators, Salmon, Moraes, Dror & Shaw 2011, SC'11 ("Parallel random numbers: as easy
 //! as 1, 2, 3"); the mixing function is Wellons' `lowbias32` (2018, two multiplications, bias 0.17); Box & Muller
 //! 1958, Ann. Math. Stat. 29, 610.
 //!
-//! *Parameters*: key: 64 bits made of the run's seed, the source's id and the number of the step; counter: the
-//! filament's number.
+//! *Parameters*: the key, 64 bits made of the run's seed, the source's id and the number of the step; the counter,
+//! which is the number of the filament.
 //!
 //! *Deviations*: logarithm, sine and cosine are series in f32 without branches or tables, so that the compiler can
-//! do eight filaments at once; each is within 1e-6 of the function. The radius has 24 bits, so no value exceeds 5.9.
-//! Over 10⁷ values an axis, variance and kurtosis agree with 1 and 3 within five standard errors (0.0023, 0.016; tests below).
+//! compute eight filaments at once. Each is within 1e-6 of the function. The radius has 24 bits, so no value exceeds
+//! 5.9. Over 10⁷ values per axis, variance and kurtosis agree with 1 and 3 within five standard errors (0.0023, 0.016;
+//! tests below).
 
 use std::f32::consts::{LN_2, TAU};
 
-/// Key of one step: both halves differ for every step of every source of every seed.
+/// Key of one step. Both halves differ between all steps, sources and seeds.
 pub(super) fn step_key(source_key: u64, step: u64) -> [u32; 2] {
     // SplitMix64 (Steele, Lea & Flood 2014).
     let mut z = source_key.wrapping_add(step.wrapping_mul(0x9e37_79b9_7f4a_7c15));
@@ -30,7 +31,7 @@ pub(super) fn normals(number: u32, key: [u32; 2]) -> [f32; 4] {
     let a = mix(h ^ key[1]);
     let b = mix(h.wrapping_add(key[1]) ^ 0x6a09_e667);
     let c = mix(h.wrapping_sub(key[1]) ^ 0xbb67_ae85);
-    // 24 bits each for two radii and one angle; the low bytes together give the other angle.
+    // 24 bits each for two radii and one angle. Their low bytes together make the other angle.
     let rest = (a & 0xff) | ((b & 0xff) << 8) | ((c & 0xff) << 16);
     let (r1, r2) = (radius(a >> 8), radius(b >> 8));
     let (s1, c1) = sin_cos_turn(c >> 8);
@@ -62,13 +63,13 @@ fn radius(bits: u32) -> f32 {
     (-2.0 * ln_u).max(0.0).sqrt()
 }
 
-/// Sine and cosine of an angle even over the circle: 23 bits of half a turn, one bit for the other half.
+/// Sine and cosine of an angle that is uniform over the circle: 23 bits of half a turn, and one bit for the other half.
 #[inline(always)]
 fn sin_cos_turn(bits: u32) -> (f32, f32) {
     let half = (bits & 0x7f_ffff) as i32 - 0x40_0000;
     let x = (half as f32 + 0.5) * (TAU / 16_777_216.0);
     let q = x * x;
-    // Taylor series; |x| ≤ π/2, so the first term left out is below 6e-8 (sine) and 5e-7 (cosine).
+    // Taylor series; |x| ≤ π/2, so the first omitted term is below 6e-8 (sine) and 5e-7 (cosine).
     let s = x
         * (1.0
             + q * (-1.0 / 6.0
@@ -148,7 +149,8 @@ mod tests {
             let bits = k.wrapping_mul(0x9e37_79b9) >> 8;
             let u = (f64::from(bits) + 0.5) / 16_777_216.0;
             let r = (-2.0 * world::math::ln(u)).sqrt();
-            // Near u = 1 the half is rounded off in f32: u is then off by up to 2⁻²⁵, the radius by half that over r.
+            // Near u = 1 the half is rounded away in f32: u has an error of up to 2⁻²⁵, the radius one of half that
+            // over r.
             assert!(
                 (f64::from(radius(bits)) - r).abs() < 1e-6 * r + 6e-8 / r,
                 "{u}"

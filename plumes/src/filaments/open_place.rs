@@ -4,21 +4,22 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: a place in a closed cell is mirrored at the nearest side of an open one; what is parted by a thin wall belongs to the side on
-//! which it is. Obstacles reach into open cells by less than half a cell: there is dye there too, of which nobody asks.
+//! *Deviations*: a place in a closed cell is mirrored at the nearest side of an open one. What a thin wall divides
+//! belongs to the side on which it lies. Obstacles reach into open cells by less than half a cell: dye is there too,
+//! but nobody asks for it.
 
 use super::cells::Cells as Lookup;
 use super::room::{Place, Room};
 use crate::flow::blockage::Cells;
 use nalgebra::Vector3;
 
-/// How many cells away an open place is looked for.
+/// How many cells away an open place is searched.
 const FAR: usize = 12;
-/// How far inside an open cell what was brought there stays, in cells.
+/// How far inside an open cell a place stays that was moved there, in cells.
 const INSIDE: f64 = 1e-3;
 
 impl Room {
-    /// A point in the water, or the nearest such.
+    /// A point itself if it is in the water, otherwise the nearest point that is.
     pub(super) fn in_water(&self, lookup: &Lookup, p: [f32; 3]) -> [f32; 3] {
         if !self.has_solids() {
             return p;
@@ -29,7 +30,7 @@ impl Room {
         open.map_or(p, |(_, open)| self.point(&open))
     }
 
-    /// A point outside all obstacles for one in blocked water.
+    /// A point outside all obstacles in place of one in blocked water.
     pub(super) fn shown(&self, p: [f32; 3]) -> [f32; 3] {
         if self.cells.is_none() {
             return p;
@@ -41,7 +42,8 @@ impl Room {
         self.solids.way_out(&at).map(|v| v as f32).into()
     }
 
-    /// Whether dye can be at a place: an open cell, not cut off from its middle by a thin wall; no solid.
+    /// Whether dye can be at a place: in an open cell, not separated from the cell's centre by a thin wall, and in no
+    /// solid.
     pub(super) fn is_free(&self, p: &Place) -> bool {
         let Some(cells) = &self.cells else {
             return self
@@ -52,8 +54,9 @@ impl Room {
         cells.open[cells.cell(p.cell)]
     }
 
-    /// The nearest place at which dye can be: the place itself, or mirrored at the nearest side of an open cell that is seen from it
-    /// (through nothing but the obstacle it may be in); none if there is none nearby.
+    /// The nearest place at which dye can be. This is the place itself, or its mirror image at the nearest side of an
+    /// open cell that is visible from it (the obstacle that contains the place does not hide the cell). `None` if there
+    /// is none nearby.
     pub(super) fn open(&self, lookup: &Lookup, p: &Place, looking: bool) -> Option<Place> {
         let Some(cells) = &self.cells else {
             if self.is_free(p) {
@@ -100,7 +103,7 @@ impl Room {
         best.map(|(_, place)| place)
     }
 
-    /// Whether the middle of a cell is seen from a point: obstacles that hold the point itself are no hindrance.
+    /// Whether the centre of a cell is visible from a point. Obstacles that contain the point do not count.
     fn sees(
         &self,
         cells: &Cells,
@@ -118,7 +121,7 @@ impl Room {
         self.solids.sees(eye, &to)
     }
 
-    /// Distance (m) from a place to a cell, and the place mirrored into it at its nearest side.
+    /// Distance (m) from a place to a cell, and the place mirrored into the cell at its nearest side.
     fn mirrored(
         &self,
         cells: &Cells,
@@ -151,7 +154,8 @@ impl Room {
     }
 }
 
-/// Columns to the nearest column with a closed face beside bed and surface, up to 255; laid out as the nodes of the flow grid.
+/// Number of columns to the nearest column with a closed face other than bed and surface, up to 255; laid out as the
+/// nodes of the flow grid.
 pub(super) fn clearances(cells: &Cells) -> Vec<u8> {
     let [nx, ny, nz] = cells.n;
     let mut clear = vec![u8::MAX; (nx + 1) * (ny + 1)];

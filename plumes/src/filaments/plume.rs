@@ -1,13 +1,14 @@
-//! The plume: all filaments of all sources, moved by the water, asked for concentration.
+//! The plume: all filaments of all sources. The water moves them, and sensors ask for their concentration.
 //!
-//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (a plume as filaments that
-//! are carried, spread and grow); the parts are in the files beside this one.
+//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (a plume as filaments that are
+//! carried, spread and grow). The parts are in the other files of this folder.
 //!
-//! *Parameters*: [`PlumeSettings`]: the flow grid's shape and `refresh_s`, how often the flow is summed on it (s).
+//! *Parameters*: [`PlumeSettings`]: the shape of the flow grid and `refresh_s`, how often the flow is evaluated on it
+//! (s).
 //!
-//! *Deviations*: the paper's v_m, white noise of given standard deviation added every step, becomes kicks √(2K dt),
-//! whose spread does not depend on the step. Under waves filaments are at their mean places, and a source that stands still releases
-//! at p − ξ(p, t), ξ the waves' displacement (file `displaced`).
+//! *Deviations*: the paper's v_m is white noise of given standard deviation, added in every step. Here it becomes kicks
+//! √(2K dt), whose spread does not depend on the step. Under waves, filaments are stored at their mean places, and a
+//! fixed source releases at p − ξ(p, t), with ξ the displacement by the waves (file `displaced`).
 
 use super::carried::{Carrier, Way};
 use super::cells::Cells;
@@ -34,12 +35,12 @@ use world::obstacles::Obstacles;
 use world::seeds;
 use world::terrain::Terrain;
 
-/// How finely the plume sees the water.
+/// How finely the plume resolves the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PlumeSettings {
-    /// The grid on which the flow is summed; filaments leave the domain where it ends.
+    /// The grid on which the flow is evaluated; filaments that leave it are removed.
     pub grid: GridShape,
-    /// The flow is summed again at multiples of this time, s; 0: at every drift.
+    /// The flow is evaluated again at multiples of this time, s; 0 means at every drift.
     pub refresh_s: f64,
 }
 
@@ -52,7 +53,7 @@ impl Default for PlumeSettings {
     }
 }
 
-/// All filaments, now.
+/// All filaments at the present time.
 #[derive(Resource, Clone, Debug)]
 pub struct Plume {
     pub(super) sources: Vec<Source>,
@@ -74,10 +75,10 @@ pub struct Plume {
 }
 
 impl Plume {
-    /// Clean water with the sources in place; they open at the first [`Plume::drift`].
+    /// Clean water with the sources in place. They open at the first [`Plume::drift`].
     ///
     /// # Errors
-    /// If a source cannot be where it is said to be; see [`place`].
+    /// If a source cannot be at its place; see [`place`].
     pub fn new(
         specs: &[SourceSpec],
         area: &Area,
@@ -116,24 +117,25 @@ impl Plume {
         })
     }
 
-    /// The same with solids in the water.
+    /// Adds solids to the water.
     ///
     /// # Errors
-    /// If a source stands inside one.
+    /// If a source stands inside a solid.
     pub fn with_obstacles(mut self, obstacles: Obstacles) -> Result<Self, PlumeError> {
         clear(&self.sources, &obstacles)?;
         self.room.solids = Solids::new(obstacles);
         Ok(self)
     }
 
-    /// The same in water that is led round them, if it is: filaments then follow what goes through the faces of the water's cells, and closed
-    /// cells are what is solid. The plume's grid must be [`crate::flow::BlockageSpec::grid_shape`].
+    /// Adds water that flows round the solids, if there is any. Filaments then follow the fluxes through the faces of
+    /// the water's cells, and closed cells are the solids. The plume's grid must be
+    /// [`crate::flow::BlockageSpec::grid_shape`].
     ///
     /// # Errors
-    /// If a source stands in a cell that is closed, or on the other side of a thin wall than its cell's middle.
+    /// If a source stands in a closed cell, or if a thin wall separates it from its cell's centre.
     ///
     /// # Panics
-    /// If the plume's grid is another: a slip of code.
+    /// If the plume has another grid: a mistake in the code.
     pub fn led_round(mut self, blocked: Option<&Blocked>) -> Result<Self, PlumeError> {
         let Some(blocked) = blocked else {
             return Ok(self);
@@ -155,11 +157,11 @@ impl Plume {
         Ok(self)
     }
 
-    /// Moves every filament from `t0_s` to `t1_s` and releases those due on the way; `flow` must have been
+    /// Moves every filament from `t0_s` to `t1_s` and releases those that are due meanwhile. `flow` must have been
     /// advanced to `t0_s` or `t1_s`.
     ///
     /// # Panics
-    /// If time does not grow, or the flow gives what is not a number.
+    /// If time does not increase, or if the flow returns NaN.
     pub fn drift(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
         assert!(
             t1_s > t0_s,
@@ -173,7 +175,7 @@ impl Plume {
             self.room.between(walls);
         }
         let carried_s = *self.carried_s.get_or_insert(t0_s);
-        // A hair early, as for the refresh.
+        // Slightly early, as for the refresh.
         let carries = t1_s - carried_s >= CARRY_S - 1e-6;
         for n in 0..self.stores.len() {
             let key = step_key(self.keys[n], self.steps);
@@ -237,7 +239,7 @@ impl Plume {
         self.steps += 1;
     }
 
-    /// Sums the flow on the grid when it is due: for the middle of the step, and never more than half a second ahead.
+    /// Evaluates the flow on the grid when it is due: for the middle of the step, and at most half a second ahead.
     fn refresh(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
         if self.next_refresh_s.is_some_and(|next| t0_s < next) {
             return;
@@ -252,14 +254,14 @@ impl Plume {
         }
         if let Some(carrier) = &mut self.carrier {
             carrier.refresh(flow, self.grid.t_s);
-            // What carries filaments is in the cells; the grid keeps what mixes them.
+            // The cells hold the velocity that carries filaments; the grid keeps the diffusivity.
             for v in &mut self.grid.data {
                 *v = [0.0, 0.0, 0.0, v[3]];
             }
         }
         self.cells.refresh(&self.grid);
         self.next_refresh_s = Some(if self.refresh_s > 0.0 {
-            // A hair early, so that times that are sums of steps do not miss their multiple by rounding.
+            // Slightly early, so that times that are sums of steps do not miss their multiple by rounding.
             ((t0_s / self.refresh_s + 1e-9).floor() + 1.0) * self.refresh_s - 1e-6
         } else {
             t0_s

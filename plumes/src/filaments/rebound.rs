@@ -1,14 +1,15 @@
-//! Turns filaments back at walls: what would go through one is mirrored at it, along, across and upwards in turn.
+//! Reflects filaments at walls. A motion that would pass a wall is mirrored at it: along, across and upwards in turn.
 //!
 //! *Source*: reflection at a solid wall (Thomson 1987, J. Fluid Mech. 180, 529, section 4).
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: a kick along one axis, as likely to either side and mirrored at both ends of the free way it starts on, leaves what is even
-//! on that way even, whatever its length; three such in a row leave even dye even up to walls, in corners and between walls,
-//! at any step, and none ever passes a wall. Beside a wall that ends within a kick the way round its edge is that of the axes. Between closed
-//! faces upwards the diffusivity is the water's own, mirrored. Sideways a filament keeps its height, and is mirrored at a bed or a
-//! solid's slope that it comes into.
+//! *Deviations*: a kick along one axis is symmetric and is mirrored at both ends of the free way on which it starts. It
+//! leaves dye that is even along that way even, whatever its length. Three such kicks in a row leave even dye even at
+//! any step, up to walls, in corners and between walls, and none ever passes a wall. Near a wall that ends within a
+//! kick, the way round the edge follows the axes. Between closed faces above and below, the diffusivity is the water's
+//! own, mirrored. In horizontal motion a filament keeps its height; it is mirrored at a bed or a solid's slope that it
+//! runs into.
 
 use super::cells::Cells as Lookup;
 use super::room::{Place, Room};
@@ -16,12 +17,13 @@ use crate::flow::blockage::Cells;
 use crate::flow::grid::FlowGrid;
 use nalgebra::Vector2;
 
-/// How far off an obstacle a mirrored filament stays, m: above the rounding of single-precision positions of a kilometre.
+/// Distance of a mirrored filament from an obstacle, m: more than the rounding of single-precision positions of a
+/// kilometre.
 const CLEAR_M: f64 = 5e-4;
-/// Walls met one after the other in a step.
+/// Most walls that a filament may meet in a step.
 const IN_A_ROW: usize = 10_000;
 
-/// Mirrors a coordinate at the ends of a way, as often as it takes.
+/// Mirrors a coordinate at the ends of a way, as often as necessary.
 pub(super) fn folded(x: f64, [low, high]: [f64; 2]) -> f64 {
     if x >= low && x <= high {
         return x;
@@ -42,7 +44,7 @@ pub(super) fn folded(x: f64, [low, high]: [f64; 2]) -> f64 {
     (low + back).clamp(low, high)
 }
 
-/// Where a filament came to.
+/// Result of a filament's motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turned {
     /// East, north, up, m.
@@ -53,20 +55,20 @@ pub(super) struct Turned {
     pub(super) left: bool,
 }
 
-/// What kicks a filament upwards.
+/// A vertical kick of a filament.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Kick {
     /// Two standard normals.
     pub(super) noise: [f32; 2],
     /// Step, s.
     pub(super) dt_s: f32,
-    /// Part of the diffusivity that kicks.
+    /// Part of the diffusivity that kicks it.
     pub(super) part: f32,
 }
 
 impl Room {
-    /// Where a filament comes to that starts at `from` and would be at `to` if there were no walls but bed and surface. In cells `kick`, if any, is
-    /// worked out anew between the closed faces above and below.
+    /// Moves a filament from `from` towards `to` and reflects it at walls; `to` already allows for bed and surface. In
+    /// cells, `kick`, if any, is computed again between the closed faces above and below.
     pub(super) fn turn_back(
         &self,
         lookup: &Lookup,
@@ -125,7 +127,7 @@ impl Room {
         )
     }
 
-    /// Milstein's step of `kernel` between two ends, m.
+    /// Milstein's step as in `kernel`, between two ends, m.
     fn kicked(&self, grid: &FlowGrid, p: &Place, ends: [f64; 2], kick: Kick) -> f64 {
         let [x, y, z] = self.point(p);
         let here = grid.at(x, y, z);
@@ -142,7 +144,8 @@ impl Room {
         way + 0.25 * dt * (slope + secant) * (one * one + two * two)
     }
 
-    /// Goes along one axis at a height from cell to cell; whether it was turned back, none if it left the grid.
+    /// Moves along one axis at a constant height, from cell to cell. Returns whether it was reflected; `None` if it
+    /// left the grid.
     fn walked(
         &self,
         cells: &Cells,
@@ -189,7 +192,8 @@ impl Room {
         Some(met)
     }
 
-    /// The point of a place at a height, mirrored at the bed, the surface or the solid above or below that it is in.
+    /// The point of a place at a height. It is mirrored at the bed, at the surface, or at the solid above or below that
+    /// it is in.
     fn settled(&self, cells: &Cells, lookup: &Lookup, mut p: Place, z: f64) -> Option<[f32; 3]> {
         p.bed = self.bed(lookup, p.q);
         let z = folded(z, [p.bed, 0.0]);
@@ -206,7 +210,7 @@ impl Room {
         self.open(lookup, &again, false).map(|p| self.point(&p))
     }
 
-    /// Goes along the three axes between obstacles; none if it left the grid.
+    /// Moves along the three axes between obstacles; `None` if it left the grid.
     fn round_obstacles(&self, lookup: &Lookup, mut p: Place, way: [f64; 3]) -> Option<Turned> {
         let mut met = false;
         for d in 0..3 {

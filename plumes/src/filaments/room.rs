@@ -1,12 +1,12 @@
-//! The room filaments have: bed and surface, side walls, closed faces of blocked water's cells, or obstacles as they are.
+//! The room that filaments have: bounded by bed and surface, side walls, closed faces of blocked cells, or obstacles.
 //!
-//! *Source*: none; straight ways along three axes from wall to wall are all that `rebound` and `image` ask for.
+//! *Source*: none. `rebound` and `image` need only straight ways along three axes from wall to wall.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: in blocked water the cells are the solids, for water, filaments and kernel alike, and obstacles only tell on which side
-//! of a thin wall a place is. Without blockage the obstacles are. Axes: along and across the area, and upwards. A height goes over a sloping bed
-//! as the same part of the depth.
+//! *Deviations*: in blocked water, the cells are the solids for water, filaments and kernel alike; obstacles only tell
+//! on which side of a thin wall a place is. Without blockage, the obstacles are the solids. The axes are along and
+//! across the area, and upwards. Over a sloping bed, a height is followed at the same part of the depth.
 
 use super::cells::Cells as Lookup;
 use super::kernel::BLOCK;
@@ -21,7 +21,7 @@ use world::fields::SideWalls;
 /// A place in the water.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {
-    /// Along, across, m from the grid's corner; part of the depth above the bed.
+    /// Along and across, m from the grid's corner; above the bed, as a part of the depth.
     pub(super) q: [f64; 3],
     /// Height of the bed, m (negative).
     pub(super) bed: f64,
@@ -41,7 +41,7 @@ impl Place {
     }
 }
 
-/// What filaments cannot go through.
+/// Everything that filaments cannot pass.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
     origin: Vector2<f64>,
@@ -49,13 +49,14 @@ pub(super) struct Room {
     pub(super) spacing: [f64; 2],
     // Nodes across.
     across: usize,
-    /// Solids: the walls if there are no cells.
+    /// Solids; they are the walls if there are no cells.
     pub(super) solids: Solids,
     /// Cells of blocked water.
     pub(super) cells: Option<Arc<Cells>>,
-    /// Side walls: between which coordinates across.
+    /// Side walls, as the two coordinates across.
     sides: Option<[f64; 2]>,
-    // For each column, laid out as those of the grid, how many columns to the nearest that is not open from bed to surface and to its neighbours.
+    // For each column of the grid: the number of columns to the nearest one that is not open from bed to surface and to
+    // its neighbours.
     clear: Arc<Vec<u8>>,
     /// Steepest slope of the bed between two columns.
     pub(super) steepest: f64,
@@ -101,12 +102,12 @@ impl Room {
         self.sides = Some([middle - walls.half_width_m, middle + walls.half_width_m]);
     }
 
-    /// Whether there is nothing but bed and surface.
+    /// Whether bed and surface are the only boundaries.
     pub(super) fn is_open(&self) -> bool {
         self.cells.is_none() && self.sides.is_none() && self.solids.is_empty()
     }
 
-    /// Steepest slope of the bed that the kernel of a filament near a wall goes along; 0 without walls.
+    /// Steepest slope of the bed that the kernel of a filament near a wall follows; 0 without walls.
     pub(super) fn steepness(&self) -> f32 {
         if self.is_open() {
             0.0
@@ -115,12 +116,12 @@ impl Room {
         }
     }
 
-    /// Whether kicks meet walls that the drift does not turn them back at by itself.
+    /// Whether there are walls at which the drift itself does not reflect filaments.
     pub(super) fn has_solids(&self) -> bool {
         self.cells.is_some() || !self.solids.is_empty()
     }
 
-    /// The place of a point; none beyond the grid.
+    /// The place of a point; `None` outside the grid.
     pub(super) fn place(&self, lookup: &Lookup, p: [f32; 3]) -> Option<Place> {
         let c = lookup.column(p[0], p[1]);
         if c.outside {
@@ -151,7 +152,7 @@ impl Room {
         self.origin + self.axes[0] * q[0] + self.axes[1] * q[1]
     }
 
-    /// The place with other coordinates along and across and the same part of the depth; none beyond the grid.
+    /// The place at other coordinates along and across, at the same part of the depth; `None` outside the grid.
     pub(super) fn moved(&self, lookup: &Lookup, p: &Place, to: [f64; 2]) -> Option<Place> {
         let q = [to[0], to[1], p.q[2]];
         let xy = self.horizontal(q);
@@ -171,18 +172,18 @@ impl Room {
         })
     }
 
-    /// Height of the bed, m, under coordinates along and across.
+    /// Height of the bed, m, at coordinates along and across.
     pub(super) fn bed(&self, lookup: &Lookup, q: [f64; 3]) -> f64 {
         let xy = self.horizontal(q);
         f64::from(lookup.bed(lookup.column(xy.x as f32, xy.y as f32)))
     }
 
-    /// Parts of an offset (east, north) along and across.
+    /// Components of an offset (east, north) along and across.
     pub(super) fn parts(&self, way: Vector2<f64>) -> [f64; 2] {
         self.axes.map(|a| a.dot(&way))
     }
 
-    /// Whether a filament at a point may feel a wall within a reach (m, horizontal).
+    /// Whether a filament at a point may feel a wall within a horizontal reach (m).
     #[inline]
     pub(super) fn near(&self, lookup: &Lookup, p: [f32; 3], reach: f64) -> bool {
         if let Some([low, high]) = self.sides {
@@ -199,7 +200,7 @@ impl Room {
         self.solids.near(p, reach)
     }
 
-    /// For each of a block whether it is worth asking [`Self::by_walls`].
+    /// For each filament of a block, whether [`Self::by_walls`] needs to be asked.
     pub(super) fn near_walls(
         &self,
         lookup: &Lookup,
@@ -215,7 +216,7 @@ impl Room {
         let per = 1.0 / self.spacing[0].min(self.spacing[1]) as f32;
         for l in 0..BLOCK {
             at[l] = lookup.column(from[0][l], from[1][l]).at;
-            // A hair more, against rounding.
+            // Slightly more, against rounding.
             let way = (to[0][l] - from[0][l]).abs() + (to[1][l] - from[1][l]).abs();
             columns[l] = 1.001 + 1.001 * per * way;
         }
@@ -225,7 +226,7 @@ impl Room {
         near
     }
 
-    /// Whether walls may be met on the way from one point to another.
+    /// Whether there may be walls on the way from one point to another.
     #[inline]
     pub(super) fn by_walls(&self, lookup: &Lookup, from: [f32; 3], to: [f32; 3]) -> bool {
         if let Some(cells) = &self.cells {
@@ -237,7 +238,8 @@ impl Room {
         self.solids.by(from, to)
     }
 
-    /// Whether a way upwards, along and across, in this order, leads through open faces only, to a neighbouring column at most.
+    /// Whether a way that goes upwards, then along, then across passes only open faces, and at most into a neighbouring
+    /// column.
     fn is_plain(&self, cells: &Cells, lookup: &Lookup, from: [f32; 3], to: [f32; 3]) -> bool {
         let (a, b) = (lookup.column(from[0], from[1]), lookup.column(to[0], to[1]));
         if a.outside || b.outside {
@@ -257,8 +259,8 @@ impl Room {
             && (j == n || cells.passes(1, [m, j.max(n), above]))
     }
 
-    /// Way that is free along an axis on both sides of a place: coordinates of its ends, m; infinite where none was met within `reach`.
-    /// Upwards the ends are always known.
+    /// The free way along an axis on both sides of a place: coordinates of its ends, m; infinite where no wall was
+    /// found within `reach`. Upwards the ends are always known.
     pub(super) fn along(&self, p: &Place, d: usize, reach: f64) -> [f64; 2] {
         let mut ends = if d == 2 {
             [p.bed, 0.0]
@@ -297,7 +299,7 @@ impl Room {
         ends
     }
 
-    /// The same in cells: to the first faces that are closed.
+    /// As `along`, but in cells: up to the first closed faces.
     fn through(&self, cells: &Cells, p: &Place, d: usize, reach: f64) -> [f64; 2] {
         let here = p.on(d);
         let at = |f: usize| {

@@ -1,16 +1,17 @@
 //! How a filament grows with its age.
 //!
-//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143: R² = R0² + γt. Where eddies are resolved down to a
-//! size l: dR²/dt = 2K(R/l)^(4/3), the 4/3 law of Richardson 1926, Proc. R. Soc. A 110, 709, that is R^(2/3) = R0^(2/3) + ⅔ K l^(−4/3) t, with K the
-//! diffusivity of the eddies below l.
+//! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143: R² = R0² + γt. Where eddies are
+//! resolved down to a size l: dR²/dt = 2K(R/l)^(4/3), the 4/3 law of Richardson 1926, Proc. R. Soc. A 110, 709, that is
+//! R^(2/3) = R0^(2/3) + ⅔ K l^(−4/3) t, with K the diffusivity of the eddies below l.
 //!
-//! *Parameters*: `initial_size_m` R0 (m), `growth_m2_s` γ (m²/s), `vertical_size_limit_m` (m); `eddy_size_m` l (m), K from the water at the
-//! source.
+//! *Parameters*: `initial_size_m` R0 (m), `growth_m2_s` γ (m²/s), `vertical_size_limit_m` (m); `eddy_size_m` l (m),
+//! with K from the water at the source.
 //!
-//! *Deviations*: R is the standard deviation of the kernel exp(−r²/2R²)/((2π)^{3/2}R³), which integrates to 1
-//! (the printed form exp(−r²/R²)/(√(8π³)R³) integrates to 0.3536). Computed from the age, never added up.
-//! The vertical size stops at the limit, and at half the local depth: no eddy is larger than that. With resolved eddies growth ends
-//! at l, below which no structure is claimed. The part of K that makes a filament grow does not kick it: growth and kicks together are always K.
+//! *Deviations*: R is the standard deviation of the kernel exp(−r²/2R²)/((2π)^{3/2}R³), which integrates to 1 (the
+//! printed form exp(−r²/R²)/(√(8π³)R³) integrates to 0.3536). It is computed from the age, never accumulated. The
+//! vertical size stops at the limit, and at half the local depth, because no eddy is larger. With resolved eddies,
+//! growth ends at l, below which no structure is claimed. The part of K that makes a filament grow does not kick it:
+//! growth and kicks together always amount to K.
 
 use crate::release::ReleaseSpec;
 use world::math;
@@ -50,14 +51,14 @@ impl Size {
         }
     }
 
-    /// Takes over the diffusivity of the eddies that are not resolved, m²/s.
+    /// Takes the diffusivity of the eddies that are not resolved, m²/s.
     pub(super) fn stirred_by(&mut self, k_m2_s: f64) {
         if let Some(e) = &mut self.eddies {
             e.per_s = 2.0 / 3.0 * k_m2_s / (e.end * e.end);
         }
     }
 
-    /// Whether growth takes its part of the kicks.
+    /// Whether growth takes a part of the diffusivity from the kicks.
     pub(super) fn shares(&self) -> bool {
         self.eddies.is_some()
     }
@@ -81,7 +82,7 @@ impl Size {
         (self.r0_squared + self.growth * age_s.max(0.0)).sqrt() as f32
     }
 
-    /// Vertical size of a filament of this horizontal size over a bed at `bed` (m, negative), m.
+    /// Vertical size, m, of a filament of this horizontal size over a bed at `bed` (m, negative).
     #[inline]
     pub(super) fn vertical(&self, horizontal: f32, bed: f32) -> f32 {
         horizontal.min(self.vertical_limit).min(-0.5 * bed)
@@ -93,7 +94,7 @@ mod tests {
     use super::*;
     use world::ranges::Positive;
 
-    /// Variance by growth and by kicks together grows by 2K a second, whatever the age.
+    /// Variance from growth and kicks together grows by 2K per second at any age.
     #[test]
     fn growth_and_kicks_share_the_eddies() {
         let (k, l) = (1e-5, 0.008);
@@ -105,12 +106,12 @@ mod tests {
         size.stirred_by(k);
         let variance = |t: f64| f64::from(size.horizontal(t)) * f64::from(size.horizontal(t));
         let dt = 0.01;
-        // Up to the age at which it is as large as l: (l^(2/3) − R0^(2/3)) / (2K/3 l^(−4/3)) = 7.2 s.
+        // Up to the age at which the filament is as large as l: (l^(2/3) − R0^(2/3)) / (2K/3 l^(−4/3)) = 7.2 s.
         for n in 1..700 {
             let t = f64::from(n) * dt;
             let grown = (variance(t + dt) - variance(t - dt)) / (2.0 * dt);
             let kicked = 2.0 * k * f64::from(size.kicked(t));
-            // R in f32: R² to 2e-7 of 6e-5 at worst, over 0.02 s.
+            // R in f32: R² has an error of 2e-7 of 6e-5 at worst, over 0.02 s.
             assert!(((grown + kicked) / (2.0 * k) - 1.0).abs() < 1e-4, "{t}");
         }
         assert!((f64::from(size.horizontal(8.0)) - l).abs() < 1e-8);

@@ -1,4 +1,4 @@
-//! Obstacles as filaments meet them, with boxes round them for the quick test.
+//! Obstacles as filaments meet them, with bounding boxes for a quick test.
 //!
 //! *Source*: the geometry is that of [`Obstacles`].
 //!
@@ -26,7 +26,7 @@ impl Solids {
         self.boxes.is_empty()
     }
 
-    /// Those whose boxes share something with another box.
+    /// Obstacles whose boxes overlap another box.
     fn meeting(
         &self,
         low: Vector3<f64>,
@@ -38,20 +38,20 @@ impl Solids {
         all.filter(move |(b, _)| met(b)).map(|(_, o)| o)
     }
 
-    /// Whether a point is within a reach (m) of the box of one.
+    /// Whether a point lies within a reach (m) of an obstacle's box.
     pub(super) fn near(&self, p: [f32; 3], reach: f64) -> bool {
         let p = Vector3::from(p.map(f64::from));
         let reach = Vector3::repeat(reach);
         self.meeting(p - reach, p + reach).next().is_some()
     }
 
-    /// Whether a way from one point to another leads by the box of one.
+    /// Whether the way from one point to another passes an obstacle's box.
     pub(super) fn by(&self, from: [f32; 3], to: [f32; 3]) -> bool {
         let [a, b] = [from, to].map(|p| Vector3::from(p.map(f64::from)));
         self.meeting(a.inf(&b), a.sup(&b)).next().is_some()
     }
 
-    /// Way along a unit vector to the first surface, at most `most` (m).
+    /// Distance along a unit vector to the first surface, at most `most` (m).
     pub(super) fn ray(&self, from: &Vector3<f64>, along: &Vector3<f64>, most: f64) -> Option<f64> {
         let to = from + along * most;
         let hits = self.meeting(from.inf(&to), from.sup(&to));
@@ -59,7 +59,7 @@ impl Solids {
             .min_by(f64::total_cmp)
     }
 
-    /// Whether a point is seen from another, through those that hold the first.
+    /// Whether one point is visible from another; obstacles that contain the first point do not count.
     pub(super) fn sees(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> bool {
         let way = to - from;
         let far = way.norm();
@@ -69,7 +69,7 @@ impl Solids {
                 .all(|o| o.contains(from) || o.ray(from, &way, far).is_none())
     }
 
-    /// The one a point lies in.
+    /// The obstacle that contains a point.
     pub(super) fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
         self.meeting(*p, *p).find(|o| o.contains(p))
     }
@@ -101,7 +101,7 @@ mod tests {
         }
     }
 
-    /// Exact test 8: a cloud driven against a turned block and a pile; none is inside, none is lost.
+    /// Exact test 8: a cloud is driven against a turned block and a pile; no filament is inside, and none is lost.
     #[test]
     fn nobody_is_in_a_solid_and_nobody_is_lost() {
         let m = Positive::new;

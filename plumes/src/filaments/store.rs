@@ -1,11 +1,11 @@
-//! The filaments of one source: arrays in the order of release, with the books of mass kept in f64.
+//! The filaments of one source: arrays in the order of release. Their mass is accounted in f64.
 //!
-//! *Source*: structure of arrays, as any vector machine wants it; nothing from the papers.
+//! *Source*: a structure of arrays, which vector instructions need; nothing from the papers.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: none. A filament that leaves the domain is taken out in the sweep that moves the others; the
-//! order stays, so the oldest always come first. The arrays grow as needed: no filament is dropped to save room.
+//! *Deviations*: none. A filament that leaves the domain is removed in the sweep that moves the others. The order is
+//! kept, so the oldest are always first. The arrays grow as needed: no filament is dropped to save memory.
 
 use super::size::Size;
 
@@ -16,19 +16,19 @@ pub(super) struct Store {
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     pub(super) z: Vec<f32>,
-    /// Height of the bed under each, m (negative).
+    /// Height of the bed under each filament, m (negative).
     pub(super) bed: Vec<f32>,
-    /// Number in the order of release: the counter of its noise.
+    /// Number in the order of release; it is the counter of the filament's noise.
     pub(super) number: Vec<u32>,
     /// Time of release, s.
     pub(super) born_s: Vec<f64>,
     /// Growth law.
     pub(super) size: Size,
-    /// Mass of each, kg.
+    /// Mass of each filament, kg.
     pub(super) filament_kg: f64,
-    /// How many were ever released.
+    /// Number of filaments ever released.
     pub(super) released: u64,
-    /// How many have left the domain.
+    /// Number of filaments that have left the domain.
     pub(super) left: u64,
 }
 
@@ -63,13 +63,13 @@ impl Store {
         self.released += 1;
     }
 
-    /// Moves the entries `from..from + n` of the two arrays the drift does not write down to `to`.
+    /// In the two arrays that the drift does not write, moves the entries `from..from + n` down to `to`.
     pub(super) fn shift_labels(&mut self, from: usize, to: usize, n: usize) {
         self.number.copy_within(from..from + n, to);
         self.born_s.copy_within(from..from + n, to);
     }
 
-    /// Keeps the first `n`; the others were moved down or have left.
+    /// Keeps the first `n` entries; the others were moved down or have left.
     pub(super) fn truncate(&mut self, n: usize) {
         self.left += (self.len() - n) as u64;
         self.x.truncate(n);

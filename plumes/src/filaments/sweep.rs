@@ -1,4 +1,4 @@
-//! Sends a store through a step block by block, and turns back at walls who was kicked or carried through them.
+//! Moves a store by one step, block by block, and reflects at walls what was kicked or carried through them.
 //!
 //! *Source*: none.
 //!
@@ -13,7 +13,7 @@ use super::room::Room;
 use super::store::Store;
 use crate::flow::grid::FlowGrid;
 
-/// Turns a block back at walls that its kicks led through; how many.
+/// Reflects filaments of a block at walls through which their kicks led. Returns their number.
 pub(super) fn keep_out(
     room: &Room,
     cells: &Cells,
@@ -43,7 +43,7 @@ pub(super) fn keep_out(
     turned
 }
 
-/// The same for a store that was carried from where it was before.
+/// As `keep_out`, for a store that was carried away from earlier positions.
 pub(super) fn hold(
     room: &Room,
     cells: &Cells,
@@ -68,8 +68,8 @@ pub(super) fn hold(
     turned
 }
 
-/// Sends the store through `step` block by block; `old` of its filaments move for the whole step, the newer ones from their
-/// release on. Those that leave are taken out on the way.
+/// Applies `step` to the store, block by block. The first `old` filaments move for the whole step, newer ones from
+/// their release on. Filaments that leave are removed.
 pub(super) fn sweep(
     store: &mut Store,
     old: usize,

@@ -1,6 +1,6 @@
-//! What a plume holds: how many filaments, how much dye, each filament, and all of it in a digest.
+//! What a plume contains: the number of filaments, the mass of dye, each filament, and a digest of all of it.
 //!
-//! A filament that is shown for others (`decimated`) carries the mass of all of them.
+//! A filament that is shown in place of others (`decimated`) carries the mass of all of them.
 
 use super::plume::Plume;
 use super::store::Store;
@@ -9,37 +9,37 @@ use crate::release::Source;
 use world::digest::Digest;
 
 impl Plume {
-    /// Time of the latest drift's end, s.
+    /// End of the latest drift, s.
     #[must_use]
     pub fn now_s(&self) -> f64 {
         self.now_s
     }
 
-    /// Filaments in the domain.
+    /// Number of filaments in the domain.
     #[must_use]
     pub fn len(&self) -> usize {
         self.stores.iter().map(Store::len).sum()
     }
 
-    /// Whether there is none.
+    /// Whether there are no filaments.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
-    /// Filaments ever released.
+    /// Number of filaments ever released.
     #[must_use]
     pub fn released(&self) -> u64 {
         self.stores.iter().map(|s| s.released).sum()
     }
 
-    /// Filaments that have left the domain.
+    /// Number of filaments that have left the domain.
     #[must_use]
     pub fn left(&self) -> u64 {
         self.stores.iter().map(|s| s.left).sum()
     }
 
-    /// How often a filament was turned back at a solid.
+    /// How often a filament was reflected at a solid.
     #[must_use]
     pub fn turned_back(&self) -> u64 {
         self.turned_back
@@ -73,23 +73,23 @@ impl Plume {
         &self.sources
     }
 
-    /// The flow as the filaments see it.
+    /// The flow that the filaments see.
     #[must_use]
     pub fn grid(&self) -> &FlowGrid {
         &self.grid
     }
 
-    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked water one in that part of an
-    /// obstacle that its cells leave open is shown at the nearest free place.
+    /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked
+    /// water, cells may leave a part of an obstacle open; a filament in it is shown at the nearest free place.
     pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
         self.stores
             .iter()
             .flat_map(move |s| (0..s.len()).map(move |n| self.filament(s, n)))
     }
 
-    /// Every k-th filament of each source, k the least that leaves at most `max_n` (but one of each source at least); the
-    /// same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it stands for, so that
-    /// the masses of a source sum to what is in the water of it, and how many those are.
+    /// Every k-th filament of each source, with the smallest k that leaves at most `max_n` (but at least one of each
+    /// source); the same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it
+    /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
     #[must_use]
     pub fn decimated(&self, max_n: usize) -> Vec<[f32; 6]> {
         let shown =
@@ -131,7 +131,7 @@ impl Plume {
         }
     }
 
-    /// East, north, up of every filament, as carried.
+    /// East, north, up of every filament at its mean place.
     #[cfg(test)]
     pub(super) fn all(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let of = |s: &Store, n: usize| [s.x[n], s.y[n], s.z[n]];

@@ -1,4 +1,4 @@
-//! Exact tests of the drift: spread, shear, nobody leaves through bed or surface.
+//! Exact tests of the drift: spread, shear, and that no filament leaves through bed or surface.
 
 use super::tests_water::{Water, moments, plume, pour, source};
 use world::fields::Flow;
@@ -8,7 +8,7 @@ use world::terrain::Terrain;
 /// Steps over a 20-fold range, s.
 const STEPS_S: [f64; 4] = [0.25, 1.0, 2.5, 5.0];
 
-/// Filaments that drift so slowly that none is ever released by the source itself.
+/// Filaments released so rarely that the source itself never releases one.
 const NONE_HZ: f64 = 1e-9;
 
 #[test]
@@ -62,7 +62,7 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
             (mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
             "step {dt}: {mean}"
         );
-        // Carried for their age, no more: x + 90 = U·age within 6σ of the kicks.
+        // Carried for exactly their age: x + 90 = U·age within 6σ of the kicks.
         for (f, b) in p.iter().zip(&born) {
             let age = 100.0 - b;
             assert!((f64::from(f[0]) + 90.0 - 0.5 * age).abs() < 6.0 * (0.04 * age).sqrt() + 1e-4);
@@ -132,7 +132,7 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
         for f in p.iter() {
             let bed = p.grid().at(f[0], f[1], f[2]).bed_z;
             assert!(f[2] <= 0.0 && f[2] >= bed - 1e-5, "{f:?} over {bed}");
-            // Where the bed bends, at the edges of the area, the grid takes the bend in a cell of 20 m.
+            // Where the bed bends, at the edges of the area, the grid spreads the bend over a cell of 20 m.
             let true_bed = terrain.bed_z(f64::from(f[0]), f64::from(f[1]));
             assert!(
                 f[1].abs() > 40.0 || f64::from(f[2]) >= true_bed - 1e-4,

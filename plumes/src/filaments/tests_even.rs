@@ -1,7 +1,8 @@
-//! Even dye stays even round solids: in every cell of the blockage grid that is open, in still and in flowing water.
+//! Even dye stays even round solids: in every open cell of the blockage grid, in still and in flowing water.
 //!
-//! The water around is even too: before each step the cells within a frame along the sides are filled anew, which no filament
-//! crosses in a step. With n filaments a cell the counts are Poisson: 1/√n of noise, 1 % for 10⁴. Where cells are pooled the test says how.
+//! The water around is even too: before each step the cells in a frame along the sides are filled again; no filament
+//! crosses that frame in one step. With n filaments in a cell the counts are Poisson: noise of 1/√n, 1 % for 10⁴. Where
+//! a test pools cells, it says how.
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::source;
@@ -24,9 +25,9 @@ struct Scene {
     water: Water,
     plume: Plume,
     rng: Stream,
-    /// Filaments a m³.
+    /// Filaments per m³.
     density: f64,
-    /// Columns of the frame.
+    /// Width of the frame, in columns.
     frame: usize,
 }
 
@@ -106,7 +107,7 @@ impl Scene {
         }
     }
 
-    /// Fills the frame anew and drifts.
+    /// Fills the frame again and drifts.
     fn step(&mut self, t: f64, dt: f64) {
         let cells = self.cells();
         let keep: Vec<[f32; 4]> = {
@@ -146,7 +147,8 @@ impl Scene {
         }
     }
 
-    /// Filaments over those of even dye in each pool of open cells outside the frame; nothing may be in a closed one.
+    /// Number of filaments over the number for even dye, in each pool of open cells outside the frame. No filament may
+    /// be in a closed cell.
     fn ratios(
         &self,
         counts: &[f64],
@@ -163,7 +165,7 @@ impl Scene {
                 for k in 0..cells.n[2] {
                     let at = cells.cell([i, j, k]);
                     if !cells.open[at] {
-                        // On a shared face rounding may count a filament to either side.
+                        // On a shared face, rounding may assign a filament to either side.
                         assert!(counts[at] <= 1e-4 * shots * self.plume.len() as f64 / 100.0 + 2.0);
                         continue;
                     }
@@ -185,7 +187,8 @@ impl Scene {
     }
 }
 
-/// The greatest deviation from even of pools (filaments, those of even dye); of a pool with less than 6000 what is beyond four times its noise.
+/// The greatest deviation from even over pools (filaments, expected filaments); for a pool with less than 6000, only
+/// the part beyond four times its noise.
 fn worst(pools: &[[f64; 2]]) -> f64 {
     let off = |[got, even]: &[f64; 2]| {
         let noise = if *even < 6000.0 {
@@ -198,7 +201,7 @@ fn worst(pools: &[[f64; 2]]) -> f64 {
     pools.iter().map(off).fold(0.0, f64::max)
 }
 
-/// Every cell by itself, after some steps: (worst, cells).
+/// Every cell individually, after some steps: (worst, cells).
 fn every_cell(mut scene: Scene, dt: f64, steps: u32) -> (f64, usize) {
     for n in 0..steps {
         scene.step(dt * f64::from(n), dt);
@@ -214,8 +217,8 @@ pub(super) fn mixing(spec: &mut WaterSpec, k_h: f64, k_z: f64) {
     spec.mixing.background_vertical_m2_s = NonNegative::new(k_z);
 }
 
-/// A block 16 m wide in a stream of 0.3 m/s, cells of 2 m and of 1 m, 8000 to 10⁴ filaments a cell (1 % of noise; of 300 to 1200 cells the worst is
-/// 3 to 3.5 of that). In 90 and 160 s the water goes 4 to 8 times the block's length.
+/// A block 16 m wide in a stream of 0.3 m/s, with cells of 2 m and of 1 m and 8000 to 10⁴ filaments in a cell (noise of
+/// 1 %; the worst of 300 to 1200 cells is 3 to 3.5 times that). In 90 and 160 s the water moves 4 to 8 block lengths.
 #[test]
 fn behind_a_block() {
     let bed = Terrain::Level { depth_m: 6.0 };
@@ -233,7 +236,8 @@ fn behind_a_block() {
     }
 }
 
-/// Still water with long kicks, 1.4 m a step beside cells of 2 m: against a turned block, a pile and a thin wall, in a turned area.
+/// Still water with long kicks, 1.4 m per step beside cells of 2 m: against a turned block, a pile and a thin wall, in
+/// a turned area.
 #[test]
 fn in_still_water() {
     let bed = Terrain::Level { depth_m: 6.0 };
@@ -252,8 +256,8 @@ fn in_still_water() {
     assert!(worst < 0.05 && cells > 100, "{worst} of {cells}");
 }
 
-/// A meander, a log law, a sloping bed (1 in 9) and a block that the stream goes over: 100 filaments a m³, pooled over the 8 of 2 x 2 columns and
-/// 2 levels that are open, five times 20 s apart: 1 % and less.
+/// A meander, a log law, a sloping bed (1 in 9) and a block that the stream passes over. 100 filaments per m³, pooled
+/// over the open ones of 2 x 2 columns and 2 levels, five times 20 s apart: 1 % and less.
 #[test]
 fn in_unsteady_water_over_a_slope() {
     let area = area(36.0, 36.0, 70.0);
@@ -304,8 +308,8 @@ fn pooled(mut scene: Scene, dt: f64, [first, then]: [u32; 2], shots: u32, least:
     );
 }
 
-/// A part of the quay: wall, deck with its lower side within a cell, hull with its sides within cells, two piles, two layers with the
-/// diffusivity gone between them. Pools of 2 x 2 columns and 2 levels, four times 20 s apart: 6000 and more.
+/// A part of the quay: wall, deck with its lower side within a cell, hull with its sides within cells, two piles, two
+/// layers with no diffusivity between them. Pools of 2 x 2 columns and 2 levels, four times 20 s apart: 6000 and more.
 #[test]
 fn under_a_quay() {
     let area = area(40.0, 44.0, 90.0);
@@ -320,7 +324,7 @@ fn under_a_quay() {
         ],
         &bed,
     );
-    // Deck and hull hang: a metre of the deck, five of the hull are under water.
+    // Deck and hull hang: one metre of the deck and five of the hull are under water.
     solids.0[1].pose.p_WB = Vector3::new(4.0, 2.5, 5.0);
     solids.0[2].pose.p_WB = Vector3::new(10.0, -11.0, 1.0);
     let layer = |speed, density| LayerSpec {

@@ -1,4 +1,4 @@
-//! Even dye stays even beside obstacles that the water passes through: there the obstacles themselves are the walls.
+//! Even dye stays even beside obstacles through which the water passes; there, the obstacles themselves are the walls.
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_even::mixing;
@@ -10,8 +10,8 @@ use world::ranges::Finite;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
-/// Without blockage the obstacles are the walls: still water, kicks of 0.4 m; distances from a turned block's sides in rings of 5 and 20 cm,
-/// 6·10⁴ filaments and more in each.
+/// Without blockage the obstacles are the walls. Still water, kicks of 0.4 m; distances from the sides of a turned
+/// block in rings of 5 and 20 cm, each with at least 6·10⁴ filaments.
 #[test]
 fn beside_an_obstacle_without_blockage() {
     let bed = Terrain::Level { depth_m: 5.0 };
@@ -36,7 +36,7 @@ fn beside_an_obstacle_without_blockage() {
         .unwrap();
     let mut rng = Stream::new(8, "test", "rings");
     let mut drawn = |low: f64, high: f64| low + (high - low) * rng.uniform();
-    // Rings outside: [0, 5) and [5, 25) cm, by height of the middle of the sides.
+    // Rings outside: [0, 5) and [5, 25) cm, at the middle height of the sides.
     let ring = |p: &Vector3<f64>| {
         let d = solids.distance(p);
         ((-4.0..-3.0).contains(&p.z) && d > 0.0 && d < 0.25).then(|| usize::from(d > 0.05))

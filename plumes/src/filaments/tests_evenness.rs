@@ -1,4 +1,4 @@
-//! What a step is said to do to mixed water against filaments that take it.
+//! The computed effect of a step on mixed water, compared with filaments that take the step.
 
 use super::longest_step::{EVEN, SharpestMixing};
 use super::tests_mixed::{BINS, DEPTH, gap, interface, parabola};
@@ -9,7 +9,7 @@ use world::seeds::Stream;
 use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: DEPTH };
-/// Filaments of a case: a bin has a standard error of 1.3 %, the worst of 24 one of about 3 %.
+/// Filaments of a case: one bin has a standard error of 1.3 %, the worst of 24 bins one of about 3 %.
 const FILAMENTS: usize = 150_000;
 const NOISE: f64 = 0.03;
 
@@ -23,7 +23,7 @@ fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
     let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
     let mut p = plume(source(1.0, 1e-9, 0.0, 0.1), &BED);
     let mut r = Stream::new(4, "test", "evenness");
-    // One in each of as many layers: only what the steps do is random.
+    // One filament in each of as many layers, so that only the steps are random.
     pour(&mut p, FILAMENTS, -DEPTH, |n| {
         let part = (n as f64 + r.uniform()) / FILAMENTS as f64;
         [0.0, 0.0, -DEPTH * part]
@@ -40,7 +40,7 @@ fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
     counts.iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max)
 }
 
-/// Everything a scenario can make: bed, interfaces, a gap, waves; from hardly wrong to half off.
+/// All mixing that a scenario can make: bed, interfaces, a gap, waves; from nearly exact to half wrong.
 #[test]
 fn what_a_step_does_is_foretold() {
     fn check(what: &str, dt_s: f64, k_z: &(dyn Fn(f64) -> f64 + Send + Sync)) {
@@ -71,7 +71,7 @@ fn at_the_longest_step_water_is_even_and_beyond_it_no_more() {
         assert!(of.uneven(1.1 * longest_s, 600.0).unwrap().part > EVEN);
         let at = sampled(k_z(), longest_s, 600.0);
         assert!(at < EVEN + NOISE, "{thickness_m} m, {longest_s} s: {at}");
-        // Ten times as long is several times as wrong, and filaments find it.
+        // A step ten times as long is several times as wrong, and filaments show it.
         let beyond = sampled(k_z(), 10.0 * longest_s, 600.0);
         assert!(
             beyond > 3.0 * EVEN,
@@ -102,7 +102,8 @@ fn steps_that_are_surely_even_are() {
     assert!(sure >= 10, "{sure}");
 }
 
-/// What was met: 0.3 m at K_z of 1e-2 m²/s is 7 % off in steps of 1 s and 37 % in steps of 5 s; mixing by the bed alone is not.
+/// A case that occurred: 0.3 m at K_z of 1e-2 m²/s deviates by 7 % in steps of 1 s and by 37 % in steps of 5 s. Mixing
+/// by the bed alone does not.
 #[test]
 fn sharp_interfaces_need_short_steps_and_gentle_mixing_does_not() {
     let sharp = sharpest(interface(0.02, 0.3));
@@ -115,7 +116,7 @@ fn sharp_interfaces_need_short_steps_and_gentle_mixing_does_not() {
         sharpest(parabola(0.006)).longest_step_s(5.0, 600.0),
         Some(5.0)
     );
-    // The same everywhere: no step is too long; the sums over starts and kicks are good to 0.2 %.
+    // With the same mixing everywhere, no step is too long; the sums over starts and kicks are accurate to 0.2 %.
     assert!(sharpest(|_| 1e-2).uneven(60.0, 600.0).unwrap().part < 2e-3);
 }
 

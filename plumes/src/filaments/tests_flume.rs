@@ -1,4 +1,4 @@
-//! Filaments in a channel: none lost, mixed water stays mixed, and spread as Taylor and Fischer have it.
+//! Filaments in a channel: none is lost, mixed water stays mixed, and they spread as Taylor and Fischer state.
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::pour;
@@ -56,7 +56,8 @@ fn nobody_leaves_but_down_stream_and_mass_is_kept() {
     assert!((plume.mass_released_kg() - 120.0 * 3.2557e-5).abs() < 1e-6);
 }
 
-/// A cloud even over the whole channel for 30 s, as long as its middle is still between the ends; `t` is when it was poured.
+/// A cloud that is even over the whole channel, for 30 s, as long as its middle is still between the ends; `t` is when
+/// it was poured.
 fn mixed(seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
     let (water, mut plume) = (water(8.0, seed), plume(8.0, seed));
     plume.drift(&water, -1e-9, 0.0);
@@ -69,7 +70,7 @@ fn mixed(seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
         let t = dt_s * f64::from(n);
         plume.drift(&water, t, t + dt_s);
     }
-    // Only those poured: they have no kernel of their own; the source's own lie behind the middle part.
+    // Only the poured filaments: they have no kernel of their own. Those of the source lie behind the middle part.
     plume
         .iter()
         .filter(|f| (2.0..7.0).contains(&f[0]))
@@ -87,7 +88,8 @@ fn mixed_water_stays_mixed() {
                 counts[(s as usize).min(bins - 1)] += 1.0;
             }
             let even = cloud.len() as f64 / bins as f64;
-            // Poisson counts of about 2500: 2 %; four of them, and 3 % for the divergence of the trilinear look-up.
+            // Poisson counts of about 2500 have 2 % of noise; four of these, plus 3 % for the divergence of the
+            // trilinear look-up.
             let worst = counts
                 .iter()
                 .fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
@@ -96,8 +98,8 @@ fn mixed_water_stays_mixed() {
     }
 }
 
-/// Absolute spread of filaments that start all over the channel's middle: resolved eddies and the rest together against Fischer's
-/// 0.15 u_*H and Elder's depth mean 0.067 u_*H.
+/// Absolute spread of filaments that start all over the middle of the channel. Resolved eddies and the remaining
+/// diffusivity together are compared with Fischer's 0.15 u_*H and Elder's depth mean 0.067 u_*H.
 #[test]
 fn spread_is_that_of_open_channels() {
     let water = water(8.0, 9);
@@ -124,11 +126,12 @@ fn spread_is_that_of_open_channels() {
         let went = plume.iter().zip(&start).map(|(f, y)| f64::from(f[1]) - y);
         variance[k] = went.map(|d| d * d).sum::<f64>() / n as f64;
     }
-    // From 20 to 40 s. Eddies of 12 cm fill the 5 m by 1 m some 350 times: 8 % of standard error of each variance, about 20 % of K.
+    // From 20 to 40 s. About 350 eddies of 12 cm fill the 5 m by 1 m: a standard error of 8 % of each variance, about
+    // 20 % of K.
     let k = (variance[1] - variance[0]) / 40.0;
     let ratio = k / (0.15 * u_star_h);
     assert!((0.5..2.0).contains(&ratio), "K_y {k}, {ratio} of Fischer's");
-    // Before its memory is gone a filament goes with its velocity: variance below 2Kt.
+    // While it remembers its velocity, a filament keeps it: variance below 2Kt.
     assert!(variance[0] < 2.0 * k * 20.0, "{variance:?}");
     assert!(
         water

@@ -12,7 +12,7 @@ use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: 4.0 };
 
-/// A plume of filaments of 0.6 m that never grow nor move, without any.
+/// A plume without filaments; any filaments will be 0.6 m in size and neither grow nor move.
 fn plume(spec: &WaterSpec, solids: &Obstacles) -> (Water, Plume) {
     let area = area(24.0, 24.0, 60.0);
     let water = spec.build_round(&area, &BED, solids, 1).unwrap();
@@ -52,7 +52,8 @@ fn put(plume: &mut Plume, p: &Vector3<f64>) {
     plume.stores_mut()[0].push([p.x, p.y, p.z].map(|v| v as f32), bed, 0.0);
 }
 
-/// A block with a corner, one that hangs above a gap, and a wall of 2 cm; the blocks' faces on faces of cells of 1 m.
+/// A block with a corner, one that hangs above a gap, and a wall of 2 cm; the blocks' faces coincide with faces of 1 m
+/// cells.
 fn corners(wall_at: f64) -> Obstacles {
     let p = |a: f64, b: f64| at(a, b, 0.0);
     let (one, two, thin) = (p(-3.0, 0.0), p(5.0, 5.0), p(wall_at, -5.0));
@@ -69,7 +70,7 @@ fn corners(wall_at: f64) -> Obstacles {
     all
 }
 
-/// Places (along, across, z): in the open, at sides, corners, under the gap and on both sides of the thin wall.
+/// Places (along, across, z): in open water, at sides, in corners, under the gap and on both sides of the thin wall.
 const PLACES: [[f64; 3]; 14] = [
     [-8.0, -8.0, -2.0],
     [-5.01, 0.0, -2.0],
@@ -91,7 +92,8 @@ fn blocked() -> WaterSpec {
     eastward(0.0, spec(1.0, 5, 0.0).evenly())
 }
 
-/// Filaments on a lattice of a quarter of a metre, 0.42 of their size, so that the sum over them is the integral to 1e-4 and better: even dye.
+/// Even dye: filaments on a lattice with a spacing of a quarter of a metre, 0.42 of their size, so that the sum over
+/// them is the integral to 1e-4 or better.
 fn even(plume: &mut Plume, free: impl Fn(&Vector3<f64>) -> bool) -> f64 {
     let h = 0.25;
     for i in 0..96 {
@@ -109,7 +111,7 @@ fn even(plume: &mut Plume, free: impl Fn(&Vector3<f64>) -> bool) -> f64 {
     f64::from(f[4]) / (h * h * h)
 }
 
-/// Within 0.5 % at walls, corners and under the gap; 5 % is asked of all of it, filaments and kernel together.
+/// Within 0.5 % at walls, corners and under the gap. The requirement is 5 % for filaments and kernel together.
 #[test]
 fn even_dye_reads_the_same_at_walls_and_corners() {
     let solids = corners(3.0);
@@ -127,7 +129,7 @@ fn even_dye_reads_the_same_at_walls_and_corners() {
     }
 }
 
-/// The integral of one filament's concentration over the water, by midpoints of a lattice of 0.125 m.
+/// Integral of one filament's concentration over the water, by the midpoint rule on a lattice of 0.125 m.
 fn mass(plume: &Plume, p: [f64; 3], solids: &Obstacles) -> f64 {
     let h = 0.125;
     let (mut sum, reach) = (0.0, 28);
@@ -154,7 +156,7 @@ fn all_of_a_filament_is_in_the_water() {
             let (_, mut plume) = plume(&spec, &solids);
             put(&mut plume, &at(p[0], p[1], p[2]));
             let total = mass(&plume, p, &solids);
-            // The thin wall's own 2 cm are water to the cells: 1.3 % of a filament beside it.
+            // The 2 cm of the thin wall are water for the cells: 1.3 % of a filament beside it.
             assert!(
                 (total - 1.0).abs() < 0.02,
                 "{p:?} {}: {total}",
@@ -170,7 +172,7 @@ fn nothing_is_felt_through_a_thin_wall() {
     for spec in [blocked(), WaterSpec::default()] {
         let (_, mut plume) = plume(&spec, &solids);
         put(&mut plume, &at(2.5, -5.0, -2.0));
-        // A wall from 3.29 to 3.31, from -8 to -2 across; the faces of the cells at 3 and 4.
+        // A wall from 3.29 to 3.31, from -8 to -2 across; the nearest faces of cells are at 3 and 4.
         for a in [3.32, 3.45, 3.9, 4.5] {
             assert_eq!(plume.at(&at(a, -5.0, -2.0)), 0.0, "{a}");
         }
@@ -180,7 +182,8 @@ fn nothing_is_felt_through_a_thin_wall() {
     }
 }
 
-/// Where cells and obstacle differ: a pile's staircase. A point in a closed cell answers as the water beside it does.
+/// Where cells and obstacle differ, as at the staircase of a pile, a point in a closed cell has the concentration of
+/// the water beside it.
 #[test]
 fn every_point_of_the_true_water_answers() {
     let p = at(0.0, 0.0, 0.0);
@@ -219,7 +222,8 @@ impl Flow for Walled {
     }
 }
 
-/// Between side walls, 4 m apart: at the walls as in the middle, for filaments a sixth of the width and half of it.
+/// Between side walls 4 m apart, the concentration at the walls is that in the middle, for filaments of a sixth and of
+/// half the width.
 #[test]
 fn side_walls_mirror_the_kernel() {
     for size in [0.6, 2.0] {

@@ -1,4 +1,4 @@
-//! The index against a search through all filaments.
+//! The index compared with a search through all filaments.
 
 use super::cells::Cells;
 use super::index::Index;

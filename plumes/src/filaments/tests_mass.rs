@@ -1,4 +1,4 @@
-//! Exact tests of mass: the kernel integrates to 1, and what is released is either here or has left.
+//! Exact tests of mass: the kernel integrates to 1, and what was released is either present or has left.
 
 use super::tests_water::{Water, plume, pour, source};
 use nalgebra::Vector3;
@@ -6,7 +6,7 @@ use world::digest::Digest;
 use world::fields::Concentration;
 use world::terrain::Terrain;
 
-/// Integral of the concentration of one filament of the given age over the whole water column, over its mass.
+/// Integral of the concentration of one filament of the given age over the whole water column, divided by its mass.
 fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
     let mut p = plume(
         source(0.5, 1.0, 0.001, 0.0316),
@@ -14,7 +14,7 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
     );
     pour(&mut p, 1, -depth, |_| [0.0, 0.0, z]);
     let still = Water(|_| 0.0, |_| (0.0, 0.0));
-    // The source itself is far away, so what it releases meanwhile is not felt at the datum.
+    // The source itself is far away, so that its own releases have no effect at the datum.
     p.drift(&still, 0.0, age_s);
     let f = p.iter().next().expect("the filament");
     let size = f64::from(f[3]);
@@ -36,7 +36,8 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
 
 #[test]
 fn kernel_integrates_to_one_wherever_it_is() {
-    // Midpoint sums with cells of about a quarter of the size; what remains is the jump at the cut, 3e-4 of the peak.
+    // Midpoint sums with cells of about a quarter of the size; the remaining error is the jump at the cut, 3e-4 of the
+    // peak.
     for (age, depth, z) in [
         (10.0, 4.0, -2.0),
         (10.0, 4.0, -4.0),
@@ -70,14 +71,14 @@ fn released_is_here_or_has_left() {
         let listed: f64 = p.iter().map(|f| f64::from(f[4])).sum();
         assert!((listed - here).abs() <= 1e-6 * here);
     }
-    // 1 g/s for 1050 s, give or take five times the root of 38850 portions of 1/37 g.
+    // 1 g/s for 1050 s, within five times the root of 38850 portions of 1/37 g.
     assert!(
         (p.mass_released_kg() - 1.05).abs() < 0.027,
         "{}",
         p.mass_released_kg()
     );
     assert!(p.mass_left_kg() > 0.1 && p.mass_in_kg() > 0.1);
-    // Fewer filaments stand for all of them: mass and count sum to what is there, however few are shown.
+    // Fewer filaments stand for all of them: mass and number sum to the true total, however few are shown.
     for most in [1, 37, 500, 1_000_000] {
         let few = p.decimated(most);
         assert!(few.len() <= most && few == p.decimated(most));

@@ -1,4 +1,5 @@
-//! Exact tests of averages: the Gaussian plume with its images, the flux through every section, Poisson gaps.
+//! Exact tests of averages: the Gaussian plume with its images, the flux through every section, gaps as in a Poisson
+//! process.
 
 use super::tests_water::{Water, moments, plume, source};
 use nalgebra::Vector3;
@@ -54,8 +55,8 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
     let mut through = vec![Vec::new(); sections.len()];
     for k in 0..600 {
         p.drift(&water, f64::from(k), f64::from(k + 1));
-        // The farthest section sees its first filaments after 140 s; a filament takes some seconds to pass, so
-        // samples 5 s apart are all but independent.
+        // The farthest section sees its first filaments after 140 s. A filament takes some seconds to pass, so samples
+        // 5 s apart are almost independent.
         if k < 200 || k % 5 != 0 {
             continue;
         }
@@ -74,8 +75,8 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
             seen.push(SPEED * sum * dy * dz);
         }
     }
-    // Five standard errors from the samples' own scatter, and 1 % for what the formula leaves out: spreading along
-    // the stream, of the order of K/(U·x) = 0.1 % at 10 m, and the growth of a filament while it passes.
+    // Five standard errors from the scatter of the samples, and 1 % for what the formula leaves out: spread along the
+    // stream, of the order of K/(U·x) = 0.1 % at 10 m, and the growth of a filament while it passes.
     let near = |seen: &Vec<f64>, exact: f64, what: &str| {
         let (mean, variance) = moments(seen.iter().copied());
         let slack = 5.0 * (variance / seen.len() as f64).sqrt() + 0.01 * exact;
@@ -100,9 +101,9 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
 
 #[test]
 fn gaps_of_a_random_release_are_poisson() {
-    // Without mixing the filaments lie on a line, n/U a metre; within 3σ of a probe there are λ = 6σn/U = 1 on
-    // average. Samples 0.5 s apart share no filament (6σ/U = 0.2 s), so the fraction of empty ones is binomial:
-    // 10⁴ samples, standard error √(p(1 − p)/10⁴), five of them allowed.
+    // Without mixing, the filaments lie on a line, n/U per metre. Within 3σ of a probe there are λ = 6σn/U = 1 on
+    // average. Samples 0.5 s apart share no filament (6σ/U = 0.2 s), so the share of empty samples is binomial: 10⁴
+    // samples, standard error √(p(1 − p)/10⁴), five of them allowed.
     let (rate, size) = (5.0, SPEED / 30.0);
     let mut p = plume(
         source(HEIGHT, rate, 0.0, size),
@@ -110,7 +111,7 @@ fn gaps_of_a_random_release_are_poisson() {
     );
     let water = Water(|_| SPEED, |_| (0.0, 0.0));
     let probe = Vector3::new(-70.0, 0.0, HEIGHT - DEPTH);
-    // One filament at 3σ, alone: below this there is none nearer.
+    // One filament alone at 3σ: a lower concentration means that none is nearer.
     let alone = RATE / rate / (math::powf(std::f64::consts::TAU, 1.5) * size.powi(3) * 0.998_866)
         * math::exp(-4.5);
     let (mut empty, mut faint, samples) = (0.0, 0.0, 10_000);
@@ -124,7 +125,7 @@ fn gaps_of_a_random_release_are_poisson() {
             .all(|f| (f64::from(f[0]) - probe.x).abs() > 3.0 * size);
         empty += f64::from(u8::from(gap));
         faint += f64::from(u8::from(p.at(&probe) < alone));
-        // What is felt agrees with where the filaments are: nothing nearer than 3σ and yet more than two at 3σ cannot be.
+        // The concentration agrees with the positions: there cannot be no filament within 3σ and more than two at 3σ.
         assert!(!gap || p.at(&probe) <= 4.0 * alone);
     }
     let exact = math::exp(-1.0);

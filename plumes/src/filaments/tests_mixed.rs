@@ -1,4 +1,4 @@
-//! Exact tests of vertical mixing: mixed water stays mixed (Thomson 1987), and mixing goes as fast as it should.
+//! Exact tests of vertical mixing: mixed water stays mixed (Thomson 1987), and mixing has the right speed.
 
 use super::plume::Plume;
 use super::tests_water::{Water, plume, pour, source};
@@ -20,7 +20,7 @@ const STEPS_S: [f64; 2] = [0.5, 1.0];
 /// Quantile 0.999 of chi-square with 23 degrees of freedom.
 const CHI_SQUARE_999: f64 = 49.73;
 
-/// The water with filaments even over the lowest `part` of it.
+/// The water, with filaments evenly in the lowest `part` of it.
 fn start(water: &impl Flow, part: f64) -> Plume {
     let still = source(1.0, 1e-9, 0.0, 0.1);
     let mut p = plume(still, &Terrain::Level { depth_m: DEPTH });
@@ -28,7 +28,7 @@ fn start(water: &impl Flow, part: f64) -> Plume {
     pour(&mut p, FILAMENTS, -DEPTH, |_| {
         [0.0, 0.0, -DEPTH * (1.0 - part * r.uniform())]
     });
-    // Fills the grid; a nanosecond moves nobody.
+    // Fills the grid; a nanosecond moves no filament.
     p.drift(water, -1e-9, 0.0);
     p
 }
@@ -41,7 +41,7 @@ fn depths(mut p: Plume, water: &impl Flow, t_s: f64, dt_s: f64) -> Vec<f64> {
     p.iter().map(|f| -f64::from(f[2])).collect()
 }
 
-/// Filaments in equal bins over those expected, after an even start.
+/// Filaments in equal bins, divided by the expected number, after an even start.
 fn bins(k_z: impl Fn(f64) -> f64 + Send + Sync, t_s: f64, dt_s: f64) -> [f64; BINS] {
     let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
     let mut counts = [0.0; BINS];
@@ -57,17 +57,18 @@ fn unmixed(k_z: impl Fn(f64) -> f64 + Send + Sync, t_s: f64, dt_s: f64) -> f64 {
     off.iter().map(|c| EVEN * (c - 1.0) * (c - 1.0)).sum()
 }
 
-/// Bed-made mixing of neutral water: zero at bed and surface, straight lines next to them.
+/// Mixing of neutral water by the bed: zero at bed and surface, linear next to them.
 pub(super) fn parabola(u_star: f64) -> impl Fn(f64) -> f64 {
     move |z| parabolic(u_star, z + DEPTH, DEPTH)
 }
 
-/// The same through an interface half a metre thick at 1.8 m, 2 kg/m³ and 10 cm/s across it: damped up to 190-fold.
+/// The same parabola with an interface half a metre thick at 1.8 m, 2 kg/m³ and 10 cm/s across it: damped up to
+/// 190-fold.
 fn two_layers(u_star: f64) -> impl Fn(f64) -> f64 {
     interface(u_star, 0.5)
 }
 
-/// The same through one of another thickness, m.
+/// The same parabola with an interface of another thickness, m.
 pub(super) fn interface(u_star: f64, thickness_m: f64) -> impl Fn(f64) -> f64 {
     move |z| {
         let t = math::tanh((z + 1.8) / (0.5 * thickness_m));
@@ -78,7 +79,8 @@ pub(super) fn interface(u_star: f64, thickness_m: f64) -> impl Fn(f64) -> f64 {
     }
 }
 
-/// A gap in strong mixing: down to 1e-5 m²/s within half a metre, which the levels there (0.4 m) make a sharp wedge.
+/// A gap in strong mixing: down to 1e-5 m²/s within half a metre, which the levels there (0.4 m) turn into a sharp
+/// wedge.
 pub(super) fn gap(k_m2_s: f64) -> impl Fn(f64) -> f64 {
     move |z| {
         let d = (z + 1.8) / 0.5;
@@ -88,8 +90,8 @@ pub(super) fn gap(k_m2_s: f64) -> impl Fn(f64) -> f64 {
 
 #[test]
 fn water_mixed_by_the_bed_stays_mixed() {
-    // What a step does wrong at bed and surface alike grows to its full size in D/(6κu_*), 125 and 417 s (second mode
-    // of the parabola, a Legendre polynomial).
+    // The error of a step at bed and surface grows to its full size within D/(6κu_*), 125 and 417 s (second mode of the
+    // parabola, a Legendre polynomial).
     for (u_star, t) in [(0.02, 600.0), (0.006, 1000.0)] {
         for dt in STEPS_S {
             let chi = unmixed(parabola(u_star), t, dt);
@@ -98,7 +100,7 @@ fn water_mixed_by_the_bed_stays_mixed() {
     }
 }
 
-/// Waves of 0.4 m and 4 s stir the surface: mixing that does not end there, and falls by e in 2 m.
+/// Waves of 0.4 m and 4 s stir the surface: mixing that is not zero there and falls by a factor e in 2 m.
 #[test]
 fn water_stirred_by_waves_stays_mixed() {
     for dt in STEPS_S {
@@ -128,14 +130,14 @@ fn water_with_a_gap_in_its_mixing_stays_mixed() {
 
 #[test]
 fn known_limit_a_wedge_as_narrow_as_one_kick_is_left_unmixed_by_less_than_a_fifth() {
-    // Six times the mixing of the gap above, K' up to 8 cm/s and kicks of 25 cm in a step of 1 s beside a wedge 40 cm wide:
-    // this case is NOT mixed, the bound is the one `kernel.rs` states. A bin has a standard error of 2 %.
+    // Six times the mixing of the gap above, K' up to 8 cm/s, and kicks of 25 cm in a step of 1 s beside a wedge 40 cm
+    // wide. This case is NOT mixed; the bound is the one that `kernel.rs` states. A bin has a standard error of 2 %.
     let off = bins(gap(3e-2), 600.0, 1.0);
     let worst = off.iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max);
     assert!(worst < 0.2, "{off:?}");
 }
 
-/// Part of the water's tracer above 1.8 m after `t_s`, by finite volumes of 5 mm on the K_z the filaments see.
+/// Part of the tracer that is above 1.8 m after `t_s`, by finite volumes of 5 mm with the K_z that the filaments see.
 fn part_above(p: &Plume, part: f64, t_s: f64) -> f64 {
     const CELLS: usize = 1200;
     let dz = DEPTH / CELLS as f64;
@@ -164,8 +166,8 @@ fn part_above(p: &Plume, part: f64, t_s: f64) -> f64 {
 
 #[test]
 fn mixing_goes_as_fast_as_the_diffusion_equation_says() {
-    // What started below 1.8 m and is above it after 200 s: binomial, five standard errors allowed, and 2 % for the step.
-    // Together 6 to 12 % of the parts found.
+    // What started below 1.8 m and is above it after 200 s: binomial; five standard errors are allowed, and 2 % for the
+    // step. Together this is 6 to 12 % of the parts found.
     fn check(what: &str, k_z: impl Fn(f64) -> f64 + Send + Sync) {
         let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
         let p = start(&water, 0.7);

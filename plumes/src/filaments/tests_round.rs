@@ -1,4 +1,4 @@
-//! Filaments in water that goes round a block.
+//! Filaments in water that flows round a block.
 
 use super::plume::{Plume, PlumeSettings};
 use super::tests_water::{basin, source};
@@ -76,9 +76,10 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     plume.turned_back()
 }
 
-/// A plume that meets a block head on, straight and turned, carried only and with eddies too: none is inside, none is lost. Without blockage
-/// those that meet the face stay there and are brought out step by step. With it nobody runs into a wall that lies along the cells; what is
-/// left are kicks of the eddies against walls (3 cm a step), and the corners that a turned wall has beyond its staircase.
+/// A plume that meets a block head on, straight and turned, without and with eddies: no filament is inside, none is
+/// lost. Without blockage, those that meet the face stay there and are brought out step by step. With blockage no
+/// filament runs into a wall that lies along the cells. What remains are kicks of the eddies against walls (3 cm in a
+/// step), and the corners of a turned wall beyond its staircase.
 #[test]
 fn filaments_go_round_a_block_by_themselves() {
     for (heading_deg, k_h, part) in [

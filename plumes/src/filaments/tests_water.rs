@@ -10,7 +10,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
-/// Water made of two functions of height: eastward speed, and (K_h, K_z).
+/// Water given by two functions of height: eastward speed, and (K_h, K_z).
 pub(super) struct Water<U, K>(pub(super) U, pub(super) K);
 
 impl<U, K> Flow for Water<U, K>
@@ -28,7 +28,7 @@ where
     }
 }
 
-/// A basin of 200 m by 100 m, long side eastward, centred at the datum.
+/// A basin of 200 m by 100 m, with its long side eastward, centred at the datum.
 pub(super) fn basin() -> Area {
     Area {
         centre: Vector2::zeros(),
@@ -58,7 +58,7 @@ pub(super) fn source(height_m: f64, rate_hz: f64, growth_m2_s: f64, size_m: f64)
     }
 }
 
-/// A plume of that source in the basin; the flow is summed once.
+/// A plume of that source in the basin; the flow is evaluated once.
 pub(super) fn plume(spec: SourceSpec, terrain: &Terrain) -> Plume {
     let settings = PlumeSettings {
         grid: GridShape::default(),
@@ -67,7 +67,7 @@ pub(super) fn plume(spec: SourceSpec, terrain: &Terrain) -> Plume {
     Plume::new(&[spec], &basin(), terrain, 11, settings).expect("a legal source")
 }
 
-/// Adds `n` filaments at time 0, the k-th at the place `at(k)` names, as if released.
+/// Adds `n` filaments at time 0, as if released; the k-th is at `at(k)`.
 pub(super) fn pour(plume: &mut Plume, n: usize, bed: f64, mut at: impl FnMut(usize) -> [f64; 3]) {
     let store = &mut plume.stores_mut()[0];
     for k in 0..n {

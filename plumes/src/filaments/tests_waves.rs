@@ -1,4 +1,5 @@
-//! Dye under waves: mean places and the orbits about them, against the paths of particles in the waves themselves.
+//! Dye under waves: mean places and the orbits about them, compared with the paths of particles in the waves
+//! themselves.
 
 use super::displaced::Displaced;
 use super::plume::{Plume, PlumeSettings};
@@ -15,7 +16,8 @@ use world::ranges::{HeadingDeg, NonNegative};
 use world::terrain::Terrain;
 
 const BED: Terrain = Terrain::Level { depth_m: 10.0 };
-/// Of a wave of 0.3 m and 4 s at 1.5 m depth: radius of the orbit 0.104 m, drift 3.9 mm/s.
+/// Height of the source above the bed, that is 1.5 m of depth. There, a wave of 0.3 m and 4 s has an orbit of radius
+/// 0.104 m and a drift of 3.9 mm/s.
 const HEIGHT: f64 = 8.5;
 
 /// Waves along a current of 5 cm/s, without mixing.
@@ -34,7 +36,7 @@ fn water(stokes: bool) -> Water {
     spec.build(&basin(), &BED, 1).unwrap()
 }
 
-/// Filaments that neither grow nor spread, ten a second at equal intervals.
+/// Filaments that neither grow nor spread, ten per second at equal intervals.
 fn thread() -> SourceSpec {
     let mut spec = source(HEIGHT, 10.0, 0.0, 0.05);
     spec.release.poisson = false;
@@ -58,7 +60,7 @@ fn plume(water: &Water, until_s: f64) -> Plume {
     plume
 }
 
-/// A particle released at the source at `from_s`, by Runge and Kutta through the orbits themselves.
+/// A particle released at the source at `from_s`, by Runge and Kutta's method through the orbits themselves.
 fn particle(water: &Water, from_s: f64, to_s: f64) -> Vector3<f64> {
     let mut p = Vector3::new(-90.0, 0.0, -1.5);
     let steps = ((to_s - from_s) / 0.02).ceil();
@@ -74,12 +76,12 @@ fn particle(water: &Water, from_s: f64, to_s: f64) -> Vector3<f64> {
     p
 }
 
-/// Farthest of a few filaments from where particles released with them are at 200 s.
+/// Greatest distance of some filaments, at 200 s, from particles released with them.
 fn worst(stokes: bool) -> f64 {
     let water = water(stokes);
     let plume = plume(&water, 200.0);
     let store: Vec<_> = plume.iter().collect();
-    // The n-th filament's age is that of its place in the row: the first interval begins at zero.
+    // The age of the n-th filament follows from its place in the row: the first interval begins at zero.
     let born = |n: usize| 200.0 - (store.len() - n) as f64 * 0.1;
     let offset = plume.len() as f64 * 0.1 - 200.0;
     assert!(offset.abs() <= 0.1, "{offset}");
@@ -87,7 +89,7 @@ fn worst(stokes: bool) -> f64 {
     for n in (0..store.len() - 1).step_by(133) {
         let mean = Vector3::new(store[n][0], store[n][1], store[n][2]).map(f64::from);
         let there = mean + water.displacement(&mean, 200.0).unwrap();
-        // Released at most a tenth of a second apart, while the water goes 16 cm/s at most.
+        // Released at most a tenth of a second apart, while the water moves at 16 cm/s at most.
         let off =
             [born(n), born(n) + 0.1].map(|from| (particle(&water, from, 200.0) - there).norm());
         worst = worst.max(off[0].min(off[1]));
@@ -95,8 +97,8 @@ fn worst(stokes: bool) -> f64 {
     worst
 }
 
-/// Second order in the steepness ak = 0.038: some ak of the orbit's 0.1 m, and U/c = 0.8 % of orbit and drift (0.8 m in 200 s) for the current's Doppler
-/// shift, together 2 cm. Without the drift the dye is left behind by up to 0.78 m.
+/// Second order in the steepness ak = 0.038: some ak of the orbit's 0.1 m, and U/c = 0.8 % of orbit and drift (0.8 m in
+/// 200 s) for the Doppler shift by the current, together 2 cm. Without the drift, the dye lags by up to 0.78 m.
 #[test]
 fn mean_place_plus_orbit_is_where_particles_are() {
     let (with, without) = (worst(true), worst(false));
@@ -115,10 +117,10 @@ fn a_probe_meets_the_dye_where_the_orbit_has_carried_it() {
         assert!(way.norm() > 0.09);
         let dye = Displaced::new(&plume, &water, t);
         let (met, at_mean) = (dye.at(&(mean + way)), plume.at(&mean));
-        // p − ξ(p) misses the mean place by ak of the orbit, 4 mm, against a size of 5 cm: 1 − exp(−0.08²/2).
+        // p − ξ(p) misses the mean place by ak of the orbit, 4 mm, compared with a size of 5 cm: 1 − exp(−0.08²/2).
         assert!((met / at_mean - 1.0).abs() < 0.02, "{met} {at_mean}");
     }
-    // Without the orbits half of the time nothing would be met there: it rises and falls by two sizes.
+    // Without the orbits there would be nothing at this place half of the time: the dye rises and falls by two sizes.
     let up = Vector3::new(mean.x, mean.y, mean.z + 0.1);
     assert!(plume.at(&up) < 0.3 * plume.at(&mean));
 }

@@ -1,6 +1,7 @@
-//! Concentration of a thread of small filaments: few are near any point, and a search through all finds them.
+//! Concentration of a thread of small filaments. Few of them are near any point, and a search through all finds them.
 //!
-//! *Source*: none; a search in line beats a tree while there are only thousands, and the drift moves them between any two questions.
+//! *Source*: none. A linear search is faster than a tree for a few thousand, and the drift moves them between any two
+//! questions.
 //!
 //! *Parameters*: none.
 //!
@@ -14,7 +15,7 @@ use super::store::Store;
 /// Filaments tested at once.
 const LANES: usize = 16;
 
-/// Concentration at a point in the water, kg/m³, of the filaments of a store that stop growing at a size.
+/// Concentration, kg/m³, at a point in the water, from the filaments of a store that stop growing at a size.
 pub(super) fn at(s: &Store, now_s: f64, path: Path, query: &Spot<'_>) -> f64 {
     let p = query.p;
     let Some(first) = s.born_s.first() else {

@@ -6,8 +6,8 @@
 //! *Parameters*: z0 `roughness_m` (m; 0.001 rippled sand, Soulsby table 7 within a factor of a few),
 //! δ `thickness_m` (m). Von Kármán's κ = 0.4.
 //!
-//! *Deviations*: the law multiplies whatever current flows above, u(z′) = U ln(z′/z0)/ln(δ/z0) below δ, so that
-//! the free current is met at δ; in water shallower than δ it is met at the surface. Zero below z0.
+//! *Deviations*: the law multiplies the current that flows above, u(z′) = U ln(z′/z0)/ln(δ/z0) below δ, so that the
+//! free current is reached at δ; in water shallower than δ it is reached at the surface. Zero below z0.
 
 use serde::{Deserialize, Serialize};
 use world::math;
@@ -57,13 +57,13 @@ pub struct BoundaryLayer {
 }
 
 impl BoundaryLayer {
-    /// Height at which the free current is met in water of this depth, m.
+    /// Height at which the free current is reached in water of this depth, m.
     #[must_use]
     pub fn top(&self, depth_m: f64) -> f64 {
         self.delta.min(depth_m).max(3.0 * self.z0)
     }
 
-    /// Part of the free current left at a height above the bed.
+    /// Part of the free current that is left at a height above the bed.
     #[must_use]
     pub fn factor(&self, height_m: f64, depth_m: f64) -> f64 {
         let top = self.top(depth_m);
@@ -76,7 +76,7 @@ impl BoundaryLayer {
         }
     }
 
-    /// Friction velocity u_* under a free current of this speed, m/s.
+    /// Friction velocity u_*, m/s, under a free current of this speed.
     #[must_use]
     pub fn friction_velocity(&self, free_speed_m_s: f64, depth_m: f64) -> f64 {
         KARMAN * free_speed_m_s / math::ln(self.top(depth_m) / self.z0)
@@ -104,7 +104,7 @@ mod tests {
         assert!((l.factor(0.1, 5.0) - 2.0 / 3.0).abs() < 1e-12);
         assert_eq!(l.factor(1.0, 5.0), 1.0);
         assert_eq!(l.factor(0.0005, 5.0), 0.0);
-        // In half a metre of water the free current is met at the surface.
+        // In half a metre of water the free current is reached at the surface.
         assert_eq!(l.factor(0.5, 0.5), 1.0);
     }
 

@@ -1,17 +1,19 @@
 //! An open channel: its mean profile over a smooth or rough bed, and the turbulence that goes with it.
 //!
-//! *Source*: log law with the roughness length of Christoffersen & Jonsson 1985, Ocean Eng. 12, 387 (Soulsby 1997, Dynamics
-//! of Marine Sands, eq. 23b): z0 = ν/(9u_*) + (k_s/30)(1 − exp(−u_*k_s/(27ν))); below it the viscous sublayer u = u_*²z/ν
-//! (Schlichting, Boundary-Layer Theory, ch. 17). Intensities u′, v′, w′ = (2.30, 1.63, 1.27) u_* e^(−z/H), k = 4.78 u_*² e^(−2z/H),
-//! ε = 9.8 (u_*³/H)(z/H)^(−½) e^(−3z/H): Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows, ch. 4. Diffusivity without resolved eddies:
-//! K_z of Elder 1959, J. Fluid Mech. 5, 544, transverse 0.15 u_*H, Fischer et al. 1979, section 5.1.
+//! *Source*: log law with the roughness length of Christoffersen & Jonsson 1985, Ocean Eng. 12, 387 (Soulsby 1997,
+//! Dynamics of Marine Sands, eq. 23b): z0 = ν/(9u_*) + (k_s/30)(1 − exp(−u_*k_s/(27ν))); below it the viscous sublayer
+//! u = u_*²z/ν (Schlichting, Boundary-Layer Theory, ch. 17). Intensities u′, v′, w′ = (2.30, 1.63, 1.27) u_* e^(−z/H),
+//! k = 4.78 u_*² e^(−2z/H), ε = 9.8 (u_*³/H)(z/H)^(−½) e^(−3z/H): Nezu & Nakagawa 1993, Turbulence in Open-Channel
+//! Flows, ch. 4. Diffusivity without resolved eddies: K_z of Elder 1959, J. Fluid Mech. 5, 544, transverse 0.15 u_*H,
+//! Fischer et al. 1979, section 5.1.
 //!
-//! *Parameters*: `mean_m_s` mean over the depth (m/s), `heading_deg` where the water goes, `roughness_m` k_s (m; 0 smooth),
-//! `viscosity_m2_s` ν (m²/s), `eddies` the resolved turbulence (file `eddies`). The sides of the area are the channel's walls.
+//! *Parameters*: `mean_m_s` mean over the depth (m/s), `heading_deg` where the water goes, `roughness_m` k_s (m; 0
+//! smooth), `viscosity_m2_s` ν (m²/s), `eddies` the resolved turbulence (file `eddies`). The sides of the area are the
+//! channel's walls.
 //!
-//! *Deviations*: u_* is solved so that the depth mean of the profile is the given one; no wake, no dip at the surface, and the
-//! boundary layers of the side walls are left out: the mean is the same across the channel. Sublayer and log law meet where they
-//! cross (11.6 wall units on a smooth bed), with a kink.
+//! *Deviations*: u_* is solved so that the profile has the given depth mean. There is no wake and no dip at the
+//! surface, and the boundary layers of the side walls are omitted: the mean is the same across the channel. Sublayer
+//! and log law meet where they cross (11.6 wall units on a smooth bed), with a kink.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -27,7 +29,7 @@ pub const INTENSITIES: [f64; 3] = [2.30, 1.63, 1.27];
 /// Fischer's transverse diffusivity in units of u_*H.
 pub const TRANSVERSE: f64 = 0.15;
 
-/// A channel between walls.
+/// A channel between two walls.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OpenChannelSpec {
@@ -37,13 +39,13 @@ pub struct OpenChannelSpec {
     /// Where the water goes: along the area's axis.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
-    /// Equivalent sand roughness k_s, m; 0 is a smooth bed.
+    /// Equivalent sand roughness k_s, m; 0 means a smooth bed.
     #[serde(default = "smooth", deserialize_with = "world::limits::sand_m")]
     pub roughness_m: NonNegative,
     /// Kinematic viscosity, m²/s.
     #[serde(default = "water", deserialize_with = "world::limits::viscosity_m2_s")]
     pub viscosity_m2_s: Positive,
-    /// Resolved turbulence; without it all of it is diffusivity.
+    /// Resolved turbulence; without it, all turbulence is diffusivity.
     #[serde(default)]
     pub eddies: Option<EddiesSpec>,
 }
@@ -80,7 +82,7 @@ impl OpenChannelSpec {
     /// The mean flow over a level bed at `depth_m`, checked.
     ///
     /// # Errors
-    /// If the roughness is no small part of the depth, or no friction velocity gives the wanted mean.
+    /// If the roughness is not small compared with the depth, or if no friction velocity gives the wanted mean.
     pub fn build(&self, field: &str, depth_m: f64) -> Result<Channel, PlumeError> {
         let bad = |sub: &str, problem: String| PlumeError::Invalid {
             field: format!("{field}.{sub}"),
@@ -137,13 +139,13 @@ impl Channel {
         let h = height_m.clamp(0.0, self.depth_m);
         let viscous = self.u_star_m_s * self.u_star_m_s * h / self.viscosity_m2_s;
         let log = self.u_star_m_s / KARMAN * math::ln((h / self.z0).max(1.0));
-        // Below its zero the log law, and with it the water, stands: on a smooth bed a ninth of a wall unit.
+        // Below its zero the log law, and with it the water, stands still: on a smooth bed, a ninth of a wall unit.
         viscous.min(log)
     }
 
     fn depth_mean(&self) -> f64 {
         const N: usize = 400;
-        // Denser at the bed: heights go with the square.
+        // Denser at the bed: heights are proportional to the square.
         let cells = (0..N).map(|k| {
             let s = (k as f64 + 0.5) / N as f64;
             self.speed(self.depth_m * s * s) * 2.0 * s
@@ -164,7 +166,7 @@ impl Channel {
         4.78 * self.u_star_m_s * self.u_star_m_s * math::exp(-2.0 * height_m / self.depth_m)
     }
 
-    /// Dissipation at a height, m²/s³; within a twentieth of the depth of the bed that at its edge.
+    /// Dissipation at a height, m²/s³; within a twentieth of the depth from the bed, that at the twentieth.
     #[must_use]
     pub fn dissipation(&self, height_m: f64) -> f64 {
         let xi = (height_m / self.depth_m).max(0.05);
@@ -197,7 +199,8 @@ mod tests {
         .unwrap()
     }
 
-    /// The flume of Webster et al. 2012: 2.8 mm/s by the usual constants, about 3 published; ours within 5 % of the former.
+    /// The flume of Webster et al. 2012: 2.8 mm/s by the usual constants, about 3 in the paper; ours is within 5 % of
+    /// the former.
     #[test]
     fn friction_velocity_gives_the_mean() {
         let c = channel(0.05, 0.0);
@@ -225,7 +228,8 @@ mod tests {
         assert_eq!(c.speed(9.0), c.speed(0.2));
     }
 
-    /// Nezu & Nakagawa's energy is half the sum of their squares (they print 4.78), and production equals dissipation near the bed.
+    /// Nezu & Nakagawa's energy is half the sum of their squares (they print 4.78), and production equals dissipation
+    /// near the bed.
     #[test]
     fn turbulence_is_consistent() {
         let c = channel(0.05, 0.0);

@@ -1,4 +1,4 @@
-//! Coloured noise, ẍ + 2ζωẋ + ω²x = Gω²n, stepped without error at any step.
+//! Coloured noise, ẍ + 2ζωẋ + ω²x = Gω²n, advanced without error at any step.
 //!
 //! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143 (the noise at the corners of the wind
 //! grid); exact step of a linear stochastic equation: Gillespie 1996, Phys. Rev. E 54, 2084.
@@ -6,10 +6,10 @@
 //! *Parameters*: σ `std` (unit of x), ω `omega` (rad/s; Farrell 0.2), ζ `damping` (Farrell 0.1). Farrell's gain
 //! follows from σ² = G²ω/(4ζ) (G = 2 gives σ² = 2).
 //!
-//! *Deviations*: Farrell steps by Euler, whose variance depends on the step. Here (x, ẋ) moves by the matrix
-//! exponential Φ(h) plus a normal pair of covariance P − ΦPΦᵀ, P = diag(σ², ω²σ²) the stationary one,
-//! and starts in it; so variance and autocorrelation
-//! e^(−ζωt)[cos ω_d t + ζ/√(1−ζ²) sin ω_d t] hold at every step. Only ζ < 1.
+//! *Deviations*: Farrell steps by Euler, whose variance depends on the step. Here (x, ẋ) is multiplied by the matrix
+//! exponential Φ(h), and a normal pair of covariance P − ΦPΦᵀ is added; P = diag(σ², ω²σ²) is the stationary
+//! covariance, in which the process starts. So variance and autocorrelation e^(−ζωt)[cos ω_d t + ζ/√(1−ζ²) sin ω_d t]
+//! hold at every step. Only ζ < 1.
 
 use world::math;
 use world::seeds::Stream;
@@ -22,11 +22,11 @@ pub struct ColouredNoise {
     rng: Stream,
 }
 
-/// What a step of fixed length does.
+/// The effect of a step of fixed length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NoiseStep {
     phi: [[f64; 2]; 2],
-    // Lower Cholesky factor of the covariance added.
+    // Lower Cholesky factor of the covariance that is added.
     chol: [f64; 3],
     std: f64,
     omega: f64,
@@ -76,7 +76,7 @@ impl ColouredNoise {
         self.x
     }
 
-    /// One step on.
+    /// Advances by one step.
     pub fn advance(&mut self, step: &NoiseStep) {
         let (a, b) = (self.rng.normal(), self.rng.normal());
         let [[p, q], [r, s]] = step.phi;
@@ -91,7 +91,7 @@ impl ColouredNoise {
 mod tests {
     use super::*;
 
-    /// Ensemble variance and correlation at lag 12 s, reached by steps of four lengths: Farrell's ω and ζ.
+    /// Ensemble variance and correlation at lag 12 s, reached in steps of four lengths, with Farrell's ω and ζ.
     #[test]
     fn variance_and_autocorrelation_hold_at_any_step() {
         let (std, omega, zeta, lag) = (0.7, 0.2, 0.1, 12.0);
@@ -124,7 +124,7 @@ mod tests {
         }
     }
 
-    /// Two half steps are one step: the transition composes exactly.
+    /// Two half steps equal one step: the transition composes exactly.
     #[test]
     fn steps_compose() {
         let one = NoiseStep::new(1.0, 0.2, 0.1, 4.0);

@@ -1,4 +1,4 @@
-//! What the water will hold and do; the unit costs are said to be measured where `world::cost` says how.
+//! Memory and time that the water will need. `world::cost` says where the unit costs were measured.
 
 use nalgebra::Vector2;
 use world::area::Area;
@@ -7,15 +7,15 @@ use world::cost::{Cost, Part, Times};
 use crate::flow::catalogue::CurrentSpec;
 use crate::flow::water::WaterSpec;
 
-/// Memory of a node of the plume's flow: its values, those by cell, and their check.
+/// Memory of a node of the plume's flow, bytes: its values, those by cell, and their check.
 const NODE_BYTES: f64 = 64.0;
-/// Time to sum the flow at a node, s: of currents alone, and for each surface wave.
+/// Time to evaluate the flow at a node, s: for currents alone, and for each surface wave.
 const NODE_S: [f64; 2] = [60e-9, 25e-9];
-/// More of it where the water goes round obstacles, s.
+/// Additional time where the water flows round obstacles, s.
 const ROUND_S: f64 = 250e-9;
 
 impl WaterSpec {
-    /// What it takes; paths begin with `water`.
+    /// Memory and time that it needs; paths begin with `water`.
     #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64, times: &Times) -> Cost {
         let mut cost = Cost::default();
@@ -77,7 +77,7 @@ impl WaterSpec {
         cost
     }
 
-    /// Waves that are summed wherever the water is asked.
+    /// Number of waves that are summed whenever the water is evaluated.
     #[must_use]
     pub fn waves(&self) -> f64 {
         let of = |c: &CurrentSpec| match c {
@@ -87,7 +87,8 @@ impl WaterSpec {
         self.currents.iter().map(of).sum()
     }
 
-    /// About how fast the water carries things away, m/s: the mean of the currents that keep their direction.
+    /// Approximate speed at which the water carries things away, m/s: the mean of the currents that keep their
+    /// direction.
     #[must_use]
     pub fn carries_m_s(&self) -> f64 {
         let along = |deg: f64, speed: f64| world::units::Heading::from_deg(deg).unit() * speed;

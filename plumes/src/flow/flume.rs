@@ -1,11 +1,11 @@
-//! A channel put into an area: its mean flow, its eddies, what they leave to diffusivity, and the walls.
+//! A channel in an area: its mean flow, its eddies, the remaining diffusivity, and the walls.
 //!
 //! *Source*: those of `channel` and `eddies`.
 //!
 //! *Parameters*: those of `channel`.
 //!
-//! *Deviations*: with resolved eddies only what they leave out mixes as a diffusivity, vertically K(z), horizontally its depth mean;
-//! without them Elder's vertical and Fischer's transverse diffusivity stand for all of the turbulence.
+//! *Deviations*: with resolved eddies, only what they omit mixes as a diffusivity, K(z) vertically and its depth mean
+//! horizontally. Without them, Elder's vertical and Fischer's transverse diffusivity represent all of the turbulence.
 
 use nalgebra::Vector2;
 use world::area::Area;

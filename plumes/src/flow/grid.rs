@@ -1,5 +1,5 @@
-//! The flow laid out for the plume: velocity and diffusivity summed once at the nodes of a
-//! bed-following grid, so that thousands of filaments each pay one trilinear look-up.
+//! The flow prepared for the plume: velocity and diffusivity, evaluated once at the nodes of a bed-following grid, so
+//! that each of thousands of filaments needs only one trilinear look-up.
 //!
 //! *Source*: terrain-following ("sigma") coordinate, Phillips 1957, J. Meteorol. 14, 184; interpolation by
 //! the tensor product of linear ones.
@@ -7,24 +7,24 @@
 //! *Parameters*: [`GridShape`]: `cell_m` horizontal spacing (m), `levels` nodes from bed to surface,
 //! `stretch` (0 even, towards 1 denser at the bed), `margin_m` beyond the area (m).
 //!
-//! *Layout*: axes along (i) and across (j, to the right of) the area's axis, k from bed to surface;
-//! node (i, j, k) is `data[(i·ny + j)·nz + k] = [u_east, u_north, w_up, K_z]`, f32. Height above the bed
-//! as a part of the depth, s = (z − b)/(−b), is s(ξ) = (1 − a)ξ + aξ² with ξ = k/(nz − 1); its inverse is
-//! a square root, so no search is needed. Within a cell everything is linear in s, that is in z, and K_z
-//! is piecewise linear with the gradient the well-mixed drift wants.
+//! *Layout*: axes along (i) and across (j, to the right of) the area's axis, k from bed to surface; node (i, j, k) is
+//! `data[(i·ny + j)·nz + k] = [u_east, u_north, w_up, K_z]`, f32. The height above the bed as a part of the depth, s =
+//! (z − b)/(−b), is s(ξ) = (1 − a)ξ + aξ² with ξ = k/(nz − 1); its inverse is a square root, so no search is needed.
+//! Within a cell everything is linear in s, that is in z, and K_z is piecewise linear with the gradient that the
+//! well-mixed drift needs.
 //!
-//! *Deviations*: outside the grid the value at the nearest edge holds. In time the values stand still
-//! between two refreshes: call [`FlowGrid::refresh`] at fixed times, for the middle of the span to come.
+//! *Deviations*: outside the grid, the value at the nearest edge applies. The values are constant between two
+//! refreshes: call [`FlowGrid::refresh`] at fixed times, for the middle of the coming span.
 
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::terrain::Terrain;
 
-/// How fine the grid is.
+/// Resolution and extent of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GridShape {
-    /// Wanted horizontal spacing, m; made to fit the extent, never coarser.
+    /// Wanted horizontal spacing, m; reduced to fit the extent, never enlarged.
     pub cell_m: f64,
     /// Nodes from bed to surface, at least 2.
     pub levels: usize,
@@ -46,7 +46,8 @@ impl Default for GridShape {
 }
 
 impl GridShape {
-    /// The usual grid; in waters less than 100 m wide one in proportion: cells of a sixth of the width, a margin of an eighth.
+    /// The default grid. In water less than 100 m wide it is scaled: cells of a sixth of the width, a margin of an
+    /// eighth.
     #[must_use]
     pub fn fitting(area: &Area) -> Self {
         let usual = Self::default();
@@ -60,7 +61,7 @@ impl GridShape {
         }
     }
 
-    /// Nodes along and across an area, and upwards; not whole numbers of this machine's, so that they can be judged.
+    /// Number of nodes along, across and upwards. These are `f64`, so that a number that is too large can be reported.
     #[must_use]
     pub fn nodes(&self, area: &Area) -> [f64; 3] {
         let [along, across] = [area.length_m, area.width_m]
@@ -80,9 +81,9 @@ impl GridShape {
 pub struct FlowGrid {
     /// World (east, north) of node (0, 0), m.
     pub origin: [f32; 2],
-    /// Unit vector (east, north) of growing i.
+    /// Unit vector (east, north) of increasing i.
     pub along: [f32; 2],
-    /// Unit vector (east, north) of growing j.
+    /// Unit vector (east, north) of increasing j.
     pub across: [f32; 2],
     /// Spacing along and across, m.
     pub spacing: [f32; 2],
@@ -98,11 +99,11 @@ pub struct FlowGrid {
     pub bed: Vec<f32>,
     /// Horizontal diffusivity (m²/s) at column i·ny + j, taken at mid-depth.
     pub k_h: Vec<f32>,
-    /// Time the values hold for, s.
+    /// Time for which the values hold, s.
     pub t_s: f64,
 }
 
-/// What a filament asks for at its place.
+/// The values that a filament needs at its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GridSample {
     /// Velocity, ENU, m/s.
@@ -121,7 +122,8 @@ impl FlowGrid {
     /// A grid of still water over the area and its margin; fill it with [`FlowGrid::refresh`].
     ///
     /// # Panics
-    /// If the shape has fewer than two levels, no positive cell, or a stretch outside [0, 1): slips of code.
+    /// If the shape has fewer than two levels, no positive cell size, or a stretch outside [0, 1): mistakes in the
+    /// code.
     #[must_use]
     pub fn new(area: &Area, terrain: &Terrain, shape: GridShape) -> Self {
         assert!(
@@ -178,7 +180,7 @@ impl FlowGrid {
         Vector3::new(xy(0), xy(1), b * (1.0 - f64::from(self.levels[k])))
     }
 
-    /// Asks the flow again at every node, for time `t_s` (the flow must have been advanced there).
+    /// Evaluates the flow at every node for time `t_s`, to which the flow must have been advanced.
     pub fn refresh<F: Flow + ?Sized>(&mut self, flow: &F, t_s: f64) {
         let [nx, ny, nz] = self.dims;
         let mut heights = vec![0.0; nz];
@@ -200,7 +202,7 @@ impl FlowGrid {
         self.t_s = t_s;
     }
 
-    /// Trilinear values at a world point, m; the point is brought inside the grid first.
+    /// Trilinear values at a world point, m; the point is first moved into the grid.
     #[inline]
     #[must_use]
     pub fn at(&self, x: f32, y: f32, z: f32) -> GridSample {
@@ -230,7 +232,7 @@ impl FlowGrid {
         let s = (1.0 - z / bed).clamp(0.0, 1.0);
         let (k, _) = split(self.level_of(s) * (nz - 1) as f32, nz);
         let (s0, s1) = (self.levels[k], self.levels[k + 1]);
-        // Rounding of the square root may name the neighbouring level; the clamp keeps it continuous.
+        // Rounding of the square root may give the neighbouring level; the clamp keeps the result continuous.
         let f = ((s - s0) / (s1 - s0)).clamp(0.0, 1.0);
         let (mut low, mut high) = ([0.0_f32; 4], [0.0_f32; 4]);
         for (column, w) in of.iter().zip(weights) {
@@ -263,11 +265,11 @@ impl FlowGrid {
     }
 }
 
-/// Cell index in 0..n−1 and the part of the cell passed, of a coordinate in cells.
+/// Splits a coordinate in cells into the cell index in 0..n−1 and the position in the cell.
 #[inline]
 fn split(c: f32, n: usize) -> (usize, f32) {
     let c = c.clamp(0.0, (n - 1) as f32);
-    // Through i32: cheaper than to 64 bits, and no grid is that large.
+    // Through i32: this is cheaper than 64 bits, and no grid is that large.
     let i = (c as i32 as usize).min(n - 2);
     (i, c - i as f32)
 }
@@ -311,8 +313,8 @@ mod tests {
         }
     }
 
-    /// Against the flow itself. Expected at worst, h²/8 of the second derivative: across the interface (0.34 m/s over
-    /// 0.8 m, levels 0.55 m apart in 8 m) 0.03 m/s; in the log law's foot below the second level 0.03 m/s.
+    /// Compared with the flow itself. Expected at worst, h²/8 of the second derivative: across the interface (0.34 m/s
+    /// over 0.8 m, levels 0.55 m apart in 8 m) 0.03 m/s; in the foot of the log law below the second level 0.03 m/s.
     #[test]
     fn stays_near_the_flow_itself() {
         let water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();

@@ -1,10 +1,11 @@
-//! The bed as the water feels it: height and slope under a place, without trigonometry at each question.
+//! The bed for the water: height and slope under a place, without trigonometry in each question.
 //!
-//! *Source*: the terrain's own definition; slope by central differences over 1 m where no closed form is known here.
+//! *Source*: the terrain's own definition; the slope by central differences over 1 m where no closed form is known
+//! here.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: at least a centimetre of water everywhere, so that a dry corner divides by no zero.
+//! *Deviations*: at least a centimetre of water everywhere, so that a dry corner does not divide by zero.
 
 use nalgebra::Vector2;
 use world::terrain::Terrain;
@@ -20,12 +21,12 @@ pub struct Floor {
     pub slope: Vector2<f64>,
 }
 
-/// A terrain made quick to ask.
+/// A terrain prepared for fast evaluation.
 #[derive(Clone, Debug)]
 pub(crate) enum Ground {
     Level(f64),
     Plane {
-        // Part of the run passed at the datum, and its gradient.
+        // Position along the slope at the datum, as a part of its run, and its gradient.
         part: f64,
         gradient: Vector2<f64>,
         z: [f64; 2],

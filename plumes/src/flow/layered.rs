@@ -7,10 +7,10 @@
 //! them, from the top: mean `depth_m`, `thickness_m` (change divided by steepest gradient), `waves` of the height:
 //! `amplitude_m`, `length_m`, `period_s`, `heading_deg` (where it travels), `phase_deg` (absent: drawn from the seed).
 //!
-//! *Deviations*: the paper only says that the interface's depth varies in place and time; the sum of travelling waves
-//! is ours. A wave of speed c towards e that thickens a layer by h′ sets its water moving by
-//! (c − U·e) e h′/h, what continuity asks to first order in h′/h; so the layer's volume is kept to second order.
-//! An interface keeps at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
+//! *Deviations*: the paper says only that the interface's depth varies in place and time; the sum of travelling waves
+//! is our choice. A wave of speed c towards e that thickens a layer by h′ sets the layer's water in motion by (c − U·e)
+//! e h′/h, as continuity requires to first order in h′/h; so the layer's volume is conserved to second order. An
+//! interface stays at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -24,7 +24,7 @@ use crate::flow::ground::Floor;
 
 /// Fastest wave of an interface, m/s.
 const FASTEST_M_S: f64 = 15.0;
-/// Most layers a water column may have: columns live on the stack.
+/// Most layers of a water column; columns live on the stack.
 pub const MAX_LAYERS: usize = 4;
 const MAX_FACES: usize = MAX_LAYERS - 1;
 /// Least distance of an interface from its neighbours, as a part of the depth.
@@ -36,7 +36,7 @@ const GAP: f64 = 0.02;
 pub struct LayeredSpec {
     /// One to four layers, top first.
     pub layers: Vec<LayerSpec>,
-    /// One fewer than layers, top first.
+    /// One fewer than there are layers, top first.
     #[serde(default)]
     pub interfaces: Vec<InterfaceSpec>,
 }
@@ -48,7 +48,7 @@ pub struct LayerSpec {
     /// Speed over ground, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     pub speed_m_s: NonNegative,
-    /// Where its water goes, degrees clockwise from north.
+    /// Where the layer's water goes, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Density, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
@@ -62,7 +62,7 @@ pub struct InterfaceSpec {
     /// Mean depth, m.
     #[serde(deserialize_with = "world::limits::depth_m")]
     pub depth_m: Positive,
-    /// Change across it divided by the steepest gradient in it, m.
+    /// Thickness, m: the change across the interface divided by the steepest gradient in it.
     #[serde(deserialize_with = "world::limits::depth_m")]
     pub thickness_m: Positive,
     /// Waves of its height, summed.
@@ -83,7 +83,7 @@ pub struct WaveSpec {
     /// Period at a fixed place, s.
     #[serde(deserialize_with = "world::limits::internal_s")]
     pub period_s: Positive,
-    /// Where it travels, degrees clockwise from north.
+    /// Where the wave travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Phase at the datum at time zero, degrees; drawn from the seed if absent.
     #[serde(default)]
@@ -127,8 +127,8 @@ impl LayeredSpec {
     /// The current, checked; absent phases come from the seed.
     ///
     /// # Errors
-    /// Names the field: no layers or too many, interfaces not one fewer, not deeper one by one, or density
-    /// that does not grow downwards.
+    /// Names the field: no layers or too many, the wrong number of interfaces, interfaces not in order of depth, or a
+    /// density that does not increase downwards.
     pub fn build(&self, field: &str, seed: u64) -> Result<Layered, PlumeError> {
         let bad = |sub: String, problem: String| PlumeError::Invalid {
             field: format!("{field}.{sub}"),
@@ -183,7 +183,8 @@ impl LayeredSpec {
 }
 
 impl WaveSpec {
-    /// That it is no steeper than 45° and no faster than water can be: beyond, no such wave keeps its shape.
+    /// Checks that the wave is no steeper than 45° and no faster than water can be; otherwise it could not keep its
+    /// shape.
     fn check(&self) -> Result<(), String> {
         let (length, period) = (self.length_m.get(), self.period_s.get());
         let least = std::f64::consts::TAU * self.amplitude_m.get();
@@ -203,7 +204,7 @@ impl WaveSpec {
 impl InterfaceSpec {
     fn build(&self, rng: &mut Stream) -> Face {
         let waves = self.waves.iter().map(|w| {
-            // Drawn also when not used, so that stating one phase shifts no other.
+            // Drawn even if it is not used, so that giving one phase does not change another.
             let drawn = rng.uniform() * std::f64::consts::TAU;
             let travels = w.heading_deg.heading().unit();
             let (length, period) = (w.length_m.get(), w.period_s.get());
@@ -270,7 +271,7 @@ impl Layered {
         column.u[..n].copy_from_slice(&self.u);
         let mut ceiling = 0.0;
         for (i, face) in self.faces.iter().enumerate() {
-            // Mean thicknesses, kept above twice the waves' reach so that a thin layer does not race.
+            // Mean thicknesses, at least twice the reach of the waves, so that a thin layer does not get too fast.
             let below = self.faces.get(i + 1).map_or(floor.z, |f| f.z);
             let above = if i == 0 { 0.0 } else { self.faces[i - 1].z };
             let least = (2.0 * face.reach).max(GAP * -floor.z);
@@ -320,7 +321,8 @@ impl LayeredColumn<'_> {
         &self.faces[..self.of.faces.len()]
     }
 
-    /// Height of the lowest interface across which density changes, m: the lid on the bed's turbulence.
+    /// Height of the lowest interface across which the density changes, m. It limits the turbulence of the bed from
+    /// above.
     #[must_use]
     pub fn lid(&self) -> Option<f64> {
         let rho = &self.of.density;
@@ -355,8 +357,8 @@ impl LayeredColumn<'_> {
         p
     }
 
-    /// The layer-following surface through a height between the floor and the surface: linear between bed,
-    /// interfaces and surface.
+    /// The layer-following surface through a height between floor and surface: linear between bed, interfaces and
+    /// surface.
     #[must_use]
     pub fn sheet(&self, z: f64, floor: &Floor) -> Sheet {
         let mut upper = Sheet::default();

@@ -1,4 +1,4 @@
-//! Slow wandering of the whole current: coloured noise at the area's corners, carried inside, divergence-free.
+//! Slow fluctuation of the whole current: coloured noise at the area's corners, transported inside, free of divergence.
 //!
 //! *Source*: Farrell et al. 2002, Environ. Fluid Mech. 2, 143: noise at the four corners, linear along the
 //! edges; inside ∂u/∂t = −(U + u)·∇u + ½K∇²u for both components.
@@ -6,14 +6,13 @@
 //! *Parameters*: σ `std_m_s` (m/s, of a component at a corner; Farrell's G = 2 gives 1.4), ω `omega_rad_s`
 //! (Farrell 0.2), ζ `damping` (Farrell 0.1), `cell_m` (Farrell 5 of 100), K `diffusivity_m2_s`.
 //!
-//! *Deviations*: (1) Farrell's field converges and diverges, so that an even tracer would not stay even; here the
-//! divergence-free field nearest to it is delivered (file `solenoidal`). The rms over the area falls
-//! from 0.67 σ, what linear edges leave of σ, to 0.63 σ on a square. (2) K absent means
-//! 2ω(W/2)², W the shorter side, so that noise reaches the middle within its period; carried by
-//! centimetres a second it would die out at the edge. (3) Steps of 0.1/ω, implicit along one axis then
-//! the other (stable at any step), K raised to |u|h where advection would make the grid ring (Spalding
-//! 1972); velocities are linear in time between levels. (4) U is the depth mean of the other currents at
-//! the area's centre. (5) Outside the area the nearest edge's value holds.
+//! *Deviations*: (1) Farrell's field converges and diverges, so an even tracer would not stay even. Here the nearest
+//! divergence-free field is used (file `solenoidal`). On a square, the rms over the area falls from 0.67 σ, which
+//! linear edges leave of σ, to 0.63 σ. (2) If K is absent, it is 2ω(W/2)², W the shorter side, so that noise reaches
+//! the middle within its period; carried at centimetres per second it would die out near the edge. (3) Steps of 0.1/ω,
+//! implicit along one axis and then the other (stable at any step). K is raised to |u|h where advection would make the
+//! grid oscillate (Spalding 1972). Velocities are linear in time between levels. (4) U is the depth mean of the other
+//! currents at the area's centre. (5) Outside the area, the value at the nearest edge applies.
 
 use std::collections::VecDeque;
 
@@ -49,7 +48,7 @@ pub struct MeanderSpec {
     pub damping: Positive,
     /// Wanted spacing of the grid, m.
     pub cell_m: Positive,
-    /// Diffusivity K of the velocity, m²/s; absent: 2ω(W/2)², W the area's shorter side.
+    /// Diffusivity K of the velocity, m²/s; if absent, 2ω(W/2)², W the area's shorter side.
     #[serde(default, deserialize_with = "world::limits::diffusivity_m2_s")]
     pub diffusivity_m2_s: Option<NonNegative>,
 }
@@ -62,25 +61,25 @@ const fn farrell_damping() -> Positive {
     Positive::new(0.1)
 }
 
-/// Most cells along a side: the projection's cost grows with the cube of it.
+/// Most cells along a side; the cost of the projection grows with their cube.
 const MOST_CELLS: f64 = 100.0;
-/// Steps a radian of the noise.
+/// Steps per radian of the noise.
 const STEPS_PER_RADIAN: f64 = 10.0;
-/// Steps before time zero, in which the inside forgets that it began as the mean of the corners.
+/// Steps before time zero, during which the inside forgets that it began as the mean of the corners.
 const PRE_ROLL: usize = 200;
-/// How far from the latest `advance` questions are answered without holding the value, s.
+/// Farther than this from the latest `advance`, the value is held constant, s.
 const AHEAD_S: f64 = 5.0;
 const BEHIND_S: f64 = 1.0;
-/// Time of a product in the projection, and of a step of a node, s.
+/// Time of a multiplication in the projection, s.
 const MULTIPLY_S: f64 = 0.5e-9;
-/// See above.
+/// Time of a step of a node, s.
 const STEP_S: f64 = 100e-9;
 
 /// The meander, ready to use.
 #[derive(Clone, Debug)]
 pub struct Meander {
     centre: Vector2<f64>,
-    // Unit vectors (east, north) along and across, and half the extents: an area asked without trigonometry.
+    // Unit vectors (east, north) along and across, and half the extents, so that questions need no trigonometry.
     axes: [Vector2<f64>; 2],
     half: Vector2<f64>,
     grid: Solenoidal,
@@ -100,13 +99,13 @@ struct Carried {
     half_k: f64,
     mean: Vector2<f64>,
     step: NoiseStep,
-    // Along and across component at each corner: (0, 0), (0, 1), (1, 0), (1, 1).
+    // Components along and across at each corner: (0, 0), (0, 1), (1, 0), (1, 1).
     corners: [[ColouredNoise; 2]; 4],
     u: Vec<Vector2<f64>>,
 }
 
 impl MeanderSpec {
-    /// The meander over the area, carried by a mean current (east, north).
+    /// The meander over the area, transported by a mean current (east, north).
     ///
     /// # Errors
     /// Names the field: damping not below 1, or a grid too fine.
@@ -135,7 +134,7 @@ impl MeanderSpec {
             );
             return Err(bad("cell_m", problem));
         }
-        // Two cells at least, so that there is an inside.
+        // At least two cells, so that there is an inside.
         let cells = extent.map(|e| ((e / self.cell_m.get()).ceil() as usize).max(2));
         let h = [0, 1].map(|d| extent[d] / cells[d] as f64);
         let half_k = self.diffusivity_m2_s.map_or_else(
@@ -188,7 +187,7 @@ impl MeanderSpec {
 }
 
 impl MeanderSpec {
-    /// What it takes, with water asked for `ahead_s` beyond the usual.
+    /// Memory and time, for water that is evaluated `ahead_s` beyond the usual time.
     #[must_use]
     pub fn cost(&self, area: &Area, ahead_s: f64, times: &Times) -> Cost {
         let extent = [area.length_m, area.width_m];
@@ -214,11 +213,11 @@ impl MeanderSpec {
 }
 
 impl Meander {
-    /// Makes the levels that questions about times near `t_s` need; the same ones however often it is called.
+    /// Makes the levels that questions about times near `t_s` need. The result does not depend on the number of calls.
     pub fn advance(&mut self, t_s: f64) {
         let last = ((t_s + AHEAD_S) / self.dt_s).ceil() as u64;
         let needed = ((t_s - BEHIND_S) / self.dt_s).floor().max(0.0) as u64;
-        // Old ones go as new ones come: a long way ahead holds no more than a short one.
+        // Old levels go as new ones come, so a long way ahead needs no more memory than a short one.
         while self.first + (self.levels.len() as u64) <= last {
             self.carried.advance();
             self.levels.push_back(self.grid.project(&self.carried.u));
@@ -251,7 +250,7 @@ impl Meander {
 }
 
 impl Carried {
-    /// Value at an edge node, linear between the corners (and, at the start, at an inner one too).
+    /// Value at an edge node, linear between the corners (at the start, at an inner node too).
     fn edge(&self, i: usize, j: usize) -> Vector2<f64> {
         let f = i as f64 / self.cells[0] as f64;
         let g = j as f64 / self.cells[1] as f64;
@@ -281,7 +280,7 @@ impl Carried {
         }
     }
 
-    /// Implicit step along one grid line (Thomas's algorithm), its ends given.
+    /// Implicit step along one grid line (Thomas's algorithm) with given ends.
     fn sweep(&mut self, carrier: &[Vector2<f64>], axis: usize, start: usize, stride: usize) {
         let (n, h) = (self.cells[axis], self.h[axis]);
         let mut upper = vec![0.0; n];
@@ -346,9 +345,9 @@ mod tests {
         }
     }
 
-    /// With noise that reaches everywhere at once the field is bilinear between the corners. Area means of the variance
-    /// on a square: uniform part 1/4, shears 1/12, strain 1/24 pass the projection whole; convergence
-    /// (1/24) and twist (1/36) in part; 4/9 in all.
+    /// If the noise reaches everywhere at once, the field is bilinear between the corners. Area means of the variance
+    /// on a square: uniform part 1/4, shears 1/12 and strain 1/24 pass the projection fully; convergence (1/24) and
+    /// twist (1/36) in part; 4/9 in all.
     #[test]
     fn rms_is_that_of_the_corners_spread_inside() {
         let stiff = MeanderSpec {
@@ -365,8 +364,8 @@ mod tests {
             }
         }
         let part = sum / f64::from(n) / 0.01;
-        // One member's mean has about 8 degrees of freedom: standard error √(2/(8·400)) = 2.5 % of the value, 4 of them;
-        // below: midpoint means over 5×5 points take 4 % off the linear terms.
+        // One member's mean has about 8 degrees of freedom: standard error √(2/(8·400)) = 2.5 % of the value, 4 of
+        // them; below: midpoint means over 5×5 points take 4 % off the linear terms.
         let (least, most) = (0.25 + 0.96 * 0.125, 4.0 / 9.0);
         assert!(part > 0.9 * least && part < 1.1 * most, "{part}");
     }

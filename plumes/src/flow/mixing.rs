@@ -1,16 +1,16 @@
-//! How fast turbulence mixes: parabolic in a bed-driven stream, damped by stratification.
+//! How fast turbulence mixes: parabolic where the bed drives it, damped by stratification.
 //!
-//! *Source*: K_z = κ u_* z′(1 − z′/h), h the depth of the stream, Elder 1959, J. Fluid Mech. 5, 544 (depth mean κu_*H/6 = 0.067 u_*H); damping
-//! (1 + 10/3 Ri)^(−3/2) of the diffusivity, Munk & Anderson 1948, J. Mar. Res. 7, 276; transverse K = 0.15 u_*H,
-//! Fischer et al. 1979, Mixing in Inland and Coastal Waters, section 5.1.
+//! *Source*: K_z = κ u_* z′(1 − z′/h), h the depth of the stream, Elder 1959, J. Fluid Mech. 5, 544 (depth mean κu_*H/6
+//! = 0.067 u_*H); damping (1 + 10/3 Ri)^(−3/2) of the diffusivity, Munk & Anderson 1948, J. Mar. Res. 7, 276;
+//! transverse K = 0.15 u_*H, Fischer et al. 1979, Mixing in Inland and Coastal Waters, section 5.1.
 //!
-//! *Parameters*: `horizontal_m2_s` and `background_vertical_m2_s` (m²/s) added everywhere; `transverse` times u_*H
-//! added to the horizontal one (Fischer 0.15; 0 leaves it out). κ = 0.4.
+//! *Parameters*: `horizontal_m2_s` and `background_vertical_m2_s` (m²/s), added everywhere; `transverse`, times u_*H,
+//! added to the horizontal one (Fischer 0.15; 0 omits it). κ = 0.4.
 //!
-//! *Deviations*: in layered water h ends at the lowest interface across which density changes: the bed's eddies do not
-//! stir what lies above it, where only the background is left (no wind is modelled). Ri = N²/S² with N² and the shear of the layers, and u_*/(κz′), the shear of the bed's stream, added
-//! to S² in square, so that Ri stays finite in the tails of an interface. A column without bed friction has only the
-//! constants.
+//! *Deviations*: in layered water h ends at the lowest interface across which the density changes. Eddies of the bed do
+//! not stir what lies above it; only the background is left there (no wind is modelled). Ri = N²/S², with N² and the
+//! shear of the layers. The shear of the bed's stream, u_*/(κz′), is added to S² as a square, so that Ri stays finite
+//! in the tails of an interface. A column without bed friction has only the constants.
 
 use serde::{Deserialize, Serialize};
 use world::ranges::NonNegative;
@@ -18,7 +18,7 @@ use world::units::GRAVITY_M_S2;
 
 use crate::flow::bed::KARMAN;
 
-/// Diffusivities that are given, and how the derived ones enter.
+/// Diffusivities that are given, and coefficients of those that are derived.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct MixingSpec {
@@ -54,11 +54,11 @@ pub fn parabolic(u_star_m_s: f64, height_m: f64, reach_m: f64) -> f64 {
 #[must_use]
 pub fn richardson(drho_dz: f64, density_kg_m3: f64, shear2: f64) -> f64 {
     let n2 = (-GRAVITY_M_S2 * drho_dz / density_kg_m3).max(0.0);
-    // The least shear keeps still, stratified water finite.
+    // A minimum shear keeps the result finite in still, stratified water.
     n2 / shear2.max(1e-12)
 }
 
-/// Part of the neutral diffusivity left at a gradient Richardson number.
+/// Part of the neutral diffusivity that is left at a gradient Richardson number.
 #[must_use]
 pub fn damping(ri: f64) -> f64 {
     let x = 1.0 + 10.0 / 3.0 * ri;

@@ -1,4 +1,4 @@
-//! The water: one file a flow, summed into one answer.
+//! The water: one file for each kind of flow, and their sum.
 
 pub mod bed;
 pub(crate) mod blockage;

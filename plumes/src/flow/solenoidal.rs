@@ -1,12 +1,12 @@
-//! The divergence-free field nearest to a gridded one, as a stream function of quadratic B-splines.
+//! The divergence-free field nearest to a field on a grid, as a stream function of quadratic B-splines.
 //!
 //! *Source*: projection onto divergence-free fields, Chorin 1968, Math. Comp. 22, 745; B-splines: de Boor 1978,
 //! A Practical Guide to Splines; here ψ minimises ∫ |curl ψ − u|² over the rectangle (Galerkin, exact quadrature).
 //!
 //! *Parameters*: cells and spacing (m) of the rectangle.
 //!
-//! *Deviations*: Chorin projects by a pressure and keeps the field on the grid, where interpolation spoils the
-//! divergence again; the curl of a spline is continuous and free of divergence at every point, not only at nodes.
+//! *Deviations*: Chorin projects with a pressure and keeps the field on the grid, where interpolation brings divergence
+//! back. The curl of a spline is continuous and free of divergence at every point, not only at nodes.
 
 use nalgebra::Vector2;
 
@@ -20,7 +20,7 @@ pub(crate) struct Solenoidal {
     band: usize,
 }
 
-/// The three splines alive in a cell, or their slopes per cell, at t in [0, 1].
+/// The three splines that are not zero in a cell, or their slopes per cell, at t in [0, 1].
 fn splines(t: f64) -> ([f64; 3], [f64; 3]) {
     let r = 1.0 - t;
     (
@@ -29,7 +29,7 @@ fn splines(t: f64) -> ([f64; 3], [f64; 3]) {
     )
 }
 
-/// Integral over a cell of unit length by three Gauss points: exact to the fifth degree.
+/// Integral over a cell of unit length by three Gauss points, exact to the fifth degree.
 fn integral(f: impl Fn(f64) -> f64) -> f64 {
     let d = 0.5 * 0.6_f64.sqrt();
     (5.0 * f(0.5 - d) + 8.0 * f(0.5) + 5.0 * f(0.5 + d)) / 18.0
@@ -66,13 +66,14 @@ impl Solenoidal {
                 }
             }
         }
-        // A stream function is free by a constant; this weight makes its first coefficient zero and changes no flow.
+        // A stream function is defined up to a constant; this weight makes its first coefficient zero and changes no
+        // flow.
         this.factor[band] += 1.0;
         this.factorise(n);
         this
     }
 
-    /// (index, local place) of the nine splines alive in a cell.
+    /// (index, local place) of the nine splines that are not zero in a cell.
     fn alive(&self, cell: usize) -> impl Iterator<Item = (usize, [usize; 2])> + use<> {
         let my = self.cells[1];
         let (i, j) = (cell / my, cell % my);
@@ -114,7 +115,7 @@ impl Solenoidal {
                 slope[a][i] = integral(|t| splines(t).1[a] * hat(t, i));
             }
         }
-        // What each corner of a cell gives to each spline alive there, for x and y.
+        // The contribution of each corner of a cell to each spline in it, for x and y.
         let mut share = [[[0.0; 2]; 4]; 9];
         for (l, share) in share.iter_mut().enumerate() {
             let a = [l / 3, l % 3];
@@ -161,7 +162,7 @@ impl Solenoidal {
         c
     }
 
-    /// Velocity at a place (m from the rectangle's corner), between two sets of coefficients at part `f`.
+    /// Velocity at a place (m from the rectangle's corner), interpolated between two sets of coefficients at part `f`.
     #[inline]
     pub(crate) fn velocity(&self, p: Vector2<f64>, c: [&[f64]; 2], f: f64) -> Vector2<f64> {
         let place = |d: usize| {
@@ -220,8 +221,8 @@ mod tests {
         }
     }
 
-    /// The slope of a bump that is zero on the edges is orthogonal to every divergence-free field, so nothing is left
-    /// but the error of laying it on the grid, h²/12 of its second derivative (π/12)²: 0.1 %.
+    /// The gradient of a bump that is zero on the edges is orthogonal to every divergence-free field. Only the error of
+    /// putting it on the grid is left, h²/12 of its second derivative (π/12)²: 0.1 %.
     #[test]
     fn takes_out_pure_convergence() {
         let (cells, h) = ([24, 24], [0.5, 0.5]);
@@ -238,7 +239,7 @@ mod tests {
         }
     }
 
-    /// Any field comes out free of divergence at any point, and never with more energy than it had.
+    /// Any field becomes free of divergence at every point, and never has more energy than before.
     #[test]
     fn result_is_free_of_divergence_everywhere() {
         let (cells, h) = ([9, 7], [10.0, 12.0]);

@@ -1,4 +1,4 @@
-//! Tide and waves as parts of the whole water: what hulls feel, what the plume is told.
+//! Tide and waves as parts of the whole water: what hulls feel and what the plume gets.
 
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -80,7 +80,7 @@ fn hull_feels_orbits_with_gradient_and_rate_and_the_plume_does_not() {
     let rise = waves.velocity(&(p + Vector3::z() * 1e-4), 500.0) - orbit;
     assert!(((s.gradient - still.gradient).column(2) - rise / 1e-4).norm() < 1e-4);
     assert!((s.rate - still.rate).norm() > 0.05);
-    // The plume's column has the drift instead, and is the same at any phase.
+    // The plume's column has the drift instead, and does not depend on the phase.
     let mut out = [[(Vector3::zeros(), Mixing::default())]; 2];
     for (n, t) in [500.0, 500.4].into_iter().enumerate() {
         Flow::column(&rough, p.xy(), &[p.z], t, &mut out[n]);

@@ -1,4 +1,4 @@
-//! The whole water: bed, interfaces, stratification, mixing and what divergence is left.
+//! The whole water: bed, interfaces, stratification, mixing and the remaining divergence.
 
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -119,7 +119,7 @@ fn by_default_the_water_is_still() {
 
 #[test]
 fn flow_is_tangent_to_the_bed_and_the_surface() {
-    // Without friction, so that there is a flow at the bed to be tangent.
+    // Without friction, so that there is a flow at the bed that can be tangent.
     let w = build(&WaterSpec {
         bed: None,
         ..duck()
@@ -130,7 +130,7 @@ fn flow_is_tangent_to_the_bed_and_the_surface() {
         let u = column.velocity(column.bed_z());
         assert!(u.norm() > 0.01 && u.dot(&n).abs() < 1e-12, "{u}");
         assert_eq!(column.velocity(0.0).z, 0.0);
-        // Below the bed and above the surface the values at them hold.
+        // Below the bed and above the surface, the values at them apply.
         assert_eq!(column.velocity(column.bed_z() - 3.0), u);
         assert_eq!(column.velocity(4.0), column.velocity(0.0));
     }
@@ -146,7 +146,7 @@ fn with_friction_water_at_the_bed_stands() {
     }
 }
 
-/// The interface moves, and the water moves with it: w = ∂η/∂t + u·∇η, checked by differences of its height.
+/// The interface moves, and the water with it: w = ∂η/∂t + u·∇η, checked by differences of its height.
 #[test]
 fn interface_moves_and_water_goes_with_it() {
     let w = build(&duck());
@@ -233,8 +233,8 @@ fn divergence_is_what_the_files_say() {
     let mut meander = duck();
     meander.currents.remove(0);
     assert!(divergence(&meander, &level_bed)[0] < 1e-9);
-    // Layers with waves over a level bed. The layers thin and thicken at up to Σ 2πa/(T h) = 1.0e-3 above and 0.4e-3
-    // below; tanh and straight line part by at most half of the sum in the interface.
+    // Layers with waves over a level bed. The layers' thickness changes at up to Σ 2πa/(T h) = 1.0e-3 above and 0.4e-3
+    // below; tanh and straight line differ by at most half of the sum in the interface.
     let [worst, rms, horizontal] = divergence(&duck(), &level_bed);
     assert!(
         worst < 1.0e-3 && rms < 1.5e-4 && rms < 0.5 * horizontal,
@@ -248,7 +248,7 @@ fn divergence_is_what_the_files_say() {
     );
 }
 
-/// The override gives what central differences of the velocity give.
+/// The overridden method gives the same as central differences of the velocity.
 #[test]
 fn sample_agrees_with_plain_differences() {
     struct Plain(Water);
@@ -285,8 +285,8 @@ fn mixing_is_never_negative_and_ends_at_the_bed() {
     }
 }
 
-/// A smooth flume of 20 cm at 5 cm/s (Webster, Volyanskyy & Weissburg 2012): u_* = 2.8 mm/s with z0 = ν/(9u_*) = 0.04 mm
-/// over the whole depth; then K_y = 0.15 u_*H = 8.4e-5 and the depth mean of K_z is κu_*H/6 = 3.7e-5 m²/s.
+/// A smooth flume of 20 cm at 5 cm/s (Webster, Volyanskyy & Weissburg 2012): u_* = 2.8 mm/s with z0 = ν/(9u_*) = 0.04
+/// mm over the whole depth; then K_y = 0.15 u_*H = 8.4e-5 and the depth mean of K_z is κu_*H/6 = 3.7e-5 m²/s.
 #[test]
 fn a_flume_has_its_friction_and_mixing() {
     let spec = WaterSpec {

@@ -1,16 +1,17 @@
-//! Tidal current: ellipses that the water runs through with the periods of the tide's constituents.
+//! Tidal current: ellipses that the water follows with the periods of the tide's constituents.
 //!
-//! *Source*: current ellipses, Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; sign of the minor axis as in Foreman 1978,
-//! Manual for Tidal Currents Analysis and Prediction (positive turns anticlockwise):
-//! u(t) = Σ A cos(ωt − φ) e + B sin(ωt − φ) e⊥, e the major axis, e⊥ to its left.
+//! *Source*: current ellipses, Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; sign of the minor axis as in
+//! Foreman 1978, Manual for Tidal Currents Analysis and Prediction (positive turns anticlockwise): u(t) = Σ A cos(ωt −
+//! φ) e + B sin(ωt − φ) e⊥, e the major axis, e⊥ to its left.
 //!
-//! *Parameters*: `constituents`, each with `period_h` 2π/ω (h; M2 12.4206, S2 12, K1 23.9345, O1 25.8193), `major_m_s` A,
-//! `minor_m_s` B (m/s; 0 is rectilinear), `heading_deg` of e, `phase_deg` φ: A is reached φ/360 of a period after time zero, which is the
-//! beginning of the spin-up.
+//! *Parameters*: `constituents`, each with `period_h` 2π/ω (h; M2 12.4206, S2 12, K1 23.9345, O1 25.8193), `major_m_s`
+//! A, `minor_m_s` B (m/s; 0 is rectilinear), `heading_deg` of e, `phase_deg` φ: A is reached φ/360 of a period after
+//! time zero, which is the beginning of the spin-up.
 //!
-//! *Deviations*: the same at all places of the area, which is small against the tide's wave of some hundred kilometres. Over depth it is
-//! the water's bed that slows it (`bed`, the logarithmic law), in step with the current above: the boundary layer settles in less than
-//! an hour. The surface does not rise and sink. A meander is carried by the tide as it is at time zero.
+//! *Deviations*: the current is the same at all places of the area, which is small compared with the tide's wave of
+//! some hundred kilometres. Over depth, the bed slows it (`bed`, the logarithmic law) in step with the current above,
+//! because the boundary layer settles in less than an hour. The surface does not rise and sink. A meander is carried by
+//! the tide as it is at time zero.
 
 use nalgebra::Vector2;
 use serde::{Deserialize, Serialize};
@@ -19,11 +20,11 @@ use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 
 use crate::error::PlumeError;
 
-/// The tide's current: constituents that add up.
+/// The tide's current: a sum of constituents.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TideSpec {
-    /// One at least.
+    /// At least one.
     pub constituents: Vec<ConstituentSpec>,
 }
 
@@ -37,12 +38,12 @@ pub struct ConstituentSpec {
     /// Greatest speed, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     pub major_m_s: NonNegative,
-    /// Speed a quarter of a period later, to the left of the major axis, m/s; negative: to the right.
+    /// Speed a quarter of a period later, to the left of the major axis, m/s; negative means to the right.
     #[serde(default = "none", deserialize_with = "world::limits::component_m_s")]
     pub minor_m_s: Finite,
     /// Where the water goes at the greatest speed, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
-    /// When: degrees of a period after time zero.
+    /// Time of the greatest speed: degrees of a period after time zero.
     #[serde(default = "none")]
     pub phase_deg: Finite,
 }

@@ -1,4 +1,4 @@
-//! One velocity everywhere and always.
+//! One velocity at all places and times.
 //!
 //! *Source*: the mean flow of Farrell et al. 2002, Environ. Fluid Mech. 2, 143.
 //!

@@ -1,20 +1,19 @@
-//! The whole water: currents, bed, layers and mixing summed into one answer.
+//! The whole water: currents, bed, layers and mixing combined into one answer.
 //!
-//! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic
-//! condition w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
+//! *Source*: sum of independent currents; flow tangent to the bed and to the moving interfaces, the kinematic condition
+//! w = ∂η/∂t + u·∇η (Gill 1982, section 4.11).
 //!
-//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers say otherwise), `blockage`
-//! (absent: the currents pass through obstacles).
+//! *Parameters*: [`WaterSpec`]: `currents`, `bed`, `mixing`, `density_kg_m3` (kg/m³, where no layers set it),
+//! `blockage` (absent: the currents pass through obstacles).
 //!
-//! *Deviations*: the horizontal current is (uniform + tide + meander + layer) times the bed's log law, plus an open channel's, which has its
-//! own (files `channel`, `eddies`); the vertical one follows
-//! the surfaces that lie linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each: water
-//! goes through neither bed, interface nor surface. Over a level bed meander and boundary layer are free of
-//! divergence. What is left (off Duck 1e-4 1/s rms, 1e-3 at worst): u·∇H/H over a sloping bed, a current
-//! given as a speed being no transport; second order in the interface's waves; and inside the interface,
-//! where the layers' thinning and thickening is tanh-shaped and w straight, which reverses with the wave.
-//! Below the bed and above the surface the values at them hold. Waves add their orbits to the velocity, their drift and mixing to the
-//! plume's column (file `waves::sea`).
+//! *Deviations*: the horizontal current is (uniform + tide + meander + layer) times the bed's log law, plus that of an
+//! open channel, which has its own (files `channel`, `eddies`). The vertical current follows the surfaces that lie
+//! linearly between bed, interfaces and still surface, w = ∂η/∂t + u·∇η on each, so water passes neither bed, interface
+//! nor surface. Over a level bed, meander and boundary layer are free of divergence. The remaining divergence (off Duck
+//! 1e-4 1/s rms, 1e-3 at worst) is: u·∇H/H over a sloping bed, because a current given as a speed is no transport;
+//! second order in the interface's waves; and, inside the interface, the difference between a tanh-shaped change of
+//! thickness and a straight w, which reverses with the wave. Below the bed and above the surface, the values at them
+//! apply. Waves add their orbits to the velocity, and their drift and mixing to the plume's column (file `waves::sea`).
 
 mod answers;
 
@@ -41,20 +40,20 @@ use crate::flow::mixing::{self, MixingSpec};
 use crate::flow::tide::Tide;
 use crate::flow::waves::Waves;
 
-/// The water of a scenario; by default still.
+/// The water of a scenario; still by default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct WaterSpec {
-    /// Currents that add up; none is still water.
+    /// Currents that add up; without any, the water is still.
     pub currents: Vec<CurrentSpec>,
-    /// Bed friction; absent: the currents slip.
+    /// Bed friction; if absent, the currents slip.
     pub bed: Option<BedSpec>,
     /// Diffusivities.
     pub mixing: MixingSpec,
-    /// Density where no layers give it, kg/m³.
+    /// Density where no layers set it, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
     pub density_kg_m3: Positive,
-    /// Obstacles and bed turn the currents aside; absent: currents pass through obstacles.
+    /// Obstacles and bed divert the currents; if absent, currents pass through obstacles.
     pub blockage: Option<BlockageSpec>,
 }
 
@@ -70,7 +69,7 @@ impl Default for WaterSpec {
     }
 }
 
-/// The water, ready to be asked.
+/// The water, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Water {
     ground: Ground,
@@ -86,7 +85,7 @@ pub struct Water {
     blocked: Option<Blocked>,
 }
 
-/// The water over one place at one time; cheap to ask at many heights.
+/// The water over one place at one time; cheap to evaluate at many heights.
 #[derive(Clone, Copy, Debug)]
 pub struct Column<'a> {
     water: &'a Water,
@@ -104,14 +103,15 @@ impl WaterSpec {
         self.currents.iter().any(channel)
     }
 
-    /// The grid on which the plume sees it: the usual one or, where it goes round obstacles, the corners of the cells it is worked out in.
+    /// The grid on which the plume sees the water: the default one or, round obstacles, the corners of the water's
+    /// cells.
     #[must_use]
     pub fn grid_shape(&self, area: &Area) -> GridShape {
         let blockage = self.blockage.as_ref();
         blockage.map_or_else(|| GridShape::fitting(area), BlockageSpec::grid_shape)
     }
 
-    /// The water round obstacles, if [`Self::blockage`] asks for it; else as [`Self::build`] has it.
+    /// The water round obstacles, if [`Self::blockage`] asks for it; otherwise as [`Self::build`] returns it.
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
@@ -188,7 +188,7 @@ impl WaterSpec {
                 }
             }
         }
-        // Meanders last: they are carried by the mean of the others, wherever they stand in the list.
+        // Meanders last: the mean of the other currents carries them, wherever they stand in the list.
         let carrier = water.depth_mean(area.centre);
         for (i, current) in self.currents.iter().enumerate() {
             if let CurrentSpec::Meander(spec) = current {
@@ -203,7 +203,7 @@ impl WaterSpec {
 }
 
 impl Water {
-    /// The channel, if the water is one.
+    /// The channel, if the water is a channel.
     #[must_use]
     pub fn channel(&self) -> Option<&Channel> {
         self.flume.as_ref().map(|f| &f.channel)
@@ -226,20 +226,20 @@ impl Water {
             .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))
     }
 
-    /// How the obstacles' part was worked out, if they turn the currents aside.
+    /// The solution for the obstacles, if they divert the currents.
     #[must_use]
     pub fn blocked(&self) -> Option<&Blocked> {
         self.blocked.as_ref()
     }
 
-    /// Whether its currents never change; waves pass by without turning them.
+    /// Whether its currents never change; passing waves do not count.
     pub(crate) fn is_steady(&self) -> bool {
         self.meanders.is_empty()
             && self.tides.is_empty()
             && self.layered.as_ref().is_none_or(Layered::is_steady)
     }
 
-    /// Whether friction holds it at the bed.
+    /// Whether friction stops it at the bed.
     pub(crate) fn stands_at_bed(&self) -> bool {
         self.bed.is_some() || self.flume.is_some()
     }
@@ -262,7 +262,7 @@ impl Water {
         }
     }
 
-    /// Mean over the depth of the current at a place at time zero, bed friction and meanders left out.
+    /// Mean over the depth of the current at a place at time zero, without bed friction and meanders.
     fn depth_mean(&self, p: Vector2<f64>) -> Vector2<f64> {
         const N: usize = 50;
         let column = self.column(p, 0.0);
@@ -352,7 +352,7 @@ impl Column<'_> {
         self.mixing_in(z, u_star_m_s, self.profile(z).as_ref())
     }
 
-    /// Velocity and diffusivities at a height: as each alone, the profile worked out once.
+    /// Velocity and diffusivities at a height, as from both methods, with the profile computed only once.
     fn both(&self, z: f64, u_star_m_s: f64) -> (Vector3<f64>, Mixing) {
         let z = self.inside(z);
         let profile = self.profile(z);

@@ -1,16 +1,16 @@
-//! A source of odour: where it is, how much it gives off, and in what portions.
+//! A source of odour: where it is, how much it releases, and in what portions.
 //!
 //! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (release and growth of filaments).
 //!
-//! *Parameters*: `rate_g_s` mass given off (g/s); `release.rate_hz` filaments a second (1/s; 5 to 10);
-//! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001);
-//! `release.vertical_size_limit_m` greatest vertical size (m; none); `release.eddy_size_m` (m; none), see `filaments::size`;
-//! `release.nozzle` (none).
+//! *Parameters*: `rate_g_s` mass released (g/s); `release.rate_hz` filaments per second (1/s; 5 to 10);
+//! `release.initial_size_m` R0 (m; √0.001); `release.growth_m2_s` γ (m²/s; 0.001); `release.vertical_size_limit_m`
+//! greatest vertical size (m; none); `release.eddy_size_m` (m; none), see `filaments::size`; `release.nozzle` (none).
 //!
-//! *Deviations*: the paper counts molecules in arbitrary units, here it is mass. The vertical limit is not in the
-//! paper: in stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament
-//! cannot thicken further (Pearson, Puttock & Hunt 1983, J. Fluid Mech. 129, 219). A nozzle of diameter d releases, at its speed U, a
-//! thread of filaments of size d/4, which have the variance of a disc, U/(d/4) of them a second, so that each overlaps the next.
+//! *Deviations*: the paper counts molecules in arbitrary units; here the quantity is mass. The vertical limit is not in
+//! the paper. In stratified water no eddy overturns more than about the Ozmidov length (ε/N³)^½, so a filament cannot
+//! get thicker (Pearson, Puttock & Hunt 1983, J. Fluid Mech. 129, 219). A nozzle of diameter d releases, at its speed
+//! U, a thread of filaments of size d/4, which have the variance of a disc: U/(d/4) of them per second, so that each
+//! overlaps the next.
 
 use crate::error::PlumeError;
 use nalgebra::{Vector2, Vector3};
@@ -21,7 +21,7 @@ use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 
-/// A source, as the scenario file gives it.
+/// A source as in the scenario file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SourceSpec {
@@ -39,19 +39,19 @@ pub struct SourceSpec {
     /// Depth below the still surface, m; either this or `height_m`.
     #[serde(default)]
     pub depth_m: Option<Finite>,
-    /// Mass given off, g/s.
+    /// Mass released, g/s.
     #[serde(deserialize_with = "world::limits::source_g_s")]
     pub rate_g_s: Positive,
-    /// In what portions.
+    /// How it is divided into filaments.
     #[serde(default)]
     pub release: ReleaseSpec,
 }
 
-/// How a source parts what it gives off into filaments.
+/// How a source divides its release into filaments.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReleaseSpec {
-    /// Filaments a second, 1/s.
+    /// Filaments per second, 1/s.
     pub rate_hz: Positive,
     /// Size (standard deviation of the kernel) at release, m.
     #[serde(deserialize_with = "world::limits::filament_m")]
@@ -64,11 +64,11 @@ pub struct ReleaseSpec {
     pub vertical_size_limit_m: Option<Positive>,
     /// At random times (true) or at equal intervals (false).
     pub poisson: bool,
-    /// Size of the smallest eddies that are resolved, m: below it a filament grows by the eddies smaller than itself instead of
-    /// by `growth_m2_s`, and only the larger ones kick it.
+    /// Size of the smallest eddies that are resolved, m. Below it a filament grows by the eddies smaller than itself
+    /// instead of by `growth_m2_s`, and only the larger ones kick it.
     #[serde(deserialize_with = "world::limits::filament_m")]
     pub eddy_size_m: Option<Positive>,
-    /// A nozzle that gives off a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
+    /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
 }
 
@@ -79,20 +79,20 @@ pub struct NozzleSpec {
     /// Inner diameter, m.
     #[serde(deserialize_with = "world::limits::nozzle_m")]
     pub diameter_m: Positive,
-    /// Speed of what leaves it, m/s; iso-kinetic: that of the water around.
+    /// Speed of the fluid that leaves it, m/s; iso-kinetic if it is that of the water around.
     #[serde(deserialize_with = "world::limits::nozzle_m_s")]
     pub speed_m_s: Positive,
 }
 
-/// Memory of a filament with its place in the index, twice while the arrays grow, bytes; time to move it, s, and with eddies, s.
+/// Memory of a filament with its place in the index, twice while the arrays grow, bytes.
 const FILAMENT_BYTES: f64 = 100.0;
-/// See above.
+/// Time to move a filament, s.
 const FILAMENT_S: f64 = 17e-9;
-/// See above.
+/// Additional time with eddies, s.
 const EDDIES_S: f64 = 60e-9;
 
 impl NozzleSpec {
-    /// Volume given off, m³/s.
+    /// Volume released, m³/s.
     #[must_use]
     pub fn volume_m3_s(&self) -> f64 {
         let d = self.diameter_m.get();
@@ -101,7 +101,8 @@ impl NozzleSpec {
 }
 
 impl ReleaseSpec {
-    /// With what a nozzle sets put in: filaments with the variance of its disc, (d/4)², one standard deviation after the other.
+    /// The same release with the values that a nozzle sets: filaments with the variance of its disc, (d/4)², one
+    /// standard deviation apart.
     #[must_use]
     pub fn settled(&self) -> Self {
         let Some(nozzle) = &self.nozzle else {
@@ -109,7 +110,7 @@ impl ReleaseSpec {
         };
         let size = nozzle.diameter_m.get() / 4.0;
         Self {
-            // Within its range, as long as speed and diameter are in theirs.
+            // Within its range as long as speed and diameter are within theirs.
             rate_hz: Positive::new(nozzle.speed_m_s.get() / size),
             initial_size_m: Positive::new(size),
             poisson: false,
@@ -119,8 +120,8 @@ impl ReleaseSpec {
 }
 
 impl ReleaseSpec {
-    /// What its filaments take in an area whose water carries them at `carries_m_s`. Those that eddies and slow water keep longer
-    /// are not counted.
+    /// What the filaments need in an area whose water carries them at `carries_m_s`. Filaments that eddies or slow
+    /// water keep longer are not counted.
     #[must_use]
     pub fn cost(&self, area: &Area, carries_m_s: f64, times: &Times) -> Cost {
         let (path, value, rate_hz, power) = match &self.nozzle {
@@ -134,7 +135,7 @@ impl ReleaseSpec {
         let stays_s = (area.length_m + area.width_m) / carries_m_s.max(1e-9);
         let whole_s = times.whole_s();
         let most = rate_hz * whole_s.min(stays_s);
-        // Their number rises to the most, then stays.
+        // Their number rises to its maximum and then stays.
         let rising = (0.5 * stays_s / whole_s).clamp(0.0, 0.5);
         let each_s = FILAMENT_S
             + if self.eddy_size_m.is_some() {
@@ -164,7 +165,7 @@ impl Default for ReleaseSpec {
     }
 }
 
-/// A source put into the water.
+/// A source placed in the water.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Source {
     /// Name.
@@ -173,15 +174,15 @@ pub struct Source {
     pub p_W: Vector3<f64>,
     /// Mass of one filament, kg.
     pub filament_kg: f64,
-    /// In what portions.
+    /// How it is divided into filaments.
     pub release: ReleaseSpec,
 }
 
-/// Puts the sources into the water.
+/// Places the sources in the water.
 ///
 /// # Errors
-/// If a source lies outside the area, under the bed or above the surface, gives both or neither of
-/// `height_m` and `depth_m`, or has the name of another. The field is a path such as `sources[0].height_m`.
+/// If a source lies outside the area, under the bed or above the surface, if it has both or neither of `height_m` and
+/// `depth_m`, or if two have the same name. The field is a path such as `sources[0].height_m`.
 pub fn place(
     specs: &[SourceSpec],
     area: &Area,
@@ -207,10 +208,10 @@ pub fn place(
     Ok(sources)
 }
 
-/// That no source stands inside a solid.
+/// Checks that no source stands inside a solid.
 ///
 /// # Errors
-/// Names the first that does, as `sources[0]`.
+/// Names the first that does, such as `sources[0]`.
 pub fn clear(sources: &[Source], obstacles: &Obstacles) -> Result<(), PlumeError> {
     for (n, source) in sources.iter().enumerate() {
         if let Some(solid) = obstacles.containing(&source.p_W) {

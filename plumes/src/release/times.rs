@@ -1,15 +1,15 @@
-//! When a source lets filaments go: at random (a Poisson process) or like a clock.
+//! When a source releases filaments: at random (a Poisson process) or at equal intervals.
 //!
 //! *Source*: Farrell, Murlis, Long, Li & Cardé 2002, Environ. Fluid Mech. 2, 143 (5 to 10 filaments a second).
 //!
 //! *Parameters*: `rate_hz`: mean number a second, 1/s (5 to 10); `poisson`: waiting times exponential or equal.
 //!
-//! *Deviations*: the paper releases at equal intervals; at random is the default here, because equal intervals
-//! beat against the sampling of a sensor and leave gaps that no water leaves.
+//! *Deviations*: the paper releases at equal intervals. Here random times are the default, because equal intervals
+//! interfere with the sampling of a sensor and leave gaps that no real water has.
 
 use world::seeds::Stream;
 
-/// The times of release of one source, one after the other; they do not depend on who asks how often.
+/// The times of release of one source, in order; they do not depend on who asks or how often.
 #[derive(Clone, Debug)]
 pub struct ReleaseTimes {
     rate_hz: f64,
@@ -28,7 +28,7 @@ impl ReleaseTimes {
         }
     }
 
-    /// Hands over, in order, all times in (`from_s`, `until_s`]; the source opens at the first call's `from_s`.
+    /// Passes all times in (`from_s`, `until_s`] to `take`, in order; the source opens at the first call's `from_s`.
     pub fn until(&mut self, from_s: f64, until_s: f64, mut take: impl FnMut(f64)) {
         let mut next = match self.next_s {
             Some(next) => next,
@@ -41,7 +41,7 @@ impl ReleaseTimes {
         self.next_s = Some(next);
     }
 
-    /// Time of the release to come, s; none before the source has opened.
+    /// Time of the next release, s; `None` before the source has opened.
     #[must_use]
     pub fn next_s(&self) -> Option<f64> {
         self.next_s

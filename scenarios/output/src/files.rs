@@ -1,4 +1,4 @@
-//! Why a run's files could not be written, and how to go on when one could not.
+//! Errors of writing a run's files, and how to continue when one file could not be written.
 
 use crate::charts::png;
 use crate::mcap::RecordError;
@@ -7,7 +7,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use world::files::{self, Folder, OutputError};
 
-/// Why something a run should leave behind could not be written.
+/// Why a file that a run should leave could not be written.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
     /// The folder cannot be made.
@@ -15,10 +15,10 @@ pub enum ReportError {
     Folder {
         /// The folder.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
-    /// A file cannot be written: folder not writable, disk full, no regular file in its place.
+    /// A file cannot be written: the folder is not writable, the disk is full, or something else has its name.
     #[error(transparent)]
     Write(#[from] OutputError),
     /// A figure cannot be drawn.
@@ -32,13 +32,13 @@ pub enum ReportError {
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),
-    /// Several of these; everything else was written.
+    /// Several errors; everything else was written.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<ReportError>),
 }
 
 impl ReportError {
-    /// One of several; none of none.
+    /// One error for several; `None` if there are none.
     #[must_use]
     pub fn of(mut failures: Vec<ReportError>) -> Option<Self> {
         match failures.len() {
@@ -48,7 +48,7 @@ impl ReportError {
     }
 }
 
-/// Makes a folder and those above it.
+/// Makes a folder and its parents.
 pub fn make_folder(path: &Path) -> Result<(), ReportError> {
     files::make_folder(path).map_err(|source| ReportError::Folder {
         path: path.to_owned(),
@@ -56,18 +56,18 @@ pub fn make_folder(path: &Path) -> Result<(), ReportError> {
     })
 }
 
-/// Makes the folder of a command's results and removes from it what an earlier run of the command left there.
+/// Makes the folder for a command's results, and removes the files that an earlier run of the command left there.
 pub fn begin_folder(path: &Path, command: &str) -> Result<Folder, ReportError> {
     make_folder(path)?;
     Ok(Folder::begin(path, command)?)
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file completely or not at all.
 pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
     Ok(files::write(path, bytes)?)
 }
 
-/// Files being written into a folder: one that fails costs no other.
+/// Files being written into a folder; if one fails, the others are not affected.
 #[derive(Debug)]
 pub struct Kept<'a> {
     folder: &'a Folder,
@@ -76,7 +76,7 @@ pub struct Kept<'a> {
 }
 
 impl<'a> Kept<'a> {
-    /// None yet.
+    /// Begins without any file.
     pub fn new(folder: &'a Folder) -> Self {
         Self {
             folder,
@@ -92,7 +92,7 @@ impl<'a> Kept<'a> {
         self.take(written.map_err(ReportError::from));
     }
 
-    /// Writes a file of what could be drawn, or notes that it could not.
+    /// Writes a file if it could be drawn, or notes that it could not.
     pub fn draw(&mut self, name: &str, drawn: Result<Vec<u8>, String>) {
         match drawn {
             Ok(bytes) => self.write(name, &bytes),
@@ -109,7 +109,7 @@ impl<'a> Kept<'a> {
         self.draw(&format!("{name}.png"), guarded(|| png(svg)).flatten());
     }
 
-    /// Takes in how writing another file went.
+    /// Adds the result of writing another file.
     pub fn take(&mut self, written: Result<PathBuf, ReportError>) {
         match written {
             Ok(path) => self.files.push(path),
@@ -117,7 +117,7 @@ impl<'a> Kept<'a> {
         }
     }
 
-    /// What was written, or everything that was not.
+    /// The paths of all files that were written, or all errors.
     pub fn done(self) -> Result<Vec<PathBuf>, ReportError> {
         match ReportError::of(self.failures) {
             None => Ok(self.files),
@@ -126,7 +126,7 @@ impl<'a> Kept<'a> {
     }
 }
 
-/// What is drawn; a panic on the way is an error of the one figure.
+/// Draws something; a panic becomes an error of this one figure.
 pub fn guarded<T>(draw: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(draw)).map_err(|panic| {
         let text = panic.downcast_ref::<String>().map(String::as_str);

@@ -1,8 +1,9 @@
 //! What runs leave behind: charts, figures, tables, reports, recordings, live state.
 //!
-//! Rooms, each of which knows only those before it: [`charts`] draws axes and shapes, [`mcap`] writes MCAP files of
-//! ROS 2 messages, [`files`] says what could not be written, [`results`] gathers what a run's frames say, [`record`]
-//! records them, [`figures`] draws them, [`report`] puts them into a folder. [`live`] is the only place that touches zenoh.
+//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`mcap`] writes MCAP files of ROS 2
+//! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`record`]
+//! records them, [`figures`] draws them, and [`report`] puts them into a folder. [`live`] is the only place that uses
+//! zenoh.
 
 pub mod charts;
 pub mod figures;

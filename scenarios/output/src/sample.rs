@@ -1,4 +1,4 @@
-//! A made-up run for the tests: a zig-zag up a straight plume, a bowtie, a declaration, home.
+//! An invented run for the tests: a zig-zag up a straight plume, a bowtie, a declaration, the way home.
 
 use crate::results::{RobotInfo, RunInfo, SourceTruth};
 use nalgebra::{Vector2, Vector3};
@@ -77,7 +77,7 @@ pub(crate) fn odour(t_s: f64) -> Odour {
     }
 }
 
-/// A belief that draws together round the source.
+/// A belief that converges round the source.
 pub(crate) fn belief(t_s: f64) -> Belief {
     let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 15, 1]);
     let wide = 400.0 / (1.0 + t_s / 10.0);
@@ -102,7 +102,7 @@ pub(crate) fn belief(t_s: f64) -> Belief {
     }
 }
 
-/// Layers of a planner that does this.
+/// States of a planner's layers for a behaviour.
 fn layers(b: Behaviour) -> Arc<[Layer]> {
     let names = ["find", "maintain", "reacquire", "go_home"];
     let holds = match b {
@@ -125,7 +125,7 @@ fn layers(b: Behaviour) -> Arc<[Layer]> {
         .collect()
 }
 
-/// Frames 10 a second for `seconds`.
+/// Frames at 10 Hz for `seconds`.
 pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
     let terrain = terrain();
     let flow = Heading::from_deg(158.0);

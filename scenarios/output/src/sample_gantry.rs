@@ -1,11 +1,11 @@
-//! Gantries made by hand for tests.
+//! Invented gantries for tests.
 
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::gantry::GantryFrame;
 use robots::handoff::{GantryBehaviour, GantryDecision, JointReadings, TrackerState};
 use world::physics::JointState;
 
-/// A gantry that looks westward, its head at (east, north), m.
+/// A gantry that faces west, with its head at (east, north), m.
 pub(crate) fn gantry(east_m: f64, north_m: f64, behaviour: GantryBehaviour) -> GantryFrame {
     let head_W = Vector3::new(east_m, north_m, -0.125);
     GantryFrame {

@@ -1,5 +1,5 @@
-//! The folder a command leaves its files in. A list in it names them, so that the command's next run into the same
-//! folder can remove them first: what is then there is of one run.
+//! The folder in which a command leaves its files. A list in the folder names them. The command's next run removes the
+//! listed files first, so that the folder never mixes files of two runs.
 
 use super::input::read_text;
 use super::output::{Output, OutputError};
@@ -9,7 +9,7 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
 
-/// Endings of what is left behind; a list that names anything else was not written here.
+/// Endings of the files that a command leaves. A list that names a file with another ending is not ours.
 const ENDINGS: [&str; 8] = ["csv", "html", "json", "mcap", "md", "png", "svg", "tmp"];
 /// Longest list read, bytes.
 const LONGEST: u64 = 16 << 20;
@@ -29,11 +29,11 @@ struct List {
 }
 
 impl Folder {
-    /// Removes from an existing folder the files that the list of an earlier run of `command` names, and begins a new
-    /// list, `<command>-files.txt`.
+    /// Removes the files that an earlier run of `command` listed in an existing folder, and begins a new list,
+    /// `<command>-files.txt`.
     ///
     /// # Errors
-    /// If the list cannot be read or made, or a file not be removed.
+    /// If the list cannot be read or made, or if a file cannot be removed.
     pub fn begin(dir: &Path, command: &str) -> Result<Self, OutputError> {
         let path = dir.join(format!("{command}-files.txt"));
         let removed = remove_listed(dir, &path)?;
@@ -64,7 +64,7 @@ impl Folder {
         &self.dir
     }
 
-    /// Path of a file in it that is about to be written, and enters it into the list.
+    /// Enters a file into the list before it is written, and returns its path.
     ///
     /// # Errors
     /// If the list cannot be written.
@@ -79,7 +79,7 @@ impl Folder {
     }
 }
 
-/// Removes what a list names, as far as it is a regular file right in that folder.
+/// Removes the listed files that are regular files directly in that folder.
 fn remove_listed(dir: &Path, list: &Path) -> Result<Vec<String>, OutputError> {
     let text = match read_text(list, LONGEST) {
         Ok(text) => text,
@@ -123,7 +123,7 @@ mod tests {
             }
         }
         fs::write(dir.path().join("notes.csv"), "not ours").unwrap();
-        // Killed: the list is as whole as the files.
+        // As if killed: the list on the disk agrees with the files.
         std::mem::forget(folder);
         let other = Folder::begin(dir.path(), "segment").unwrap();
         assert!(other.removed().is_empty(), "another command's files");

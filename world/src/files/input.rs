@@ -1,10 +1,10 @@
-//! Reading: regular files only, and no more of them than is said.
+//! Reading. Only regular files are read, and only up to a stated size.
 
 use std::fs::{self, File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
-/// What stands in the place of a file, in words; none of a regular file.
+/// What a special file is, in words; `None` for a regular file.
 pub(super) fn special(kind: FileType) -> Option<&'static str> {
     if kind.is_file() {
         return None;
@@ -29,16 +29,17 @@ pub(super) fn special(kind: FileType) -> Option<&'static str> {
     })
 }
 
-/// Whether something that is no regular file stands there: nothing of ours, so nothing to replace.
+/// Whether a special file (no regular file) stands at this path. Such a file is not ours, so it must not be replaced.
 #[must_use]
 pub fn is_special(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|m| special(m.file_type()).is_some())
 }
 
-/// Opens a regular file, or what a link to one leads to. A pipe could keep a reader waiting for ever, a device never end.
+/// Opens a regular file, or the regular file that a link leads to. A pipe could block a reader for ever, and a device
+/// may never end.
 ///
 /// # Errors
-/// As the system says; of what is no regular file, what it is.
+/// The system's error; for a special file, what it is.
 pub fn open(path: &Path) -> io::Result<File> {
     if let Some(what) = special(fs::metadata(path)?.file_type()) {
         let problem = format!("it is {what}, not a file");
@@ -50,7 +51,7 @@ pub fn open(path: &Path) -> io::Result<File> {
 /// Reads a regular file of at most `most` bytes.
 ///
 /// # Errors
-/// As [`open`]; or if it is longer.
+/// As [`open`]; also if the file is longer.
 pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     open(path)?
@@ -63,10 +64,10 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The same of UTF-8 text.
+/// Reads a text file in UTF-8 of at most `most` bytes.
 ///
 /// # Errors
-/// As [`read`]; or if it is not UTF-8, with the line.
+/// As [`read`]; also if the text is not UTF-8, with the line.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
     String::from_utf8(read(path, most)?).map_err(|e| {
         let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];

@@ -1,4 +1,4 @@
-//! Files: whole ones in, whole ones out. No other code of the program opens, makes, renames or removes one.
+//! Files are read whole and written whole. Only this module opens, makes, renames or removes files.
 
 mod folder;
 mod input;

@@ -1,9 +1,9 @@
-//! Writing: a file is made under a new name beside the one it is for, and gets that name when it is whole.
+//! Writing. A file is written under a temporary name in the same folder and gets its real name when it is complete.
 //!
-//! What is replaced is a regular file and nothing else: a folder, a pipe, a socket or a device of that name, or a link to
-//! one, is an error. A link to a regular file, or to nothing, is replaced itself: what it leads to stays as it is.
-//! The new name is made with `O_EXCL`, so nothing that exists under it is opened, followed or overwritten; it is
-//! removed when the file does not come to its end. It ends in `.tmp`, after the process's number and a count.
+//! Only regular files are replaced. If a folder, a pipe, a socket or a device has the name, or a link to one of them,
+//! that is an error. A link to a regular file, or to nothing, is itself replaced; its target stays as it is. The
+//! temporary file is made with `O_EXCL`, so that no existing file is opened, followed or overwritten. It is removed if
+//! the file is not completed. Its name ends in the process's number, a count and `.tmp`.
 
 use super::input::special;
 use std::fs::{self, File};
@@ -11,25 +11,25 @@ use std::io::{self, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A file could not be written: its folder may not be written to, the disk is full, or something is in its place.
+/// A file could not be written: its folder is not writable, the disk is full, or something else has its name.
 #[derive(Debug, thiserror::Error)]
 #[error("cannot write {}: {source}", path.display())]
 pub struct OutputError {
     /// The file.
     pub path: PathBuf,
-    /// What the system said, or what is in its place.
+    /// The message of the system, or what has the name instead.
     pub source: io::Error,
 }
 
 impl OutputError {
-    /// Of a file and what went wrong with it.
+    /// The error of a file, with its cause.
     pub fn new(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         Self { path, source }
     }
 }
 
-/// A file being written. Dropped before it has its name it is removed.
+/// A file that is being written. If it is dropped before it has its name, it is removed.
 #[derive(Debug)]
 pub struct Output {
     file: File,
@@ -39,16 +39,16 @@ pub struct Output {
     kept: bool,
 }
 
-/// Bytes of a file's name that its temporary name keeps: a name may have 255 in all.
+/// Bytes of a file's name that its temporary name keeps; a whole name may have 255.
 const NAME: usize = 200;
-/// Names tried before giving up: others make theirs in the same folder at the same time.
+/// Number of names that are tried. Other processes may make names in the same folder at the same time.
 const TRIES: u32 = 10_000;
 
 impl Output {
-    /// Begins the file that shall be `path`; the folder must exist.
+    /// Begins a file that will become `path`; the folder must exist.
     ///
     /// # Errors
-    /// If it cannot be made, or `path` is something else than a regular file.
+    /// If it cannot be made, or if `path` exists and is not a regular file.
     pub fn create(path: &Path) -> Result<Self, OutputError> {
         static COUNT: AtomicU64 = AtomicU64::new(0);
         let failed = |source| OutputError::new(path, source);
@@ -77,7 +77,7 @@ impl Output {
         Err(failed(io::Error::new(ErrorKind::AlreadyExists, problem)))
     }
 
-    /// The same, but what was written so far stays under the temporary name if it does not come to its end.
+    /// As [`Output::create`], but an incomplete file stays under its temporary name.
     ///
     /// # Errors
     /// As [`Output::create`].
@@ -87,22 +87,22 @@ impl Output {
         Ok(output)
     }
 
-    /// Where it is written until it has its name.
+    /// The temporary path, until the file has its name.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary
     }
 
-    /// The error of this file.
+    /// An error of this file.
     #[must_use]
     pub fn failed(&self, source: io::Error) -> OutputError {
         OutputError::new(&self.path, source)
     }
 
-    /// Gives it its name now, whatever is still to be written: for a table that others read as it grows.
+    /// Gives the file its name now, although more will be written, for a table that others read while it grows.
     ///
     /// # Errors
-    /// If something else than a regular file has come to stand there, or the system refuses.
+    /// If something that is not a regular file has appeared at that path, or if the system refuses.
     pub fn place(&mut self) -> Result<(), OutputError> {
         if !self.placed {
             replaceable(&self.path)
@@ -113,7 +113,7 @@ impl Output {
         Ok(())
     }
 
-    /// Ends it: it has its name.
+    /// Completes the file: gives it its name.
     ///
     /// # Errors
     /// As [`Output::place`].
@@ -122,14 +122,14 @@ impl Output {
         Ok(self.path.clone())
     }
 
-    /// The same once it is on the disk, its name too: it outlives a power cut.
+    /// Completes the file and makes sure that content and name are on the disk, so that they survive a power cut.
     ///
     /// # Errors
-    /// As [`Output::place`]; or if it cannot be brought to the disk.
+    /// As [`Output::place`]; also if it cannot be brought to the disk.
     pub fn finish_on_disk(self) -> Result<PathBuf, OutputError> {
         self.file.sync_all().map_err(|e| self.failed(e))?;
         let path = self.finish()?;
-        // Where a folder cannot be synced, the system sees to it.
+        // Where a folder cannot be synced, the system takes care of it.
         let folder = match path.parent() {
             Some(folder) if folder != Path::new("") => folder,
             _ => Path::new("."),
@@ -144,7 +144,7 @@ impl Output {
 impl Drop for Output {
     fn drop(&mut self) {
         if !self.placed && !self.kept {
-            // Half a file is of no use, and on a full disk in the way.
+            // Half a file is of no use, and it takes space on a full disk.
             let _ = fs::remove_file(&self.temporary);
         }
     }
@@ -166,7 +166,7 @@ impl Seek for Output {
     }
 }
 
-/// Whether a new file may take the place of what is there.
+/// Whether a new file may replace what is there.
 fn replaceable(path: &Path) -> io::Result<()> {
     let refuse = |problem: String| Err(io::Error::new(ErrorKind::AlreadyExists, problem));
     if path.file_name().is_none() {
@@ -177,7 +177,7 @@ fn replaceable(path: &Path) -> io::Result<()> {
         there => there?.file_type(),
     };
     let (link, kind) = if there.is_symlink() {
-        // `/dev/stdout` and the like are not to be replaced, wherever they lead.
+        // `/dev/stdout` and the like must not be replaced, wherever they lead.
         if fs::read_link(path)?.starts_with("/proc") {
             return refuse("it is a link to an open file of a process".to_string());
         }
@@ -196,15 +196,15 @@ fn replaceable(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Writes a file whole or not at all.
+/// Writes a file completely or not at all.
 ///
 /// # Errors
-/// If it cannot be written; what was there before stays then.
+/// If it cannot be written; what was there before then stays.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
     written(path, bytes)?.finish()
 }
 
-/// The same, and makes sure that it is on the disk.
+/// As [`write()`], and makes sure that the file is on the disk.
 ///
 /// # Errors
 /// As [`write()`].
@@ -218,11 +218,11 @@ fn written(path: &Path, bytes: &[u8]) -> Result<Output, OutputError> {
     Ok(output)
 }
 
-/// Writes a file whole or not at all where there is none, not even a link; of kind `AlreadyExists` if there is one. Of
-/// several processes that do so at once the first one's stays.
+/// Writes a file completely, or not at all if anything exists at that path, even a link; the error then has the kind
+/// `AlreadyExists`. If several processes do this at the same time, the first one's file stays.
 ///
 /// # Errors
-/// If it cannot be written, or something is there.
+/// If it cannot be written, or if something is there.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
     let failed = |e| OutputError::new(path, e);
     if fs::symlink_metadata(path).is_ok() {
@@ -230,19 +230,20 @@ pub fn write_new(path: &Path, bytes: &[u8]) -> Result<PathBuf, OutputError> {
     }
     let output = written(path, bytes)?;
     output.file.sync_all().map_err(failed)?;
-    // A second name, unlike a new one, fails where there is a file; dropped, the output loses its first.
+    // Unlike a rename, a second name (hard link) fails where a file exists. The output then loses its first name when
+    // it is dropped.
     match fs::hard_link(&output.temporary, path) {
         Ok(()) => Ok(path.to_owned()),
         Err(e) if e.kind() == ErrorKind::AlreadyExists => Err(failed(e)),
-        // A file system without links: the last one's stays.
+        // On a file system without links, the last writer's file stays.
         Err(_) => output.finish(),
     }
 }
 
-/// Makes a folder and those above it.
+/// Makes a folder and its parents.
 ///
 /// # Errors
-/// If one of them cannot be made, or something else stands there.
+/// If one of them cannot be made, or if something else has that name.
 pub fn make_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }

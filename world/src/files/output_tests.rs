@@ -1,4 +1,4 @@
-//! What becomes of what stands in the place of a file.
+//! What happens to whatever stands in the place of a file.
 
 use super::output::*;
 use std::fs;
@@ -82,7 +82,7 @@ fn errors_name_the_file_and_the_cause() {
     assert!(said(Path::new("..")).contains("names a folder"));
     let long = dir.path().join("x".repeat(300));
     assert!(said(&long).contains("too long"), "{}", said(&long));
-    // The longest name a file can have is one it can be written under.
+    // A file can be written under the longest name that a file can have.
     let longest = dir.path().join("\u{e9}".repeat(127));
     assert_eq!(write(&longest, b"x").unwrap(), longest);
     assert_eq!(count(dir.path()), 1);
@@ -139,7 +139,7 @@ fn links_under_the_names_it_would_use_are_left_alone() {
     let dir = tempfile::tempdir().unwrap();
     let (path, precious) = (dir.path().join("a"), dir.path().join("precious"));
     fs::write(&precious, "mine").unwrap();
-    // Where the count stands is not known here: the next hundred names are all taken.
+    // The present count is not known here, so the next hundred names are all taken.
     let taken = Output::create(&path).unwrap().temporary().to_owned();
     let name = taken.file_name().unwrap().to_str().unwrap();
     let (head, rest) = name.rsplit_once('-').unwrap();

@@ -1,4 +1,4 @@
-//! Where a ray first meets a solid, and how the surface lies there: what cameras and sonars ask.
+//! Where a ray first meets a solid, and the direction of the surface there. Cameras and sonars ask this.
 
 use super::solid::{from_parry, to_parry};
 use super::{Obstacle, Obstacles, Surface};
@@ -8,19 +8,20 @@ use parry3d::query::Ray;
 /// The first thing a ray meets.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit<'a> {
-    /// Way along the ray, m; zero from inside.
+    /// Distance along the ray, m; zero if the ray starts inside.
     pub way_m: f64,
-    /// Outward unit normal there; against the ray from inside.
+    /// Outward unit normal there; opposite to the ray if it starts inside.
     pub normal: Vector3<f64>,
-    /// Which obstacle, by its place in the scenario's order.
+    /// Index of the obstacle in the scenario.
     pub obstacle: usize,
     /// How its surface looks and sounds.
     pub surface: &'a Surface,
 }
 
 impl Obstacle {
-    /// Way along a ray from `origin` (ENU, m) in the unit direction `dir` to the first hit within `max_m`, m, and the outward
-    /// unit normal there; zero and the way back from inside.
+    /// Casts a ray from `origin` (ENU, m) in the unit direction `dir`. Returns the distance to the first hit within
+    /// `max_m`, m, and the outward unit normal there. A ray that starts inside returns zero and the direction
+    /// backwards.
     #[must_use]
     pub fn cast(
         &self,
@@ -36,7 +37,7 @@ impl Obstacle {
         Some((met.time_of_impact, from_parry(met.normal)))
     }
 
-    /// Middle and radius of a ball round it, m.
+    /// Centre and radius of a ball that encloses it, m.
     #[must_use]
     pub fn ball(&self) -> (Vector3<f64>, f64) {
         let (low, high) = self.bounds();
@@ -45,7 +46,7 @@ impl Obstacle {
 }
 
 impl Obstacles {
-    /// The first hit of any along a ray from `origin` (ENU, m) in the unit direction `dir` within `max_m`, m.
+    /// The first hit on any obstacle along a ray from `origin` (ENU, m) in the unit direction `dir` within `max_m`, m.
     #[must_use]
     pub fn cast(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<Hit<'_>> {
         self.0

@@ -1,24 +1,24 @@
 //! Heights on a regular grid from an ESRI ASCII grid file (.asc), as triangles of a closed surface.
 //!
-//! *Source*: Esri, ArcGIS documentation, "Esri ASCII raster format": the lines `ncols`, `nrows`, `xllcorner` or `xllcenter`, `yllcorner`
-//! or `yllcenter`, `cellsize`, optionally `NODATA_value`, then the rows from north to south.
+//! *Source*: Esri, ArcGIS documentation, "Esri ASCII raster format": the lines `ncols`, `nrows`, `xllcorner` or
+//! `xllcenter`, `yllcorner` or `yllcenter`, `cellsize`, optionally `NODATA_value`, then the rows from north to south.
 //!
-//! *Parameters*: none; the surface goes down to [`SKIRT_M`] below the lowest height, in units of the file.
+//! *Parameters*: none; the solid reaches [`SKIRT_M`] below the lowest height, in units of the file.
 //!
-//! *Deviations*: heights stand at the middles of the raster's cells and are joined by triangles, so the surface is a cell smaller than
-//! the raster. Where the file says it lies is not used: the scenario places it by its middle. A height that is missing is
-//! an error, not a hole.
+//! *Deviations*: heights stand at the centres of the raster's cells and are joined by triangles, so the surface is one
+//! cell smaller than the raster. The position in the file is ignored: the scenario places the surface by its centre. A
+//! missing height is an error, not a hole.
 
 use super::mesh_file::{Triangle, Wrong};
 use crate::error::WorldError;
 use crate::files;
 use std::path::Path;
 
-/// How far the solid goes below its lowest height: the flattest field has an inside then.
+/// How far the solid reaches below its lowest height, so that even a flat field encloses a volume.
 pub(super) const SKIRT_M: f64 = 1.0;
-/// Most heights.
+/// Largest number of heights.
 const MOST: usize = 500_000;
-/// Longest file read, bytes: so many heights, each with all its digits.
+/// Longest file read, bytes: enough for that many heights with all their digits.
 const LONGEST: u64 = 32 << 20;
 
 /// Heights on a grid.
@@ -31,7 +31,7 @@ pub(super) struct Heights {
     z: Vec<f64>,
 }
 
-/// Reads a file; its ending says which format it has.
+/// Reads a file; its ending determines the format.
 pub(super) fn read(path: &Path) -> Result<Heights, WorldError> {
     let fail = |(place, problem)| WorldError::File {
         path: path.display().to_string(),
@@ -150,7 +150,7 @@ impl Header {
 }
 
 impl Heights {
-    /// A closed surface about the grid's middle: x to the east, y to the north, lowest height at 0.
+    /// A closed surface about the grid's centre: x points east, y north, and the lowest height is at 0.
     pub(super) fn triangles(&self) -> Vec<Triangle> {
         let (nx, ny) = (self.columns, self.rows);
         let lowest = self.z.iter().copied().fold(f64::INFINITY, f64::min);

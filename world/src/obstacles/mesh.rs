@@ -1,11 +1,11 @@
-//! Loose triangles become a closed, outward-facing surface, so that "inside" has a meaning.
+//! Makes a closed, outward-facing surface from loose triangles, so that "inside" has a meaning.
 //!
-//! *Source:* signed distance by angle-weighted pseudo-normals asks for a closed oriented surface:
-//! Bærentzen and Aanæs 2005, IEEE TVCG 11, section 3.
+//! *Source:* signed distance by angle-weighted pseudo-normals needs a closed oriented surface: Bærentzen and Aanæs
+//! 2005, IEEE TVCG 11, section 3.
 //!
 //! *Parameters:* none; corners with exactly equal coordinates are one vertex.
 //!
-//! *Deviations:* a surface turned inside out is turned back; holes are refused, not mended.
+//! *Deviations:* a surface that is inside out is reversed; one with holes is refused, not mended.
 
 use super::mesh_file::Triangle;
 use crate::error::WorldError;
@@ -14,7 +14,7 @@ use parry3d::shape::{TriMesh, TriMeshFlags};
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// No obstacle reaches farther from its own origin, m: a wrong unit, or a broken number.
+/// No obstacle reaches farther from its own origin, m. A larger value means a wrong unit or a corrupt number.
 const FARTHEST_M: f64 = 1e5;
 
 /// Builds the surface, with vertices scaled to metres.

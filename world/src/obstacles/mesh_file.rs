@@ -15,7 +15,7 @@ use std::path::Path;
 /// A triangle's corners, in units of the file.
 pub(super) type Triangle = [[f64; 3]; 3];
 
-/// Reads the triangles of an STL or OBJ file; its ending says which format it has.
+/// Reads the triangles of an STL or OBJ file; its ending determines the format.
 ///
 /// # Errors
 /// If the file is missing, broken, empty, or larger than can be used.
@@ -23,7 +23,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, WorldError> {
     open(path, parse)
 }
 
-/// Reads a file and makes of it what its ending says.
+/// Reads a file and parses it by its ending.
 fn open<T>(path: &Path, parse: fn(&[u8], &str) -> Result<T, Wrong>) -> Result<T, WorldError> {
     let fail = |(place, problem)| WorldError::File {
         path: path.display().to_string(),
@@ -35,7 +35,8 @@ fn open<T>(path: &Path, parse: fn(&[u8], &str) -> Result<T, Wrong>) -> Result<T,
     parse(&bytes, &ending.to_lowercase()).map_err(fail)
 }
 
-/// Reads the corners alone, for a hull that needs no faces: all vertices of an OBJ file, used or not; three of each triangle of an STL file.
+/// Reads only the corners, for a hull that needs no faces: all vertices of an OBJ file, used or not, or the three
+/// corners of each triangle of an STL file.
 ///
 /// # Errors
 /// If the file is missing, broken or empty.
@@ -84,17 +85,17 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
     Ok(triangles)
 }
 
-/// What went wrong, with the place.
+/// What is wrong, and the place.
 pub(super) type Wrong = (String, String);
 
-/// Most triangles of a surface: half a gigabyte with what is built of them.
+/// Most triangles of a surface: with all that is built from them, they take half a gigabyte.
 const MOST: usize = 2_000_000;
-/// Longest file read, bytes: so many triangles as text.
+/// Longest file read, bytes: enough for that many triangles as text.
 const LONGEST: u64 = 512 << 20;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 
-/// Some binary files begin with "solid" too, but only they hold zero bytes.
+/// Some binary files also begin with "solid", but only binary files contain zero bytes.
 fn is_ascii_stl(bytes: &[u8]) -> bool {
     bytes.trim_ascii_start().starts_with(b"solid") && !bytes.contains(&0)
 }

@@ -1,11 +1,11 @@
-//! The outline of a solid as a map shows it.
+//! The outline of a solid for a map.
 
 use super::Obstacle;
 use crate::math;
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 
-/// Corners that stand for a circle.
+/// Number of corners that represent a circle.
 const ROUND: usize = 32;
 
 impl Obstacle {
@@ -28,7 +28,7 @@ impl Obstacle {
             let local = self.shape.compute_local_aabb();
             let r = local.maxs.x;
             let turn = (0..ROUND).map(|k| math::sin_cos(TAU * k as f64 / ROUND as f64));
-            // parry's cylinder stands along its own y axis; the pose turns that up.
+            // parry's cylinder stands along its own y axis; the pose turns it upright.
             turn.map(|(s, c)| Vector3::new(r * c, 0.0, r * s)).collect()
         };
         hull(points.iter().map(|p| self.pose.point(*p).xy()).collect())

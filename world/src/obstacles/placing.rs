@@ -1,32 +1,32 @@
 //! Whether obstacles make sense where they stand.
 //!
-//! *Source*: none; what a scenario's author most likely did not mean.
+//! *Source*: none; these are placements that a scenario's author most likely did not intend.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: obstacles may overlap, as piles and the quay on them do: they are one solid then, for hull, ranging, filaments, voxels and
-//! water alike.
+//! *Deviations*: obstacles may overlap, as piles and the quay on them do. They then form one solid for hull, ranging,
+//! filaments, voxels and water alike.
 
 use super::{Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
 use crate::area::Area;
 use crate::terrain::Terrain;
 use nalgebra::{Vector2, Vector3};
 
-/// A surface from a file this many times wider than the area's diagonal was not meant in metres.
+/// If a surface from a file is this many times wider than the area's diagonal, its unit was not the metre.
 const TOO_WIDE: f64 = 5.0;
-/// One narrower than this was neither, m.
+/// A surface narrower than this was not meant in metres either, m.
 const TOO_NARROW_M: f64 = 0.02;
-/// Points along, across and upwards at which open water is looked for.
+/// Number of points along, across and upwards at which open water is searched.
 const LOOKS: [usize; 3] = [64, 64, 8];
 
-/// Something odd about an obstacle.
+/// Something suspicious about an obstacle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remark {
-    /// Whether a run makes no sense with it.
+    /// Whether a run with it makes no sense.
     pub wrong: bool,
-    /// What.
+    /// The problem.
     pub problem: String,
-    /// What to do about it.
+    /// How to solve it.
     pub hint: String,
 }
 
@@ -39,7 +39,7 @@ fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
 }
 
 impl Obstacle {
-    /// What is odd about its size and place.
+    /// What is suspicious about its size and place.
     #[must_use]
     pub fn remarks(&self, spec: &ObstacleSpec, area: &Area, terrain: &Terrain) -> Vec<Remark> {
         let (low, high) = self.bounds();
@@ -106,7 +106,7 @@ impl Obstacle {
 }
 
 impl ObstacleSpec {
-    /// Whether it differs from another in nothing but its name.
+    /// Whether it differs from another obstacle only in its name.
     #[must_use]
     pub fn is_copy_of(&self, other: &Self) -> bool {
         let renamed = Self {
@@ -116,7 +116,7 @@ impl ObstacleSpec {
         renamed == *other
     }
 
-    /// The file its shape comes from, as the scenario names it.
+    /// The file with its shape, as the scenario names it.
     #[must_use]
     pub fn file(&self) -> Option<&str> {
         match &self.shape {
@@ -128,14 +128,14 @@ impl ObstacleSpec {
 }
 
 impl Obstacles {
-    /// Those whose ids are not among `ids`.
+    /// The obstacles whose ids are not among `ids`.
     #[must_use]
     pub fn without(&self, ids: &[String]) -> Self {
         let stays = |o: &&Obstacle| !ids.contains(&o.id);
         Self(self.0.iter().filter(stays).cloned().collect())
     }
 
-    /// Whether they leave open water in the area, as far as a closely meshed look shows.
+    /// Whether the obstacles leave open water in the area, tested on a dense grid of points.
     #[must_use]
     pub fn leave_water(&self, area: &Area, terrain: &Terrain) -> bool {
         let part = |n: usize, d: usize| (n as f64 + 0.5) / LOOKS[d] as f64;

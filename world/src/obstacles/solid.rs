@@ -1,4 +1,4 @@
-//! An obstacle as a solid: is a point inside, how far is it, where does a ray hit.
+//! An obstacle as a solid: whether a point is inside, how far away it is, and where a ray hits it.
 //!
 //! *Source:* parry3d's shapes and queries; the same shape is the body's collider.
 //!
@@ -41,10 +41,10 @@ impl std::fmt::Debug for Obstacle {
 }
 
 impl Obstacle {
-    /// Builds an obstacle; mesh files are looked for under `base_dir`.
+    /// Builds an obstacle; mesh files are searched in `base_dir`.
     ///
     /// # Errors
-    /// When a mesh file is missing, broken or does not enclose a volume.
+    /// If a mesh file is missing, corrupt or does not enclose a volume.
     pub fn build(
         spec: &ObstacleSpec,
         terrain: &Terrain,
@@ -135,8 +135,8 @@ impl Obstacle {
         (from_parry(b.mins), from_parry(b.maxs))
     }
 
-    /// Way along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first
-    /// hit within `max_m`, m; zero from inside.
+    /// Distance along a ray from `origin` (ENU, m) in direction `dir` (any length but zero) to the first hit within
+    /// `max_m`, m; zero if it starts inside.
     #[must_use]
     pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         if self.contains(origin) {
@@ -146,8 +146,8 @@ impl Obstacle {
         self.shape.cast_ray(&self.parry_pose(), &ray, max_m, true)
     }
 
-    /// Whether a block of half extents `half_m` shares more than nothing with the obstacle's surface, or with its inside
-    /// where the shape is a solid one.
+    /// Whether a block of half extents `half_m` overlaps the obstacle's surface, or its inside if the shape is solid. A
+    /// block that only touches does not count.
     #[must_use]
     pub fn meets_box(&self, pose_WB: &Pose, half_m: [f64; 3]) -> bool {
         let block = Cuboid::new(Vector::new(half_m[0], half_m[1], half_m[2]));
@@ -157,7 +157,7 @@ impl Obstacle {
             .intersecting
     }
 
-    /// The pose in parry's types, as rapier wants it too.
+    /// The pose in parry's types, which rapier uses too.
     pub(crate) fn parry_pose(&self) -> ParryPose {
         to_parry_pose(&self.pose)
     }
@@ -184,7 +184,7 @@ pub(super) fn from_parry(v: Vector) -> Vector3<f64> {
 pub struct Obstacles(pub Vec<Obstacle>);
 
 impl Obstacles {
-    /// The one a point lies in, if any.
+    /// The obstacle that contains a point, if any.
     #[must_use]
     pub fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
         self.0.iter().find(|o| o.contains(p))
@@ -199,7 +199,7 @@ impl Obstacles {
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Way along a ray to the first hit of any, m; see [`Obstacle::ray`].
+    /// Distance along a ray to the first hit on any obstacle, m; see [`Obstacle::ray`].
     #[must_use]
     pub fn ray(&self, origin: &Vector3<f64>, dir: &Vector3<f64>, max_m: f64) -> Option<f64> {
         self.0

@@ -4,7 +4,7 @@ use super::Surface;
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use serde::{Deserialize, Serialize};
 
-/// One obstacle of a scenario. Obstacles may overlap: they are one solid then.
+/// One obstacle of a scenario. Obstacles that overlap form one solid.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleSpec {
@@ -18,13 +18,13 @@ pub struct ObstacleSpec {
     /// North of the datum (to the left in a flume), m.
     #[serde(deserialize_with = "crate::limits::place_m")]
     pub north_m: Finite,
-    /// Where its lowest point stands; on the bed unless given.
+    /// Height of its lowest point; on the bed by default.
     #[serde(default)]
     pub base: Base,
-    /// Direction of its own x axis; 90° unless given, so that its x points east and its y north.
+    /// Direction of its own x axis; by default 90°, so that its x points east and its y north.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
-    /// How its surface looks and sounds: grey rock unless given.
+    /// How its surface looks and sounds; grey rock by default.
     #[serde(default)]
     pub surface: Surface,
 }
@@ -67,7 +67,7 @@ pub struct CylinderShape {
     pub height_m: Positive,
 }
 
-/// A closed surface from an STL or OBJ file; its origin comes to stand at the obstacle's place.
+/// A closed surface from an STL or OBJ file. Its origin stands at the obstacle's place.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MeshShape {
@@ -78,14 +78,14 @@ pub struct MeshShape {
     pub scale: Positive,
 }
 
-/// Heights on a regular grid from an Esri ASCII grid file (.asc); its middle comes to stand at the obstacle's place, its lowest
-/// height at the obstacle's base, and below it is solid for another metre (times the scale).
+/// Heights on a regular grid from an Esri ASCII grid file (.asc). Its centre stands at the obstacle's place and its
+/// lowest height at the obstacle's base. Below that it is solid for another metre (times the scale).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeightfieldShape {
     /// Path, relative to the scenario file.
     pub file: String,
-    /// Metres in one unit of the file, of `cellsize` and heights alike.
+    /// Metres in one unit of the file, for `cellsize` and heights alike.
     #[serde(default = "one", deserialize_with = "crate::limits::scale")]
     pub scale: Positive,
 }
@@ -97,7 +97,7 @@ fn one() -> Positive {
 /// Where the lowest point of an obstacle stands.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Base {
-    /// On the bed: on its lowest point under the obstacle, so that no gap is left on a slope.
+    /// On the bed: at the lowest point of the bed under the obstacle, so that no gap is left on a slope.
     #[default]
     OnBed,
     /// At a depth below the still surface, m.

@@ -1,4 +1,4 @@
-//! How an obstacle's surface looks and sounds: what it throws back of light and of sound.
+//! How an obstacle's surface looks and sounds: how it reflects light and sound.
 
 use crate::ranges::{Finite, Fraction};
 use serde::{Deserialize, Serialize};
@@ -7,16 +7,16 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub struct Surface {
-    /// Share of red, green and blue light thrown back, evenly to all sides.
+    /// Share of red, green and blue light that is reflected, equally in all directions.
     pub albedo: (Fraction, Fraction, Fraction),
-    /// Backscatter strength of a square metre at grazing angle 90°, dB.
+    /// Backscatter strength per square metre at a grazing angle of 90°, dB.
     #[serde(deserialize_with = "crate::limits::level_db")]
     pub backscatter_db: Finite,
 }
 
 impl Default for Surface {
-    /// Grey rock: a fifth of the light, -10 dB (APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook 1994,
-    /// section IV: rough rock at tens of kHz and above lies at -7 to -13 dB for steep angles).
+    /// Grey rock: a fifth of the light, -10 dB (APL-UW High-Frequency Ocean Environmental Acoustic Models Handbook
+    /// 1994, section IV: rough rock at tens of kHz and above has -7 to -13 dB at steep angles).
     fn default() -> Self {
         let fifth = || Fraction::new(0.2);
         Self {

@@ -1,4 +1,4 @@
-//! Obstacles of all shapes, against what geometry says.
+//! Obstacles of all shapes, compared with geometry.
 
 use super::{
     Base, BoxShape, CylinderShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
@@ -131,7 +131,7 @@ fn a_cylinder_stands_upright() {
     assert!(o.contains(&Vector3::new(10.3, -5.3, -2.1)));
 }
 
-/// The mesh of a cube, whichever way its faces point, answers as the box of the same size.
+/// The mesh of a cube gives the same answers as the box of the same size, whichever way its faces point.
 #[test]
 fn a_mesh_answers_as_the_box_it_shows() {
     let one = Positive::new(1.0);

@@ -1,4 +1,4 @@
-//! Height fields, and obstacles where they make no sense.
+//! Height fields, and obstacles in places where they make no sense.
 
 use super::{
     Base, BoxShape, HeightfieldShape, MeshShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec,
@@ -51,7 +51,7 @@ fn field(text: &str, scale: f64, heading_deg: f64) -> (ObstacleSpec, Result<Obst
     (spec, built)
 }
 
-/// Heights of a plane, 0 in the west to 4 m in the east, 1 m apart.
+/// Heights of a plane that rises from 0 in the west to 4 m in the east, 1 m apart.
 fn ramp() -> String {
     let mut text = "ncols 5\nnrows 4\nxllcorner 0\nyllcorner 0\ncellsize 1\n".to_owned();
     for _ in 0..4 {
@@ -65,7 +65,7 @@ fn a_height_field_is_solid_below_its_heights() {
     let (spec, built) = field(&ramp(), 1.0, 90.0);
     let reef = built.expect("a sound field");
     let (low, high) = reef.bounds();
-    // Its lowest height stands on the bed, its skirt below.
+    // Its lowest height stands on the bed, its skirt below it.
     assert!((low - Vector3::new(8.0, -6.5, -9.0)).norm() < 1e-9, "{low}");
     assert!(
         (high - Vector3::new(12.0, -3.5, -4.0)).norm() < 1e-9,

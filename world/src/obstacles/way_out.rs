@@ -1,4 +1,4 @@
-//! The way out of solids for what water carries: sideways or up, never down into the bed.
+//! The way out of a solid for something that water carries: sideways or up, never down into the bed.
 
 use super::{Obstacle, Obstacles};
 use crate::math;
@@ -7,15 +7,15 @@ use parry3d::math::Vector;
 use parry3d::query::Ray;
 use std::f64::consts::TAU;
 
-/// Directions tried sideways.
+/// Number of directions that are tried sideways.
 const SIDES: usize = 8;
-/// How far outside a surface the way ends, m: above rounding of single-precision positions of a kilometre.
+/// How far outside a surface the way ends, m: more than the rounding of single-precision positions of a kilometre.
 const CLEAR_M: f64 = 1e-3;
-/// Solids that a way may lead through one after the other.
+/// Most solids that a way may pass through one after the other.
 const IN_A_ROW: usize = 16;
 
 impl Obstacle {
-    /// Way along a unit vector from a point inside to the surface, m.
+    /// Distance along a unit vector from a point inside to the surface, m.
     fn thickness(&self, p: &Vector3<f64>, along: &Vector3<f64>) -> Option<f64> {
         let to = |v: &Vector3<f64>| Vector::new(v.x, v.y, v.z);
         let ray = Ray::new(to(p), to(along));
@@ -24,8 +24,8 @@ impl Obstacle {
 }
 
 impl Obstacles {
-    /// The nearest free point to one inside a solid, looking sideways and up to the surface; the
-    /// point itself if it is free, or if there is no way out below the surface.
+    /// The nearest free point to a point inside a solid, searched sideways and up to the surface. Returns the point
+    /// itself if it is free, or if there is no way out below the surface.
     #[must_use]
     pub fn way_out(&self, p: &Vector3<f64>) -> Vector3<f64> {
         if self.containing(p).is_none() {
@@ -94,7 +94,7 @@ mod tests {
         let two = Obstacles(vec![block("a", 0.0), block("b", 3.0)]);
         let out = two.way_out(&Vector3::new(1.9, 0.0, -9.9));
         assert!(two.containing(&out).is_none());
-        // East through the rest of both is 3.1 m, up 2.9 m, west 3.9 m, north or south 3 m.
+        // Through both solids it is 3.1 m to the east, 2.9 m up, 3.9 m to the west, and 3 m to the north or south.
         assert!((out.z + 6.999).abs() < 1e-9);
     }
 }

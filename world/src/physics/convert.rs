@@ -1,4 +1,4 @@
-//! Between nalgebra, which everything of ours speaks, and glam, which rapier and parry speak.
+//! Conversion between nalgebra, which our code uses, and glam, which rapier and parry use.
 
 use crate::frames::Pose;
 use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};

@@ -1,19 +1,20 @@
-//! What moves in a step: where it would get alone, what impulses add to that, and where it is by then.
+//! What moves in a step: where it would get on its own, what impulses add, and where it has come to.
 //!
-//! *Source:* generalised velocities: of the centre of mass and the angular one in body axes (bodies), where the mass
-//! matrix is constant; of the joints (gantries).
+//! *Source:* generalised velocities. For bodies: of the centre of mass, and the angular velocity in body axes, in which
+//! the mass matrix is constant. For gantries: of the joints.
 //!
 //! *Parameters:* mass matrices of the bodies (6 × 6, with added mass) and of the gantries (2 × 2).
 //!
-//! *Deviations:* alone a mover goes straight and turns evenly from the beginning of its step to the end of it. What
-//! an impulse adds keeps its direction in body axes to the end of the step, so that it gives no energy whatever the hull turns by.
+//! *Deviations:* on its own, a mover goes straight and turns evenly from the beginning of its step to the end. A
+//! velocity that an impulse adds keeps its direction in body axes to the end of the step, so that it adds no energy
+//! however far the hull turns.
 
 use super::impulses::Row;
 use super::solid::{BodyId, ContactReport, Physics};
 use crate::frames::{Pose, Truth};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3, Vector6};
 
-/// Who moves.
+/// A mover: a body or a gantry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Who {
     Body(usize),
@@ -27,20 +28,20 @@ pub(super) struct Course {
     /// Centre of mass and attitude of a body.
     pub(super) p_WG: Vector3<f64>,
     pub(super) R_WB: UnitQuaternion<f64>,
-    /// Attitude if nothing were in the way.
+    /// Attitude that it would have without obstacles.
     R_alone: UnitQuaternion<f64>,
     /// Joints of a gantry, m.
     pub(super) joints_m: [f64; 2],
-    /// Mean velocities over the step if nothing is in the way; of a body in world axes.
+    /// Mean velocities over the step if nothing is in the way; for a body, in world axes.
     mean: Vector6<f64>,
     /// Velocities at the end of the step if nothing is in the way.
     pub(super) end: Vector6<f64>,
-    /// What impulses added to the velocities.
+    /// Velocities that impulses added.
     pub(super) gained: Vector6<f64>,
-    /// Something pushed it or was in it.
+    /// Whether something pushed it or was in it.
     pub(super) moved: bool,
     pub(super) contact: ContactReport,
-    /// Impulses on each slide of a gantry, N s; the greatest, by whom and where.
+    /// Impulses on each slide of a gantry, N s. Next: the greatest one, who gave it and where.
     pub(super) slides_N_s: [Vector3<f64>; 2],
     pub(super) hardest: Option<(f64, BodyId, Vector3<f64>)>,
 }
@@ -95,7 +96,7 @@ impl Physics {
         bodies.chain(gantries).collect()
     }
 
-    /// No point of a mover goes faster, m/s.
+    /// Speed that no point of a mover exceeds, m/s.
     pub(super) fn fastest_m_s(&self, course: &Course) -> f64 {
         let rate = course.rate();
         let (v, w) = (rate.fixed_rows::<3>(0), rate.fixed_rows::<3>(3));
@@ -108,7 +109,7 @@ impl Physics {
         }
     }
 
-    /// Speed of a mover's point along `axis_W` per unit of each of its velocities.
+    /// Speed of a mover's point along `axis_W`, for a unit of each of the mover's velocities.
     pub(super) fn share(
         &self,
         course: &Course,
@@ -155,7 +156,7 @@ impl Course {
         }
     }
 
-    /// Velocities on its way.
+    /// Present velocities.
     pub(super) fn rate(&self) -> Vector6<f64> {
         let alone = match self.who {
             Who::Body(_) => {
@@ -168,7 +169,7 @@ impl Course {
         alone + self.gained
     }
 
-    /// Moves on by `h`, s; `undo` counts for this way only.
+    /// Moves on by `h`, s; `undo` counts for this move only.
     pub(super) fn go(&mut self, h: f64, undo: &Vector6<f64>) {
         let way = (self.rate() + undo) * h;
         match self.who {
@@ -198,7 +199,7 @@ impl Course {
     }
 }
 
-/// Writes impulses down with those that they act on.
+/// Records impulses with the movers on which they act.
 pub(super) fn note(
     courses: &mut [Course],
     rows: &[Row],

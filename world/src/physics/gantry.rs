@@ -1,16 +1,16 @@
-//! Two driven slides, one carried by the other: the axes of a gantry, as joints of rapier.
+//! Two driven slides, one carried by the other: the axes of a gantry as joints of rapier.
 //!
-//! *Source:* R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, ch. 3 (reduced coordinates);
-//! a servo's inner loop makes the axis follow a commanded speed within the force it has.
+//! *Source:* R. Featherstone, Rigid Body Dynamics Algorithms, Springer 2008, ch. 3 (reduced coordinates). The inner
+//! loop of a servo makes the axis follow a commanded speed within the force available.
 //!
 //! *Parameters:* `travel_m`, `mass_kg` of each axis; `speed_m_s`, `max_force_N`, `response_s` of each drive.
 //!
-//! *Deviations:* the chain is a multibody of rapier: two coordinates, so nothing drifts off its rail. rapier
-//! begins to act on a limit only once it is passed; an end stop that takes all speed is therefore put at each
-//! limit after the step, and a joint is never beyond it. Bearings have no friction and carry all weight;
-//! contacts of a gantry slide without friction, so that the drives' forces follow from the balance of
-//! momentum (rapier does not report those of a multibody's motors). A gantry does not touch itself. Driven into
-//! a fixed solid at 0.15 m/s with 200 N, 25 kg overlap it by less than 0.1 mm (a test holds it).
+//! *Deviations:* the chain is a multibody of rapier with two coordinates, so nothing drifts off its rail. rapier acts
+//! on a limit only after it has been passed. Therefore, an end stop that takes all speed is set at each limit after the
+//! step, and a joint is never beyond its limit. Bearings have no friction and carry all weight. Contacts of a gantry
+//! slide without friction, so that the forces of the drives follow from the balance of momentum (rapier does not report
+//! those of a multibody's motors). A gantry does not touch itself. When 25 kg are driven into a fixed solid at 0.15 m/s
+//! with 200 N, they overlap it by less than 0.1 mm (a test checks this).
 
 use super::convert::{from_vector, pose, vector};
 use super::gantry_report::{GantryContact, Solid};
@@ -21,19 +21,19 @@ use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use rapier3d::prelude as r;
 
-/// Names a gantry of one [`Physics`].
+/// Identifies a gantry of one [`Physics`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct GantryId(pub(super) usize);
 
-/// One slide with what it carries, but for the next slide. All places are in the gantry's base axes, as they
-/// are with both joints at zero.
+/// One slide with everything it carries except the next slide. All places are in the gantry's base axes, with both
+/// joints at zero.
 #[derive(Clone, Debug, PartialEq)]
 pub struct AxisSpec {
-    /// Direction of travel, of length 1.
+    /// Unit vector in the direction of travel.
     pub along_B: Vector3<f64>,
     /// Least and greatest position, m.
     pub travel_m: [f64; 2],
-    /// Mass that moves, kg.
+    /// Moving mass, kg.
     pub mass_kg: f64,
     /// Collision shapes.
     pub shapes: Vec<(Pose, Shape)>,
@@ -42,30 +42,30 @@ pub struct AxisSpec {
 /// A gantry as the solver needs it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GantryBodySpec {
-    /// Name for messages.
+    /// Name for error messages.
     pub id: String,
     /// Where its base stands.
     pub base: Pose,
     /// Collision shapes that stay where they are, in base axes.
     pub base_shapes: Vec<(Pose, Shape)>,
-    /// The slide on the base, and the slide on that one, with the head.
+    /// The slide on the base, then the slide on that one, which carries the head.
     pub axes: [AxisSpec; 2],
     /// Where the joints start, m.
     pub start_m: [f64; 2],
 }
 
-/// What a drive is told in one step.
+/// Command to a drive for one step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AxisDrive {
-    /// Speed to take, m/s.
+    /// Speed to reach, m/s.
     pub speed_m_s: f64,
     /// Greatest force, N.
     pub max_force_N: f64,
-    /// Time constant of the speed loop when the force suffices, s.
+    /// Time constant of the speed loop when the force is sufficient, s.
     pub response_s: f64,
 }
 
-/// How a joint stands after the latest step.
+/// State of a joint after the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct JointState {
     /// Position, m.
@@ -87,7 +87,7 @@ pub(super) struct Gantry {
     mass_kg: [f64; 2],
     drives: [AxisDrive; 2],
     pub(super) states: [JointState; 2],
-    /// Where the joints stood before the latest step, m.
+    /// Positions of the joints before the latest step, m.
     pub(super) before_m: [f64; 2],
     pub(super) contact: GantryContact,
 }
@@ -108,8 +108,8 @@ impl Physics {
     /// Adds a gantry.
     ///
     /// # Panics
-    /// If a direction is not of length 1, a start lies outside its travel or the points of a hull span no
-    /// volume: whoever read them has to check that.
+    /// If a direction is not a unit vector, if a start lies outside its travel, or if the points of a hull span no
+    /// volume. Whoever reads them has to check that.
     pub fn add_gantry(&mut self, spec: GantryBodySpec) -> GantryId {
         let id = &spec.id;
         let fixed = r::RigidBodyBuilder::fixed().pose(pose(&spec.base));
@@ -129,7 +129,7 @@ impl Physics {
                 "gantry {id}: axis {k} cannot start at {} m in {low} to {high} m",
                 spec.start_m[k]
             );
-            // It never turns: any inertia does.
+            // It never turns, so any inertia will do.
             let props = r::MassProperties::new(
                 r::Vector::ZERO,
                 axis.mass_kg,
@@ -174,7 +174,7 @@ impl Physics {
         });
         let (chain, _) = self.world.multibody_joints.get_mut(joints[1]).expect("new");
         chain.set_self_contacts_enabled(false);
-        // Finds that the base stands fast: only then are there just two coordinates.
+        // This tells rapier that the base is fixed; only then are there just two coordinates.
         chain.forward_kinematics(&self.world.bodies, true);
         assert_eq!(chain.ndofs(), 2);
         self.shift(self.gantries.len() - 1, spec.start_m);
@@ -195,7 +195,7 @@ impl Physics {
         }
     }
 
-    /// Moves the joints by so much, at once.
+    /// Shifts the joints at once.
     pub(super) fn shift(&mut self, gantry: usize, by_m: [f64; 2]) {
         let joint = self.gantries[gantry].joints[1];
         let set = &mut self.world.multibody_joints;
@@ -205,7 +205,7 @@ impl Physics {
         chain.update_rigid_bodies(&mut self.world.bodies, true);
     }
 
-    /// Tells the drives what to do until told otherwise.
+    /// Sets the commands of the drives until the next call.
     ///
     /// # Panics
     /// If a number is not finite, a force negative or a response not positive.
@@ -233,7 +233,7 @@ impl Physics {
         self.gantries[id.0].states
     }
 
-    /// Where base axes would be if they were carried by the second slide; it never turns.
+    /// Pose of the base axes as if the second slide carried them; it never turns.
     #[must_use]
     pub fn head(&self, id: GantryId) -> Truth {
         let g = &self.gantries[id.0];
@@ -256,7 +256,7 @@ impl Physics {
         self.gantries[id.0].contact
     }
 
-    /// Reads what rapier made of the gantries in a step.
+    /// Reads the state of the gantries after a step of rapier.
     pub(super) fn read_gantries(&mut self) {
         for i in 0..self.gantries.len() {
             let touched = self.gantries[i].slides.map(|s| self.touched(s));
@@ -299,7 +299,7 @@ impl Physics {
             for k in 0..2 {
                 let force_N = (after[k] - before[k] - by_contact[k]) / self.dt_s();
                 let most = gantry.drives[k].max_force_N;
-                // What goes beyond the drive's force at an end of the travel came from the stop there.
+                // At an end of the travel, any force beyond the drive's comes from the end stop.
                 let [low, high] = gantry.travel_m[k];
                 let way = 2.0 * self.dt_s() * gantry.drives[k].speed_m_s.abs();
                 let q = states[k].position_m;
@@ -328,7 +328,7 @@ impl Physics {
         }
     }
 
-    /// Where one collider of a pair touches the other, as the solver saw it.
+    /// The point at which one collider of a pair touches the other, as the solver found it.
     pub(super) fn touch_point(&self, pair: &r::ContactPair) -> Option<Vector3<f64>> {
         let (manifold, deepest) = pair.find_deepest_contact()?;
         let first = self.world.colliders.get(pair.collider1)?;

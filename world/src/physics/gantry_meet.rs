@@ -1,4 +1,4 @@
-//! A gantry as bodies meet it: two joints with their mass, moved by rapier, struck by what runs into it.
+//! A gantry as bodies meet it: two joints with their masses. rapier moves it, and bodies that run into it push it.
 
 use super::convert::pose;
 use super::course::Course;
@@ -28,7 +28,7 @@ impl Gantry {
         inverse
     }
 
-    /// Where the joints were before the latest step, m, and how they stand after it.
+    /// Positions of the joints before the latest step, m, and their state after it.
     pub(super) fn latest(&self) -> ([f64; 2], [JointState; 2]) {
         (self.before_m, self.states)
     }
@@ -62,7 +62,7 @@ impl Physics {
             .collect()
     }
 
-    /// Takes over what bodies did to a gantry in this step.
+    /// Applies to a gantry what bodies did to it in this step.
     pub(super) fn strike_gantry(&mut self, i: usize, course: &Course) {
         let gantry = &mut self.gantries[i];
         let mut back = [0.0; 2];

@@ -1,4 +1,4 @@
-//! What a gantry ran into: which slide, what it met, where and how hard.
+//! What a gantry ran into: which slide, what it touched, where and how hard.
 
 use super::convert::from_vector;
 use super::gantry::GantryId;
@@ -9,7 +9,7 @@ use rapier3d::prelude as r;
 /// Something solid of one [`Physics`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Solid {
-    /// A fixed thing, by the order in which they were added.
+    /// A fixed thing, by the order in which the fixed things were added.
     Fixed(usize),
     /// A moving body.
     Body(BodyId),
@@ -20,19 +20,19 @@ pub enum Solid {
 /// What a gantry touched in the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct GantryContact {
-    /// Impulse on the first slide and on the second with the head, world axes, N s.
+    /// Impulse on the first slide, and on the second slide with the head; world axes, N s.
     pub impulse_N_s: [Vector3<f64>; 2],
-    /// Deepest overlap at the beginning of the step as the solver had it, m: it keeps contacts that hardly
-    /// moved, so that hundredths of a millimetre may be missing.
+    /// Deepest overlap at the beginning of the step, as the solver had it, m. The solver keeps contacts that hardly
+    /// moved, so the value may be short by hundredths of a millimetre.
     pub max_penetration_m: f64,
-    /// What pushed back most.
+    /// The thing that pushed back most.
     pub with: Option<Solid>,
-    /// Where that was, world axes, m.
+    /// Place of that contact, world axes, m.
     pub at_W: Option<Vector3<f64>>,
 }
 
 impl GantryContact {
-    /// Something pushed back.
+    /// Whether anything pushed back.
     #[must_use]
     pub fn touching(&self) -> bool {
         self.with.is_some()
@@ -40,7 +40,7 @@ impl GantryContact {
 }
 
 impl Physics {
-    /// Puts together what the two slides of a gantry touched.
+    /// Combines the contacts of a gantry's two slides.
     pub(super) fn gantry_touch(
         &self,
         gantry: usize,
@@ -89,7 +89,7 @@ impl Physics {
         gantry.map(|i| Solid::Gantry(GantryId(i)))
     }
 
-    /// What rapier made of the contacts of one of its bodies in the latest step.
+    /// Contacts of one of rapier's bodies in the latest step.
     pub(super) fn touched(&self, of: r::RigidBodyHandle) -> ContactReport {
         let mut report = ContactReport::default();
         for &collider in self.world.bodies[of].colliders() {

@@ -72,12 +72,12 @@ fn both_axes_move_at_once_as_they_are_told() {
     assert_eq!(physics.head(id).pose.p_WB.y, 1.5);
     physics.drive(id, at_speed([0.1, -0.05]));
     let [a, b] = run(&mut physics, id, 100);
-    // 2 s, less what the response of 5 ms costs.
+    // 2 s, minus the loss by the response of 5 ms.
     assert!((a.position_m - 0.7).abs() < 0.001, "{a:?}");
     assert!((b.position_m - 0.0).abs() < 0.0005, "{b:?}");
     assert!((a.speed_m_s - 0.1).abs() < 1e-9 && (b.speed_m_s + 0.05).abs() < 1e-9);
     assert!(a.force_N.abs() < 1e-6, "nothing to push at constant speed");
-    // The base's x is north, its y west.
+    // The base's x points north, its y west.
     let head = physics.head(id);
     let want = Vector3::new(5.0 - b.position_m, 1.0 + a.position_m, 0.0);
     assert!((head.pose.p_WB - want).norm() < 1e-12);

@@ -1,11 +1,11 @@
 //! How far two solids are from each other, and the points where they touch.
 //!
-//! *Source:* parry's closest points (GJK; EPA where they overlap) and contact manifolds, as rapier's narrow phase uses them.
+//! *Source:* parry's closest points (GJK; EPA where solids overlap) and contact manifolds, as in rapier's narrow phase.
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* a surface without inside (bed, mesh) is met from both sides. GJK loses curved surfaces that just touch:
-//! distances of a capsule are measured from its axis, and a body with edges has a skin of 1 mm.
+//! *Deviations:* a surface that encloses nothing (bed, mesh) is met from both sides. GJK loses curved surfaces that
+//! just touch, so distances of a capsule are measured from its axis, and a body with edges has a skin of 1 mm.
 
 use super::convert::from_vector;
 use nalgebra::Vector3;
@@ -16,23 +16,23 @@ use rapier3d::parry::query::{
 };
 use rapier3d::parry::shape::SharedShape;
 
-/// How far the surface of a body with edges is from its shape, m: distances near zero are unsure.
+/// Thickness of the skin of a body with edges, m: distances near zero are unreliable.
 const SKIN_M: f64 = 1e-3;
 
 /// A point where two solids are next to each other.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Point {
-    /// Between the two surfaces, world axes, m.
+    /// Point between the two surfaces, world axes, m.
     pub(super) at_W: Vector3<f64>,
-    /// Towards the first solid, of length 1.
+    /// Unit normal towards the first solid.
     pub(super) normal_W: Vector3<f64>,
     /// Distance, m; negative where they overlap.
     pub(super) gap_m: f64,
 }
 
 impl Point {
-    /// Where an axis lies in a face or two axes cross there is no direction between the surfaces: such a solid is pushed up.
-    /// `None` where parry finds no number at all, as for a triangle without area.
+    /// Where an axis lies in a face, or where two axes cross, there is no direction between the surfaces: such a solid
+    /// is pushed up. `None` if parry finds no number at all, as for a triangle without area.
     fn new(on_W: [r::Vector; 2], normal_W: Vector3<f64>, gap_m: f64) -> Option<Self> {
         let at_W = from_vector((on_W[0] + on_W[1]) * 0.5);
         let unit = (normal_W.norm() - 1.0).abs() < 1e-3;
@@ -46,21 +46,21 @@ impl Point {
     }
 }
 
-/// A shape where it is.
+/// A shape at its place.
 #[derive(Clone)]
 pub(super) struct Placed {
     pose: r::Pose,
     shape: SharedShape,
-    /// What the distance is measured from, and how far its surface is from that, m.
+    /// The shape from which distances are measured, and the distance of the surface from it, m.
     core: SharedShape,
     margin_m: f64,
-    /// How far its surface is from `shape`, m.
+    /// Distance of its surface from `shape`, m.
     skin_m: f64,
     bounds: Aabb,
 }
 
 impl Placed {
-    /// Something that stands where it is, or a part of a gantry.
+    /// Something fixed, or a part of a gantry.
     pub(super) fn new(pose: r::Pose, shape: &SharedShape) -> Self {
         Self {
             pose,
@@ -72,7 +72,7 @@ impl Placed {
         }
     }
 
-    /// A part of a body: never nearer to anything than its margin, where distances are sure.
+    /// A part of a body. It never comes nearer to anything than its margin, where distances are reliable.
     pub(super) fn body(pose: r::Pose, shape: &SharedShape) -> Self {
         let plain = Self::new(pose, shape);
         if let Some(capsule) = shape.as_capsule() {
@@ -111,7 +111,7 @@ impl Placed {
         Point::new(on, from_vector(-found.normal1), gap_m)
     }
 
-    /// Every point within `reach_m`, `nearest` among them.
+    /// All points within `reach_m`, including `nearest`.
     pub(super) fn points(&self, other: &Placed, nearest: Point, reach_m: f64) -> Vec<Point> {
         let skin_m = self.skin_m + other.skin_m;
         let mut manifolds: Vec<ContactManifold<(), ()>> = Vec::new();
@@ -143,7 +143,7 @@ impl Placed {
                 points.extend(Point::new(on, normal_W, point.dist - skin_m));
             }
         }
-        // Manifolds of meshes leave out what they take for an inner edge; the nearest point is never left out.
+        // Manifolds of meshes leave out what they consider an inner edge; the nearest point is always kept.
         let least = points.iter().map(|p| p.gap_m).fold(f64::INFINITY, f64::min);
         if least > nearest.gap_m + 1e-4 {
             points.push(nearest);

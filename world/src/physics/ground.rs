@@ -1,5 +1,5 @@
-//! Fixed things: the bed as a height field, obstacles as they are. Asked for rays and nearness
-//! directly, so that the answer does not hang on whether the solver has run.
+//! Fixed things: the bed as a height field, and obstacles as they are. Rays and distances are computed directly from
+//! them, so that the answer does not depend on whether the solver has run.
 
 use super::convert::{pose, vector};
 use crate::area::Area;
@@ -10,9 +10,9 @@ use rapier3d::geometry::{Aabb, Ball, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
 use rapier3d::parry::{bounding_volume::BoundingVolume, query, utils::Array2};
 
-/// How far the bed's surface goes on beyond the area, m: past the distance at which a search is aborted.
+/// How far the bed's surface extends beyond the area, m: farther than the distance at which a search is aborted.
 const MARGIN_M: f64 = 60.0;
-/// Side of a cell of the bed's surface, m; between nodes it is flat.
+/// Side of a cell of the bed's surface, m; between nodes the surface is flat.
 const CELL_M: f64 = 5.0;
 
 /// One fixed solid.
@@ -20,9 +20,9 @@ pub(super) struct Fixed {
     pub(super) pose: r::Pose,
     pub(super) shape: SharedShape,
     bounds: Aabb,
-    /// For messages.
+    /// Name for error messages.
     pub(super) name: String,
-    /// rapier's handle, invalid until it is handed over.
+    /// rapier's handle; invalid until rapier has the collider.
     pub(super) collider: ColliderHandle,
 }
 
@@ -44,8 +44,7 @@ impl Fixed {
         let size = (max - min).map(|s| s + 2.0 * MARGIN_M);
         let cells = size.map(|s| (s / CELL_M).ceil().max(1.0) as usize);
         let middle = (min + max) / 2.0;
-        // parry's height fields have y up: turned by a quarter about x, their x is our east and
-        // their z our south.
+        // parry's height fields have y up. Turned by a quarter about x, their x is our east and their z our south.
         let mut heights = Array2::zeros(cells.y + 1, cells.x + 1);
         for i in 0..=cells.y {
             let north = size.y * (0.5 - i as f64 / cells.y as f64);
@@ -62,7 +61,7 @@ impl Fixed {
         Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
     }
 
-    /// Whether anything of it comes within `radius_m` of `p_W`.
+    /// Whether any part of it comes within `radius_m` of `p_W`.
     pub(super) fn within(&self, p_W: &Vector3<f64>, radius_m: f64) -> bool {
         let p = vector(p_W);
         let half = r::Vector::splat(radius_m);

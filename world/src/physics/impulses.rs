@@ -1,4 +1,4 @@
-//! Impulses at points of contact between movers with any mass matrix: none is entered, no energy is given.
+//! Impulses at points of contact between movers with any mass matrix. No solid enters another, and no energy is added.
 //!
 //! *Source:* M. Anitescu and F. A. Potra, Nonlinear Dynamics 14, 231 (1997): contact as a complementarity
 //! problem of velocities; solved by projected Gauss-Seidel, friction by projection on Coulomb's disc
@@ -6,25 +6,25 @@
 //!
 //! *Parameters:* mass matrices, gaps, coefficients of friction.
 //!
-//! *Deviations:* hits are wholly inelastic, as rapier's by default. The iteration ends after a fixed number of rounds;
-//! one normal impulse is exact after the first.
+//! *Deviations:* impacts are wholly inelastic, as by default in rapier. The iteration ends after a fixed number of
+//! rounds; a single normal impulse is exact after the first.
 
 use nalgebra::{Matrix6, Vector3, Vector6};
 
-/// Rounds at most.
+/// Largest number of rounds.
 const ROUNDS: usize = 400;
-/// The rounds end when no velocity at a contact changes by more, m/s.
+/// The rounds end when no velocity at a contact changes by more than this, m/s.
 const SETTLED_M_S: f64 = 1e-13;
 
 /// One point at which two solids are next to each other.
 #[derive(Clone, Debug)]
 pub(super) struct Row {
-    /// The movers, and how fast the point on each goes along the normal and both tangents per unit of each of its
-    /// velocities; the second one's with the sign turned. `None` stands fast.
+    /// The two movers, each with the velocity of its point along the normal and both tangents, for a unit of each of
+    /// its velocities. Those of the second mover have the opposite sign. `None` is fixed.
     pub(super) on: [Option<(usize, [Vector6<f64>; 3])>; 2],
     /// Normal towards the first solid, and two tangents, world axes.
     pub(super) axes_W: [Vector3<f64>; 3],
-    /// Where, world axes, m.
+    /// Place, world axes, m.
     pub(super) at_W: Vector3<f64>,
     /// Distance, m; negative where they overlap.
     pub(super) gap_m: f64,
@@ -33,13 +33,13 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// Speed of the first solid against the second along an axis, m/s.
+    /// Speed of the first solid relative to the second along an axis, m/s.
     fn speed(&self, axis: usize, rates: &[Vector6<f64>]) -> f64 {
         let on = self.on.iter().flatten();
         on.map(|(m, by)| by[axis].dot(&rates[*m])).sum()
     }
 
-    /// Speed along one axis that a unit impulse along another gives, 1/kg.
+    /// Speed along one axis for a unit impulse along another, 1/kg.
     fn give(&self, axes: [usize; 2], inverse: &[Matrix6<f64>]) -> f64 {
         let on = self.on.iter().flatten();
         on.map(|(m, by)| by[axes[0]].dot(&(inverse[*m] * by[axes[1]])))
@@ -59,8 +59,8 @@ impl Row {
     }
 }
 
-/// Changes the velocities so that at no row the solids approach faster than `fastest` says (m/s, not negative where they may),
-/// and returns the impulses along normal and tangents, N s.
+/// Changes the velocities so that the solids of no row approach faster than `fastest` says (m/s; not negative where
+/// they may approach). Returns the impulses along the normal and the tangents, N s.
 pub(super) fn solve(
     rows: &[Row],
     inverse: &[Matrix6<f64>],
@@ -106,7 +106,7 @@ pub(super) fn solve(
     impulses
 }
 
-/// Speed by a unit impulse along the normal, and the most along any tangent, 1/kg.
+/// Speed for a unit impulse along the normal, and the highest along any tangent, 1/kg.
 fn gives(row: &Row, inverse: &[Matrix6<f64>]) -> (f64, f64) {
     let [a, b, c] = [[1, 1], [2, 2], [1, 2]].map(|axes| row.give(axes, inverse));
     let half = 0.5 * (a - b);
@@ -118,7 +118,7 @@ fn gives(row: &Row, inverse: &[Matrix6<f64>]) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// A mover whose mass is different along every axis, met along a slanting normal, off its middle.
+    /// A mover with a different mass along every axis, hit off its centre along a slanting normal.
     fn slanting(friction: f64) -> (Row, Matrix6<f64>) {
         let n = Vector3::new(-0.6, 0.8, 0.0);
         let axes_W = [n, Vector3::new(0.8, 0.6, 0.0), Vector3::z()];

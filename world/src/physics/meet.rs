@@ -1,13 +1,14 @@
-//! Bodies among what is solid: each goes where its own equation of motion takes it, up to where it touches.
+//! Bodies among solids: each goes where its own equation of motion takes it, until it touches something.
 //!
-//! *Source:* conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems,
-//! PhD thesis, Berkeley 1996, ch. 2): nothing moves further in a sub-step than its distance from what it could meet;
-//! impulses as in `impulses.rs`.
+//! *Source:* conservative advancement (B. Mirtich, Impulse-based Dynamic Simulation of Rigid Body Systems, PhD thesis,
+//! Berkeley 1996, ch. 2): in a sub-step nothing moves further than its distance from anything it could meet. Impulses
+//! as in `impulses.rs`.
 //!
 //! *Parameters:* the coefficient of friction.
 //!
-//! *Deviations:* the end that a body's own equation gives is taken to the last bit where nothing touched it. What
-//! an impulse changes is kept beside that motion to the end of the step; the forces of the water follow in the next.
+//! *Deviations:* where nothing touched a body, its end of the step is that of its own equation, to the last bit.
+//! Velocity that an impulse adds is kept apart from that motion until the end of the step; the forces of the water
+//! include it from the next step on.
 
 use super::convert::pose;
 use super::course::{Course, Who, note};
@@ -16,19 +17,19 @@ use super::impulses::{Row, solve};
 use super::solid::{FRICTION, Physics};
 use nalgebra::{Vector3, Vector6};
 
-/// Solids this close touch, m.
+/// Solids closer than this touch, m.
 const TOUCH_M: f64 = 1e-4;
-/// What is closer than this is watched point by point, and moves by this at most in a sub-step, m.
+/// Anything closer than this is followed point by point, and moves by at most this in a sub-step, m.
 const CREEP_M: f64 = 2e-3;
-/// Overlap that is left alone, m.
+/// Overlap that is tolerated, m.
 const SLACK_M: f64 = 1e-6;
-/// Fastest undoing of an overlap, m/s.
+/// Greatest speed at which an overlap is undone, m/s.
 const UNDO_M_S: f64 = 0.5;
 
-/// A shape that may be met.
+/// A shape that may be touched.
 struct Thing {
     placed: Placed,
-    /// Index among the courses, and which slide of a gantry; `None` stands fast.
+    /// Index among the courses, and the slide of a gantry; `None` is fixed.
     on: Option<(usize, usize)>,
 }
 
@@ -36,7 +37,7 @@ struct Thing {
 struct Near {
     things: [usize; 2],
     nearest: Point,
-    /// Fastest approach, m/s.
+    /// Greatest speed of approach, m/s.
     fastest_m_s: f64,
 }
 
@@ -54,7 +55,7 @@ impl Physics {
                 let allowed_m = (n.nearest.gap_m - TOUCH_M / 2.0).max(CREEP_M);
                 h = h.min(allowed_m / n.fastest_m_s);
             }
-            // A remainder of rounding is no sub-step.
+            // A remainder that is only rounding is no sub-step.
             if left_s - h < 1e-9 * self.dt_s() {
                 h = left_s;
             }
@@ -72,7 +73,7 @@ impl Physics {
         courses
     }
 
-    /// Takes the impulses of a sub-step; returns the velocities that undo overlaps, which change places only.
+    /// Applies the impulses of a sub-step. Returns the velocities that undo overlaps; these change positions only.
     fn resolve(&self, courses: &mut [Course], rows: &[Row], h: f64) -> Vec<Vector6<f64>> {
         let mut undo = vec![Vector6::zeros(); courses.len()];
         if rows.is_empty() {
@@ -102,7 +103,7 @@ impl Physics {
         undo
     }
 
-    /// What touches at the end of the step does not approach any more.
+    /// Ensures that what touches at the end of the step no longer approaches.
     fn settle(&self, courses: &mut [Course], still: &[Placed]) {
         let things = self.things(courses);
         let near = self.near(courses, &things, still, 0.0);
@@ -113,7 +114,7 @@ impl Physics {
         note(courses, &rows, &impulses, &inverse);
     }
 
-    /// What stands fast.
+    /// Fixed things.
     fn still(&self) -> Vec<Placed> {
         let fixed = self.fixed.iter().map(|f| Placed::new(f.pose, &f.shape));
         let bases =
@@ -121,7 +122,7 @@ impl Physics {
         fixed.chain(bases).collect()
     }
 
-    /// What moves, bodies first.
+    /// Moving things, bodies first.
     fn things(&self, courses: &[Course]) -> Vec<Thing> {
         let mut things = Vec::new();
         for (m, course) in courses.iter().enumerate() {
@@ -148,7 +149,8 @@ impl Physics {
         things
     }
 
-    /// Pairs of which one is a body that could meet within `left_s`; the second index counts on through what stands fast.
+    /// Pairs that could meet within `left_s` and of which one is a body. The second index continues through the fixed
+    /// things.
     fn near(
         &self,
         courses: &[Course],
@@ -224,7 +226,7 @@ impl Physics {
         rows
     }
 
-    /// The ends of the gantries' travel that could be met within `h`, s.
+    /// The ends of the gantries' travel that could be reached within `h`, s.
     fn stops(&self, courses: &[Course], h: f64) -> Vec<Row> {
         let mut rows = Vec::new();
         for (m, course) in courses.iter().enumerate() {

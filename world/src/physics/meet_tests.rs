@@ -1,4 +1,4 @@
-//! Bodies of every shape against solids of every shape, thrown as a stream of random numbers will have it.
+//! Bodies of every shape, thrown at random against solids of every shape.
 
 use super::convert::pose;
 use super::{BodySpec, Physics, Shape};
@@ -125,7 +125,7 @@ fn no_shape_passes_a_wall_however_it_is_thrown() {
                     let t = physics.truth(id);
                     let (low, high) = extent(&spec, &t);
                     let place = format!("wall {w}, shape {k}, throw {n}");
-                    // Plane walls: all of it stays before them. Round ones: it does not come out behind.
+                    // A body stays entirely before plane walls. It does not come out behind round ones.
                     if w < 3 {
                         assert!(high.x < 2e-3, "{place}: came to x = {} m", high.x);
                     } else {
@@ -181,7 +181,7 @@ fn no_shape_passes_the_bed() {
     }
 }
 
-/// Five bodies thrown together: what one gets the others lose.
+/// Five bodies thrown together: momentum is exchanged, not made.
 #[test]
 fn bodies_among_each_other_keep_their_impulses_in_balance() {
     let mut rng = Stream::new(9, "meet", "throng");
@@ -210,7 +210,7 @@ fn bodies_among_each_other_keep_their_impulses_in_balance() {
     }
 }
 
-/// A level body whose axis or middle lies in the bed, in a block or in another body, where no direction is nearest.
+/// A level body whose axis or centre lies in the bed, in a block or in another body, where no direction is the nearest.
 #[test]
 fn what_starts_within_a_solid_keeps_numbers_and_comes_out_without_a_leap() {
     let area = Area {

@@ -1,4 +1,4 @@
-//! Rigid bodies and contacts, the only place that touches rapier3d.
+//! Rigid bodies and contacts. Only this module uses rapier3d.
 
 mod convert;
 mod course;

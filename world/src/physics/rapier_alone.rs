@@ -1,13 +1,14 @@
 //! A cross-check: hulls as rapier's own rigid bodies, integrated and stopped by rapier alone.
 //!
-//! *Source:* the force form of added mass needs ρ(M_RB⁻¹ M_A) < 1 to be stable with a lag of one step; a REMUS hull has
-//! 1.09. So rapier gets the force F = m Δv_G / h and the torque T = R I Rᵀ Δω / h that take its body to the velocities
-//! which the hull's own equation gives.
+//! *Source:* added mass as a force is stable with a lag of one step only if ρ(M_RB⁻¹ M_A) < 1; a REMUS hull has 1.09.
+//! So rapier gets the force F = m Δv_G / h and the torque T = R I Rᵀ Δω / h that give its body the velocities of the
+//! hull's own equation.
 //!
-//! *Parameters:* rapier's scalar mass is the body's with a third of the trace of its linear added mass.
+//! *Parameters:* rapier's scalar mass is that of the body plus a third of the trace of its linear added mass.
 //!
-//! *Deviations:* rapier integrates positions in four sub-steps of first order: 6 mm off in 230 s of turning at 0.02 s. Its
-//! contacts know the scalar mass only, and its continuous detection does not keep a hull from a thin plate in long steps.
+//! *Deviations:* rapier integrates positions in four sub-steps of first order, which makes an error of 6 mm in 230 s of
+//! turning at 0.02 s. Its contacts know only the scalar mass. In long steps, its continuous collision detection does
+//! not keep a hull from passing a thin plate.
 
 use super::convert::{from_pose, from_vector, matrix, pose, vector};
 use super::solid::{Body, FRICTION, Physics};
@@ -56,7 +57,7 @@ impl Physics {
         }
     }
 
-    /// One step of every body by rapier, contacts included.
+    /// One step of every body by rapier alone, contacts included.
     pub(super) fn step_alone(&mut self) {
         let dt_s = self.dt_s();
         for body in &self.bodies {

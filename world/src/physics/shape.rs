@@ -5,7 +5,7 @@ use crate::frames::Pose;
 use nalgebra::Vector3;
 use rapier3d::geometry::SharedShape;
 
-/// A convex or meshed piece of a body; long shapes lie along their own z axis, as in URDF.
+/// A convex or meshed piece of a body. Long shapes lie along their own z axis, as in URDF.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Shape {
     /// Ball.
@@ -32,7 +32,7 @@ pub enum Shape {
         /// Edge lengths, m.
         size_m: Vector3<f64>,
     },
-    /// Convex hull of some points.
+    /// Convex hull of points.
     Hull {
         /// The points, m.
         points_m: Vec<Vector3<f64>>,
@@ -40,7 +40,7 @@ pub enum Shape {
 }
 
 impl Shape {
-    /// As the solver wants it; `None` if the points of a hull lie in one plane.
+    /// The shape in the solver's form; `None` if the points of a hull lie in one plane.
     pub(super) fn shared(&self) -> Option<SharedShape> {
         use rapier3d::math::Vector;
         Some(match self {
@@ -76,7 +76,7 @@ impl Shape {
     /// Whether the solver can use it: false for a hull whose points span no volume.
     #[must_use]
     pub fn is_solid(&self) -> bool {
-        // A cubic millimetre: flat hulls have some volume by rounding.
+        // One cubic millimetre, because a flat hull has some volume from rounding.
         self.shared()
             .is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
     }

@@ -1,15 +1,15 @@
-//! Moving rigid bodies: each is told where its own equation of motion takes it, and gets there unless it meets
+//! Moving rigid bodies. Each is told where its own equation of motion takes it, and gets there unless it meets
 //! something solid on the way.
 //!
-//! *Source:* the force form of added mass needs ρ(M_RB⁻¹ M_A) < 1 to be stable with a lag of one
-//! step, whatever the step; a REMUS hull has 1.09. So the body's own equation, added mass on the left,
-//! is solved by its owner, and a contact works against the same mass matrix (`meet.rs`): rapier, which moves the
-//! gantries, knows a scalar mass only (`rapier_alone.rs` checks the one against the other).
+//! *Source:* added mass as a force is stable with a lag of one step, however short, only if ρ(M_RB⁻¹ M_A) < 1; a REMUS
+//! hull has 1.09. Therefore the owner of a body solves its equation with the added mass on the left side, and contacts
+//! use the same mass matrix (`meet.rs`). rapier moves the gantries only, because it knows a scalar mass only
+//! (`rapier_alone.rs` compares the two).
 //!
-//! *Parameters:* `mass`: the body's with its added mass.
+//! *Parameters:* `mass`: that of the body with its added mass.
 //!
-//! *Deviations:* a body on which no impulse acts is put where its own equation takes it, and nobody looks for
-//! contacts while no body has anything in reach (and there is no gantry): the result is the same to the last bit.
+//! *Deviations:* a body on which no impulse acts is put where its own equation takes it. No contacts are searched while
+//! no body has anything in reach and there is no gantry; the result is the same to the last bit.
 
 use super::convert::pose;
 use super::gantry::Gantry;
@@ -24,28 +24,28 @@ use bevy_ecs::prelude::{Component, Resource};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
 use rapier3d::prelude as r;
 
-/// Room round a body's sphere within which contacts are looked for, beyond what it moves in two steps, m.
+/// Distance round a body's sphere within which contacts are searched, beyond its motion in two steps, m.
 const NEAR_M: f64 = 0.1;
 /// Friction coefficient of a hull on sand or concrete.
 pub(super) const FRICTION: f64 = 0.4;
 
-/// In which steps contacts are looked for.
+/// The steps in which contacts are searched.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
     /// Those in which a body has something in reach.
     #[default]
     WhenInReach,
-    /// All, with the same result.
+    /// All steps, with the same result.
     Always,
-    /// None: rapier's own rigid bodies go alone, a cross-check (`rapier_alone.rs`). Not together with gantries. To be chosen
-    /// before bodies are added.
+    /// None: rapier moves its own rigid bodies alone, as a cross-check (`rapier_alone.rs`). Not possible with gantries.
+    /// To be chosen before bodies are added.
     RapierAlone,
 }
 
 /// A body as the solver needs it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodySpec {
-    /// Name for messages.
+    /// Name for error messages.
     pub id: String,
     /// Where it starts.
     pub truth: Truth,
@@ -53,19 +53,19 @@ pub struct BodySpec {
     pub shapes: Vec<(Pose, Shape)>,
     /// Centre of mass in body axes, m.
     pub p_BG: Vector3<f64>,
-    /// Mass matrix of the velocity of the body's origin and the angular velocity, body axes, with the added mass:
-    /// kg, kg m, kg m²; symmetric and positive definite.
+    /// Mass matrix for the velocity of the body's origin and the angular velocity, in body axes, with added mass: kg,
+    /// kg m, kg m²; symmetric and positive definite.
     pub mass: Matrix6<f64>,
 }
 
-/// Names a body of one [`Physics`].
+/// Identifies a body of one [`Physics`].
 #[derive(Component, Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BodyId(pub(super) usize);
 
 /// What a body touched in the latest step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactReport {
-    /// Something pushed back.
+    /// Whether anything pushed back.
     pub touching: bool,
     /// Deepest overlap in the step, m.
     pub max_penetration_m: f64,
@@ -85,7 +85,7 @@ pub(super) struct Body {
     pub(super) parts: Vec<(r::Pose, r::SharedShape)>,
     pub(super) reach_m: f64,
     pub(super) contact: ContactReport,
-    /// Its rigid body in rapier's world, where rapier alone steps it.
+    /// Its rigid body in rapier's world, if rapier alone moves it.
     pub(super) twin: Option<Twin>,
 }
 
@@ -95,7 +95,7 @@ impl Body {
         t.pose.R_WB * (t.v_WB_B + t.w_WB_B.cross(&self.p_BG))
     }
 
-    /// Straight on for a step with the velocities it has.
+    /// Where it gets in a step if it keeps its velocities.
     fn glide(&self, dt_s: f64) -> Truth {
         let t = &self.truth;
         let v_G = self.v_G(t);
@@ -111,7 +111,7 @@ impl Body {
         }
     }
 
-    /// How far from its origin anything can matter within two steps, m.
+    /// Distance from its origin within which anything can matter in two steps, m.
     fn near_m(&self, dt_s: f64) -> f64 {
         let way_m = self
             .free
@@ -132,7 +132,7 @@ pub struct Physics {
 }
 
 impl Physics {
-    /// Empty water, stepped by `dt_s`, s.
+    /// Empty water with steps of `dt_s`, s.
     #[must_use]
     pub fn new(dt_s: f64) -> Self {
         let mut world = r::PhysicsWorld::new();
@@ -149,7 +149,7 @@ impl Physics {
         }
     }
 
-    /// Chooses in which steps contacts are looked for.
+    /// Chooses the steps in which contacts are searched.
     #[must_use]
     pub fn with_solver(mut self, solver: Solver) -> Self {
         self.solver = solver;
@@ -162,7 +162,7 @@ impl Physics {
         self.dt_s
     }
 
-    /// Makes the bed solid over the area and 60 m round it.
+    /// Makes the bed solid under the area and 60 m beyond it.
     pub fn add_terrain(&mut self, terrain: &Terrain, area: &Area) {
         self.add_solid("bed", Fixed::bed(terrain, area));
     }
@@ -190,7 +190,7 @@ impl Physics {
     /// Adds a moving body.
     ///
     /// # Panics
-    /// If the points of a hull shape span no volume, or the mass matrix has no inverse: whoever read them has to
+    /// If the points of a hull shape span no volume, or if the mass matrix has no inverse. Whoever reads them has to
     /// check that.
     pub fn add_body(&mut self, spec: BodySpec) -> BodyId {
         let mut reach_m: f64 = 0.0;
@@ -236,7 +236,7 @@ impl Physics {
         self.bodies[id.0].truth
     }
 
-    /// Puts a body into a state: a beginning, not a motion.
+    /// Sets the state of a body. This is a beginning, not a motion.
     pub fn set_truth(&mut self, id: BodyId, truth: Truth) {
         let body = &mut self.bodies[id.0];
         body.truth = truth;
@@ -261,8 +261,8 @@ impl Physics {
             })
     }
 
-    /// Says where a body's own equation of motion takes it in this step if it touches nothing. A
-    /// body of which nothing is said glides on as it moves.
+    /// Says where a body's own equation of motion takes it in this step if it touches nothing. Without this call a body
+    /// keeps its velocities.
     pub fn push(&mut self, id: BodyId, free: Truth) {
         self.bodies[id.0].free = Some(free);
     }
@@ -303,7 +303,7 @@ impl Physics {
         }
     }
 
-    /// Puts what met something where that left it.
+    /// Puts a body that touched something where the contact left it.
     fn touch(&mut self) {
         let courses = self.meet();
         let (bodies, gantries) = courses.split_at(self.bodies.len());

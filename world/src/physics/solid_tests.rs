@@ -57,7 +57,7 @@ fn a_body_nobody_pushes_glides_about_its_centre_of_mass() {
         physics.step();
     }
     let t = physics.truth(id);
-    // 1 m/s of the origin and 0.1 m below it at 1 rad/s.
+    // The origin moves at 1 m/s; the centre is 0.1 m below it and turns about it at 1 rad/s.
     let moved = centre(&t) - start;
     assert!(
         (moved - Vector3::new(0.9 * 2.0, 0.0, 0.0)).norm() < 1e-9,
@@ -80,7 +80,7 @@ fn a_wall_stops_a_ball() {
         assert!(t.v_WB_B.norm() <= 2.0 + 1e-9);
         if contact.touching && !touched {
             touched = true;
-            // Its momentum, less what rapier leaves to the next steps.
+            // Its momentum, except for what rapier leaves to the next steps.
             assert!(contact.impulse_N_s.x < -1.0, "{}", contact.impulse_N_s);
         }
     }

@@ -1,15 +1,16 @@
-//! Distance from every cell's centre to the nearest solid cell, exactly and in time linear in the cells.
+//! Distance from the centre of every cell to the nearest solid cell, exact, in time linear in the number of cells.
 //!
 //! *Source*: Felzenszwalb and Huttenlocher 2012, Theory of Computing 8, 415 (axis by axis, lower envelope of
-//! translates); Meijster, Roerdink and Hesselink 2000 (other shapes than the parabola, crossings found between integers).
+//! translates); Meijster, Roerdink and Hesselink 2000 (shapes other than the parabola, crossings found between
+//! integers).
 //!
 //! *Parameters*: cells along each axis and their sizes (m).
 //!
-//! *Deviations*: the distance is to the solid cell's surface, not to its centre: along an axis of cells of size h it
-//! is (|Δ| − ½)h, and 0 for Δ = 0. The translates are no parabolas then, but convex, so two cross at most once; the crossing
-//! is found by bisection among the integers.
+//! *Deviations*: the distance is to the surface of the solid cell, not to its centre. Along an axis of cells of size h
+//! it is (|Δ| − ½)h, and 0 for Δ = 0. The translates are then no parabolas, but they are convex, so two of them cross
+//! at most once. The crossing is found by bisection among the integers.
 
-/// Square of the distance from the middle of a cell to a cell `d` cells away, along one axis.
+/// Squared distance from the centre of a cell to a cell `d` cells away, along one axis.
 fn reach2(d: usize, h: f64) -> f64 {
     let far = (d as f64 - 0.5).max(0.0) * h;
     far * far
@@ -28,7 +29,7 @@ fn line(f: &[f64], h: f64, hull: &mut Vec<(usize, usize)>, out: &mut [f64]) {
                 hull.pop();
                 continue;
             }
-            // The first x past `since` at which the newer one is lower.
+            // The first x beyond `since` at which the newer one is lower.
             let (mut low, mut high) = (since, n);
             while high - low > 1 {
                 let middle = usize::midpoint(low, high);
@@ -54,7 +55,7 @@ fn line(f: &[f64], h: f64, hull: &mut Vec<(usize, usize)>, out: &mut [f64]) {
     }
 }
 
-/// Distances, m, for cells numbered (i·n[1] + j)·n[2] + k; infinite if none is solid, 0 in the solid ones.
+/// Distances, m, for cells numbered (i·n[1] + j)·n[2] + k: 0 in solid cells, infinite if none is solid.
 pub(super) fn distances(solid: &[bool], n: [usize; 3], h: [f64; 3]) -> Vec<f32> {
     let mut square: Vec<f64> = solid
         .iter()
@@ -83,7 +84,7 @@ mod tests {
     use super::*;
     use crate::seeds::Stream;
 
-    /// Against all pairs, in boxes of several shapes and fillings.
+    /// Compared with all pairs, in boxes of several shapes and fillings.
     #[test]
     fn same_as_all_pairs() {
         let mut rng = Stream::new(5, "test", "cells");

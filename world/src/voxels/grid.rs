@@ -1,13 +1,13 @@
-//! The area and its water cut into boxes, each open or solid.
+//! The area and its water divided into boxes, each open or solid.
 //!
 //! *Source*: solid voxelisation by intersection tests against the obstacles' own shapes (Gottschalk, Lin and Manocha
-//! 1996 for box against box, as parry has it); clearance as in `distance`.
+//! 1996 for box against box, as in parry); clearance as in `distance`.
 //!
-//! *Parameters*: cell sizes (m) along the area's axis, across it and upwards; made to fit, never larger.
+//! *Parameters*: cell sizes (m) along the area's axis, across it and upwards; they are reduced to fit, never enlarged.
 //!
-//! *Deviations*: a cell is solid if any of it is: water in the open cells is free of solids everywhere, and what is
-//! thinner than a cell is not missed. The bed is looked at over each cell's corners and middle. Obstacles that overlap count as their
-//! union. Outside the area nothing is known, so nothing is solid.
+//! *Deviations*: a cell is solid if any part of it is solid. So water in open cells is free of solids everywhere, and
+//! things thinner than a cell are not missed. The bed is tested at each cell's corners and centre. Obstacles that
+//! overlap count as their union. Outside the area nothing is known, so nothing is solid.
 
 use super::distance::distances;
 use crate::area::Area;
@@ -37,7 +37,7 @@ impl Voxels {
     /// The area with bed and obstacles.
     ///
     /// # Errors
-    /// If the cells are not positive or too many, or none is left open.
+    /// If the cells are not positive or too many, or if none is left open.
     pub fn new(
         area: &Area,
         cell_m: [f64; 3],
@@ -55,7 +55,7 @@ impl Voxels {
                 "must be > 0 in each direction, got {cell_m:?}"
             )));
         }
-        // A hair less, so that a size that divides the extent is not cut once more by rounding.
+        // Slightly less, so that rounding does not add a cell where the size divides the extent.
         let count = [0, 1, 2].map(|d| (extent[d] / cell_m[d] - 1e-9).ceil().max(1.0));
         if count.iter().product::<f64>() > MOST {
             return Err(wrong(format!(
@@ -110,7 +110,7 @@ impl Voxels {
         }
     }
 
-    /// Marks what an obstacle fills or touches.
+    /// Marks the cells that an obstacle fills or touches.
     fn fill(&mut self, obstacle: &Obstacle) {
         let (low, high) = obstacle.bounds();
         let mut range = [(f64::INFINITY, f64::NEG_INFINITY); 3];
@@ -133,7 +133,7 @@ impl Voxels {
             clamp(range[d].0.floor())..clamp(range[d].1.ceil())
         };
         let half = self.cell_m.map(|c| c / 2.0);
-        // A cell that shares no more than its surface with a solid is open; the cell is shrunk by its rounding.
+        // A cell that only touches a solid is open, so the cell is shrunk by its rounding.
         let tight = half.map(|h| h * (1.0 - 1e-6));
         let across = Vector3::from(half).norm();
         let turn = UnitQuaternion::from_euler_angles(0.0, 0.0, self.area.axis.yaw());
@@ -154,18 +154,18 @@ impl Voxels {
         }
     }
 
-    /// Works the clearances out anew, after cells were [set](Self::set).
+    /// Computes the clearances again after cells were [set](Self::set).
     pub fn measure(&mut self) {
         self.clearance = distances(&self.solid, self.n, self.cell_m);
     }
 
-    /// Makes a cell solid or open; clearances hold again after [`Self::measure`].
+    /// Makes a cell solid or open. Clearances are valid again after [`Self::measure`].
     pub fn set(&mut self, cell: [usize; 3], solid: bool) {
         let at = self.index(cell);
         self.solid[at] = solid;
     }
 
-    /// Cells along, across and upwards.
+    /// Number of cells along, across and upwards.
     #[must_use]
     pub fn size(&self) -> [usize; 3] {
         self.n
@@ -177,7 +177,7 @@ impl Voxels {
         self.cell_m
     }
 
-    /// The area the cells fill.
+    /// The area that the cells fill.
     #[must_use]
     pub fn area(&self) -> &Area {
         &self.area
@@ -190,39 +190,40 @@ impl Voxels {
         (i * self.n[1] + j) * self.n[2] + k
     }
 
-    /// Whether a cell is solid, or touched by something solid.
+    /// Whether a cell is solid or contains part of a solid.
     #[inline]
     #[must_use]
     pub fn solid(&self, i: usize, j: usize, k: usize) -> bool {
         self.solid[self.index([i, j, k])]
     }
 
-    /// All of them, by [number](Self::index).
+    /// All cells, by [number](Self::index).
     #[must_use]
     pub fn solids(&self) -> &[bool] {
         &self.solid
     }
 
-    /// Distance from the middle of a cell to the nearest solid one's surface, m; 0 if it is solid, infinite if none is.
+    /// Distance from the centre of a cell to the surface of the nearest solid cell, m; 0 if it is solid itself,
+    /// infinite if none is.
     #[inline]
     #[must_use]
     pub fn clearance(&self, cell: [usize; 3]) -> f64 {
         f64::from(self.clearance[self.index(cell)])
     }
 
-    /// All of them, by [number](Self::index), m.
+    /// Clearances of all cells, by [number](Self::index), m.
     #[must_use]
     pub fn clearances(&self) -> &[f32] {
         &self.clearance
     }
 
-    /// Clearance of the cell in which a point (ENU, m) lies, m; infinite outside.
+    /// Clearance of the cell that contains a point (ENU, m), m; infinite outside.
     #[must_use]
     pub fn clearance_m(&self, p: &Vector3<f64>) -> f64 {
         self.cell(p).map_or(f64::INFINITY, |c| self.clearance(c))
     }
 
-    /// The cell in which a point (ENU, m) lies; none outside.
+    /// The cell that contains a point (ENU, m); `None` outside.
     #[must_use]
     pub fn cell(&self, p: &Vector3<f64>) -> Option<[usize; 3]> {
         let c = self.in_cells(p);
@@ -232,7 +233,7 @@ impl Voxels {
             .then(|| [0, 1, 2].map(|d| (c[d] as usize).min(self.n[d] - 1)))
     }
 
-    /// Middle of a cell (ENU), m.
+    /// Centre of a cell (ENU), m.
     #[must_use]
     pub fn centre(&self, [i, j, k]: [usize; 3]) -> Vector3<f64> {
         let p = self
@@ -241,7 +242,7 @@ impl Voxels {
         Vector3::new(p.x, p.y, self.low_z + (k as f64 + 0.5) * self.cell_m[2])
     }
 
-    /// (along, across) of a place in cells, m.
+    /// Position (along, across), m, for coordinates in cells.
     fn local_of(&self, c: [f64; 2]) -> Vector2<f64> {
         Vector2::new(
             c[0] * self.cell_m[0] - self.area.length_m / 2.0,
@@ -249,7 +250,7 @@ impl Voxels {
         )
     }
 
-    /// A point (ENU, m) counted in cells from the lowest corner.
+    /// Coordinates of a point (ENU, m) in cells from the lowest corner.
     fn in_cells(&self, p: &Vector3<f64>) -> [f64; 3] {
         let l = self.area.local(p.xy());
         [

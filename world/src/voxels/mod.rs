@@ -1,4 +1,4 @@
-//! Space cut into cells: which are solid, and how far it is from each to the nearest solid one.
+//! Space divided into cells: which are solid, and the distance of each from the nearest solid one.
 
 mod distance;
 mod grid;

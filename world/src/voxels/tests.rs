@@ -1,4 +1,4 @@
-//! Voxels against what geometry says.
+//! Voxels compared with geometry.
 
 use super::Voxels;
 use crate::area::Area;
@@ -56,7 +56,8 @@ fn a_block_on_the_cells_lines_fills_just_its_cells() {
     assert_eq!(v.cell(&Vector3::new(50.0, 0.0, -1.0)), None);
 }
 
-/// Open cells hold no point of a solid; solid ones are within a cell's diagonal of one, whatever is turned how.
+/// Open cells contain no point of a solid. Every solid cell lies within a cell's diagonal of one. This holds for turned
+/// areas and turned obstacles.
 #[test]
 fn open_cells_are_free_of_solids() {
     let thin = ShapeSpec::Cylinder(CylinderShape {

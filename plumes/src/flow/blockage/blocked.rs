@@ -1,13 +1,13 @@
-//! Currents led round obstacles in time: worked out at multiples of a period, a straight line in between.
+//! Currents that flow round obstacles over time: solved at multiples of a period and interpolated linearly in between.
 //!
-//! *Source*: the projection of `solve`, laid out as in `cells` and asked as in `field`. Two fields that are free of divergence and tangent
-//! make one at any moment between them, both conditions being linear.
+//! *Source*: the projection of `solve`, on the cells of `cells`, evaluated as in `field`. If two fields are free of
+//! divergence and tangent, then so is their interpolation, because both conditions are linear.
 //!
 //! *Parameters*: [`BlockageSpec`], `period_s` (s).
 //!
-//! *Deviations*: exact at the multiples of the period; in between a current that turns with angular frequency ω is wrong by at most
-//! (ω·period)²/8 of itself (meander at 0.02 1/s, 30 s: 4.5 %). Density, diffusivities and the layers' interfaces stay
-//! those of the unblocked water: interfaces do not rise over a block.
+//! *Deviations*: exact at multiples of the period. In between, a current that turns with angular frequency ω has a
+//! relative error of at most (ω·period)²/8 (meander at 0.02 1/s, 30 s: 4.5 %). Density, diffusivities and the
+//! interfaces of layers stay those of the unblocked water: interfaces do not rise over a block.
 
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
@@ -29,11 +29,11 @@ const AHEAD_S: f64 = 1.0;
 /// Velocity (m/s), gradient (1/s) and rate of change (m/s²).
 type Sample = (Vector3<f64>, Matrix3<f64>, Vector3<f64>);
 
-/// The water's way round obstacles.
+/// Water that flows round obstacles.
 #[derive(Clone, Debug)]
 pub struct Blocked {
     cells: Arc<Cells>,
-    // None once steady water is worked out.
+    // `None` once steady water has been solved.
     projector: Option<Arc<Projector>>,
     // The unblocked water, advanced to the last of the three moments.
     free: Box<Water>,
@@ -43,7 +43,7 @@ pub struct Blocked {
     first: u64,
     period_s: f64,
     solved: Solved,
-    // Stokes' drift of the waves, led round as the currents are: it carries filaments, not hulls.
+    // Stokes' drift of the waves, led round obstacles as the currents are. It carries filaments, not hulls.
     drift: Option<Arc<Faces<f32>>>,
     // Mean depth of each column, m: that of its four corners.
     depth: Arc<Vec<f64>>,
@@ -103,7 +103,7 @@ impl Blocked {
         self.solved
     }
 
-    /// The field for a moment not before the one worked out last.
+    /// The field at a moment not earlier than the one solved last.
     fn worked_out(&mut self, t_s: f64) -> Arc<Faces<f32>> {
         let projector = self
             .projector
@@ -140,7 +140,7 @@ impl Blocked {
         Some(Arc::new(Projector::velocities(&self.cells, &flux)))
     }
 
-    /// Fluxes of unblocked water, taken in the middle of every face, m³/s.
+    /// Fluxes of the unblocked water at the centre of every face, m³/s.
     fn incoming(
         &self,
         t_s: f64,
@@ -191,7 +191,7 @@ impl Blocked {
         ([&*self.fields[n], &*self.fields[n + 1]], at - n as f64)
     }
 
-    /// Velocity, m/s; none beyond the cells.
+    /// Velocity, m/s; `None` outside the cells.
     pub(crate) fn velocity(
         &self,
         p: &Vector3<f64>,
@@ -201,9 +201,10 @@ impl Blocked {
         field::velocity(&self.cells, self.between(t_s), p.xy(), p.z, floor)
     }
 
-    /// Fills in what carries filaments through each cell, as [`Flow::rates`] has it: along, across and upwards the speed at the lower
-    /// and the upper face, in parts of the cell a second. A level that counts as a cell beyond the last is left out of the layout of columns:
-    /// cell (i, j, k) is number (i·(ny + 1) + j)·nz + k, beside the column of the flow grid that is its lower corner.
+    /// Fills in the velocities that carry filaments through each cell, as [`Flow::rates`] requires: along, across and
+    /// upwards, the speed at the lower and the upper face in cell sizes per second. Columns have one level less than
+    /// nodes: cell (i, j, k) has the number (i·(ny + 1) + j)·nz + k and belongs to the flow grid's column at its lower
+    /// corner.
     pub(crate) fn rates(&self, t_s: f64, out: &mut Vec<[f32; 6]>) {
         let cells = &*self.cells;
         let [nx, ny, nz] = cells.n;
@@ -233,13 +234,13 @@ impl Blocked {
         }
     }
 
-    /// Whether the water stands still at the bed.
+    /// Whether friction stops the water at the bed.
     pub(crate) fn still_bed(&self) -> bool {
         self.still_bed
     }
 
-    /// Velocity, its gradient and rate of change; none beyond the cells. The gradient is that between the middles of cells: over half
-    /// a cell to both sides, or one side where the other is solid, bed or surface.
+    /// Velocity, its gradient and rate of change; `None` outside the cells. The gradient is taken between the centres
+    /// of cells: over half a cell to both sides, or to one side where the other is solid, bed or surface.
     pub(crate) fn sample(&self, p: &Vector3<f64>, floor: &Floor, t_s: f64) -> Option<Sample> {
         let cells = &*self.cells;
         let between = self.between(t_s);

@@ -1,14 +1,15 @@
-//! The cells in which blocked water is worked out: bed-following boxes, open or solid, with staggered faces.
+//! The cells in which blocked water is computed: bed-following boxes, open or solid, with staggered faces.
 //!
 //! *Source*: staggered (MAC) placing of fluxes, Harlow and Welch 1965, Phys. Fluids 8, 2182; bed-following
 //! coordinate s = 1 − z/b, Phillips 1957, J. Meteorol. 14, 184.
 //!
 //! *Parameters*: those of [`BlockageSpec`]. The cells lie between the nodes of the plume's flow grid of the same shape.
 //!
-//! *Deviations*: a cell is solid if its middle is inside an obstacle: obstacles that overlap are their union, a round
-//! one is a staircase. A wall thinner than the cells shuts the faces between the middles that it parts; an obstacle that does neither, and a
-//! pile or a pipe thinner than half a cell, is not felt. Water shut in on all sides counts as solid: it stands still. This is the one geometry of water and dye alike: what an obstacle
-//! fills of an open cell is open to both. In a channel between side walls the outermost faces across are shut.
+//! *Deviations*: a cell is solid if its centre is inside an obstacle. Obstacles that overlap form their union, and a
+//! round one becomes a staircase. A wall thinner than the cells closes the faces between the centres that it separates.
+//! An obstacle that does neither, or a pile or pipe thinner than half a cell, is not felt. Water enclosed on all sides
+//! counts as solid, because it stands still. Water and dye share this geometry: the part of an open cell that an
+//! obstacle fills is open to both. In a channel between side walls, the outermost faces across are closed.
 
 use nalgebra::{Vector2, Vector3};
 use world::area::Area;
@@ -30,7 +31,7 @@ pub(crate) struct Faces<T> {
 }
 
 impl<T> Faces<T> {
-    /// Those across a direction.
+    /// The values on the faces across a direction.
     #[inline]
     pub(super) fn across(&self, d: usize) -> &[T] {
         [&self.x, &self.y, &self.s][d]
@@ -45,7 +46,7 @@ impl<T> Faces<T> {
     }
 }
 
-/// Where the cells are, which are open, and which faces.
+/// Position of the cells, and which cells and faces are open.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     /// World (east, north) of corner (0, 0), m.
@@ -54,16 +55,16 @@ pub(crate) struct Cells {
     pub(crate) axes: [Vector2<f64>; 2],
     /// Sizes along and across, m.
     pub(crate) d: [f64; 2],
-    /// Cells along, across, upwards.
+    /// Number of cells along, across and upwards.
     pub(crate) n: [usize; 3],
     stretch: f64,
     /// s of the faces, 0 at the bed to 1 at the surface.
     pub(crate) s: Vec<f64>,
     /// Cell (i·ny + j)·nz + k is open.
     pub(crate) open: Vec<bool>,
-    // Faces that something may go through.
+    // Faces that let water and dye pass.
     pass: Faces<bool>,
-    /// Which of the obstacles hold the middle of a cell, or part two of them.
+    /// For each obstacle, whether it contains the centre of a cell or separates two.
     pub(super) felt: Vec<bool>,
 }
 
@@ -89,7 +90,7 @@ impl Cells {
         let count = extent.map(|e| (e / spec.cell_m.get()).ceil().max(1.0));
         let nz = spec.levels as usize - 1;
         let cells = count[0] * count[1] * nz as f64;
-        // What is not a number is too much.
+        // NaN counts as too many.
         if !(cells <= MOST_CELLS) {
             let problem = format!(
                 "{} m makes {} x {} x {nz} = {cells:.3e} cells over {:.0} x {:.0} m; at most {MOST_CELLS:e} fit: take larger cells, fewer levels or a smaller margin_m",
@@ -139,7 +140,7 @@ impl Cells {
         Ok(this)
     }
 
-    /// All faces but bed, surface and, between walls, the sides across.
+    /// All faces except bed, surface and, between walls, the sides across.
     fn within(&self, walled: bool) -> Faces<bool> {
         let [nx, ny, nz] = self.n;
         let mut pass = Faces {
@@ -159,7 +160,7 @@ impl Cells {
         pass
     }
 
-    /// The columns over which an obstacle stands, and `beside` more on each side.
+    /// The columns over which an obstacle stands, plus `beside` columns on each side.
     fn under(&self, obstacle: &Obstacle, beside: f64) -> [std::ops::Range<usize>; 2] {
         let (low, high) = obstacle.bounds();
         let corners = [
@@ -177,7 +178,7 @@ impl Cells {
         })
     }
 
-    /// Makes solid what an obstacle fills; whether that is anything.
+    /// Makes the cells solid that an obstacle fills; returns whether there are any.
     fn fill(&mut self, obstacle: &Obstacle, ground: &Ground) -> bool {
         let mut felt = false;
         let (low, high) = obstacle.bounds();
@@ -199,7 +200,7 @@ impl Cells {
         felt
     }
 
-    /// Shuts the faces between open middles that an obstacle parts; whether there are any.
+    /// Closes the faces between open centres that an obstacle separates; returns whether there are any.
     fn part(&mut self, obstacle: &Obstacle, ground: &Ground) -> bool {
         let mut felt = false;
         let (low, high) = obstacle.bounds();
@@ -243,8 +244,8 @@ impl Cells {
         felt
     }
 
-    /// Whether a box is thinner than half a cell in two directions: a pile or a pipe, which parts middles and still
-    /// leaves most of a face open. A wall is so in one.
+    /// Whether a box is thinner than half a cell in two directions: a pile or a pipe. It separates centres but leaves
+    /// most of a face open. A wall is thin in one direction.
     fn is_rod(&self, low: Vector3<f64>, high: Vector3<f64>, ground: &Ground) -> bool {
         let size = high - low;
         let wide = |d: usize| {
@@ -259,12 +260,12 @@ impl Cells {
         cells.iter().filter(|c| **c < 0.5).count() >= 2
     }
 
-    /// Middle of a cell of a column: its place and bed.
+    /// Centre of a cell of a column: its place and bed.
     fn centre(&self, (p, bed): (Vector2<f64>, f64), k: usize) -> Vector3<f64> {
         p.push(bed * (1.0 - self.middle(k)))
     }
 
-    /// Makes solid what no way through open cells joins to the sides, and shuts the faces of what is solid.
+    /// Makes solid what no way through open cells connects to the sides, and closes the faces of solid cells.
     fn shut_in(&mut self) {
         let [nx, ny, nz] = self.n;
         let mut reached = vec![false; self.open.len()];
@@ -276,7 +277,7 @@ impl Cells {
                 }
             }
         }
-        // Along the walls of a channel only its ends are open.
+        // Between the walls of a channel, only its ends are open.
         todo.retain(|c| {
             (0..2).any(|d| {
                 let mut beyond = *c;
@@ -327,23 +328,23 @@ impl Cells {
         (i * self.n[1] + j) * self.n[2] + k
     }
 
-    /// World (east, north) of a place counted in cells.
+    /// World place (east, north) for coordinates in cells.
     pub(crate) fn place(&self, a: f64, b: f64) -> Vector2<f64> {
         self.corner + self.axes[0] * (a * self.d[0]) + self.axes[1] * (b * self.d[1])
     }
 
-    /// A place (east, north) counted in cells along and across.
+    /// Coordinates of a place (east, north) in cells along and across.
     pub(crate) fn in_cells(&self, p: Vector2<f64>) -> [f64; 2] {
         let q = p - self.corner;
         [0, 1].map(|d| q.dot(&self.axes[d]) / self.d[d])
     }
 
-    /// s in the middle of level k.
+    /// s at the centre of level k.
     pub(super) fn middle(&self, k: usize) -> f64 {
         0.5 * (self.s[k] + self.s[k + 1])
     }
 
-    /// Level of an s from 0 to 1.
+    /// Level that contains an s from 0 to 1.
     #[inline]
     pub(crate) fn level(&self, s: f64) -> usize {
         let (a, nz) = (self.stretch, self.n[2]);
@@ -352,12 +353,12 @@ impl Cells {
         ((xi * nz as f64) as usize).min(nz - 1)
     }
 
-    /// Open cells.
+    /// Number of open cells.
     pub(super) fn open_count(&self) -> usize {
         self.open.iter().filter(|o| **o).count()
     }
 
-    /// Cells on both sides of an x face, a y face, an s face; none beyond the cells.
+    /// The cells on both sides of an x face, a y face or an s face; `None` outside the cells.
     pub(super) fn beside(&self, d: usize, [i, j, k]: [usize; 3]) -> [Option<usize>; 2] {
         let at = [i, j, k];
         let below = (at[d] > 0).then(|| {
@@ -391,7 +392,7 @@ impl Cells {
         }
     }
 
-    /// Whether water may go through a face: open on its sides within the cells, not parted by a thin wall, and neither bed nor surface.
+    /// Whether water can pass a face: open on its sides, not separated by a thin wall, and neither bed nor surface.
     #[inline]
     pub(crate) fn passes(&self, d: usize, face: [usize; 3]) -> bool {
         self.pass.across(d)[self.face(d, face)]

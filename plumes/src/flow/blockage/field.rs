@@ -1,20 +1,20 @@
-//! Velocity anywhere in the blocked water, from the fluxes through the faces of the cell it is asked in.
+//! Velocity at any place in the blocked water, from the fluxes through the faces of the cell that contains it.
 //!
-//! *Source*: lowest-order Raviart–Thomas interpolation, Raviart and Thomas 1977, Lect. Notes Math. 606, 292, carried to the
-//! bed-following cells by Piola's transform: u = û/H, w = ŵ + u·∇z at constant s.
+//! *Source*: lowest-order Raviart–Thomas interpolation, Raviart and Thomas 1977, Lect. Notes Math. 606, 292, carried to
+//! the bed-following cells by Piola's transform: u = û/H, w = ŵ + u·∇z at constant s.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: along each axis a component is linear in its own direction and constant in the two others, so divergence is
-//! zero at every point and nothing passes a solid face, at the price of steps in the tangential component from cell to cell.
-//! Filaments follow the same faces (`filaments::carried`). No boundary layer or wake: water slips along obstacles.
+//! *Deviations*: each component is linear along its own direction and constant in the two others. So divergence is zero
+//! at every point and nothing passes a solid face, but the tangential component has steps from cell to cell. Filaments
+//! follow the same faces (`filaments::carried`). There is no boundary layer or wake: water slips along obstacles.
 
 use nalgebra::{Vector2, Vector3};
 
 use super::cells::{Cells, Faces};
 use crate::flow::ground::Floor;
 
-/// Two fields and how far from the first to the second the moment is.
+/// Two fields, and the position of the moment between the first and the second.
 pub(super) type Between<'a> = ([&'a Faces<f32>; 2], f64);
 
 #[inline]
@@ -23,7 +23,7 @@ pub(super) fn mixed(of: impl Fn(&Faces<f32>) -> f32, (fields, part): Between<'_>
     a + part * (b - a)
 }
 
-/// The cell of a place and a height, and the parts of it passed; none beyond the cells.
+/// The cell of a place and a height, and the position in it as parts of the cell; `None` outside the cells.
 #[inline]
 fn locate(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> Option<([usize; 3], [f64; 3])> {
     let c = cells.in_cells(p);
@@ -38,7 +38,7 @@ fn locate(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> Option<([usi
     Some(([i, j, k], [c[0] - i as f64, c[1] - j as f64, fs]))
 }
 
-/// Velocity (ENU, m/s) at a place and height over a floor; none beyond the cells.
+/// Velocity (ENU, m/s) at a place and height over a floor; `None` outside the cells.
 #[inline]
 pub(super) fn velocity(
     cells: &Cells,
@@ -59,19 +59,19 @@ pub(super) fn velocity(
     Some(physical(cells, [along(0), along(1), along(2)], z, floor))
 }
 
-/// From depth-integrated components to a velocity.
+/// Converts depth-integrated components to a velocity.
 fn physical(cells: &Cells, [a, b, up]: [f64; 3], z: f64, floor: &Floor) -> Vector3<f64> {
     let u = (cells.axes[0] * a + cells.axes[1] * b) / -floor.z;
     u.push(up + u.dot(&floor.slope) * (z / floor.z).clamp(0.0, 1.0))
 }
 
-/// Whether the cell of a place is solid; not beyond the cells.
+/// Whether the cell of a place is solid; false outside the cells.
 pub(super) fn solid(cells: &Cells, p: Vector2<f64>, z: f64, floor: &Floor) -> bool {
     locate(cells, p, z, floor)
         .is_some_and(|([i, j, k], _)| !cells.open[(i * cells.n[1] + j) * cells.n[2] + k])
 }
 
-/// Height of the cell in which a height lies, m.
+/// Height of the cell that contains a height, m.
 pub(super) fn thickness(cells: &Cells, z: f64, floor: &Floor) -> f64 {
     let k = cells.level((1.0 - z / floor.z).clamp(0.0, 1.0));
     (cells.s[k + 1] - cells.s[k]) * -floor.z

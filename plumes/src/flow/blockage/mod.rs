@@ -1,4 +1,4 @@
-//! Water that goes round obstacles: the currents made free of divergence and tangent to bed, surface and solids.
+//! Water that flows round obstacles: currents are made free of divergence, and tangent to bed, surface and solids.
 
 mod blocked;
 mod cells;

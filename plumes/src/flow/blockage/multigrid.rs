@@ -1,21 +1,23 @@
-//! One cycle of multigrid: a cheap and symmetric guess at the inverse of a Poisson operator on bed-following cells.
+//! One multigrid cycle: a cheap, symmetric approximation to the inverse of a Poisson operator on bed-following cells.
 //!
 //! *Source*: Trottenberg, Oosterlee and Schüller 2001, Multigrid, sections 5.1 and 5.2 (line relaxation and
 //! semi-coarsening where one direction couples strongest), 2.8.4 (cell-centred grids).
 //!
-//! *Parameters*: none; one sweep before and one after each coarse correction, coarsened until 4 columns a side are left.
+//! *Parameters*: none; one sweep before and one after each coarse correction, coarsened until 4 columns per side are
+//! left.
 //!
-//! *Deviations*: columns are solved exactly (water is shallow: cells are flat, so the coupling upwards is the strongest) in
-//! two colours, backwards on the way up so that the cycle is symmetric; columns are merged two by two, levels never. Coarse
-//! conductances are the sums of the fine ones over the merged faces, halved for the doubled distance. f64, one thread.
+//! *Deviations*: columns are solved exactly, because the water is shallow and the cells are flat, so the vertical
+//! coupling is the strongest. They are solved in two colours, in reverse order on the way up, so that the cycle is
+//! symmetric. Columns are merged in pairs, levels never. Coarse conductances are the sums of the fine ones over the
+//! merged faces, halved for the doubled distance. f64, one thread.
 
 /// A symmetric operator of seven points: (A x)_c = diag x_c − Σ coupling x_neighbour.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
     pub(super) n: [usize; 3],
-    /// Coupling of a cell to the next along, across, upwards.
+    /// Coupling of a cell to the next one along, across and upwards.
     pub(super) next: [Vec<f64>; 3],
-    /// To what is fixed at zero beyond the sides.
+    /// Coupling to the fixed zero beyond the sides.
     pub(super) edge: Vec<f64>,
     pub(super) diag: Vec<f64>,
     // Reciprocal pivots of the columns.
@@ -23,7 +25,7 @@ pub(super) struct Level {
 }
 
 impl Level {
-    /// From couplings; cells without any get the diagonal 1.
+    /// Builds a level from couplings; cells without couplings get the diagonal 1.
     pub(super) fn new(n: [usize; 3], next: [Vec<f64>; 3], edge: Vec<f64>) -> Self {
         let mut diag = edge.clone();
         let [_, ny, nz] = n;
@@ -54,7 +56,7 @@ impl Level {
         }
     }
 
-    /// Merges columns two by two in the directions with more than 3.
+    /// Merges columns in pairs in the directions with more than 3.
     fn coarser(&self) -> Option<Self> {
         let [nx, ny, nz] = self.n;
         let by = [nx, ny].map(|n| if n > 3 { 2 } else { 1 });
@@ -109,7 +111,7 @@ impl Level {
         }
     }
 
-    /// Solves every column of one colour exactly, its neighbours held.
+    /// Solves every column of one colour exactly, with its neighbours fixed.
     fn relax(&self, colour: usize, b: &[f64], x: &mut [f64], line: &mut [f64]) {
         let [nx, ny, nz] = self.n;
         for i in 0..nx {
@@ -152,19 +154,19 @@ impl Level {
     }
 }
 
-/// The operator on ever fewer columns.
+/// The operator on levels with fewer and fewer columns.
 #[derive(Clone, Debug)]
 pub(super) struct Multigrid {
     levels: Vec<Level>,
 }
 
-/// What a cycle writes on: right-hand side and result of the coarser levels.
+/// Memory for a cycle: right-hand side and result of the coarser levels.
 pub(super) struct Scratch {
     sides: Vec<(Vec<f64>, Vec<f64>)>,
     line: Vec<f64>,
 }
 
-/// Sweeps on the coarsest level: its few columns are all but solved.
+/// Sweeps on the coarsest level; they almost solve its few columns.
 const LAST_SWEEPS: usize = 8;
 
 impl Multigrid {
@@ -191,7 +193,7 @@ impl Multigrid {
         }
     }
 
-    /// `x` about A⁻¹ b, linear and symmetric in b.
+    /// `x` approximates A⁻¹ b; it is linear and symmetric in b.
     pub(super) fn cycle(&self, b: &[f64], x: &mut [f64], scratch: &mut Scratch) {
         let Scratch { sides, line } = scratch;
         descend(&self.levels, b, x, sides, line);
@@ -225,7 +227,7 @@ fn descend(
     };
     coarse_b.fill(0.0);
     for i in 0..n[0] {
-        // The columns of the second colour have just been solved: nothing is left in them.
+        // The columns of the second colour have just been solved, so no residual is left in them.
         for j in (i % 2..n[1]).step_by(2) {
             let (fine, coarse) = column(i, j);
             line.copy_from_slice(&b[fine..fine + n[2]]);

@@ -1,36 +1,39 @@
-//! The correction that makes given fluxes free of divergence at the least change: a Poisson equation in the open cells.
+//! The smallest correction that makes given fluxes free of divergence: a Poisson equation in the open cells.
 //!
 //! *Source*: Sherman 1978, J. Appl. Meteorol. 17, 312 (MATHEW: mass-consistent wind by variation, equations 3 to 8);
-//! Chorin 1968, Math. Comp. 22, 745 (projection); conjugate gradients with multigrid inside: Tatebe 1993, NASA CP-3224, 621.
+//! Chorin 1968, Math. Comp. 22, 745 (projection); conjugate gradients with multigrid inside: Tatebe 1993, NASA CP-3224,
+//! 621.
 //!
-//! *Parameters*: none; solved until no cell's divergence exceeds [`TOLERANCE`] of U/cell, U the fastest incoming current.
+//! *Parameters*: none; solved until no cell's divergence exceeds [`TOLERANCE`] times U/cell, U the fastest incoming
+//! current.
 //!
-//! *Deviations*: all of Sherman's moduli are alike, weighted by the volume between two cells' middles, so that over a
-//! level bed the correction is a potential flow. Over a sloping one the terms that cross between the bed-following axes are
-//! left out (order of the slope squared): the result is still exactly free of divergence and tangent. Water comes and goes through the sides at
-//! fixed potential; solids, bed and surface let nothing through: a block across a channel slows the channel. Measured, one core: 983 000 cells in
-//! 13 steps and 2 s; a cylinder of 4 cells a radius is off potential theory by 3.9 % of U rms between 1.3 and 4 radii, one of
-//! 8 cells by 2.2 %; within a cell of a round wall the staircase shows.
+//! *Deviations*: all of Sherman's moduli are equal, weighted by the volume between the centres of two cells, so that
+//! over a level bed the correction is a potential flow. Over a sloping bed the cross terms between the bed-following
+//! axes are omitted (order of the slope squared); the result is still exactly free of divergence and tangent. Water
+//! enters and leaves through the sides at a fixed potential. Solids, bed and surface let nothing pass, so a block
+//! across a channel slows the channel. Measured on one core: 983 000 cells take 13 steps and 2 s. A cylinder of 4 cells
+//! per radius deviates from potential theory by 3.9 % of U rms between 1.3 and 4 radii, one of 8 cells by 2.2 %; within
+//! a cell of a round wall the staircase shows.
 
 use super::cells::{Cells, Faces};
 use super::multigrid::{Level, Multigrid};
 use crate::flow::ground::Ground;
 
-/// Divergence left in any cell, as a part of fastest current by horizontal cell size.
+/// Largest divergence left in a cell, in units of the fastest current divided by the horizontal cell size.
 const TOLERANCE: f64 = 1e-7;
-/// Conjugate-gradient steps after which something is wrong; 10 to 30 are usual.
+/// Most conjugate-gradient steps; 10 to 30 are usual, so more mean that something is wrong.
 const MOST_STEPS: usize = 300;
 
-/// How a solution went.
+/// Report on a solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solved {
-    /// Open cells.
+    /// Number of open cells.
     pub open_cells: usize,
-    /// All cells.
+    /// Number of all cells.
     pub cells: usize,
-    /// Steps of the conjugate gradients.
+    /// Number of conjugate-gradient steps.
     pub steps: usize,
-    /// Greatest divergence left, as a part of fastest current by cell size.
+    /// Largest divergence left, in units of the fastest current divided by the cell size.
     pub divergence: f64,
 }
 
@@ -40,7 +43,7 @@ pub(super) struct Projector {
     grid: Multigrid,
     // Conductance of each face, m; 0 where nothing passes.
     through: Faces<f64>,
-    // Depth at the middle of each column, m.
+    // Depth at the centre of each column, m.
     depth: Vec<f64>,
 }
 
@@ -80,7 +83,7 @@ impl Projector {
                         next[d][below] = c;
                         all.push(c);
                     }
-                    // From a cell's middle to the side it is half as far.
+                    // From a cell's centre to the side it is half as far.
                     [one, other] => {
                         edge[one.or(other).expect("a face has a cell")] += 2.0 * c;
                         all.push(2.0 * c);
@@ -101,11 +104,11 @@ impl Projector {
         }
     }
 
-    /// Turns fluxes (m³/s) that may pass anywhere into such as pass nothing solid and are free of divergence, at the least
-    /// change. `phi` is the guess to start from, and the solution after.
+    /// Turns fluxes (m³/s) into fluxes that pass nothing solid and are free of divergence, with the smallest change.
+    /// `phi` is the initial guess, and afterwards the solution.
     ///
     /// # Panics
-    /// If the fluxes are no numbers or the equation cannot be solved.
+    /// If the fluxes are not finite or the equation cannot be solved.
     pub(super) fn project(
         &self,
         cells: &Cells,
@@ -184,14 +187,14 @@ impl Projector {
             for (f, t) in flux.iter().zip(through).filter(|(_, t)| **t != 0.0) {
                 // Area = conductance · distance.
                 let speed = f.abs() / (t * cells.d[d]);
-                // Not `max`, which would pass over what is not a number.
+                // Not `max`, which would ignore NaN.
                 fastest = if speed <= fastest { fastest } else { speed };
             }
         }
         fastest
     }
 
-    /// For each cell what turns an outflow (m³/s) into divergence · cell / fastest.
+    /// For each cell, the factor from outflow (m³/s) to divergence · cell / fastest.
     fn limits(&self, cells: &Cells, fastest: f64) -> Vec<f64> {
         let nz = cells.n[2];
         let size = cells.d[0].min(cells.d[1]);
@@ -237,7 +240,8 @@ impl Projector {
         }
     }
 
-    /// Depth-integrated velocities from fluxes: along and across m²/s, upwards through the surfaces of equal s m/s.
+    /// Depth-integrated velocities from fluxes: along and across in m²/s, upwards through the surfaces of equal s in
+    /// m/s.
     pub(super) fn velocities(cells: &Cells, flux: &Faces<f64>) -> Faces<f32> {
         let nz = cells.n[2];
         let side = |flux: &[f64], width: f64| -> Vec<f32> {

@@ -1,4 +1,4 @@
-//! Blocked water: free of divergence, tangent to everything, conserving mass, untouched where nothing stands.
+//! Blocked water: free of divergence, tangent to everything, conserving mass, and unchanged where there is no obstacle.
 
 use super::BlockageSpec;
 use super::cells::Faces;
@@ -37,7 +37,7 @@ pub(crate) fn spec(cell_m: f64, levels: u32, margin_m: f64) -> BlockageSpec {
 }
 
 impl BlockageSpec {
-    /// The same with levels evenly spaced.
+    /// As this water, but with evenly spaced levels.
     pub(crate) fn evenly(self) -> Self {
         Self {
             stretch: Fraction::new(0.0),
@@ -141,8 +141,8 @@ fn everything_built() -> Water {
     water.build_round(&area, &bed, &solids, 3).unwrap()
 }
 
-/// The physical divergence, by differences at random points inside cells and at a moment between two solutions. What is
-/// left is single precision, 6e-8 of û, ŵ over a cell: the flattest is a fortieth of the widest, so some 1e-5.
+/// The physical divergence, from differences at random points inside cells, at a moment between two solutions. What is
+/// left is single precision, 6e-8 of û, ŵ over a cell: the flattest is a fortieth of the widest, so about 1e-5.
 #[test]
 fn divergence_is_zero_at_every_point() {
     let mut water = everything_built();
@@ -173,13 +173,13 @@ fn divergence_is_zero_at_every_point() {
         worst = worst.max(parts.iter().sum::<f64>().abs());
         strain = strain.max(parts[0].abs());
     }
-    // In units of current by cell: 0.25 m/s by 1.5 m.
+    // In units of current divided by cell size: 0.25 m/s by 1.5 m.
     let unit = 0.25 / 1.5;
     assert!(worst / unit < 2e-5, "{}", worst / unit);
     assert!(strain / unit > 0.05, "a flow that bends: {}", strain / unit);
 }
 
-/// No flux through any face of a solid cell, bed or surface; and so at points on the walls of a block.
+/// No flux through any face of a solid cell, bed or surface, and none at points on the walls of a block.
 #[test]
 fn nothing_passes_walls_bed_and_surface() {
     let water = everything_built();
@@ -223,8 +223,8 @@ fn nothing_passes_walls_bed_and_surface() {
     }
 }
 
-/// What carries filaments has as much going into each cell as out of it, at machine precision, at a moment between two solutions and over a
-/// sloping bed: rates are f32, and at most some times the cell a second.
+/// In the rates that carry filaments, each cell has as much inflow as outflow to machine precision, at a moment between
+/// two solutions and over a sloping bed. Rates are f32 and at most a few cells per second.
 #[test]
 fn filaments_see_no_divergence() {
     let mut water = everything_built();
@@ -239,7 +239,7 @@ fn filaments_see_no_divergence() {
     assert!(fastest > 0.05, "{fastest}");
 }
 
-/// A channel between two walls with a block in it: as much water through every section.
+/// A channel between two walls with a block in it carries the same discharge through every section.
 #[test]
 fn every_section_of_a_channel_carries_the_same() {
     let bed = Terrain::sloping_over(&area(60.0, 30.0, 90.0), Heading::from_deg(90.0), 5.0, 9.0);
@@ -283,7 +283,7 @@ fn every_section_of_a_channel_carries_the_same() {
     }
 }
 
-/// Over a level bed without obstacles the currents stay as they are: solving changes rounding only.
+/// Over a level bed without obstacles the currents stay as they are; solving changes only rounding.
 #[test]
 fn a_current_round_nothing_is_untouched() {
     let bed = Terrain::Level { depth_m: 6.0 };

@@ -1,4 +1,4 @@
-//! Blocked water against potential theory, and in time.
+//! Blocked water compared with potential theory, and over time.
 
 use super::tests::{area, block, eastward, pile, solids, spec};
 use crate::flow::meander::MeanderSpec;
@@ -16,12 +16,13 @@ fn potential(p: Vector2<f64>, a: f64, speed: f64) -> Vector2<f64> {
     Vector2::new(speed - speed * a * a / r2 * c, -speed * a * a / r2 * s)
 }
 
-/// Root mean square error between 1.3 and 4 radii as a part of U, and the current at the shoulders as a part of theory's.
+/// Root mean square error between 1.3 and 4 radii as a part of U, and the current at the shoulders as a part of the
+/// theory's.
 fn past_a_cylinder(cell_m: f64) -> (f64, f64) {
     let (a, speed) = (2.0, 0.5);
     let bed = Terrain::Level { depth_m: 3.0 };
     let solids = solids(&[(pile(a, 5.0), 4.0, -7.0, 0.0)], &bed);
-    // 20 radii wide: what the sides' fixed potential adds is U/400 and less.
+    // 20 radii wide: the fixed potential at the sides adds U/400 or less.
     let water = eastward(speed, spec(cell_m, 2, 0.0))
         .build_round(&area(80.0, 80.0, 90.0), &bed, &solids, 1)
         .unwrap();
@@ -40,7 +41,7 @@ fn past_a_cylinder(cell_m: f64) -> (f64, f64) {
             }
         }
     }
-    // 20 degrees to both sides of the shoulders, 0.15 radii off the wall.
+    // 20 degrees to both sides of the shoulders, 0.15 radii from the wall.
     let mut shoulders = (0.0, 0.0);
     for side in [90.0_f64, 270.0] {
         for k in -20..=20 {
@@ -56,9 +57,10 @@ fn past_a_cylinder(cell_m: f64) -> (f64, f64) {
     (f64::sqrt(sum / count) / speed, shoulders.0 / shoulders.1)
 }
 
-/// Staircase and steps between cells are first order: the error halves with the cell, and the current at the shoulders (2U on the
-/// wall, 1.76 U at 1.15 radii) comes to theory's. Steps between cells alone, of a gradient up to 2U/a at 1.3 radii, are up to h/2 · 2U/a =
-/// 0.25 U there for four cells a radius, some 0.04 U in the mean over the ring.
+/// Staircase and steps between cells are first order: the error halves with the cell size, and the current at the
+/// shoulders (2U on the wall, 1.76 U at 1.15 radii) approaches the theory's. Steps between cells alone, with a gradient
+/// of up to 2U/a at 1.3 radii, are up to h/2 · 2U/a = 0.25 U there for four cells per radius, about 0.04 U in the mean
+/// over the ring.
 #[test]
 fn a_cylinder_bends_the_current_as_potential_theory_says() {
     let (coarse, off_coarse) = past_a_cylinder(0.5);
@@ -87,7 +89,7 @@ fn meandering() -> Water {
         .unwrap()
 }
 
-/// The same bits however the way to a moment is cut, and no jump where one field takes over from another.
+/// The bits are the same however the time to a moment is divided, and there is no jump where one field follows another.
 #[test]
 fn time_may_be_cut_as_one_likes() {
     let (mut whole, mut cut) = (meandering(), meandering());
@@ -104,7 +106,7 @@ fn time_may_be_cut_as_one_likes() {
     let (mut last, mut went) = (water.velocity(&p, 0.0), 0.0);
     for n in 1..=1000 {
         let t = f64::from(n) * 0.1;
-        // Asked before the advance and after it: the same.
+        // The answer before the advance is the same as after it.
         let early = water.velocity(&p, t);
         water.advance(t);
         let now = water.velocity(&p, t);
@@ -117,7 +119,8 @@ fn time_may_be_cut_as_one_likes() {
     assert_eq!(water.sample(&p, 100.0).velocity, last);
 }
 
-/// At the multiples of the period the solution is that of the currents of the moment: far up-stream it is the free current.
+/// At multiples of the period, the solution is that of the currents at that moment; far up-stream it is the free
+/// current.
 #[test]
 fn follows_the_currents_of_the_moment() {
     let mut water = meandering();
@@ -137,12 +140,12 @@ fn follows_the_currents_of_the_moment() {
         .build(&area(60.0, 40.0, 90.0), &Terrain::Level { depth_m: 5.0 }, 9)
         .unwrap();
     let wander = (unblocked - steady.velocity(&far, 0.0)).norm();
-    // The block's own dipole there: U·10·6/(π·30²) = 2 % of U; steps between cells as much again.
+    // The dipole of the block has U·10·6/(π·30²) = 2 % of U there; steps between cells have as much again.
     assert!(wander > 0.02, "{wander}");
     assert!((got - unblocked).norm() < 0.015, "{got} {unblocked}");
 }
 
-/// A wall much thinner than a cell, between the middles of two rows of cells: the water goes round it.
+/// A wall much thinner than a cell, between the centres of two rows of cells: the water flows round it.
 #[test]
 fn a_thin_wall_is_felt() {
     let bed = Terrain::Level { depth_m: 6.0 };

@@ -1,17 +1,18 @@
-//! Eddies that pass with the stream, live for their turn-over time, and carry what drifts.
+//! Eddies that move with the stream, live for their turn-over time, and carry filaments.
 //!
-//! *Source*: kinematic simulation (file `stretch`) in a frame that moves with the mean of the stream (Taylor 1938, Proc. R. Soc. A 164, 476:
-//! frozen turbulence passes with the mean); turn-over time k/ε (Pope 2000, Turbulent Flows, section 6.1) from Nezu & Nakagawa's
-//! depth means.
+//! *Source*: kinematic simulation (file `stretch`) in a frame that moves with the mean of the stream (Taylor 1938,
+//! Proc. R. Soc. A 164, 476: frozen turbulence moves with the mean); turn-over time k/ε (Pope 2000, Turbulent Flows,
+//! section 6.1) from Nezu & Nakagawa's depth means.
 //!
-//! *Parameters*: `cells_a_depth` nodes of the eddies' grid from bed to surface; the shortest wave is four of its cells: 16 gives H/4, 5 cm in
-//! 20 cm of water. All else follows from the channel.
+//! *Parameters*: `cells_a_depth`, nodes of the eddies' grid from bed to surface. The shortest wave is four cells long:
+//! 16 gives H/4, 5 cm in 20 cm of water. All else follows from the channel.
 //!
-//! *Deviations*: two patches of the same long stretch, taken at random places and mirrored at random, overlap with the weights sin and
-//! cos: each lives for two periods T and its sum of squares is always 1. The correlation in the moving frame then has the integral time
-//! 8T/π² = k/ε; it is the same for eddies of all sizes, though small ones live shorter in truth: what decorrelates them for a filament is that
-//! large ones sweep it through them, and shear. All seeds draw their patches from one stretch of 32 depths a channel, drawn once a
-//! process: the water of a run follows from its seed alone. The patches pass with the depth mean at all heights.
+//! *Deviations*: two patches of one long stretch, taken at random places and mirrored at random, overlap with the
+//! weights sin and cos. Each lives for two periods T, and the sum of the squared weights is always 1. The correlation
+//! in the moving frame then has the integral time 8T/π² = k/ε. It is the same for eddies of all sizes, although small
+//! ones live shorter in reality: a filament is decorrelated from them because large ones, and shear, sweep it through
+//! them. For each channel, all seeds take their patches from one stretch of 32 depths, drawn once per process; the
+//! water of a run follows from its seed alone. The patches move with the depth mean at all heights.
 
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
@@ -57,20 +58,21 @@ pub struct Eddies {
     stretch: Arc<Stretch>,
 }
 
-/// Stretches drawn by this process, by what they were made from.
+/// Stretches that this process has drawn, with what they were made from.
 static DRAWN: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
-/// More than this many different channels at once are drawn anew.
+/// If there are more different channels than this at once, stretches are drawn again.
 const KEPT: usize = 8;
-/// Memory of a node while it is drawn, bytes, and time for it, s.
+/// Memory of a node while it is drawn, bytes.
 const NODE_BYTES: f64 = 40.0;
-/// See above.
+/// Time to draw a node, s.
 const NODE_S: f64 = 400e-9;
 
 impl EddiesSpec {
     /// The eddies of a channel in an area, checked.
     ///
     /// # Errors
-    /// If the grid is too coarse or too fine, the stream not along the area's axis, or the channel narrower than deep.
+    /// If the grid is too coarse or too fine, if the stream is not along the area's axis, or if the channel is narrower
+    /// than deep.
     pub fn build(
         &self,
         field: &str,
@@ -121,7 +123,7 @@ impl EddiesSpec {
 }
 
 impl EddiesSpec {
-    /// What they take in a channel as wide as the area.
+    /// What the eddies need in a channel as wide as the area.
     #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64) -> Cost {
         let up = f64::from(self.cells_a_depth);
@@ -149,7 +151,7 @@ fn drawn(shape: &Shape) -> Arc<Stretch> {
 }
 
 impl Eddies {
-    /// The spectrum they follow.
+    /// The spectrum of the eddies.
     #[must_use]
     pub fn spectrum(&self) -> &Spectrum {
         &self.shape.spectrum
@@ -167,7 +169,7 @@ impl Eddies {
         self.period_s * 8.0 / (std::f64::consts::PI * std::f64::consts::PI)
     }
 
-    /// Velocity at a place (ENU, m), m/s; beyond the walls, the bed and the surface that at them.
+    /// Velocity at a place (ENU, m), m/s; beyond walls, bed or surface, the velocity at them.
     #[must_use]
     pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let d = p.xy() - self.centre;
@@ -180,7 +182,7 @@ impl Eddies {
 
     /// Adds velocity, gradient and rate of change at a place to those of the rest of the water.
     pub(crate) fn add_to(&self, sample: &mut WaterSample, p: &Vector3<f64>, t_s: f64) {
-        // Wide against rounding in f32, narrow against the cells in which the eddies are linear.
+        // Large compared with rounding in f32, small compared with the cells in which the eddies are linear.
         const WIDE: f64 = 2e-3;
         let at = |q: Vector3<f64>, dt: f64| self.velocity(&(p + q), t_s + dt);
         sample.velocity += at(Vector3::zeros(), 0.0);
@@ -192,7 +194,7 @@ impl Eddies {
                 .gradient
                 .set_column(d, &(sample.gradient.column(d) + slope));
         }
-        // They pass with the stream: a tenth of a second is some millimetres.
+        // The eddies move with the stream: in a tenth of a second, by some millimetres.
         const WHILE: f64 = 0.1;
         sample.rate += (at(Vector3::zeros(), WHILE) - at(Vector3::zeros(), 0.0)) / WHILE;
     }
@@ -205,7 +207,7 @@ impl Eddies {
         for (n, dt) in dt_s.iter().enumerate() {
             let (dx, dy) = (x[n] - centre.x, y[n] - centre.y);
             let q = [dx * a.x + dy * a.y, dx * l.x + dy * l.y, z[n]];
-            // Half the step ahead first, so that a cloud that is even stays so to second order.
+            // Half the step ahead first, so that an even cloud stays even to second order.
             let v = now.velocity(q);
             let half = 0.5 * dt;
             let v = now.velocity([q[0] + half * v[0], q[1] + half * v[1], q[2] + half * v[2]]);
@@ -234,7 +236,8 @@ impl Eddies {
         let life = age.floor();
         let part = age - life;
         let (s, c) = math::sin_cos(0.5 * std::f64::consts::PI * part);
-        // A patch lives from its number to two periods later: the older one falls, the younger rises.
+        // A patch lives from its number to two periods later: the weight of the older one falls, that of the younger
+        // one rises.
         let of = |life: f64, weight: f64| {
             let mut rng = Stream::new(self.seed, "eddies", &format!("patch {life}"));
             let begin = rng.uniform() * LENGTH as f64 + self.mean_m_s * t_s / h[0];
@@ -256,7 +259,7 @@ impl Eddies {
     }
 }
 
-/// A patch of the stretch at one time: where its beginning lies (cells), and how strongly it is felt.
+/// A patch of the stretch at one time: where it begins (cells), and its weight.
 #[derive(Clone, Copy)]
 struct Patch {
     begin: f32,
@@ -310,7 +313,7 @@ impl Now<'_> {
     }
 }
 
-/// Cell and the part of it passed.
+/// Cell, and the position in it as a part.
 #[inline]
 fn cell(c: f32, cells: usize) -> (usize, f32) {
     let c = c.clamp(0.0, cells as f32);

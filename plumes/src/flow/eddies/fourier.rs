@@ -1,4 +1,4 @@
-//! Fast Fourier sum of complex coefficients into a periodic line.
+//! Fast Fourier sum that turns complex coefficients into a periodic line.
 //!
 //! *Source*: Cooley & Tukey 1965, Math. Comp. 19, 297, in the iterative form with bit reversal.
 //!

@@ -1,4 +1,4 @@
-//! Resolved turbulence of a channel: spectrum, one long stretch of it, and how it passes and dies.
+//! Resolved turbulence of a channel: its spectrum, one long stretch of it, and how it moves and decays.
 
 mod field;
 mod fourier;

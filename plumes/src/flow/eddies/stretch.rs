@@ -1,16 +1,18 @@
 //! One long periodic stretch of turbulence between bed, surface and side walls, on a grid, in units of u_*.
 //!
-//! *Source*: kinematic simulation, a sum of random Fourier modes with a given spectrum: Kraichnan 1970, Phys. Fluids 13, 22; Fung,
-//! Hunt, Malik & Perkins 1992, J. Fluid Mech. 236, 281. Walls by sines and cosines, as image eddies would make them.
+//! *Source*: kinematic simulation, a sum of random Fourier modes with a given spectrum: Kraichnan 1970, Phys. Fluids
+//! 13, 22; Fung, Hunt, Malik & Perkins 1992, J. Fluid Mech. 236, 281. Walls by sines and cosines, which equal image
+//! eddies.
 //!
-//! *Parameters*: [`Shape`]: width, depth, the spectrum, spacing of the nodes (an even part of the depth), [`LENGTH`] nodes along.
+//! *Parameters*: [`Shape`]: width, depth, the spectrum, spacing of the nodes (an even part of the depth), [`LENGTH`]
+//! nodes along.
 //!
-//! *Deviations*: the field is the curl of a vector potential whose tangential parts vanish at bed, surface and walls, so that it is
-//! free of divergence and crosses none of them; along a wall it slips. Every potential is multiplied by e^(−z/H) before the curl, so
-//! that intensities fall as Nezu & Nakagawa's do; three constants, one a potential, are solved so that the expected mean squares of
-//! the three components between 0.2 H and 0.8 H are theirs times the resolved part. Near bed and surface the vertical one falls to
-//! zero within about 0.2 H. Between nodes trilinear: waves of four cells are smoothed, and a divergence of a few per cent of
-//! the gradients is left.
+//! *Deviations*: the field is the curl of a vector potential whose tangential parts vanish at bed, surface and walls.
+//! So it is free of divergence and crosses none of them; along a wall it slips. Every potential is multiplied by
+//! e^(−z/H) before the curl, so that intensities fall as Nezu & Nakagawa's do. Three constants, one for each potential,
+//! are solved so that the expected mean squares of the three components between 0.2 H and 0.8 H equal theirs times the
+//! resolved part. Near bed and surface the vertical one falls to zero within about 0.2 H. Between nodes the field is
+//! trilinear: waves of four cells are smoothed, and a divergence of a few per cent of the gradients remains.
 
 use super::fourier::Fourier;
 use super::spectrum::{ELONGATION, Spectrum};
@@ -21,16 +23,16 @@ use world::seeds::Stream;
 
 /// Nodes along the stream; a power of two.
 pub(super) const LENGTH: usize = 512;
-/// Cells of the shortest wave.
+/// Length of the shortest wave, in cells.
 pub(super) const CELLS_A_WAVE: f64 = 4.0;
 
-/// What a stretch is made from.
+/// The parameters of a stretch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shape {
     pub(super) width_m: f64,
     pub(super) depth_m: f64,
     pub(super) spectrum: Spectrum,
-    /// Cells from bed to surface, and from wall to wall.
+    /// Number of cells from bed to surface, and from wall to wall.
     pub(super) up: usize,
     pub(super) across: usize,
 }
@@ -42,7 +44,8 @@ pub(super) struct Stretch {
     pub(super) nodes: Vec<[f32; 4]>,
 }
 
-/// A wave: numbers along, across, up, and the standard deviation of each potential's coefficient (of real and imaginary part).
+/// A wave: numbers along, across and up, and the standard deviation of each potential's coefficient (real and imaginary
+/// part).
 struct Wave {
     k: [f64; 3],
     /// Indices across and up.
@@ -57,7 +60,7 @@ impl Shape {
         [along, self.width_m / self.across as f64, along]
     }
 
-    /// All waves of the j-th number along the stream.
+    /// All waves whose number along the stream is j.
     fn waves(&self, j: usize) -> Vec<Wave> {
         let k_c = self.spectrum.k_c;
         let kx = TAU * j as f64 / (LENGTH as f64 * self.spacing()[0]);
@@ -91,13 +94,14 @@ impl Shape {
         1..=((reach + 1e-9) as usize).min(LENGTH / 2 - 1)
     }
 
-    /// f and f′ at a level: the fall of the intensities.
+    /// f and f′ at a level, where f is the decrease of the intensities with height.
     fn fall(&self, height_m: f64) -> (f64, f64) {
         let f = math::exp(-height_m / self.depth_m);
         (f, -f / self.depth_m)
     }
 
-    /// Expected mean squares at a height for each potential of unit strength: [component][potential], averaged over the width.
+    /// Expected mean squares at a height for each potential of unit strength: [component][potential], averaged over the
+    /// width.
     fn shares(&self, height_m: f64) -> [[f64; 3]; 3] {
         let (f, df) = self.fall(height_m);
         let mut v = [[0.0; 3]; 3];
@@ -105,7 +109,8 @@ impl Shape {
             for w in self.waves(j) {
                 let (s, c) = math::sin_cos(w.k[2] * height_m);
                 let bent = df * s + f * w.k[2] * c;
-                // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a half, or one.
+                // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a
+                // half, or one.
                 let even = w.std * w.std * if w.n == 0 { 1.0 } else { 0.5 };
                 let odd = w.std * w.std * if w.n == 0 { 0.0 } else { 0.5 };
                 v[0][2] += even * sq(f * w.k[1] * c);
@@ -155,14 +160,14 @@ fn sq(x: f64) -> f64 {
 }
 
 impl Stretch {
-    /// Draws one; `seed` names it.
+    /// Draws a stretch; `seed` identifies it.
     pub(super) fn new(shape: &Shape, seed: u64) -> Self {
         let strength = shape.strengths(shape.spectrum.resolved());
         let (ny, nz) = (shape.across + 1, shape.up + 1);
         let lines = ny * nz;
         let h = shape.spacing();
         let mut rng = Stream::new(seed, "eddies", "waves");
-        // Coefficients along the stream: component, line, number.
+        // Coefficients along the stream, by component, line and number.
         let count = shape.along().count() + 1;
         let mut lines_of = vec![[[0.0_f64; 2]; 3]; lines * count];
         let most = (shape.spectrum.k_c * shape.width_m / PI) as usize + 1;

@@ -1,4 +1,4 @@
-//! Exact tests of the eddies: free of divergence, tangent to every wall, of the stated strength, and dying as stated.
+//! Exact tests of the eddies: free of divergence, tangent to every wall, with the stated strength and decay.
 
 use super::stretch::{LENGTH, Shape, Stretch};
 use super::{Eddies, EddiesSpec};
@@ -77,8 +77,8 @@ fn nothing_goes_through_bed_surface_or_walls() {
     assert!(strongest > 0.005, "it slips along them: {strongest}");
 }
 
-/// Differences at the nodes are second order in the spacing; what divergence they show must fall with its square when the same
-/// waves are laid on a grid twice as fine.
+/// Differences at the nodes are second order in the spacing. The divergence that they show must fall with its square
+/// when the same waves are put on a grid twice as fine.
 #[test]
 fn divergence_is_only_that_of_the_grid() {
     let part = |cells: usize| {
@@ -108,8 +108,8 @@ fn divergence_is_only_that_of_the_grid() {
     assert!((3.4..4.6).contains(&order), "{coarse} {fine}");
 }
 
-/// Mean squares of eight stretches against those expected, within four standard errors found from the eight; and those expected
-/// against Nezu & Nakagawa's in the middle of the water, where they were fitted as a mean.
+/// Mean squares of eight stretches, compared with the expected ones within four standard errors found from the eight;
+/// and the expected ones compared with Nezu & Nakagawa's in the middle of the water, where they were fitted as a mean.
 #[test]
 fn intensities_are_those_stated() {
     const SEEDS: u64 = 8;
@@ -123,7 +123,7 @@ fn intensities_are_those_stated() {
             let mut sum = [0.0; 3];
             let mut count = 0.0;
             for (n, v) in nodes.chunks_exact(shape.up + 1).enumerate() {
-                // Ends of the width count half.
+                // The ends of the width count half.
                 let j = n % (shape.across + 1);
                 let w = if j == 0 || j == shape.across {
                     0.5
@@ -173,8 +173,8 @@ fn intensities_are_those_stated() {
     );
 }
 
-/// In the frame that moves with the stream: the same strength at any time, and after one period T the mean of
-/// sin(πp/2)·cos(πp/2) over its phase, 1/π, is left; after two nothing.
+/// In the frame that moves with the stream, the strength is the same at any time. After one period T, the mean of
+/// sin(πp/2)·cos(πp/2) over its phase, 1/π, is left; after two, nothing.
 #[test]
 fn eddies_live_as_stated() {
     let (channel, first) = parts(0);
@@ -197,8 +197,8 @@ fn eddies_live_as_stated() {
         one += a * b / (n as f64 * strength);
         two += a * c / (n as f64 * strength);
     }
-    // Products of unit normals: standard errors √2 and 1 over √n = 77; the one stretch that all draw from adds about as much again
-    // to the squares (some 500 independent eddies at a height), which the test of intensities has found.
+    // Products of unit normals have standard errors of √2 and 1 over √n = 77. The one stretch from which all draw adds
+    // about as much again to the squares (some 500 independent eddies at a height), as the test of intensities found.
     let error = 1.0 / (n as f64).sqrt();
     assert!(
         (square[0] / square[1] - 1.0).abs() < 4.0 * 2.0 * error,
@@ -235,7 +235,7 @@ fn places_are_carried_with_the_velocity_there() {
     eddies.carry(33.0, &[0.05], [&mut x, &mut y, &mut z]);
     let v = eddies.velocity(&p, 33.0) * 0.05;
     let went = Vector3::new(f64::from(x[0]), f64::from(y[0]), f64::from(z[0])) - p;
-    // The half step ahead sees water 0.1 mm on, gradients of 0.5 1/s: 3e-6 m; f32 at 0.3 m: 3e-8 m.
+    // Half a step ahead the water is 0.1 mm further on, with gradients of 0.5 1/s: 3e-6 m; f32 at 0.3 m: 3e-8 m.
     assert!((went - v).norm() < 3e-6 && v.norm() > 2e-5, "{went} {v}");
 }
 

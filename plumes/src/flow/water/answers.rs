@@ -1,4 +1,4 @@
-//! What the whole water answers: the trait [`Flow`].
+//! The trait [`Flow`] for the whole water.
 
 use super::{Column, Water};
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -86,7 +86,7 @@ impl Flow for Water {
     }
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
-        // Small against layer thicknesses (0.1 m), large against rounding at positions of 10³ m.
+        // Small compared with layer thicknesses (0.1 m), large compared with rounding at positions of 10³ m.
         const H: f64 = 1e-3;
         if let Some(blocked) = &self.blocked
             && let Some((velocity, gradient, rate)) =

@@ -1,22 +1,23 @@
 //! One long-crested surface wave over a level bed, by linear theory.
 //!
-//! *Source*: Airy's solution, Dean & Dalrymple 1991, Water Wave Mechanics for Engineers and Scientists, ch. 3 and 4:
-//! η = a cos θ, θ = k·x − ωt + ε, ω² = gk tanh kh, u = aω C cos θ, w = aω S sin θ with C = cosh k(z+h)/sinh kh, S = sinh k(z+h)/sinh kh;
-//! a particle's way from its mean place −aC sin θ along k and aS cos θ up; head of the wave's pressure a C tanh(kh) cos θ; Stokes' drift
-//! a²ωk (C² + S²)/2 (Phillips 1977, The Dynamics of the Upper Ocean, section 3.3).
+//! *Source*: Airy's solution, Dean & Dalrymple 1991, Water Wave Mechanics for Engineers and Scientists, ch. 3 and 4: η
+//! = a cos θ, θ = k·x − ωt + ε, ω² = gk tanh kh, u = aω C cos θ, w = aω S sin θ with C = cosh k(z+h)/sinh kh, S = sinh
+//! k(z+h)/sinh kh; displacement of a particle from its mean place −aC sin θ along k and aS cos θ upwards; head of the
+//! wave's pressure a C tanh(kh) cos θ; Stokes' drift a²ωk (C² + S²)/2 (Phillips 1977, The Dynamics of the Upper Ocean,
+//! section 3.3).
 //!
-//! *Parameters*: amplitude a (m), period 2π/ω at a fixed place (s), where it travels, ε (rad), depth h (m).
+//! *Parameters*: amplitude a (m), period 2π/ω at a fixed place (s), direction of travel, ε (rad), depth h (m).
 //!
-//! *Deviations*: no Doppler shift by currents: wave number, displacement and drift are those in still water, off by about U/c where a current U
-//! goes along a wave of speed c (5 % for 20 cm/s along a wave of 2.6 s). Linear theory ends at z = 0: above it and below the bed the
-//! values at them hold.
+//! *Deviations*: currents cause no Doppler shift. Wave number, displacement and drift are those in still water, with an
+//! error of about U/c where a current U runs along a wave of speed c (5 % for 20 cm/s along a wave of 2.6 s). Linear
+//! theory ends at z = 0: above it and below the bed, the values at them apply.
 
 use nalgebra::{Matrix3, Vector2, Vector3};
 use world::fields::WaterSample;
 use world::math;
 use world::units::GRAVITY_M_S2;
 
-/// A wave, ready to be asked.
+/// A wave, ready to be evaluated.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Airy {
     amplitude: f64,
@@ -38,12 +39,13 @@ struct State {
     cos: f64,
 }
 
-/// Wave number of a wave of angular frequency `omega` (rad/s) in water `depth_m` deep, 1/m: ω² = gk tanh kh to rounding.
+/// Wave number, 1/m, of a wave of angular frequency `omega` (rad/s) in water `depth_m` deep: ω² = gk tanh kh to
+/// rounding.
 #[must_use]
 pub(super) fn wave_number(omega: f64, depth_m: f64) -> f64 {
     let deep = omega * omega / GRAVITY_M_S2;
     let wanted = deep * depth_m;
-    // From above the root Newton's steps on x tanh x, which is convex there, fall to it without overshooting.
+    // From above the root, Newton's steps on x tanh x, which is convex there, approach it without overshooting.
     let mut x = wanted.max(wanted.sqrt()) * 1.2;
     for _ in 0..50 {
         let tanh = math::tanh(x);
@@ -93,7 +95,7 @@ impl Airy {
         self.along
     }
 
-    /// C and S, by exponentials that fall with depth: no overflow in deep water.
+    /// C and S, from exponentials that fall with depth, so that they do not overflow in deep water.
     fn shape(&self, z: f64) -> (f64, f64) {
         let z = z.clamp(-self.depth, 0.0);
         let up = math::exp(self.k * z);
@@ -126,7 +128,7 @@ impl Airy {
         sample.velocity += self.vector(speed * w.c * w.cos, speed * w.s * w.sin);
         let (force, bend) = (speed * self.omega, speed * self.k);
         sample.rate += self.vector(force * w.c * w.sin, -force * w.s * w.cos);
-        // Free of divergence and rotation: symmetric, without a trace.
+        // Free of divergence and rotation: symmetric, with zero trace.
         let (e, flat, tilt) = (self.along, bend * w.c * w.sin, bend * w.s * w.cos);
         sample.gradient += Matrix3::new(
             -flat * e.x * e.x,
@@ -141,7 +143,7 @@ impl Airy {
         );
     }
 
-    /// Way of the particle whose mean place is `p` from there, m.
+    /// Displacement of the particle whose mean place is `p`, m.
     pub(super) fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let w = self.at(p, t_s);
         self.vector(-self.amplitude * w.c * w.sin, self.amplitude * w.s * w.cos)

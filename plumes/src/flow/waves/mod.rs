@@ -1,4 +1,4 @@
-//! Surface waves: one component, a spectrum cut into components, and the sea they make.
+//! Surface waves: one component, a spectrum divided into components, and the sea that they form.
 
 mod airy;
 mod sea;

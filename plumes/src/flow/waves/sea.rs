@@ -1,24 +1,29 @@
-//! Surface waves: trains and a wind sea summed, felt by hulls and instruments as orbits and by the plume as drift and mixing.
+//! Surface waves: the sum of wave trains and a wind sea. Hulls and instruments feel orbits, the plume drift and mixing.
 //!
-//! *Source*: linear superposition of the waves of `airy`; for what drifts the Lagrangian mean, Andrews & McIntyre 1978, J. Fluid Mech. 89,
-//! 609: mean places move with the current plus Stokes' drift, and a particle is found at its mean place plus the orbit's displacement. Vertical
-//! mixing under waves K_z = 0.028 H²/T e^(2kz), said to be Ichiye's from dye (1967, Phys. Fluids 10(9), S270): a secondary source, see (6).
+//! *Source*: linear superposition of the waves of `airy`. For filaments, the Lagrangian mean of Andrews & McIntyre
+//! 1978, J. Fluid Mech. 89, 609: mean places move with the current plus Stokes' drift, and a particle is at its mean
+//! place plus the displacement by the orbit. Vertical mixing under waves K_z = 0.028 H²/T e^(2kz), attributed to Ichiye
+//! from dye (1967, Phys. Fluids 10(9), S270): a secondary source, see (6).
 //!
-//! *Parameters*: `trains` (regular waves: `height_m` from trough to crest, `period_s`, `heading_deg` where they travel, `phase_deg` at the datum at
-//! time zero, drawn if absent), `spectrum` (file `spectrum`), `stokes` drift on or off (on), `mixing` Ichiye's coefficient (0.028; 0 leaves it out).
+//! *Parameters*: `trains` (regular waves: `height_m` from trough to crest, `period_s`, `heading_deg` of their travel,
+//! `phase_deg` at the datum at time zero, drawn if absent), `spectrum` (file `spectrum`), `stokes` drift on or off
+//! (on), `mixing` Ichiye's coefficient (0.028; 0 omits it).
 //!
-//! *Deviations*: (1) the plume's grid of currents, summed every so many seconds, would alias waves of seconds: orbits stay out of it. Filaments are
-//! kept at their mean places and moved by the current and Stokes' drift; a source that stands still releases at p − ξ(p, t), and whoever
-//! asks for concentration at p is answered for p − ξ(p, t), ξ the orbit's displacement: first order in the steepness. So dye swings past a fixed
-//! probe with the waves, and near the surface a probe in a trough is in the air. (2) Drift sums over waves one by one; two of the same period in
-//! different directions would add a standing part. No undertow pays the drift back. (3) For the mixing H² is 16 variances, T a train's
-//! period or the spectrum's peak's. (4) Over a bed that is not level the waves are those of the depth at the area's centre: no shoaling, no refraction, and at
-//! the bed elsewhere the water is not quite tangent to it; obstacles do not bend or shelter them. (5) Waves do not thicken the bed's boundary layer. (6) The
-//! paper of 1967 was not at hand; form and coefficient are as models of oil at sea pass them on. A coefficient twice as large
-//! makes the layer of dye that waves alone have mixed √2 times as thick, its middle weaker by as much: under the sea of 0.35 m and 2.6 s
-//! of dalian_bay K_z is 13 cm²/s at the surface and 2.2 cm²/s at 1.5 m, and in the half hour to 350 m σ_z grows by 0.9 m; with twice
-//! the coefficient by 1.2 m. Stirring by the wind is not in it: by Sundby 1983, Deep-Sea Res. 30, 645, K = 76 + 2.26 U² cm²/s
-//! for U in m/s, a wind of 7 m/s has 190 cm²/s.
+//! *Deviations*: (1) the plume's grid of currents is evaluated every few seconds and would alias waves of seconds, so
+//! it leaves the orbits out. Filaments are stored at their mean places and moved by the current and Stokes' drift. A
+//! fixed source releases at p − ξ(p, t), and a question for the concentration at p is answered for p − ξ(p, t), with ξ
+//! the displacement by the orbit: first order in the steepness. So dye moves past a fixed probe with the waves, and a
+//! probe near the surface is in the air in a trough. (2) Drift sums over waves one by one; two of the same period in
+//! different directions would add a standing part. No undertow returns the drift. (3) For the mixing, H² is 16
+//! variances and T the period of a train or of the spectrum's peak. (4) Over a bed that is not level, the waves are
+//! those of the depth at the area's centre: there is no shoaling and no refraction, and elsewhere at the bed the water
+//! is not quite tangent to it. Obstacles do not bend or shelter waves. (5) Waves do not thicken the bed's boundary
+//! layer. (6) The paper of 1967 was not available; form and coefficient are as oil-spill models give them. A
+//! coefficient twice as large makes the layer of dye that waves alone have mixed √2 times as thick and its middle
+//! weaker by the same factor. Under the sea of 0.35 m and 2.6 s of dalian_bay, K_z is 13 cm²/s at the surface and 2.2
+//! cm²/s at 1.5 m, and σ_z grows by 0.9 m in the half hour to 350 m; with twice the coefficient, by 1.2 m. Stirring by
+//! the wind is not included: by Sundby 1983, Deep-Sea Res. 30, 645, K = 76 + 2.26 U² cm²/s for U in m/s, a wind of 7
+//! m/s has 190 cm²/s.
 
 use nalgebra::{Rotation2, Vector2, Vector3};
 use serde::{Deserialize, Serialize};
@@ -39,7 +44,7 @@ pub struct WavesSpec {
     /// Regular waves.
     #[serde(default)]
     pub trains: Vec<TrainSpec>,
-    /// A sea raised by the wind.
+    /// A wind sea.
     #[serde(default)]
     pub spectrum: Option<SpectrumSpec>,
     /// Whether Stokes' drift carries the plume.
@@ -54,13 +59,13 @@ pub struct WavesSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrainSpec {
-    /// From trough to crest, m.
+    /// Height from trough to crest, m.
     #[serde(deserialize_with = "world::limits::wave_m")]
     pub height_m: Positive,
-    /// At a fixed place, s.
+    /// Period at a fixed place, s.
     #[serde(deserialize_with = "world::limits::wave_s")]
     pub period_s: Positive,
-    /// Where it travels, degrees clockwise from north.
+    /// Where the train travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Phase at the datum at time zero, degrees; 0 is a crest. Drawn from the seed if absent.
     #[serde(default)]
@@ -75,22 +80,22 @@ const fn ichiye() -> NonNegative {
     NonNegative::new(0.028)
 }
 
-/// The waves, ready to be asked.
+/// The waves, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Waves {
     waves: Vec<Airy>,
     depth: f64,
-    // Stokes' drift (east, north) and K_z at even heights from bed to surface.
+    // Stokes' drift (east, north) and K_z at evenly spaced heights from bed to surface.
     profile: Vec<(Vector2<f64>, f64)>,
 }
 
-/// Levels of the profile; between them it is a straight line.
+/// Levels of the profile, which is linear between them.
 const LEVELS: usize = 1024;
 /// Waves steeper than this times tanh kh break (Miche 1944, Ann. Ponts Chauss. 114, 25).
 const MICHE: f64 = 0.142;
 
 impl WavesSpec {
-    /// The waves on water `depth_m` deep, checked; what is not given comes from the seed.
+    /// The waves on water `depth_m` deep, checked; values that are not given come from the seed.
     ///
     /// # Errors
     /// Names the field: no waves at all, too many, or so steep that they would break.
@@ -116,7 +121,7 @@ impl WavesSpec {
         // Variance, period and wave number of each system.
         let mut systems = Vec::new();
         for (n, train) in self.trains.iter().enumerate() {
-            // Drawn also when not used, so that stating one phase shifts no other.
+            // Drawn even if it is not used, so that giving one phase does not change another.
             let drawn = TAU * rng.uniform();
             let phase = train.phase_deg.map_or(drawn, |p| p.get().to_radians());
             let (height, period) = (train.height_m.get(), train.period_s.get());
@@ -164,7 +169,7 @@ impl WavesSpec {
 }
 
 impl WavesSpec {
-    /// How many waves are summed.
+    /// Number of waves that are summed.
     #[must_use]
     pub fn count(&self) -> f64 {
         let sea = self.spectrum.as_ref().map_or(0, |s| s.components);
@@ -172,7 +177,7 @@ impl WavesSpec {
     }
 }
 
-/// Anticlockwise by an angle, rad.
+/// Rotation anticlockwise by an angle, rad.
 fn turn(angle: f64) -> nalgebra::Matrix2<f64> {
     let (sin, cos) = math::sin_cos(angle);
     nalgebra::Matrix2::new(cos, -sin, sin, cos)
@@ -192,7 +197,7 @@ impl Waves {
         }
     }
 
-    /// Way of the water whose mean place is `p` from there, m; at the surface its rise is the surface's.
+    /// Displacement of the water whose mean place is `p`, m; at the surface, its height is the surface's.
     #[must_use]
     pub fn displacement(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.waves.iter().map(|w| w.displacement(p, t_s)).sum()

@@ -1,4 +1,4 @@
-//! A sea of waves: what must be exact, its limits, and what is refused.
+//! A sea of waves: exact properties, limits, and what is refused.
 
 use super::airy::{Airy, wave_number};
 use super::{SpectrumSpec, TrainSpec, Waves, WavesSpec};
@@ -131,7 +131,7 @@ fn deep_orbits_are_circles_and_shallow_ones_long() {
         let u = deep.velocity(&Vector3::new(7.0, 0.0, -2.0), t);
         assert!((u.norm() / (0.2 * omega * math::exp(-2.0 * k)) - 1.0).abs() < 1e-12);
     }
-    // A wave of ten minutes in 4 m: u = a√(g/h) at all depths, w a straight line.
+    // A wave of ten minutes in 4 m: u = a√(g/h) at all depths, w linear.
     let long = Airy::new(0.1, TAU / 600.0, Vector2::x(), 0.0, 4.0);
     for z in [0.0, -1.0, -3.0] {
         let u = long.velocity(&Vector3::new(0.0, 0.0, z), 0.0);
@@ -153,7 +153,7 @@ fn drift_carries_what_it_should() {
         let transport = cells.sum::<f64>() * depth / f64::from(n);
         let k = wave_number(TAU / period, depth);
         let want = GRAVITY_M_S2 * 0.01 / (2.0 * TAU / period / k);
-        // The profile's straight pieces add (k·depth/1023)²/3 of it.
+        // The profile's linear pieces add (k·depth/1023)²/3 of it.
         assert!((transport / want - 1.0).abs() < 1e-3, "{transport} {want}");
     }
     let still = WavesSpec {
@@ -176,7 +176,7 @@ fn mixing_is_that_of_the_wave_height() {
     }
 }
 
-/// Over 3000 seas: the standard error of a variance is √(2/n) of it, four of which are 10 %.
+/// Over 3000 seas: the standard error of a variance is √(2/n) of it; four of these are 10 %.
 #[test]
 fn the_surface_has_the_variance_of_its_significant_height() {
     let spec = WavesSpec {
@@ -209,7 +209,7 @@ fn a_sea_travels_where_it_should() {
         .map(Airy::along)
         .sum::<Vector2<f64>>()
         / 32.0;
-    // 60 degrees from north, shortened by the spread to 10/11; thirty-two directions leave some per cent.
+    // 60 degrees from north, reduced by the spread to 10/11; thirty-two directions leave a few per cent.
     let want = Vector2::new(math::sin(TAU / 6.0), math::cos(TAU / 6.0)) * (10.0 / 11.0);
     assert!((mean - want).norm() < 0.05, "{mean}");
     assert!(

@@ -1,18 +1,18 @@
-//! A sheet to draw on, as SVG text.
+//! A sheet for drawing, as SVG text.
 
 use super::far::{self, Frame};
 use super::panel::Panel;
 use super::room::Room;
 use std::fmt::Write as _;
 
-/// Where a text stands relative to its point.
+/// Position of a text relative to its point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Anchor {
-    /// The point is its beginning.
+    /// The text begins at the point.
     Start,
-    /// The point is its middle.
+    /// The text is centred on the point.
     Middle,
-    /// The point is its end.
+    /// The text ends at the point.
     End,
 }
 
@@ -34,7 +34,7 @@ pub struct Style<'a> {
 }
 
 impl<'a> Style<'a> {
-    /// A filled shape without edge.
+    /// A filled shape without an edge.
     pub fn fill(colour: &'a str) -> Self {
         Self {
             fill: Some(colour),
@@ -51,7 +51,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same with an edge.
+    /// Adds an edge.
     pub fn edged(self, colour: &'a str, width: f64) -> Self {
         Self {
             stroke: Some(colour),
@@ -60,7 +60,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same, dashed.
+    /// Makes the line dashed.
     pub fn dashed(self, dash: &'a str) -> Self {
         Self {
             dash: Some(dash),
@@ -68,7 +68,7 @@ impl<'a> Style<'a> {
         }
     }
 
-    /// The same, partly transparent.
+    /// Makes it partly transparent.
     pub fn faint(self, opacity: f64) -> Self {
         Self {
             opacity: Some(opacity),
@@ -109,9 +109,9 @@ pub struct Canvas {
     pub height: f64,
     body: String,
     clips: usize,
-    // Where things show now; what lies far beyond is cut off: the library that makes pixels of it cannot take it.
+    // The visible part of the sheet. Shapes far outside it are cut off, because the rasteriser cannot handle them.
     shows: Option<Frame>,
-    /// Room that texts, keys and marks take.
+    /// Space that texts, keys and marks occupy.
     taken: Vec<Room>,
 }
 
@@ -225,25 +225,25 @@ impl Canvas {
         self.label(at, size, anchor, s, " font-weight=\"bold\"");
     }
 
-    /// Text with a white rim, readable on anything.
+    /// Text with a white rim, readable on any background.
     pub fn rimmed(&mut self, at: [f64; 2], size: f64, anchor: Anchor, s: &str) {
         let rim = " stroke=\"#ffffff\" stroke-width=\"3\" stroke-linejoin=\"round\" paint-order=\"stroke\"";
         self.label(at, size, anchor, s, rim);
     }
 
-    /// Room that labels shall keep free.
+    /// Reserves space that labels must keep free.
     pub fn keep_free(&mut self, room: Room) {
         self.taken.push(room);
     }
 
-    /// How much of a label would lie on what is there, or outside the panel, px².
+    /// The area of a label that would cover other things or lie outside the panel, px².
     fn in_the_way(&self, room: &Room, panel: &Panel) -> f64 {
         let on_others: f64 = self.taken.iter().map(|t| room.shared(t)).sum();
         on_others + room.outside(panel)
     }
 
-    /// Rimmed text at the first of several places at which it lies on nothing else and within the panel; where there is
-    /// none, at that at which it hides least, or not at all if it may be left out.
+    /// Draws rimmed text at the first of several places where it covers nothing and lies within the panel. If there is
+    /// none, it takes the place where it covers least, or omits the text if that is allowed.
     pub fn label_at(
         &mut self,
         places: &[([f64; 2], Anchor)],
@@ -272,13 +272,13 @@ impl Canvas {
         }
     }
 
-    /// Room taken so far.
+    /// Space occupied so far.
     #[cfg(test)]
     pub fn taken(&self) -> &[Room] {
         &self.taken
     }
 
-    /// Text turned a quarter left, centred.
+    /// Text turned a quarter to the left, centred.
     pub fn upright(&mut self, [x, y]: [f64; 2], size: f64, s: &str) {
         let turn = format!(" transform=\"rotate(-90 {x:.1} {y:.1})\"");
         self.write_text([x, y], size, Anchor::Middle, s, &turn);
@@ -306,7 +306,7 @@ impl Canvas {
         .expect(TEXT);
     }
 
-    /// Everything until [`Canvas::unclip`] shows only inside the rectangle.
+    /// Until [`Canvas::unclip`], only the part inside the rectangle is visible.
     pub fn clip(&mut self, x: f64, y: f64, w: f64, h: f64) {
         self.clips += 1;
         self.shows = Some([x, y, x + w, y + h]);
@@ -318,13 +318,13 @@ impl Canvas {
         .expect(TEXT);
     }
 
-    /// Ends the newest clip.
+    /// Ends the latest clip.
     pub fn unclip(&mut self) {
         self.shows = None;
         self.body.push_str("</g>\n");
     }
 
-    /// The whole figure; `name` keeps its inner ids apart from other figures on one page.
+    /// The whole figure. `name` distinguishes its inner ids from those of other figures on the same page.
     pub fn svg(&self, name: &str) -> String {
         let (w, h) = (self.width, self.height);
         let body = self
@@ -339,7 +339,7 @@ impl Canvas {
     }
 }
 
-/// Text safe inside XML and HTML; characters that XML forbids become spaces.
+/// Text that is safe inside XML and HTML; characters that XML forbids become spaces.
 pub fn escaped(s: &str) -> String {
     let mut out = String::with_capacity(s.len());
     for c in s.chars() {

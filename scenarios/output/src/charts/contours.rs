@@ -16,7 +16,7 @@ pub struct Grid {
     pub origin: [f64; 2],
     /// Distance between nodes.
     pub step: [f64; 2],
-    /// Row by row, x fastest.
+    /// Values row by row, x fastest.
     pub values: Vec<f64>,
 }
 
@@ -24,7 +24,7 @@ pub struct Grid {
 type Edge = (usize, usize, u8);
 
 impl Grid {
-    /// Of a function over a rectangle.
+    /// Evaluates a function over a rectangle.
     pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
         let step = [
             (x[1] - x[0]) / (n[0] - 1) as f64,
@@ -48,7 +48,7 @@ impl Grid {
         self.values[j * self.n[0] + i]
     }
 
-    /// The grid with a rim of nodes of a value below all levels, on the same edge: regions close there.
+    /// The grid with a rim of nodes at the same edge, with a value below all levels, so that regions close there.
     fn rimmed(&self, low: f64) -> (Vec<f64>, [usize; 2]) {
         let n = [self.n[0] + 2, self.n[1] + 2];
         let mut v = vec![low; n[0] * n[1]];
@@ -73,7 +73,7 @@ impl Grid {
 
     /// Rings round the regions at or above `level`.
     pub fn rings(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
-        // Far below, so that the crossing on a rim edge falls on the node inside.
+        // Far below, so that the crossing on an edge to the rim falls on the inner node.
         let (values, n) = self.rimmed(level - 1e12 * (1.0 + level.abs()));
         let clamp = |k: f64, n: usize| (k - 1.0).clamp(0.0, (n - 1) as f64);
         let place = |i: f64, j: f64| {
@@ -106,7 +106,7 @@ fn trace(
             place(i as f64, j as f64 + s)
         }
     };
-    // Each crossed edge leads on to at most two others.
+    // Each crossed edge connects to at most two others.
     let mut links: BTreeMap<Edge, Vec<Edge>> = BTreeMap::new();
     let mut link = |a: Edge, b: Edge| {
         links.entry(a).or_default().push(b);
@@ -137,7 +137,7 @@ fn trace(
             }
         }
     }
-    // Ends first, so that open lines come out whole; then the rings.
+    // Ends first, so that open lines are whole; then the rings.
     let ends: Vec<Edge> = links
         .iter()
         .filter(|(_, l)| l.len() == 1)
@@ -187,7 +187,7 @@ mod tests {
         });
         let rings = g.rings(0.0);
         assert_eq!(rings.len(), 1);
-        // Chords of a circle cut off (h/r)²/6 of it at most: h = 0.05.
+        // Chords of a circle remove at most (h/r)²/6 of it: h = 0.05.
         assert!((area(&rings[0]) - std::f64::consts::PI).abs() < 5e-3);
         assert_eq!(g.lines(0.0).len(), 1);
     }

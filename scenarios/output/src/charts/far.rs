@@ -1,26 +1,27 @@
-//! What lies far beyond a sheet, cut off near its edge: a library that makes pixels of it would lose count.
+//! Cuts off what lies far outside a sheet, near its edge, because the rasteriser cannot handle such large coordinates.
 //!
-//! *Source*: polygons, Sutherland & Hodgman 1974, Commun. ACM 17, 32; lines, Liang & Barsky 1984, ACM Trans. Graph. 3, 1.
+//! *Source*: polygons, Sutherland & Hodgman 1974, Commun. ACM 17, 32; lines, Liang & Barsky 1984, ACM Trans. Graph. 3,
+//! 1.
 //!
-//! *Parameters*: none; nothing nearer than [`FAR`] is touched.
+//! *Parameters*: none; nothing nearer than `FAR` is changed.
 //!
 //! *Deviations*: none.
 
-/// Beyond this a coordinate is far, px.
+/// A coordinate beyond this is far away, px.
 const FAR: f64 = 1e5;
-/// How far beyond the frame a shape is cut, px: its edge there must not show.
+/// Distance beyond the frame at which a shape is cut, px; the cut must not be visible.
 const BEYOND: f64 = 100.0;
 
 /// Left, top, right, bottom, px.
 pub type Frame = [f64; 4];
 
-/// Whether a point is far beyond any sheet, or none at all.
+/// Whether a point is far outside any sheet, or not finite.
 pub fn is_far(p: [f64; 2]) -> bool {
-    // Nor what is not a number.
+    // NaN counts as far, too.
     !(p[0].abs() <= FAR && p[1].abs() <= FAR)
 }
 
-/// What of lines or rings is near a frame; `None` if all of it is.
+/// The part of lines or rings that is near a frame; `None` if that is all of it.
 pub fn near(lines: &[Vec<[f64; 2]>], closed: bool, frame: Frame) -> Option<Vec<Vec<[f64; 2]>>> {
     if !lines.iter().flatten().any(|p| is_far(*p)) {
         return None;
@@ -29,7 +30,7 @@ pub fn near(lines: &[Vec<[f64; 2]>], closed: bool, frame: Frame) -> Option<Vec<V
     let wider = [left - BEYOND, top - BEYOND, right + BEYOND, bottom + BEYOND];
     let real = lines.iter().map(|line| {
         let points = line.iter().copied();
-        // Products of larger ones would be infinite.
+        // Products of larger numbers would be infinite.
         let real = points.filter(|p| p.iter().all(|v| v.is_finite()));
         real.map(|p| p.map(|v| v.clamp(-1e100, 1e100)))
             .collect::<Vec<_>>()

@@ -1,5 +1,5 @@
-//! Charts: canvas, panels with axes, contours, colours; drawn as SVG with helpers of our own, and the PNG is that SVG
-//! rasterised with a font the program carries, so both show the same on a machine without fonts.
+//! Charts: canvas, panels with axes, contours, colours. Figures are drawn as SVG with our own helpers. The PNG is the
+//! same SVG, rasterised with a font that the program contains, so both look the same on a machine without fonts.
 
 pub mod canvas;
 pub mod contours;

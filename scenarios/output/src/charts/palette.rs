@@ -1,10 +1,10 @@
-//! Colours that the colour-blind can tell apart (Okabe & Ito 2008), and ramps that also differ in lightness.
+//! Colours for the colour-blind (Okabe & Ito 2008), and ramps that also differ in lightness.
 
 use robots::handoff::{Behaviour, GantryBehaviour};
 
 /// Ink of axes and frames.
 pub const INK: &str = "#222222";
-/// Ink of what stands back.
+/// Ink of things in the background.
 pub const GREY: &str = "#7f7f7f";
 /// Grid lines.
 pub const GRID: &str = "#e3e3e3";
@@ -101,7 +101,7 @@ pub fn plume(share: f64) -> String {
     }
 }
 
-/// Chance that the source is there, from small (0) to the largest (1).
+/// Colour of the probability that the source is there, from small (0) to the largest (1).
 pub fn likelihood(share: f64) -> String {
     if share < 0.5 {
         mix([0xff, 0xf7, 0xec], [0xfc, 0x8d, 0x59], 2.0 * share)
@@ -110,7 +110,7 @@ pub fn likelihood(share: f64) -> String {
     }
 }
 
-/// Echo of a sidescan, from none (0) to strong (1): the copper of paper records.
+/// Colour of a sidescan's echo, from none (0) to strong (1): the copper of paper records.
 pub fn echo(share: f64) -> String {
     if share < 0.5 {
         mix([0x08, 0x06, 0x04], [0x9a, 0x5f, 0x22], 2.0 * share)

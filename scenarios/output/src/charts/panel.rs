@@ -1,10 +1,10 @@
-//! One pair of axes: from values to pixels, ticks, frame.
+//! A pair of axes: conversion from values to pixels, ticks, frame.
 
 use super::canvas::{Anchor, Canvas, Style};
 use super::palette::{GRID, INK};
 use world::math;
 
-/// A rectangle of the sheet that shows a rectangle of values; `y` up unless `y_lo > y_hi`.
+/// A rectangle of the sheet that shows a rectangle of values. `y` points up unless `y_lo > y_hi`.
 #[derive(Clone, Copy, Debug)]
 pub struct Panel {
     /// Left edge, px.
@@ -22,22 +22,22 @@ pub struct Panel {
 }
 
 impl Panel {
-    /// Pixels from the left of a value of x.
+    /// Horizontal position of a value of x, px.
     pub fn px(&self, x: f64) -> f64 {
         self.left + (x - self.x[0]) / (self.x[1] - self.x[0]) * self.width
     }
 
-    /// Pixels from the top of a value of y.
+    /// Vertical position of a value of y, px.
     pub fn py(&self, y: f64) -> f64 {
         self.top + self.height - (y - self.y[0]) / (self.y[1] - self.y[0]) * self.height
     }
 
-    /// Place of a pair of values, px.
+    /// Position of a pair of values, px.
     pub fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         [self.px(x), self.py(y)]
     }
 
-    /// Places of pairs of values, px.
+    /// Positions of pairs of values, px.
     pub fn all(&self, points: &[[f64; 2]]) -> Vec<[f64; 2]> {
         points.iter().map(|p| self.at(*p)).collect()
     }
@@ -57,12 +57,12 @@ impl Panel {
         self.width / (self.x[1] - self.x[0])
     }
 
-    /// Hides what is drawn outside it until the next unclip.
+    /// Hides what is drawn outside the panel until the next unclip.
     pub fn clip(&self, c: &mut Canvas) {
         c.clip(self.left, self.top, self.width, self.height);
     }
 
-    /// Draws its edge.
+    /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(
             self.left,
@@ -121,12 +121,12 @@ pub fn power_of_ten(n: i32) -> f64 {
     10f64.powi(n)
 }
 
-/// Greatest n with 10ⁿ ≤ x.
+/// Largest n with 10ⁿ ≤ x.
 pub fn decade(x: f64) -> i32 {
     (math::ln(x) / std::f64::consts::LN_10 + 1e-12).floor() as i32
 }
 
-/// 1, 2 or 5 times a power of ten, for about `wanted` steps over `span`.
+/// 1, 2 or 5 times a power of ten, such that `span` has about `wanted` steps.
 pub fn nice_step(span: f64, wanted: f64) -> f64 {
     let raw = span.max(1e-9) / wanted.max(1.0);
     let base = power_of_ten(decade(raw));
@@ -137,7 +137,7 @@ pub fn nice_step(span: f64, wanted: f64) -> f64 {
         .unwrap_or(10.0)
 }
 
-/// Multiples of `step` within the range, which may run either way.
+/// Multiples of `step` within the range, which may be descending.
 pub fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
     let (lo, hi) = (range[0].min(range[1]), range[0].max(range[1]));
     let first = (lo / step - 1e-9).ceil() as i64;
@@ -145,7 +145,7 @@ pub fn ticks(range: [f64; 2], step: f64) -> Vec<f64> {
     (first..=last).map(|k| k as f64 * step).collect()
 }
 
-/// A number with the decimals its step asks for and a true minus sign.
+/// A number with as many decimals as its step needs, and a true minus sign.
 pub fn number(v: f64, step: f64) -> String {
     let decimals = usize::try_from(-decade(step)).unwrap_or(0);
     let text = format!("{:.decimals$}", v.abs());
@@ -157,7 +157,7 @@ pub fn number(v: f64, step: f64) -> String {
     }
 }
 
-/// A range that contains every number given, widened by a share and never empty.
+/// A range that contains all given numbers, widened by a share; it is never empty.
 pub fn range_of(values: impl Iterator<Item = f64>, widen: f64) -> Option<[f64; 2]> {
     let mut range: Option<[f64; 2]> = None;
     for v in values.filter(|v| v.is_finite()) {

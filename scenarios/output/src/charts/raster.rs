@@ -1,9 +1,9 @@
-//! SVG to PNG, with the font the program carries (a part of DejaVu Sans, see `font/LICENSE`).
+//! From SVG to PNG, with the font that the program contains (a part of DejaVu Sans, see `font/LICENSE`).
 
 use resvg::tiny_skia::{Pixmap, Transform};
 use resvg::usvg::{Options, Tree};
 
-/// Pixels for each pixel of the SVG: sharp in print at its natural size.
+/// Pixels per pixel of the SVG: sharp in print at its natural size.
 const SCALE: f32 = 2.0;
 
 const FONTS: [&[u8]; 2] = [
@@ -51,7 +51,7 @@ mod tests {
         assert!(dark_pixels(&c) > 50);
     }
 
-    /// Every character the figures use beside plain ASCII has a glyph.
+    /// All characters that the figures use in addition to ASCII have a glyph.
     #[test]
     fn font_holds_the_signs_we_use() {
         let mut options = Options::default();

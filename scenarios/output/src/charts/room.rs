@@ -1,4 +1,4 @@
-//! Room on a sheet: what texts and keys take up, and a free place for the next label.
+//! Space on a sheet: what texts and keys occupy, and a free place for the next label.
 
 use super::canvas::Anchor;
 use super::panel::Panel;
@@ -17,7 +17,7 @@ pub struct Room {
 }
 
 impl Room {
-    /// Round a point.
+    /// A square round a point.
     pub fn round([x, y]: [f64; 2], reach: f64) -> Self {
         Self {
             left: x - reach,
@@ -27,7 +27,7 @@ impl Room {
         }
     }
 
-    /// Of a line of text that stands at a point.
+    /// The space of a line of text at a point.
     pub fn of_text([x, y]: [f64; 2], size: f64, anchor: Anchor, s: &str) -> Self {
         let width = width_of(s, size);
         let left = match anchor {
@@ -43,7 +43,7 @@ impl Room {
         }
     }
 
-    /// The part that two share, px²; zero where they only touch.
+    /// The area that two rooms share, px²; zero if they only touch.
     pub fn shared(&self, other: &Room) -> f64 {
         let w = self.right.min(other.right) - self.left.max(other.left);
         let h = self.bottom.min(other.bottom) - self.top.max(other.top);
@@ -63,7 +63,7 @@ impl Room {
     }
 }
 
-/// Width of a text, px: DejaVu Sans, its letters in classes of one width each, the widest of a class.
+/// Width of a text, px, in DejaVu Sans. Letters are grouped in classes, each with the width of its widest letter.
 pub fn width_of(s: &str, size: f64) -> f64 {
     let em = |c: char| match c {
         'i' | 'j' | 'l' | '\'' => 0.28,

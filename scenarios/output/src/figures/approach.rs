@@ -1,6 +1,6 @@
-//! Speed of a gantry's head and its distance from the centreline, against the distance to the source.
+//! Speed of a gantry's head, and its distance from the centreline, against the distance to the source.
 //!
-//! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 11: the same compared 100-50 cm and 50-0 cm from the source.
+//! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 11, which compares both 100-50 cm and 50-0 cm from the source.
 
 use super::section::Axes;
 use super::series_panels::axes as scales;
@@ -14,22 +14,22 @@ const LEFT: f64 = 92.0;
 const WIDTH: f64 = 800.0;
 const HEIGHT: f64 = 220.0;
 const GAP: f64 = 22.0;
-/// The ranges compared (cm), near first.
+/// The ranges compared (cm), the near one first.
 const RANGES: [[f64; 2]; 2] = [[0.0, 50.0], [50.0, 100.0]];
 const SHADES: [&str; 2] = ["#eef3f8", "#f8f3ea"];
 
-/// One motion of the head, with the rest after it.
+/// One motion of the head, with the rest that follows.
 struct Motion {
     behaviour: GantryBehaviour,
     /// Mean distance down-stream of the source, cm.
     away: f64,
-    /// Mean distance from the source's line along the stream, cm.
+    /// Mean distance from the line along the stream through the source, cm.
     aside: f64,
-    /// Way over time, cm/s.
+    /// Speed: distance over time, cm/s.
     speed: f64,
 }
 
-/// The figure as SVG; none without a source or a step up-stream.
+/// The figure as SVG; `None` without a source or a step up-stream.
 pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     if run.sources.is_empty() {
         return None;
@@ -138,7 +138,7 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
             .iter()
             .take_while(|r| r.command == rows[k].command)
             .count();
-        // Up to the first row of the next motion: the way between the two belongs to this one.
+        // Up to the first row of the next motion, because the way between the two belongs to this one.
         let of = &rows[k..(k + run + 1).min(rows.len())];
         let points: Vec<[f64; 2]> = of.iter().map(|r| place.cm(r.head)).collect();
         let way: f64 = (points.windows(2))
@@ -160,7 +160,7 @@ fn motions(place: &Axes, rows: &[GantryRow]) -> Vec<Motion> {
     found
 }
 
-/// A range's mean as a line across it.
+/// Draws a range's mean as a line across it.
 fn mean_of(c: &mut Canvas, panel: &Panel, [a, b]: [f64; 2], mean: f64, unit: &str) {
     let y = panel.py(mean);
     c.line(

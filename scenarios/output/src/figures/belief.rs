@@ -1,4 +1,5 @@
-//! Maps of where the source may be, at chosen times, with track, plume, obstacles and plan (after Wang & Pang, Figs. 7 and 8).
+//! Maps of where the source may be, at chosen times, with track, plume, obstacles and plan (after Wang & Pang, Figs. 7,
+//! 8).
 
 use super::map_layers as layers;
 use super::map_legend::short;
@@ -19,7 +20,7 @@ const TOP: f64 = 70.0;
 const GAP: [f64; 2] = [70.0, 92.0];
 /// Height of the key, px.
 const KEY: f64 = 58.0;
-/// Probabilities shown: from the largest down to this many decades below it, in so many shades.
+/// Range of probabilities shown, in decades below the largest, and the number of shades for it.
 const DECADES: f64 = 4.0;
 const SHADES: usize = 12;
 /// Planned path.
@@ -42,7 +43,7 @@ pub fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         run.summary.scenario, run.summary.seed, robot.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
-    // What the map came to, where it is sure of a wrong place.
+    // A remark on the map if it is certain of a wrong place.
     if let Some(remark) = remark(run, &robot.id) {
         let words = format!("Beware: {remark}.");
         c.text([LEFT, 40.0], 11.0, Anchor::Start, &words);
@@ -86,8 +87,8 @@ pub fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     c.svg(&format!("belief{}", robot.id))
 }
 
-/// Before the first detection, after it, a third and two thirds of the way until the most probable cell came to its
-/// last place, there, and at the end.
+/// Times shown: before the first detection, after it, at one and two thirds of the time until the most probable cell
+/// reached its last place, at that time, and at the end.
 fn chosen(robot: &RobotBelief) -> Vec<(&'static str, &BeliefSnapshot)> {
     let from = robot.first.as_ref().map(|s| s.belief.t_s);
     let between = |share: f64| {
@@ -122,7 +123,7 @@ fn one(
     panel.clip(c);
     cells(c, panel, &s.belief);
     if let Some(plume) = &s.plume {
-        // A dot is a stroke of no length with a round end: all of them one shape.
+        // A dot is a stroke of length zero with a round end, so that all dots form one shape.
         let dots: Vec<_> = (plume.points.iter())
             .map(|[x, y, ..]| panel.at([f64::from(*x), f64::from(*y)]))
             .map(|p| vec![p, [p[0] + 0.05, p[1]]])
@@ -175,7 +176,7 @@ pub(super) fn vehicle(c: &mut Canvas, p: [f64; 2]) {
     c.circle(p, 4.0, &Style::fill(PLAN).edged("#ffffff", 1.2));
 }
 
-/// What the summary remarks of a robot's map.
+/// The remark in the summary on a robot's map.
 pub(super) fn remark<'a>(run: &'a RunReport<'_>, id: &str) -> Option<&'a str> {
     let of = run.summary.robots.iter().find(|r| r.id == id)?;
     of.map.as_ref()?.remark.as_deref()
@@ -191,7 +192,7 @@ fn best_cell(c: &mut Canvas, [x, y]: [f64; 2]) {
     }
 }
 
-/// The cells in shades of their probability, summed over the depth.
+/// The cells in shades of their probability, summed over depth.
 fn cells(c: &mut Canvas, panel: &Panel, b: &Belief) {
     let layer = b.grid.n[0] * b.grid.n[1];
     let mut plan = vec![0.0; layer];
@@ -201,7 +202,7 @@ fn cells(c: &mut Canvas, panel: &Panel, b: &Belief) {
     shades(c, panel, &b.grid, &plan);
 }
 
-/// A layer of cells in shades of a value's share of the largest; neighbours of one shade as one shape.
+/// A layer of cells in shades of a value's share of the largest; neighbours of one shade form one shape.
 pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f64]) {
     let [nx, ny, _] = grid.n;
     let most = plan.iter().fold(0.0, |m: f64, v| m.max(*v));
@@ -234,12 +235,12 @@ pub(super) fn shades(c: &mut Canvas, panel: &Panel, grid: &BeliefGrid, plan: &[f
     }
     for (s, rings) in rings.iter().enumerate() {
         let colour = palette::likelihood(s as f64 / SHADES as f64);
-        // Edged in its own colour, so that no light seams stand between the shapes.
+        // The edge has the same colour, so that no light seams appear between the shapes.
         c.lines(rings, true, &Style::fill(&colour).edged(&colour, 0.4));
     }
 }
 
-/// The scale of shades after `words`, `from` on.
+/// Draws the scale of shades after `words`, from position `from` on.
 pub(super) fn scale(c: &mut Canvas, [x, y]: [f64; 2], words: &str, from: f64) {
     const CELL: f64 = 14.0;
     c.text([x, y], 10.0, Anchor::Start, words);
@@ -254,7 +255,7 @@ pub(super) fn scale(c: &mut Canvas, [x, y]: [f64; 2], words: &str, from: f64) {
     c.text([end, y + 14.0], 9.0, Anchor::Middle, "1");
 }
 
-/// Shades, and what the signs mean.
+/// Key of the shades and signs.
 fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
     let words = if space {
         "Probability (summed over the depth), share of the largest:"
@@ -287,7 +288,7 @@ fn key(c: &mut Canvas, [x, y]: [f64; 2], space: bool) {
     ];
     let (mut at, y) = (x + 10.0, y + 30.0);
     for (k, (draw, words)) in signs.into_iter().enumerate() {
-        // Two lines, so that the key of one panel alone has room.
+        // Two lines, so that the key of a single panel has room.
         let y = y + if k < 3 { 0.0 } else { 17.0 };
         if k == 3 {
             at = x + 10.0;
@@ -302,7 +303,7 @@ fn sample(c: &mut Canvas, [x, y]: [f64; 2], style: &Style<'_>) {
     c.line([x - 12.0, y], [x + 12.0, y], style);
 }
 
-/// East and north ranges that hold the area.
+/// East and north ranges that contain the area.
 pub(super) fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     let corners = run.area.corners();
     let along = |k: usize| range_of(corners.iter().map(|p| p[k]), 0.02).unwrap_or([-1.0, 1.0]);

@@ -1,4 +1,4 @@
-//! How the maps drew together: distance to the true source, entropy, credible region; all robots side by side.
+//! How the maps converged: distance to the true source, entropy and credible region of all robots, side by side.
 
 use super::belief::remark;
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -16,7 +16,7 @@ const GAP: f64 = 22.0;
 const COLOURS: [&str; 6] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
 ];
-/// Points of a curve, at most.
+/// Most points of a curve.
 const POINTS: usize = 3000;
 
 /// The convergence of all robots' maps as SVG.
@@ -33,7 +33,7 @@ pub fn convergence(run: &RunReport<'_>) -> String {
         run.summary.scenario, run.summary.seed
     );
     c.bold([LEFT, 22.0], 13.0, Anchor::Start, &title);
-    // Under the curves' names, a line a robot: which map is sure of a wrong place.
+    // Under the names of the curves, one line for each robot whose map is certain of a wrong place.
     let remarks: Vec<String> = (robots.iter())
         .filter_map(|r| remark(run, &r.id).map(|words| format!("{}: {words}", r.id)))
         .collect();
@@ -126,7 +126,7 @@ fn curve(
     for r in robot.rows.iter().step_by(stride) {
         let Some(v) = value(r) else { continue };
         let p = panel.at([r.t_s, v]);
-        // A value holds until the next update: steps, not slopes.
+        // A value holds until the next update, so the curve has steps, not slopes.
         if let Some(before) = points.last() {
             points.push([p[0], before[1]]);
         }
@@ -135,7 +135,7 @@ fn curve(
     c.polyline(points, &Style::line(colour, 1.6));
 }
 
-/// Lines and numbers at powers of ten, for values that are logarithms.
+/// Lines and numbers at powers of ten, for logarithmic values.
 fn decades(c: &mut Canvas, panel: &Panel) {
     for d in panel.y[0].ceil() as i32..=panel.y[1].floor() as i32 {
         let y = panel.py(f64::from(d));

@@ -1,6 +1,6 @@
 //! A gantry's track over an instantaneous field of concentration at the height of its probes.
 //!
-//! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 2 (field) and Fig. 9 (tracks), drawn over each other.
+//! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 2 (field) and Fig. 9 (tracks), combined.
 
 use super::map_layers as layers;
 use super::map_legend::{BAR, LINE, SIZE, entry, heading, short};
@@ -18,12 +18,12 @@ const COLUMN: f64 = 250.0;
 const CELL_PX: f64 = 2.0;
 const PLUME_OPACITY: f64 = 0.75;
 
-/// The figure as SVG; none for a gantry that was never seen.
+/// The figure as SVG; `None` for a gantry that appears in no frame.
 pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     let axes = Axes::of(run, t)?;
     let panel = place(&axes);
     let mut c = Canvas::new(panel.right() + COLUMN, (panel.bottom() + 60.0).max(470.0));
-    // The height at which most probes are: of the built-in head, both outer ones.
+    // The height of most probes: on the built-in head, that of both outer ones.
     let z = height(t);
     let n = [panel.width, panel.height].map(|px| (px / CELL_PX).ceil() as usize + 1);
     let at_height = |z: f64| {
@@ -31,7 +31,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
             .and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye))
     };
     let section = z.and_then(at_height);
-    // Below the probes, where the plume is.
+    // The field below the probes, at the height of the source.
     let below = run.sources.first().and_then(|s| at_height(s.position.z));
     panel.clip(&mut c);
     if let Some(section) = &section {
@@ -118,7 +118,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     Some(c.svg(&format!("flume{}", t.info.id)))
 }
 
-/// A panel with one scale both ways.
+/// A panel with the same scale in both directions.
 fn place(axes: &Axes) -> Panel {
     let (dx, dy) = (axes.x[1] - axes.x[0], axes.y[1] - axes.y[0]);
     let scale = (LARGEST[0] / dx).min(LARGEST[1] / dy);
@@ -132,13 +132,13 @@ fn place(axes: &Axes) -> Panel {
     }
 }
 
-/// The commonest height of the probes' tips, the lowest of those (ENU), m.
+/// The most frequent height of the probes' tips, the lowest of several (ENU), m.
 fn height(t: &GantryTrack) -> Option<f64> {
     let shared = |z: f64| t.tips.iter().filter(|p| (p[2] - z).abs() < 1e-3).count();
     (t.tips.iter().map(|p| p[2])).max_by(|a, b| shared(*a).cmp(&shared(*b)).then(b.total_cmp(a)))
 }
 
-/// The head's way by what the searcher did, and where each motion ended.
+/// The head's track, coloured by what the searcher did, and where each motion ended.
 fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
     let at = |k: usize| panel.at(axes.cm(t.rows[k].head));
     let all = layers::thinned((0..t.rows.len()).map(at));
@@ -192,7 +192,7 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
     let mut y = top + 6.0;
     heading(c, x, &mut y, "Track of the head");
     let seen = |b: &GantryBehaviour| t.rows.iter().any(|r| r.behaviour == *b);
-    // Idle and stopped it does not move: there is no line to explain.
+    // In the states idle and stopped it does not move, so there is no line to explain.
     let moving = (GantryBehaviour::ALL.into_iter())
         .filter(|b| !matches!(b, GantryBehaviour::Idle | GantryBehaviour::Done));
     for b in moving.filter(seen) {
@@ -228,7 +228,7 @@ fn legend(c: &mut Canvas, run: &RunReport<'_>, t: &GantryTrack, [x, top]: [f64; 
     y + 10.0
 }
 
-/// Keys of the section at the probes' height and of the plume's edge at the source's.
+/// Keys of the section at the probes' height, and of the plume's edge at the source's height.
 fn plume_key(
     c: &mut Canvas,
     run: &RunReport<'_>,
@@ -250,7 +250,7 @@ fn plume_key(
         let last = (section.levels.len() - 1) as f64;
         for (k, level) in section.levels.iter().enumerate() {
             let left = x + k as f64 * w;
-            // As on the sheet, each level lies over those below it.
+            // As on the sheet, each level covers those below it.
             for under in 0..=k {
                 let colour = palette::plume(under as f64 / last);
                 let style = Style::fill(&colour).faint(PLUME_OPACITY);

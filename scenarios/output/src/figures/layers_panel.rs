@@ -1,4 +1,4 @@
-//! Who held the vehicle: the layers of a subsumption planner over time, the highest on top.
+//! Which layer controlled the vehicle: the layers of a subsumption planner over time, the highest at the top.
 
 use super::series_panels::{BLUE, ORANGE};
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -8,7 +8,7 @@ use robots::handoff::LayerState;
 
 const INHIBITED: &str = "#c9c9c9";
 
-/// Colour of a state and its share of a row's height; silence is not drawn.
+/// Colour of a state, and its share of the row's height; silent layers are not drawn.
 fn bar(state: LayerState) -> Option<(&'static str, f64)> {
     match state {
         LayerState::Silent => None,
@@ -18,7 +18,7 @@ fn bar(state: LayerState) -> Option<(&'static str, f64)> {
     }
 }
 
-/// A row a layer; a thick bar where it holds, a thin one where a higher layer keeps it from that.
+/// One row for each layer: a thick bar where it controls the vehicle, a thin one where a higher layer prevents that.
 pub(super) fn layers(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let n = t.layers.first().map_or(0, |l| l.1.len());
     let row = panel.height / n.max(1) as f64;
@@ -34,7 +34,7 @@ pub(super) fn layers(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
         let mut i = 0;
         while i < t.layers.len() {
             let (begin, state) = (t.layers[i].0, t.layers[i].1[k].state);
-            // Changes of other layers do not cut the bar.
+            // Changes of other layers do not interrupt the bar.
             let rest = t.layers[i..].iter();
             i += rest.take_while(|l| l.1[k].state == state).count();
             let until = t.layers.get(i).map_or(end, |l| l.0);

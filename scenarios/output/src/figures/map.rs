@@ -1,4 +1,4 @@
-//! The map: area, bed, plume, track by behaviour, what was found where (after Pang 2009, Fig. 7).
+//! The map: area, bed, plume, track by behaviour, and what was found where (after Pang 2009, Fig. 7).
 
 use super::map_layers as layers;
 use super::map_legend::keys;
@@ -12,19 +12,19 @@ use crate::charts::panel::{Panel, nice_step, range_of};
 use crate::results::{RobotTrack, RunReport, SourceTruth};
 use nalgebra::Vector2;
 
-/// Largest size of the map's panel with the keys beside it, and with the keys under it, px.
+/// Largest size of the map's panel with keys beside it and with keys below it, px.
 const LARGEST_TALL: [f64; 2] = [660.0, 840.0];
 const LARGEST_WIDE: [f64; 2] = [900.0, 720.0];
 const LEAST: [f64; 2] = [420.0, 120.0];
-/// Wider maps than this have their keys under them, width over height.
+/// Maps wider than this (width over height) have their keys below.
 const WIDE: f64 = 1.25;
-/// Margin round what the map must show, share of its size.
+/// Margin round the content of the map, as a share of its size.
 const MARGIN: f64 = 0.04;
 /// Width of a column of keys, px.
 const COLUMN: f64 = 235.0;
-/// Height that keys beside a map may use anyway, px.
+/// Height that keys beside a map may always use, px.
 const LEAST_SHEET: f64 = 640.0;
-/// Least enlargement of the closer look, and the one wished for: scale of the inset over the map's.
+/// Smallest and preferred enlargement of the inset: its scale divided by the map's.
 const ENLARGED: [f64; 2] = [1.5, 2.5];
 /// Largest and least inset, px.
 const INSET: [f64; 2] = [225.0, 120.0];
@@ -36,7 +36,7 @@ pub fn map(run: &RunReport<'_>) -> String {
     sheet(run).svg("map")
 }
 
-/// The whole sheet: map, vertical section under it where that shows more, keys beside or under both.
+/// The whole sheet: the map, a vertical section below it where that shows more, and keys beside or below them.
 pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     let (x, y) = bounds(run);
     let wide = x[1] - x[0] > WIDE * (y[1] - y[0]);
@@ -61,7 +61,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     if let Some(below) = map_section::draw(&mut c, run, &panel, bottom + 34.0) {
         bottom = below;
     }
-    // Keys and inset: one under the other beside the map, or side by side under it.
+    // Keys and inset: in a column beside the map, or in a row below it.
     let blocks = keys(run, &bed, plume.as_ref());
     let (mut at, mut end) = if wide {
         ([panel.left, bottom + 22.0], bottom)
@@ -92,7 +92,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     c
 }
 
-/// The closer look, and its box on the map.
+/// Draws the inset, and its frame on the map.
 fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
     draw(c, run, inset, &Bed::of(run, inset), None, true);
     inset.frame(c, 1.0);
@@ -118,7 +118,7 @@ fn closer(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, inset: &Panel) {
 /// Depths over a panel.
 pub(super) struct Bed {
     pub(super) grid: Grid,
-    /// Depths at which the shade changes, and those drawn as lines.
+    /// Depths at which the shade changes, and depths drawn as lines.
     pub(super) levels: Vec<f64>,
     pub(super) range: [f64; 2],
     pub(super) step: f64,
@@ -147,7 +147,7 @@ impl Bed {
         }
     }
 
-    /// Share of the shade's ramp for the band beginning at a depth.
+    /// Position in the ramp of shades for the band that begins at a depth.
     pub(super) fn shade(&self, depth: f64) -> f64 {
         (depth + 0.5 * self.step - self.range[0]) / (self.range[1] - self.range[0]).max(1e-9)
     }
@@ -185,7 +185,7 @@ fn draw(
         layers::marks(c, panel, t);
     }
     layers::sources(c, panel, run);
-    // Names last, where nothing else stands; the closer look needs none.
+    // Names last, where nothing else is drawn; the inset needs none.
     if !close {
         layers::source_names(c, panel, run);
         for t in robots {
@@ -196,7 +196,7 @@ fn draw(
     c.unclip();
 }
 
-/// East and north ranges that hold the area and all that happened.
+/// East and north ranges that contain the area and everything that happened.
 fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     let corners = run.area.corners();
     let mut points: Vec<[f64; 2]> = corners.iter().map(|p| [p.x, p.y]).collect();
@@ -209,7 +209,7 @@ fn bounds(run: &RunReport<'_>) -> ([f64; 2], [f64; 2]) {
     (along(0), along(1))
 }
 
-/// A panel with one scale both ways, within its limits of size.
+/// A panel with the same scale in both directions, within its limits of size.
 fn place(mut x: [f64; 2], mut y: [f64; 2], wide: bool) -> Panel {
     let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
     let largest = if wide { LARGEST_WIDE } else { LARGEST_TALL };
@@ -229,7 +229,7 @@ fn place(mut x: [f64; 2], mut y: [f64; 2], wide: bool) -> Panel {
     }
 }
 
-/// A closer look at the declared source: if one was declared, there is room of so many px, and it is closer indeed.
+/// An enlarged view of the declared source, if one was declared, if there is room, and if the view is really enlarged.
 pub(super) fn inset(
     run: &RunReport<'_>,
     map: &Panel,
@@ -239,7 +239,7 @@ pub(super) fn inset(
     if size < INSET[1] {
         return None;
     }
-    // The one that is nearest to a true source; what is declared on a subregion's edge has its source elsewhere.
+    // The declaration nearest to a true source; for one on a subregion's edge, the source is elsewhere.
     let away = |d: &SourceAt| {
         let of = |s: &SourceTruth| (s.position.xy() - Vector2::new(d[0], d[1])).norm();
         run.sources.iter().map(of).fold(f64::INFINITY, f64::min)
@@ -261,7 +261,7 @@ pub(super) fn inset(
         .min_by(|a, b| near(a).total_cmp(&near(b)))
         .unwrap_or(declared);
     let apart = near(&source).sqrt();
-    // Half the width shown: room for the last bowties, never more than a quarter of the area.
+    // Half of the width shown: room for the last bowties, at most a quarter of the area.
     let half = (1.2 * apart)
         .max(60.0)
         .min(0.25 * run.area.length_m)

@@ -12,7 +12,7 @@ use robots::handoff::region_name;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
-/// Points of a track nearer than this to the last one drawn are left out, px.
+/// Points of a track nearer than this to the last drawn point are omitted, px.
 const APART_PX: f64 = 0.5;
 
 /// Depth as shade.
@@ -45,7 +45,7 @@ pub(super) fn bed_lines(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     }
 }
 
-/// The depths of these lines, where nothing else stands.
+/// Labels with the depths of these lines, where nothing else is drawn.
 pub(super) fn bed_labels(c: &mut Canvas, panel: &Panel, bed: &Bed) {
     const PLACES: usize = 12;
     for &v in &bed.levels {
@@ -75,13 +75,13 @@ fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
     lines.iter().map(|l| panel.all(l)).collect()
 }
 
-/// Where the robot believed it was.
+/// The believed track.
 pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     let points = thinned(t.rows.iter().map(|r| panel.at(r.believed)));
     c.polyline(points, &Style::line(BELIEVED, 0.6).dashed("2 2"));
 }
 
-/// Where it truly was, coloured by what it did.
+/// The true track, coloured by behaviour.
 pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) {
     let width = if close { 2.2 } else { 1.9 };
     let mut k = 0;
@@ -96,7 +96,7 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) 
     }
 }
 
-/// Points at least [`APART_PX`] apart, with the last.
+/// Points at least [`APART_PX`] apart, including the last.
 pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     let mut kept: Vec<[f64; 2]> = Vec::new();
     let mut left_out = None;
@@ -116,7 +116,7 @@ pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
     kept
 }
 
-/// Detections: open rings under the track and apart from each other, so that they do not hide what the robot did there.
+/// Detections: open rings under the track, apart from each other, so that they do not hide the track.
 pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<Item = [f64; 2]>) {
     const APART_PX: f64 = 8.0;
     let mut last: Option<[f64; 2]> = None;
@@ -130,7 +130,7 @@ pub(super) fn detections(c: &mut Canvas, panel: &Panel, places: impl Iterator<It
     }
 }
 
-/// Start, lost points, declared sources, plumes at an edge.
+/// Start, lost points, declared sources, and plumes at an edge.
 pub(super) fn marks(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     for l in &t.lost_points {
         lost_point(c, panel.at(*l));
@@ -166,7 +166,7 @@ pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     for region in t.regions.iter() {
         let corners = region.area.corners().map(|p| panel.at([p.x, p.y]));
         for (i, a) in corners.iter().enumerate() {
-            // From left to right, so that the dashes of an edge that two regions share fall on each other.
+            // From left to right, so that the dashes of an edge that two regions share coincide.
             let mut ends = [*a, corners[(i + 1) % corners.len()]];
             ends.sort_by(|a, b| a[0].total_cmp(&b[0]));
             c.line(ends[0], ends[1], &region_line());
@@ -174,10 +174,10 @@ pub(super) fn regions(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     }
 }
 
-/// Names, once all marks are there: a robot's subregions with how their search ended, where it started, what it declared.
+/// Names, after all marks: a robot's subregions and how their search ended, its start, and its declarations.
 pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robots: bool) {
     for (region, k) in t.regions.iter().zip(0..) {
-        // Towards the middle of the right edge, where tracks are rarer than in the middle; then all over it.
+        // Towards the middle of the right edge, where tracks are rarer than in the middle; then anywhere.
         let shares = [0.0, 0.1, -0.1, 0.2, -0.2, 0.3, -0.3, 0.4, -0.4];
         let places: Vec<_> = [0.32, 0.25, 0.15, 0.0, -0.15, -0.25, -0.32]
             .into_iter()
@@ -198,7 +198,7 @@ pub(super) fn names(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several_robot
     }
 }
 
-/// A name beside a mark, on whichever side there is room.
+/// A name beside a mark, on any side with room.
 fn beside(c: &mut Canvas, panel: &Panel, at: [f64; 2], name: &str) {
     const SIZE: f64 = 10.0;
     let [x, y] = panel.at(at);
@@ -248,14 +248,14 @@ pub(super) fn declared(c: &mut Canvas, [x, y]: [f64; 2]) {
     c.polygon(diamond, &Style::fill(DECLARED).edged(INK, 1.4));
 }
 
-/// Where a plume was traced over a subregion's up-flow edge.
+/// The place where a plume was traced over the up-flow edge of a subregion.
 pub(super) fn plume_at_edge(c: &mut Canvas, [x, y]: [f64; 2]) {
     const R: f64 = 6.0;
     let triangle = vec![[x, y - R], [x + R, y + 0.8 * R], [x - R, y + 0.8 * R]];
     c.polygon(triangle, &Style::fill("#ffffff").edged(INK, 1.4));
 }
 
-/// Of the points that a declaration rests on.
+/// A ring round the points on which a declaration rests.
 pub(super) fn zone(c: &mut Canvas, p: [f64; 2], r: f64) {
     c.circle(p, r, &Style::line("#ffffff", 3.2));
     c.circle(p, r, &Style::line(INK, 1.4));
@@ -267,7 +267,7 @@ pub(super) fn true_source(c: &mut Canvas, p: [f64; 2]) {
     c.circle(p, 2.0, &Style::fill(INK).edged(TRUE_SOURCE, 0.8));
 }
 
-/// True sources; declared ones are drawn with their robot.
+/// True sources. Declared ones are drawn with their robot.
 pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     for s in run.sources {
         let p = panel.at([s.position.x, s.position.y]);
@@ -276,14 +276,14 @@ pub(super) fn sources(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     }
 }
 
-/// Names of the true sources, where there are several.
+/// Names of the true sources, if there are several.
 pub(super) fn source_names(c: &mut Canvas, panel: &Panel, run: &RunReport<'_>) {
     for s in run.sources.iter().filter(|_| run.sources.len() > 1) {
         beside(c, panel, [s.position.x, s.position.y], &s.id);
     }
 }
 
-/// Keeps the room of scale bar and north arrow, which are drawn last, free of names.
+/// Keeps names away from the scale bar and the north arrow, which are drawn last.
 pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
     let (_, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);
@@ -302,7 +302,7 @@ pub(super) fn reserve(c: &mut Canvas, panel: &Panel) {
     });
 }
 
-/// Length of the scale bar, in the panel's units and px.
+/// Length of the scale bar, in units of the panel and in px.
 fn scale_length(panel: &Panel) -> (f64, f64) {
     let wanted = (panel.x[1] - panel.x[0]) / 4.0;
     let base = power_of_ten(decade(wanted));
@@ -314,7 +314,7 @@ fn scale_length(panel: &Panel) -> (f64, f64) {
     (length, length * panel.px_per_unit())
 }
 
-/// A bar of round length, bottom left.
+/// A scale bar of round length, bottom left.
 pub(super) fn scale_bar(c: &mut Canvas, panel: &Panel, unit: &str) {
     let (length, px) = scale_length(panel);
     let (x, y) = (panel.left + 14.0, panel.bottom() - 14.0);

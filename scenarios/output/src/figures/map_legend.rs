@@ -15,10 +15,10 @@ use world::units::Heading;
 pub(super) const LINE: f64 = 18.0;
 pub(super) const SIZE: f64 = 10.5;
 
-/// A block of keys: drawn from a place down, it says where it ends.
+/// A block of keys. It is drawn downwards from a place and returns where it ends.
 pub(super) type Block<'a> = Box<dyn Fn(&mut Canvas, [f64; 2]) -> f64 + 'a>;
 
-/// The blocks of keys of a map that have something to explain: tracks, marks, water.
+/// The blocks of keys that the map needs: tracks, marks, water.
 pub(super) fn keys<'a>(
     run: &'a RunReport<'a>,
     bed: &'a Bed,
@@ -224,7 +224,7 @@ pub(super) fn plume_levels(c: &mut Canvas, x: f64, y: &mut f64, p: &PlumeLoad) {
     *y += 36.0;
 }
 
-/// A level of the plume: plain where it is short, else with its power of ten.
+/// Text of a plume's level: plain if it is short, otherwise with a power of ten.
 pub(super) fn short(v: f64) -> String {
     let n = decade(v);
     if (-2..=3).contains(&n) {

@@ -1,5 +1,5 @@
-//! A vertical section through the water under the map, along the flow at the source: what passes under, over or between what
-//! the map can only show from above. Drawn where layers of water or gaps above and below obstacles make it worth while.
+//! A vertical section below the map, along the flow at the source. It shows what passes under, over or between things
+//! that the map shows only from above. Drawn if there are layers of water, or gaps above or below obstacles.
 
 use super::map_layers as layers;
 use super::map_legend::plume_levels;
@@ -16,25 +16,25 @@ use world::obstacles::Obstacle;
 const HEIGHT: f64 = 150.0;
 /// Distance between the nodes of the field, px.
 const CELL_PX: [f64; 2] = [5.0, 3.0];
-/// Lines across the section whose mean is drawn.
+/// Number of lines across the section; their mean is drawn.
 const ACROSS: i32 = 4;
-/// Half the width that the section stands for: share of its length, at least and at most.
+/// Half of the width for which the section stands: smallest and largest share of its length.
 const HALF: [f64; 2] = [0.02, 0.1];
 const BED: &str = "#b9a48b";
 const INTERFACE: &str = "#1f4e79";
 
-/// Where the section lies.
+/// Position of the section.
 struct Cut {
     origin: Vector2<f64>,
     along: Vector2<f64>,
-    /// From and to, m down-flow of the source.
+    /// Beginning and end, m down-flow of the source.
     s: [f64; 2],
-    /// Half the width it stands for, m.
+    /// Half of the width for which it stands, m.
     half_m: f64,
 }
 
-/// Draws the section with its left edge below the map's and its upper edge at `top`; where it ends, or none where there is
-/// nothing that the map does not show.
+/// Draws the section with its left edge below the map's and its upper edge at `top`. Returns where it ends; `None` if
+/// the map already shows everything.
 pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -> Option<f64> {
     let source = shown(run)?;
     let cut = Cut::of(run, source, map)?;
@@ -103,7 +103,7 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     {
         let at = cut.local(d);
         if at.y.abs() <= cut.half_m {
-            // What is declared is a place on the map: it stands on the bed here.
+            // A declaration is a place on the map; here it stands on the bed.
             layers::declared(c, panel.at([at.x, bed(at.x)]));
         }
     }
@@ -147,7 +147,7 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
     Some(y - 8.0)
 }
 
-/// The source that was declared best; the first where none was.
+/// The source that was declared best; the first one if none was.
 fn shown<'a>(run: &RunReport<'a>) -> Option<&'a SourceTruth> {
     let declared: Vec<Vector2<f64>> = (run.track.robots.iter())
         .flat_map(RobotTrack::declared_inside)
@@ -163,7 +163,7 @@ fn shown<'a>(run: &RunReport<'a>) -> Option<&'a SourceTruth> {
 }
 
 impl Cut {
-    /// Through a source along the flow there, as far as the map reaches; wide enough for what was declared.
+    /// Through a source, along the flow there, as far as the map reaches, and wide enough for the declarations.
     fn of(run: &RunReport<'_>, source: &SourceTruth, map: &Panel) -> Option<Self> {
         let speed = source.flow.norm();
         if speed < 1e-6 {
@@ -196,7 +196,7 @@ impl Cut {
         Some(cut)
     }
 
-    /// (down-flow, to its left) of a place on the map, m.
+    /// Coordinates (down-flow, to its left) of a place on the map, m.
     fn local(&self, p: [f64; 2]) -> Vector2<f64> {
         let d = Vector2::from(p) - self.origin;
         Vector2::new(d.dot(&self.along), self.along.perp(&d))
@@ -207,7 +207,7 @@ impl Cut {
         self.origin + self.along * s + aside * left
     }
 
-    /// From and to of a convex outline within a width of the section, m down-flow.
+    /// Where a convex outline begins and ends within the section's width, m down-flow.
     fn through(&self, corners: &[[f64; 2]], half_m: f64) -> Option<[f64; 2]> {
         let local: Vec<Vector2<f64>> = corners.iter().map(|p| self.local(*p)).collect();
         let mut along: Vec<f64> = (local.iter())
@@ -227,7 +227,7 @@ impl Cut {
         (low < high).then_some([low, high])
     }
 
-    /// An obstacle with water above or below it lies in the section.
+    /// Whether an obstacle with water above or below it lies in the section.
     fn meets_a_gap(&self, run: &RunReport<'_>) -> bool {
         run.obstacles.iter().any(|o| {
             let passage = solids::passage(o, run.terrain);
@@ -242,10 +242,11 @@ fn beside_style() -> Style<'static> {
     Style::line("#8c6d4f", 1.2).dashed("4 2")
 }
 
-/// Filled where the section's middle cuts them, outlined where they only reach into its width; whether any is outlined.
+/// Obstacles: filled if the section's middle cuts them, outlined if only its width does. Returns whether any is
+/// outlined.
 fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> bool {
     let mut outlined = false;
-    // No farther than the sheet can tell.
+    // No farther than the sheet can resolve.
     let at =
         |s: f64, z: f64| panel.at([s.clamp(cut.s[0], cut.s[1]), z.clamp(panel.y[0], panel.y[1])]);
     for o in run.obstacles {
@@ -272,7 +273,7 @@ fn obstacles(c: &mut Canvas, run: &RunReport<'_>, cut: &Cut, panel: &Panel) -> b
     outlined
 }
 
-/// Upper and lower side of an obstacle on the section's middle, round it: (down-flow, up), m.
+/// Outline of an obstacle on the section's middle, upper and lower side: (down-flow, up), m.
 fn profile(
     o: &ObstacleOutline,
     shape: Option<&Obstacle>,
@@ -284,7 +285,7 @@ fn profile(
     let Some(shape) = shape else {
         return vec![[from, low], [to, low], [to, high], [from, high]];
     };
-    // From above and from below, a little inside at both ends.
+    // From above and from below, slightly inside at both ends.
     let (inset, reach) = (1e-4 * (to - from), 2.0 * (high - low) + 1.0);
     let mut upper = Vec::new();
     let mut lower = Vec::new();
@@ -305,7 +306,7 @@ fn profile(
     upper
 }
 
-/// The robot's way as far as it lies in the section's width.
+/// The part of the robot's track that lies in the section's width.
 fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
     let mut k = 0;
     while k < t.rows.len() {
@@ -324,7 +325,7 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
     }
 }
 
-/// A width in few digits.
+/// A width with few digits.
 fn short_m(m: f64) -> String {
     if m < 3.0 {
         format!("{m:.1}")
@@ -365,7 +366,7 @@ mod tests {
         assert!(seen.len() > 100, "{}", seen.len());
         let half = seen.len() / 2;
         let tops = || seen[..half].iter();
-        // Every corner lies on the reef's surface; its slopes are lower than its crest.
+        // Every corner lies on the reef's surface, and its slopes are lower than its crest.
         for [s, z] in &seen {
             let p = cut.world(*s, 0.0);
             assert!(shape.distance(&Vector3::new(p.x, p.y, *z)).abs() < 1e-6);
@@ -376,7 +377,7 @@ mod tests {
             crest - mean > 0.1 * (high.z - low.z),
             "{mean} below {crest}"
         );
-        // Without the shape its bounds stand for it.
+        // Without the shape, its bounds represent it.
         assert_eq!(profile(&outline, None, &cut, range).len(), 4);
     }
 

@@ -1,4 +1,4 @@
-//! Figures of a run, each an SVG text drawn with [`crate::charts`].
+//! Figures of a run, each an SVG text that is drawn with [`crate::charts`].
 
 mod approach;
 mod belief;

@@ -1,5 +1,5 @@
-//! Where odour was believed to be met, at chosen times: chance of detection, its way to the vehicle, the vehicle's best way to
-//! it (the products of Farrell, Pang & Li 2003 beside the source map).
+//! Where odour was believed to be, at chosen times: probability of detection, the odour's way to the vehicle, and the
+//! vehicle's best way to the odour (products of Farrell, Pang & Li 2003 in addition to the source map).
 
 use super::belief::{axes, bounds, scale, shades};
 use super::map_layers as layers;
@@ -16,13 +16,13 @@ const LARGEST: [f64; 2] = [560.0, 430.0];
 const LEFT: f64 = 66.0;
 const TOP: f64 = 62.0;
 const GAP: [f64; 2] = [70.0, 92.0];
-/// Most panels.
+/// Largest number of panels.
 const PANELS: usize = 4;
 /// The odour's way, and the vehicle's.
 const CAME: &str = "#009e73";
 const WALK: &str = "#0072b2";
 
-/// What one robot's map said of the odour, as SVG.
+/// What one robot's map said about the odour, as SVG.
 pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
     let last = robot.odour.len() - 1;
     let mut times: Vec<usize> = (0..PANELS).map(|k| k * last / (PANELS - 1)).collect();
@@ -101,7 +101,7 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
 fn one(c: &mut Canvas, run: &RunReport<'_>, panel: &Panel, o: &Odour) {
     panel.clip(c);
     let layer = o.grid.n[0] * o.grid.n[1];
-    // The likeliest of all depths.
+    // The greatest value over all depths.
     let mut plan = vec![0.0_f64; layer];
     for (i, p) in o.detection.iter().enumerate() {
         plan[i % layer] = plan[i % layer].max(*p);

@@ -1,4 +1,4 @@
-//! What the map shows of the plume: chemical above each square metre of bed; and levels for what is on any grid.
+//! The plume on the map: mass of the chemical above each square metre of bed. Also levels for any quantity on a grid.
 
 use crate::charts::contours::Grid;
 use crate::charts::panel::{Panel, decade, power_of_ten};
@@ -10,19 +10,19 @@ use world::math;
 const LEVELS: usize = 6;
 /// Grid spacing, px.
 const CELL_PX: f64 = 2.0;
-/// Least spread drawn, px: the snapshot holds a part of the filaments, and this fills between them.
+/// Smallest spread drawn, px. The snapshot holds only some of the filaments, and this fills the space between them.
 const LEAST_PX: f64 = 3.0;
-/// Where the kernel ends, in spreads; beyond lie 1.1 % of its mass.
+/// Where the kernel ends, in spreads; 1.1 % of its mass lies beyond.
 const REACH: f64 = 3.0;
 
-/// Depth-integrated concentration and the levels to draw, mg/m²; or another amount on a grid.
+/// Depth-integrated concentration and its levels, mg/m²; or another quantity on a grid.
 pub(super) struct PlumeLoad {
     pub(super) grid: Grid,
     pub(super) levels: Vec<f64>,
 }
 
 impl PlumeLoad {
-    /// None when there is nothing to show.
+    /// `None` if there is nothing to show.
     pub(super) fn of(plume: &PlumeFrame, panel: &Panel) -> Option<Self> {
         if plume.points.is_empty() {
             return None;
@@ -48,14 +48,14 @@ impl PlumeLoad {
         Self::on(grid)
     }
 
-    /// The levels of what is on a grid; none when there is nothing to show.
+    /// The levels of a quantity on a grid; `None` if there is nothing to show.
     pub(super) fn on(grid: Grid) -> Option<Self> {
         let max = grid.values.iter().fold(0.0, |m: f64, v| m.max(*v));
         if !(max > 0.0 && max.is_finite()) {
             return None;
         }
-        // The densest spot beside the source would push all else off the scale: the top level is
-        // one that a tenth of the plume still exceeds.
+        // The densest spot beside the source would dominate the scale. So the top level is one that a tenth of the
+        // plume still exceeds.
         let mut loads: Vec<f64> = grid
             .values
             .iter()
@@ -81,7 +81,7 @@ fn half_decade(n: i32) -> f64 {
     }
 }
 
-/// Greatest n whose [`half_decade`] does not exceed `v`.
+/// Largest n whose [`half_decade`] does not exceed `v`.
 fn half_decade_below(v: f64) -> i32 {
     let n = 2 * decade(v);
     if half_decade(n + 1) <= v { n + 1 } else { n }

@@ -1,4 +1,4 @@
-//! What a gantry's probes read over time, with thresholds and spikes.
+//! The readings of a gantry's probes over time, with thresholds and spikes.
 //!
 //! *Source*: Webster, Volyanskyy & Weissburg 2012, Fig. 3 (concentration at a point) and Fig. 8 (threshold and spikes).
 
@@ -15,17 +15,17 @@ const LEFT: f64 = 100.0;
 const WIDTH: f64 = 800.0;
 const RIGHT: f64 = 72.0;
 const GAP: f64 = 12.0;
-/// Heights: the whole record of a probe, spike frequency, behaviour, the closer look.
+/// Heights of the panels: the whole record of a probe, spike frequency, behaviour, and the enlarged part.
 const WHOLE: f64 = 104.0;
 const RATE: f64 = 72.0;
 const BEHAVIOUR: f64 = 84.0;
 const CLOSER: f64 = 220.0;
-/// How long the closer look is, s.
+/// Length of the enlarged part, s.
 const CLOSER_S: f64 = 20.0;
-/// Lowest output above clean water that a logarithmic axis shows, V: about a step of a 12-bit converter.
+/// Lowest output above clean water on a logarithmic axis, V: about one step of a 12-bit converter.
 const LOWEST_V: f64 = 0.003;
 
-/// The figure as SVG; none for probes that were never read.
+/// The figure as SVG; `None` for probes that were never read.
 pub fn probe_records(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     let probes = t.tips.len();
     let read = t.rows.iter().any(|r| r.volts.is_some());
@@ -41,7 +41,7 @@ pub fn probe_records(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         summary.scenario, summary.seed, t.info.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
-    // The first picture is a step after the start.
+    // The first frame is one step after the start.
     let x = [0.0_f64.min(t.rows[0].t_s), t.rows[t.rows.len() - 1].t_s];
     let mut top = 40.0;
     let mut next = |height: f64| {
@@ -98,10 +98,10 @@ fn name(t: &GantryTrack, k: usize) -> String {
     given.unwrap_or_else(|| format!("probe {k}"))
 }
 
-/// The probe with the most spikes, and the window in which it had most of them.
+/// The probe with the most spikes, and the window that contains most of them.
 fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     let spikes = |k: usize| t.rows.iter().filter(move |r| r.spike[k]);
-    // The first of equals.
+    // The first, if several are equal.
     let most = (0..probes)
         .rev()
         .max_by_key(|k| spikes(*k).count())
@@ -121,7 +121,7 @@ fn busiest(t: &GantryTrack, probes: usize) -> (usize, [f64; 2]) {
     (most, [from.1, from.1 + length])
 }
 
-/// Frame, time's ticks, and where it stopped.
+/// Draws the frame, the ticks of the time axis, and the stop.
 fn finish(c: &mut Canvas, panel: &Panel, t: &GantryTrack, numbers: bool) {
     if let Some((s, _)) = t.stopped {
         panels::event(c, panel, s, "");
@@ -190,14 +190,14 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     );
 }
 
-/// Times and outputs of a probe's spikes: known one scan late, so each is the moment before.
+/// Times and outputs of a probe's spikes. A spike is known one scan late, so the moment before is shown.
 fn spikes(t: &GantryTrack, k: usize) -> impl Iterator<Item = [f64; 2]> {
     let before = move |w: &[GantryRow]| w[0].volts.map(|v| [w[0].t_s, v[k]]);
     let found = t.rows.windows(2).filter(move |w| w[1].spike[k]);
     found.filter_map(before)
 }
 
-/// Output of undiluted effluent above clean water, were the range that wide, V.
+/// Output of undiluted effluent above clean water if the range were wide enough, V.
 fn volts_of_effluent(t: &GantryTrack) -> Option<f64> {
     let [bottom, top] = t.info.range_v;
     (t.info.effluent_kg_m3).map(|c0| c0 / t.info.full_scale_kg_m3 * (top - bottom))
@@ -217,7 +217,7 @@ fn behaviour(c: &mut Canvas, panel: &Panel, t: &GantryTrack) {
     panels::bands(c, panel, &kinds, &rows.collect::<Vec<_>>());
 }
 
-/// Twenty seconds of one probe in its own volts, after Fig. 8.
+/// Twenty seconds of one probe in volts, after Fig. 8.
 fn closer(c: &mut Canvas, mut panel: Panel, t: &GantryTrack, k: usize) {
     let inside = |r: &&GantryRow| (panel.x[0]..=panel.x[1]).contains(&r.t_s);
     let values = t.rows.iter().filter(inside).filter_map(|r| r.volts);

@@ -9,26 +9,26 @@ use world::math;
 
 /// Room left round the track, cm.
 const ROOM_CM: f64 = 8.0;
-/// The sides of the area are shown when they are so near to the track, cm.
+/// The sides of the area are shown if they are at most this far from the track, cm.
 const NEAR_CM: f64 = 40.0;
-/// Shown beyond the right side: room for the scale bar, cm.
+/// Additional width beyond the right side, for the scale bar, cm.
 const BESIDE_CM: f64 = 7.0;
-/// Levels of C/C0 shown, half a decade apart: from below what a probe of 12 bits can tell up to a thirtieth of the source.
+/// Levels of C/C0, half a decade apart: from less than a 12-bit probe can resolve to a tenth of the source.
 const LEVELS: [f64; 7] = [1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 1e-1];
 
 /// Axes of the figures of a flume: centimetres down-stream of the source and to the left of it, looking down-stream.
 pub(super) struct Axes {
     origin: Vector2<f64>,
     down: Vector2<f64>,
-    /// Range of both axes that holds the track and the source, cm.
+    /// Ranges of both axes, which contain the track and the source, cm.
     pub(super) x: [f64; 2],
     pub(super) y: [f64; 2],
-    /// The sides of the area, where it lies along the stream, cm.
+    /// The sides of the area, if it lies along the stream, cm.
     pub(super) sides: Option<[f64; 2]>,
 }
 
 impl Axes {
-    /// None for a gantry that was never seen.
+    /// `None` for a gantry that appears in no frame.
     pub(super) fn of(run: &RunReport<'_>, track: &GantryTrack) -> Option<Self> {
         let first = Vector2::from(track.rows.first()?.head);
         let last = Vector2::from(track.rows.last()?.head);
@@ -65,13 +65,13 @@ impl Axes {
         Some(axes)
     }
 
-    /// A place in the world on the axes, cm.
+    /// A place in the world in coordinates of the axes, cm.
     pub(super) fn cm(&self, p: [f64; 2]) -> [f64; 2] {
         let d = (Vector2::from(p) - self.origin) * 100.0;
         [d.dot(&self.down), self.down.perp(&d)]
     }
 
-    /// A place on the axes in the world, m.
+    /// A place on the axes in world coordinates, m.
     fn world(&self, x: f64, y: f64) -> Vector2<f64> {
         let left = Vector2::new(-self.down.y, self.down.x);
         self.origin + (self.down * x + left * y) / 100.0
@@ -84,13 +84,14 @@ pub(super) struct Section {
     grid: Grid,
     /// Levels from thin to dense, as shown.
     pub(super) levels: Vec<f64>,
-    /// What they are.
+    /// Their unit.
     pub(super) unit: &'static str,
     scale: f64,
 }
 
 impl Section {
-    /// At height `z` (ENU, m) over the axes' ranges, with so many nodes; relative to the effluent where that is known.
+    /// The section at height `z` (ENU, m) over the range of the axes, with this number of nodes; relative to the
+    /// effluent if that is known.
     pub(super) fn of(
         axes: &Axes,
         z: f64,
@@ -116,7 +117,7 @@ impl Section {
             .fold(f64::NEG_INFINITY, f64::max);
         let (scale, unit) = match effluent_kg_m3 {
             Some(c0) => (c0, "C/C0"),
-            // A tenth of the densest as the top of the scale.
+            // A tenth of the densest value is the top of the scale.
             None => (
                 crate::charts::panel::power_of_ten(crate::charts::panel::decade(math::exp(
                     densest,
@@ -128,7 +129,7 @@ impl Section {
         if densest < lowest {
             return None;
         }
-        // Clean water is all the same, so that lines run between nodes by the chemical's slope.
+        // Clean water is set to one value, so that lines between nodes follow the slope of the chemical.
         for v in &mut grid.values {
             *v = v.max(lowest - 4.0);
         }
@@ -141,12 +142,12 @@ impl Section {
         })
     }
 
-    /// The level that stands for the plume's edge where only one is drawn: a thousandth of the source.
+    /// The level for the edge of the plume where only one level is drawn: a thousandth of the source.
     pub(super) fn edge(&self) -> f64 {
         self.levels[2]
     }
 
-    /// Rings round the regions above a level, on the axes.
+    /// Rings round the regions above a level, in coordinates of the axes.
     pub(super) fn rings(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         self.grid.rings(math::ln(level * self.scale))
     }

@@ -1,4 +1,4 @@
-//! Time series of one robot: depth over the bed, altitude, reading, behaviour, position error.
+//! Time series of one robot: depth over the bed, altitude, reading, behaviour, and position error.
 
 use super::layers_panel::layers;
 use super::series_panels as panels;

@@ -7,7 +7,7 @@ use crate::charts::room::{Room, width_of};
 use crate::results::{RobotTrack, TrackRow};
 use robots::handoff::Behaviour;
 
-/// Draws one panel; the panel's `y` is its own to choose.
+/// Draws one panel; the function chooses the panel's `y`.
 pub(super) type Draw = fn(&mut Canvas, Panel, &RobotTrack);
 
 pub(super) const BLUE: &str = "#0072b2";
@@ -34,7 +34,7 @@ pub(super) fn event(c: &mut Canvas, panel: &Panel, t_s: f64, words: &str) {
     if words.is_empty() {
         return;
     }
-    // On the line's right or left, and line by line further down: where no key and no other event stands.
+    // To the right or left of the line, and line by line further down, where no key and no other event is.
     let lines = ((panel.height - 12.0) / 13.0).max(1.0) as usize;
     let places: Vec<_> = (0..lines)
         .map(|k| panel.top + 12.0 + 13.0 * k as f64)
@@ -51,7 +51,7 @@ fn curve(
     curve_of(panel, rows.iter().map(|r| (r.t_s, of(r))))
 }
 
-/// Points of a curve through (x, y), per pixel column its least and greatest: nothing that stands out is lost.
+/// Points of a curve through (x, y): the smallest and the largest in each pixel column, so that no peak is lost.
 pub(super) fn curve_of(
     panel: &Panel,
     values: impl Iterator<Item = (f64, Option<f64>)>,
@@ -177,7 +177,7 @@ pub(super) fn altitude(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     panel.key(c, &key);
 }
 
-/// Chemical reading and threshold: µg/L where full scale is known, else percent of it.
+/// Chemical reading and threshold: in µg/L if full scale is known, otherwise in percent of it.
 pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     let (unit, label) = match t.info.full_scale_ug_l {
         Some(f) => (f, "Reading (µg/L)"),
@@ -212,7 +212,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     panel.key(c, &key);
 }
 
-/// Behaviour as bands, a row each.
+/// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
     let seen: Vec<Behaviour> = Behaviour::ALL
         .into_iter()
@@ -231,7 +231,7 @@ pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
 /// Words and colour of a band.
 pub(super) type Band<'a> = (&'a str, &'a str);
 
-/// A band for each kind, filled while it holds; `rows` are times, each with the kind that holds from then on.
+/// A band for each kind, filled while that kind holds. `rows` are times, each with the kind that holds from then on.
 pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64, usize)]) {
     let row = panel.height / kinds.len().max(1) as f64;
     for (k, (words, _)) in kinds.iter().enumerate() {
@@ -263,7 +263,7 @@ pub(super) fn bands(c: &mut Canvas, panel: &Panel, kinds: &[Band], rows: &[(f64,
     }
 }
 
-/// Distance between where the robot was and where it believed it was.
+/// Distance between the true and the believed position of the robot.
 pub(super) fn position_error(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
     let error = |r: &TrackRow| {
         let d = [r.believed[0] - r.p[0], r.believed[1] - r.p[1]];

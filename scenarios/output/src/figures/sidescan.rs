@@ -1,4 +1,5 @@
-//! What a sidescan heard of a declared place: its last passes as waterfalls, and all of them laid out where the vehicle believed itself.
+//! A sidescan's record of a declared place: its last passes as waterfalls, and all passes placed where the vehicle
+//! believed itself to be.
 
 use super::map_layers as layers;
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -7,23 +8,23 @@ use crate::charts::panel::Panel;
 use crate::results::{RobotEchoes, RobotTrack, RunReport};
 use robots::survey::{DetectSpec, Row, Waterfall, detect};
 
-/// Most waterfalls, and the longest shown of one, m.
+/// Largest number of waterfalls, and the greatest length shown of one, m.
 const MOST: usize = 3;
 const LONGEST_M: f64 = 80.0;
-/// Passes farther from the declared place than this belong to another, m.
+/// Passes farther than this from the declared place belong to another place, m.
 const NEAR_M: f64 = 80.0;
 /// Half the width of the map, m, and its cells.
 const HALF_M: f64 = 25.0;
 const CELL_M: f64 = 0.4;
-/// Pixels of a metre of waterfall, and of map.
+/// Pixels per metre of waterfall, and of map.
 const WATERFALL_PX: f64 = 5.6;
 const MAP_PX: f64 = 9.0;
-/// Lines and columns of a waterfall drawn as one cell.
+/// Number of lines and columns of a waterfall that are drawn as one cell.
 const BLOCK: usize = 2;
-/// Levels shown below and above the middle one, dB, in so many shades.
+/// Range of levels shown below and above the middle one, dB, and the number of shades for it.
 const RANGE_DB: [f64; 2] = [-14.0, 18.0];
 const SHADES: usize = 12;
-/// Where the sidescan has the source.
+/// Colour of the source's place by the sidescan.
 const FOUND: &str = "#56b4e9";
 
 /// Distance between places in the plane, m.
@@ -46,7 +47,7 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
         passes = robot.passes().collect();
     }
     let last = *passes.last()?;
-    // Bits between two turns are laid out with the rest, but are no passes to look at.
+    // Short pieces between two turns are drawn on the map, but are no passes to show.
     let long_m = 0.5 * passes.iter().map(|w| length_m(w)).fold(0.0, f64::max);
     let mut shown: Vec<&Waterfall> = (passes.iter().copied())
         .filter(|w| length_m(w) >= long_m)
@@ -139,7 +140,7 @@ impl Levels {
     }
 }
 
-/// Cells of one size in shades, neighbours of one shade in a line as one shape.
+/// Cells of one size in shades; neighbours of one shade in a line form one shape.
 struct Cells {
     rings: Vec<Vec<Vec<[f64; 2]>>>,
 }
@@ -151,7 +152,7 @@ impl Cells {
         }
     }
 
-    /// A line of cells between `y` values, each `width` wide from `x` on; `None` leaves one out.
+    /// A line of cells between two `y` values, each `width` wide, from `x` on; `None` omits a cell.
     fn line(&mut self, panel: &Panel, [x, width]: [f64; 2], y: [f64; 2], shades: &[Option<usize>]) {
         let mut k = 0;
         while k < shades.len() {
@@ -180,7 +181,7 @@ impl Cells {
     }
 }
 
-/// Mean of the levels that are numbers.
+/// Mean of the finite levels.
 fn mean<'a>(levels: impl Iterator<Item = &'a f32>) -> Option<f64> {
     let (mut sum, mut n) = (0.0, 0);
     for v in levels.filter(|v| v.is_finite()) {
@@ -284,7 +285,7 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
     c.unclip();
 }
 
-/// Declared place, the sidescan's, true sources and solids over the map.
+/// Marks on the map: the declared place, the sidescan's, true sources and solids.
 fn signs(
     c: &mut Canvas,
     panel: &Panel,

@@ -1,4 +1,4 @@
-//! Solid things on a sheet: what water and dye pass under, over or through hides nothing of the plume.
+//! Solid things on a sheet. Where water and dye pass under, over or through a solid, it must not hide the plume.
 
 use crate::charts::canvas::{Canvas, Style};
 use crate::charts::palette::INK;
@@ -12,16 +12,16 @@ const GAP: f64 = 0.02;
 /// Distance between the lines of a hatch, px.
 const HATCH_PX: f64 = 7.0;
 
-/// The way that water has past an obstacle, beside the way round it.
+/// How water passes an obstacle, other than round it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Passage {
-    /// From the bed to the surface: none.
+    /// The solid fills the water from bed to surface.
     Round,
     /// It stands on the bed and ends under water.
     Over,
     /// It hangs or floats.
     Under,
-    /// The scenario calls it permeable.
+    /// The scenario declares it permeable.
     Through,
 }
 
@@ -33,7 +33,7 @@ impl Passage {
         Passage::Through,
     ];
 
-    /// What the key says of it.
+    /// Its words in the key.
     pub(super) fn words(self) -> &'static str {
         match self {
             Passage::Round => "obstacle",
@@ -43,13 +43,13 @@ impl Passage {
         }
     }
 
-    /// The plume is drawn over it, not under it.
+    /// Whether the plume is drawn over it, not under it.
     fn below_plume(self) -> bool {
         matches!(self, Passage::Over)
     }
 }
 
-/// Which way water has past an obstacle.
+/// How water passes an obstacle.
 pub(super) fn passage(o: &ObstacleOutline, terrain: &Terrain) -> Passage {
     let beds = o.corners.iter().map(|c| terrain.bed_z(c[0], c[1]));
     let deepest = beds.fold(0.0, f64::min);
@@ -65,7 +65,7 @@ pub(super) fn passage(o: &ObstacleOutline, terrain: &Terrain) -> Passage {
     }
 }
 
-/// Those under the plume, or those above it.
+/// Draws the solids under the plume, or those above it.
 pub(super) fn draw(
     c: &mut Canvas,
     panel: &Panel,
@@ -78,13 +78,13 @@ pub(super) fn draw(
         if passage.below_plume() == below_plume {
             solid(c, panel, &panel.all(&o.corners), passage);
         } else if !below_plume {
-            // Its edge shows through the plume over it.
+            // Its edge remains visible through the plume over it.
             c.polygon(panel.all(&o.corners), &Style::line(FILL, 1.4));
         }
     }
 }
 
-/// One, by its corners on the sheet.
+/// Draws one solid, given its corners on the sheet.
 pub(super) fn solid(c: &mut Canvas, panel: &Panel, corners: &[[f64; 2]], passage: Passage) {
     let edge = match passage {
         Passage::Round | Passage::Over => {
@@ -100,7 +100,7 @@ pub(super) fn solid(c: &mut Canvas, panel: &Panel, corners: &[[f64; 2]], passage
 
 /// Lines at 45 degrees across a convex outline, as far as the panel shows it.
 fn hatch(panel: &Panel, corners: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
-    // Lines x + y = s; those that cross the panel.
+    // Lines x + y = s that cross the panel.
     let (from, to) = (panel.left + panel.top, panel.right() + panel.bottom());
     let sums = || corners.iter().map(|p| p[0] + p[1]);
     let low = sums().fold(f64::INFINITY, f64::min).max(from);

@@ -1,4 +1,5 @@
-//! Geometry of the map: labels apart, the closer look closer, keys where the sheet has room, the section where it is worth while.
+//! Geometry of the map: labels do not overlap, the inset is enlarged, keys have room, and the section appears where
+//! useful.
 
 use super::map::{inset, sheet};
 use super::map_layers as layers;
@@ -21,7 +22,7 @@ use world::fields::Concentration;
 use world::math;
 use world::units::Heading;
 
-/// A report of frames, as far as the map asks for it.
+/// A report of frames, with as much as the map needs.
 fn reported<T>(
     frames: &[Frame],
     area: &Area,
@@ -77,7 +78,7 @@ impl Concentration for Straight {
     }
 }
 
-/// Four subregions, two of them with a plume at their edge, two sources declared close together.
+/// Four subregions, two of them with a plume at their edge, and two sources declared close together.
 fn mission() -> Vec<Frame> {
     let mut run = frames(400);
     let part = |k: i32| {
@@ -149,7 +150,7 @@ fn panel(width: f64, height: f64) -> Panel {
     }
 }
 
-/// Of labels placed after `before`: those that lie on what was there, or on each other.
+/// Labels placed after `before` that cover something that was already there, or each other.
 fn clashes(before: usize, c: &Canvas) -> Vec<(Room, Room)> {
     let all = c.taken();
     let pairs = (before..all.len()).flat_map(|k| (0..k).map(move |j| (k, j)));
@@ -207,7 +208,7 @@ fn names_on_a_map_keep_off_marks_and_each_other() {
         ] {
             assert!(svg.contains(words), "{words}");
         }
-        // Edges are no declared sources: two diamonds, one of them twice as the inset shows it, and the key's.
+        // Edges are no declared sources: two diamonds, one of them again in the inset, and that of the key.
         assert!(!svg.contains(">source 3<") && !svg.contains("source free"));
     });
 }
@@ -224,7 +225,7 @@ fn the_closer_look_is_closer_or_not_there() {
         for span in [40.0, 200.0, 600.0, 5000.0] {
             let map = map(span);
             let look = inset(run, &map, [0.0, 0.0], 225.0);
-            // Declared 13 m off: on the smallest map both places do not fit into a look that is closer.
+            // Declared 13 m off: on the smallest map, an enlarged view cannot contain both places.
             assert_eq!(look.is_some(), span > 50.0, "{span}");
             if let Some(look) = look {
                 assert!(look.px_per_unit() >= 1.5 * map.px_per_unit(), "{span}");
@@ -258,7 +259,7 @@ fn a_sheet_fits_its_map() {
             let c = sheet(run);
             let shown = c.taken();
             let reach = shown.iter().map(|r| r.bottom).fold(0.0, f64::max);
-            // All that is written lies on the sheet, and nothing of it is left over.
+            // All text lies on the sheet, and none is left over.
             assert!(
                 reach <= c.height && c.height - reach < 60.0,
                 "{length_m}: {reach} of {}",

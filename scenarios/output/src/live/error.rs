@@ -1,17 +1,17 @@
-//! What can go wrong when live state is set up; once running it cannot fail a run.
+//! Errors of setting up live state. Once it runs, it cannot make a run fail.
 
 use std::path::PathBuf;
 
 /// Why live state could not be set up.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum LiveError {
-    /// The port asked for belongs to someone else.
+    /// The port belongs to another process.
     #[error(
         "zenoh cannot listen on {endpoint}: port {port} is already in use; \
          choose another with --zenoh-listen, or run with --no-zenoh"
     )]
     BusyPort {
-        /// Endpoint asked for.
+        /// The endpoint asked for.
         endpoint: String,
         /// Its port.
         port: u16,
@@ -27,7 +27,7 @@ pub enum LiveError {
         /// Last port tried.
         last: u16,
     },
-    /// The endpoint to listen on is not written as zenoh writes them.
+    /// The endpoint to listen on does not have zenoh's form.
     #[error("`{endpoint}` is not a zenoh endpoint; write one like tcp/127.0.0.1:7447")]
     Endpoint {
         /// As given.
@@ -38,10 +38,10 @@ pub enum LiveError {
     Config {
         /// The file.
         path: PathBuf,
-        /// zenoh's words.
+        /// zenoh's message.
         why: String,
     },
-    /// The run's id does not fit into a key.
+    /// The run's id cannot be part of a key.
     #[error("run id `{id}` must be of a-z, 0-9 and _ only, and not empty")]
     RunId {
         /// As given.
@@ -50,7 +50,7 @@ pub enum LiveError {
     /// zenoh did not start.
     #[error("zenoh did not start: {why}")]
     Open {
-        /// zenoh's words.
+        /// zenoh's message.
         why: String,
     },
 }

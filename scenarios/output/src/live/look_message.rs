@@ -1,4 +1,4 @@
-//! Pictures and pings on the wire: a camera's picture as JPEG, a sidescan's ping as packed numbers, each behind a header.
+//! Pictures and pings as messages: a camera's picture as JPEG, a sidescan's ping as packed numbers, each with a header.
 
 use super::Payload;
 use super::message::{Message, with};
@@ -10,13 +10,13 @@ use image::imageops::thumbnail;
 use rheotaxis::frame::{PictureFrame, PingFrame};
 use serde_json::json;
 
-/// Quality of a picture; the files and the recording lose nothing.
+/// JPEG quality of a picture; the files and the recording are lossless.
 const QUALITY: u8 = 85;
 
-/// No picture message carries more bytes, so that it stays below 1 MB.
+/// No picture message has more bytes, so that it stays below 1 MB.
 const MOST_BYTES: usize = 900_000;
 
-/// The newest picture of a vehicle; nothing if it cannot be a JPEG, which ends at 65 535 pixels a side.
+/// The newest picture of a vehicle; `None` if it cannot be a JPEG, which is limited to 65 535 pixels a side.
 pub(super) fn picture(newest: &Numbered<PictureFrame>) -> Option<Message> {
     let Numbered { taken, value } = newest;
     let (p, e) = (&value.picture, &value.estimate);
@@ -35,7 +35,7 @@ pub(super) fn picture(newest: &Numbered<PictureFrame>) -> Option<Message> {
     })
 }
 
-/// As JPEG, with its width and height: halved until it fits into a message.
+/// The picture as JPEG, with its width and height, halved until it fits into a message.
 fn fitting(image: &RgbImage) -> Option<(u32, u32, Vec<u8>)> {
     let mut file = jpeg(image)?;
     let (mut width, mut height) = image.dimensions();
@@ -85,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_picture_too_large_for_a_message_is_halved() {
-        // Noise is what a JPEG cannot shrink: a linear congruential generator's high bits.
+        // JPEG cannot compress noise: the high bits of a linear congruential generator.
         let mut state = 1u32;
         let mut noise = || {
             state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -153,7 +153,7 @@ mod tests {
             (&header["port"], &header["starboard"]),
             (&json!(2), &json!(1))
         );
-        // No altitude has been heard.
+        // The altimeter has heard nothing.
         assert_eq!(header.get("altitude_m"), None);
     }
 }

@@ -1,7 +1,7 @@
-//! What the run hands to the thread that publishes: one slot a topic, the newest wins.
+//! What the run passes to the publishing thread: one slot for each topic; the newest value replaces the older one.
 //!
-//! The lock is held for a swap only, never while anything is encoded or sent: handing over costs a
-//! copy of the state and cannot wait for a subscriber. Nothing accumulates.
+//! The lock is held only for a swap, never while anything is encoded or sent. Passing a state costs one copy and never
+//! waits for a subscriber. Nothing accumulates.
 
 use super::LiveCounts;
 use super::slots::{Gate, Newest, Numbered};
@@ -16,7 +16,7 @@ pub(super) enum Work {
     Frame(Frame),
     /// Send these.
     Rest(Rest),
-    /// The run is over: send the last state and the rest, if not sent yet, then the digest.
+    /// The run is over: send the last state and the rest if they are not sent yet, then the digest.
     End {
         frame: Option<Frame>,
         rest: Rest,
@@ -26,13 +26,13 @@ pub(super) enum Work {
     Close,
 }
 
-/// What is sent beside the states.
+/// What is sent in addition to states.
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Rest {
     pub(super) plume: Option<PlumeFrame>,
-    /// The newest of each vehicle.
+    /// The newest picture of each vehicle.
     pub(super) pictures: Vec<Numbered<PictureFrame>>,
-    /// The newest of each vehicle.
+    /// The newest ping of each vehicle.
     pub(super) pings: Vec<Numbered<PingFrame>>,
 }
 
@@ -62,7 +62,7 @@ impl Slots {
         ]
     }
 
-    /// All that waits beside the state.
+    /// Everything that waits, except the state.
     fn rest(&mut self) -> Rest {
         Rest {
             plume: self.plume.take(),
@@ -71,7 +71,7 @@ impl Slots {
         }
     }
 
-    /// What of it is due.
+    /// The part of it that is due.
     fn rest_due(&mut self, now: Instant) -> Option<Rest> {
         let mut due = Rest::default();
         let mut any = false;
@@ -95,7 +95,7 @@ pub(super) struct Mailbox {
 }
 
 impl Mailbox {
-    /// Pings keep to the period of the states, pictures to that of the plume.
+    /// Pings have the period of the states, pictures that of the plume.
     pub(super) fn new(frame_period: Duration, plume_period: Duration) -> Self {
         Self {
             slots: Mutex::new(Slots {
@@ -116,7 +116,7 @@ impl Mailbox {
         }
     }
 
-    /// A state is whole or not there whoever panicked, so a poisoned lock is as good as any.
+    /// A state is either complete or absent, whichever thread panicked, so a poisoned lock can be used.
     fn slots(&self) -> MutexGuard<'_, Slots> {
         self.slots.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -126,7 +126,7 @@ impl Mailbox {
         let mut slots = self.slots();
         slots.counts.offered += 1;
         if let Some(old) = &slots.frame {
-            // Detections and spikes are events: they must outlive the state that carried it.
+            // Detections and spikes are events: they must survive when their state is replaced.
             for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
                 robot.detected |= before.detected;
             }
@@ -159,14 +159,14 @@ impl Mailbox {
         self.wake_if(first);
     }
 
-    /// With something in the slot already, the thread is up or knows when it is due.
+    /// If something is already in the slot, the thread is awake or knows when it is due.
     fn wake_if(&self, first: bool) {
         if first {
             self.wake.notify_one();
         }
     }
 
-    /// The first end counts.
+    /// Only the first end counts.
     pub(super) fn end(&self, digest: &str) {
         let mut slots = self.slots();
         if !slots.ended {
@@ -186,7 +186,7 @@ impl Mailbox {
         self.slots().counts
     }
 
-    /// Waits for work; keeps to the rates but for the end, which comes at once.
+    /// Waits for work and observes the rates; the end comes at once.
     #[expect(
         clippy::disallowed_methods,
         reason = "the rate is one of wall time, and this thread cannot reach the run"
@@ -319,7 +319,7 @@ mod tests {
         };
         let told: Vec<_> = sent.pings.iter().map(|p| (p.taken, p.value.t_s)).collect();
         assert_eq!(told, [(10, 9.0), (1, 0.0)]);
-        // The next is an hour away, but the end does not wait.
+        // The next one is an hour away, but the end does not wait.
         mailbox.put_ping(&ping("a", 10.0));
         mailbox.end("d1");
         let Work::End { rest, .. } = mailbox.next() else {

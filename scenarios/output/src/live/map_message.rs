@@ -1,4 +1,5 @@
-//! A belief on the wire: packed probabilities, coarsened where a message would grow too large, and how often.
+//! A belief as a message: packed probabilities, made coarser if the message would be too large. Also how often it is
+//! sent.
 
 use super::message::Message;
 use super::options::chunk;
@@ -27,8 +28,8 @@ fn map(id: &str, b: &Belief) -> Message {
     Message::numbers(key, p.iter().map(|v| *v as f32), &header)
 }
 
-/// Cells, how many of the map's own lie in one along each axis, and the probability of each: cells are taken
-/// together two by two along their finest axis until they fit.
+/// Number of cells, how many of the map's own cells form one of them along each axis, and the probability of each.
+/// Cells are merged in pairs along their finest axis until they fit.
 fn coarsened(b: &Belief) -> ([usize; 3], [usize; 3], Vec<f64>) {
     let n = b.grid.n;
     let mut times = [1; 3];
@@ -48,7 +49,7 @@ fn coarsened(b: &Belief) -> ([usize; 3], [usize; 3], Vec<f64>) {
     (cells, times, p)
 }
 
-/// Lets a map pass when it is new and the last is old enough.
+/// Lets a map pass if it is new and the last one is old enough.
 #[derive(Debug)]
 pub(super) struct MapGate {
     period: Duration,
@@ -65,7 +66,7 @@ impl MapGate {
         }
     }
 
-    /// The maps of a state that are to be sent now; at the `end` all that are new.
+    /// The maps of a state that are to be sent now; at the `end`, all that are new.
     #[expect(
         clippy::disallowed_methods,
         reason = "the rate is one of wall time, and what publishes cannot reach the run"

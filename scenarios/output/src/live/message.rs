@@ -1,4 +1,4 @@
-//! The words on the wire: a state as JSON messages, a plume as packed numbers.
+//! The messages: a state as JSON, a plume as packed numbers.
 
 use super::message_gantry::gantry;
 use super::options::chunk;
@@ -8,13 +8,13 @@ use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
 use serde_json::{Map, Value, json};
 
-/// A message, by its key below `rheotaxis/<run>/`.
+/// A message, with its key below `rheotaxis/<run>/`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Message {
     pub(super) key: String,
     pub(super) payload: Vec<u8>,
     pub(super) packed: Payload,
-    /// Header of a payload that is no JSON.
+    /// Header of a payload that is not JSON.
     pub(super) attachment: Option<Vec<u8>>,
 }
 
@@ -28,7 +28,7 @@ impl Message {
         }
     }
 
-    /// Numbers behind a header.
+    /// Packed numbers with a header.
     pub(super) fn numbers(
         key: impl Into<String>,
         numbers: impl Iterator<Item = f32>,
@@ -43,7 +43,7 @@ impl Message {
     }
 }
 
-/// No plume message carries more filaments, so that it stays well below 1 MB.
+/// No plume message has more filaments, so that it stays well below 1 MB.
 const MOST_FILAMENTS: usize = 10_000;
 
 pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Message {
@@ -56,7 +56,7 @@ pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Mes
     )
 }
 
-/// All messages of a state but the clock.
+/// All messages of a state except the clock.
 pub(super) fn state(frame: &Frame) -> Vec<Message> {
     let robots = (frame.robots.iter()).flat_map(|r| robot(frame.t_s, r, &frame.abnormal));
     let gantries = frame.gantries.iter().flat_map(|g| gantry(frame.t_s, g));
@@ -226,11 +226,11 @@ fn vertical(v: Vertical) -> (&'static str, f64) {
     }
 }
 
-/// A plume, thinned evenly if it is too large for one message.
+/// A plume, evenly thinned if it is too large for one message.
 pub(super) fn plume(p: &PlumeFrame) -> Message {
     let stride = p.points.len().div_ceil(MOST_FILAMENTS).max(1);
     let shown = p.points.iter().step_by(stride);
-    // What is left out here is stood for by what is shown, as what was left out before.
+    // The filaments that are shown also stand for those omitted here, as they already do for those omitted before.
     let times = p.points.len() as f32 / shown.len().max(1) as f32;
     let shown = shown.map(|&[x, y, z, size, mass, n]| [x, y, z, size, mass * times, n * times]);
     let header = json!({
@@ -240,7 +240,7 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
     Message::numbers("plume", shown.flatten(), &header)
 }
 
-/// What is known before the run starts: scenario, version and schemas.
+/// Messages known before the run starts: scenario, version and schemas.
 pub(super) fn meta(meta: &super::LiveMeta) -> Vec<Message> {
     let mut out = vec![
         Message::json(
@@ -368,7 +368,7 @@ pub(super) mod tests {
         let number =
             |i: usize| f32::from_le_bytes(message.payload[4 * i..4 * i + 4].try_into().unwrap());
         assert_eq!([number(0), number(6), number(7)], [0.0, 3.0, 1.0]);
-        // The masses sum to those of all points handed over.
+        // The masses sum to those of all points passed in.
         let mass: f64 = (0..shown).map(|i| f64::from(number(6 * i + 4))).sum();
         assert!((mass / (4.0 * n as f64) - 1.0).abs() < 1e-5, "{mass}");
     }

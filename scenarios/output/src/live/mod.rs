@@ -1,9 +1,8 @@
-//! Live state over zenoh, the only place that touches it.
+//! Live state over zenoh. Only this module uses zenoh.
 //!
-//! A run publishes what it does under `rheotaxis/<run>/`: JSON (UTF-8), SI units, ENU axes; see
-//! [`topics`] for every key with its JSON Schema. zenoh lives in a thread of its own behind a
-//! mailbox that keeps the newest state only, so nothing a subscriber does can hold or change a run.
-//! Without the feature `live` the same types exist and do nothing.
+//! A run publishes its state under `rheotaxis/<run>/`: JSON (UTF-8), SI units, ENU axes. [`topics`] has every key with
+//! its JSON Schema. zenoh runs in its own thread behind a mailbox that keeps only the newest state, so no subscriber
+//! can delay or change a run. Without the feature `live`, the same types exist and do nothing.
 
 mod error;
 mod options;

@@ -1,18 +1,18 @@
-//! Live state left out of the build: the same calls, doing nothing.
+//! Replacement for live state if it is not built in: the same functions, which do nothing.
 
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::time::Duration;
 
-/// Live state left out of the build (feature `live`).
+/// Live state, not built in (feature `live`).
 #[derive(Debug)]
 pub struct Live;
 
 impl Live {
-    /// Checks the run's id and does nothing more.
+    /// Checks only the run's id.
     ///
     /// # Errors
-    /// If the run's id does not fit into a key.
+    /// If the run's id cannot be part of a key.
     pub fn start(options: &LiveOptions, _meta: LiveMeta) -> Result<Self, LiveError> {
         options.check()?;
         Ok(Self)
@@ -24,7 +24,7 @@ impl Live {
         "none (built without the feature `live`)"
     }
 
-    /// Something the user should know, in one line.
+    /// A line for the user.
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
         Some("built without the feature `live`: nothing is published")
@@ -51,7 +51,7 @@ impl Live {
     /// Does nothing.
     pub fn end(&self, _digest: &str) {}
 
-    /// Does nothing: nobody can come.
+    /// Does nothing, because no subscriber can come.
     pub fn linger(&self, _time: Duration, _stop: impl Fn() -> bool) {}
 
     /// Does nothing.

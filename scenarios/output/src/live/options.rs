@@ -1,10 +1,10 @@
-//! How live state is set up.
+//! Options of live state.
 
 use super::LiveError;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// zenoh's own port, listened on unless told otherwise.
+/// zenoh's own port, the default for listening.
 pub const DEFAULT_PORT: u16 = 7447;
 
 /// How to publish.
@@ -12,21 +12,21 @@ pub const DEFAULT_PORT: u16 = 7447;
 pub struct LiveOptions {
     /// Second chunk of every key, `[a-z0-9_]+`; see [`run_id`].
     pub run_id: String,
-    /// zenoh endpoint to listen on; `None`: [`DEFAULT_PORT`] on the loopback, or the next free port.
+    /// zenoh endpoint to listen on; `None` means [`DEFAULT_PORT`] on the loopback interface, or the next free port.
     pub listen: Option<String>,
-    /// A zenoh configuration (JSON5), honoured whole: mode, endpoints, scouting, TLS, access control.
-    /// `None`: the file the environment variable `ZENOH_CONFIG` names, if any. With a configuration
-    /// only a `listen` given here replaces something in it.
+    /// A zenoh configuration (JSON5), all of which is used: mode, endpoints, scouting, TLS, access control. `None`
+    /// means the file that the environment variable `ZENOH_CONFIG` names, if any. With a configuration, only `listen`
+    /// from here overrides something in it.
     pub config_file: Option<PathBuf>,
-    /// Shortest wall time between two publications of state, and of sidescan pings; what comes in between is superseded.
+    /// Shortest wall time between two publications of state, and of sidescan pings; values in between are superseded.
     pub state_period: Duration,
     /// Shortest wall time between two publications of the plume, of maps, and of camera pictures.
     pub plume_period: Duration,
 }
 
 impl LiveOptions {
-    /// The defaults: loopback, [`DEFAULT_PORT`] or the next free port, state at most 20 and plume at
-    /// most 2 times a second.
+    /// The defaults: loopback interface, [`DEFAULT_PORT`] or the next free port, state at most 20 times and plume at
+    /// most twice a second.
     #[must_use]
     pub fn new(run_id: String) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl LiveOptions {
         }
     }
 
-    /// Whether the run's id fits into a key.
+    /// Whether the run's id can be part of a key.
     ///
     /// # Errors
     /// [`LiveError::RunId`] if not.
@@ -66,10 +66,10 @@ pub struct LiveMeta {
     pub version: String,
 }
 
-/// What became of the states handed over.
+/// What happened to the states that were passed in.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LiveCounts {
-    /// States handed to [`Live::publish`](super::Live::publish).
+    /// States passed to [`Live::publish`](super::Live::publish).
     pub offered: u64,
     /// States sent.
     pub sent: u64,
@@ -77,13 +77,13 @@ pub struct LiveCounts {
     pub superseded: u64,
 }
 
-/// The id of a run in keys: `<scenario>_<seed>` with everything but `a-z`, `0-9` and `_` made `_`.
+/// The id of a run in keys: `<scenario>_<seed>`, in which everything but `a-z`, `0-9` and `_` becomes `_`.
 #[must_use]
 pub fn run_id(scenario: &str, seed: u64) -> String {
     format!("{}_{seed}", chunk(scenario))
 }
 
-/// A name as a chunk of a key.
+/// Turns a name into a chunk of a key.
 pub(super) fn chunk(name: &str) -> String {
     if name.is_empty() {
         return "_".to_owned();

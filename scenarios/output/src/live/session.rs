@@ -1,4 +1,4 @@
-//! The thread that owns the zenoh session, and the run's handle on it.
+//! The thread that owns the zenoh session, and the handle that the run has.
 
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
@@ -15,14 +15,14 @@ use world::files;
 use zenoh::config::EndPoint;
 use zenoh::{Config, Session, Wait};
 
-/// How long a run that is over waits for zenoh to let go of its subscribers.
+/// How long a finished run waits for zenoh to close its connections.
 const PATIENCE: Duration = Duration::from_secs(2);
 
-/// How many ports after the default one are tried.
+/// Number of ports after the default one that are tried.
 const SPARE_PORTS: u16 = 16;
 
-/// A run's live state. Dropped without [`Live::finish`] or [`Live::end`], it tells its subscribers
-/// that the run broke off: the token goes and no clock says `ended`.
+/// A run's live state. If it is dropped without [`Live::finish`] or [`Live::end`], subscribers learn that the run broke
+/// off: the token disappears and no clock says `ended`.
 #[derive(Debug)]
 pub struct Live {
     mailbox: Arc<Mailbox>,
@@ -31,14 +31,14 @@ pub struct Live {
     notice: Option<String>,
 }
 
-/// What the thread tells once it is up.
+/// What the thread reports when it is running.
 type Up = Result<String, LiveError>;
 
 impl Live {
-    /// Opens a zenoh session in a thread of its own and publishes what is known beforehand.
+    /// Opens a zenoh session in its own thread and publishes what is known beforehand.
     ///
     /// # Errors
-    /// If the port is busy, the configuration cannot be used or zenoh does not start.
+    /// If the port is busy, if the configuration cannot be used, or if zenoh does not start.
     pub fn start(options: &LiveOptions, meta: LiveMeta) -> Result<Self, LiveError> {
         options.check()?;
         let (config, notice) =
@@ -50,7 +50,7 @@ impl Live {
             let (mailbox, options) = (Arc::clone(&mailbox), options.clone());
             move || {
                 publish(config, &options, &meta, &mailbox, &up);
-                // Nobody may be waiting any more.
+                // There may be nobody waiting any more.
                 let _late = going.try_send(());
             }
         };
@@ -77,49 +77,49 @@ impl Live {
         &self.endpoint
     }
 
-    /// Something the user should know, in one line: that another port than the default one was taken.
+    /// A line for the user, if necessary: that a port other than the default one was taken.
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
     }
 
-    /// Hands a state over; never waits for anybody.
+    /// Passes on a state; never waits.
     pub fn publish(&self, frame: &Frame) {
         self.mailbox.put_frame(frame);
     }
 
-    /// Hands a plume over; never waits for anybody.
+    /// Passes on a plume; never waits.
     pub fn plume(&self, plume: &PlumeFrame) {
         self.mailbox.put_plume(plume);
     }
 
-    /// Hands a camera's picture over; never waits for anybody.
+    /// Passes on a camera's picture; never waits.
     pub fn picture(&self, picture: &PictureFrame) {
         self.mailbox.put_picture(picture);
     }
 
-    /// Hands a sidescan's ping over; never waits for anybody.
+    /// Passes on a sidescan's ping; never waits.
     pub fn ping(&self, ping: &PingFrame) {
         self.mailbox.put_ping(ping);
     }
 
-    /// What became of the states so far.
+    /// What happened to the states so far.
     #[must_use]
     pub fn counts(&self) -> LiveCounts {
         self.mailbox.counts()
     }
 
-    /// Publishes the last state, the digest and a clock that says `ended`, without waiting. Until
-    /// this is dropped, those who come late can still ask for all of it.
+    /// Publishes the last state, the digest and a clock that says `ended`, without waiting. Until this is dropped, late
+    /// subscribers can still ask for all of it.
     pub fn end(&self, digest: &str) {
         self.mailbox.end(digest);
     }
 
-    /// Waits, so that those who come late find the run: until the time is over or `stop` says so.
+    /// Waits, so that late subscribers find the run, until the time is over or `stop` returns true.
     pub fn linger(&self, time: Duration, stop: impl Fn() -> bool) {
         const STEP: Duration = Duration::from_millis(50);
         let mut left = time;
-        // The thread says nothing before it is told to close: waiting for it is a pause.
+        // The thread sends nothing before it is told to close, so waiting for it is a pause.
         while !left.is_zero()
             && !stop()
             && self.gone.recv_timeout(left.min(STEP)) == Err(RecvTimeoutError::Timeout)
@@ -128,7 +128,7 @@ impl Live {
         }
     }
 
-    /// [`Live::end`] and close. Waits for zenoh 2 s at the very most, whatever subscribers do.
+    /// [`Live::end`], then close. Waits at most 2 s for zenoh, whatever subscribers do.
     pub fn finish(self, digest: &str) {
         self.end(digest);
     }
@@ -137,12 +137,12 @@ impl Live {
 impl Drop for Live {
     fn drop(&mut self) {
         self.mailbox.close();
-        // Past its time the thread is left behind: it holds nothing the run needs.
+        // After that time the thread is abandoned; it holds nothing that the run needs.
         let _gone_or_left_behind = self.gone.recv_timeout(PATIENCE);
     }
 }
 
-/// The life of the thread.
+/// Main function of the thread.
 fn publish(
     config: Config,
     options: &LiveOptions,
@@ -166,13 +166,13 @@ fn publish(
             serve(&mut tree, mailbox, options.plume_period);
         }
     }
-    // Explicitly: a session closed when statics are dropped panics.
+    // Explicitly, because a session that is closed when statics are dropped panics.
     let _closed = session.close().wait();
 }
 
 fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
     let mut maps = MapGate::new(map_period);
-    // A message that cannot be sent is lost like one that did not fit: the run goes on.
+    // A message that cannot be sent is lost, like one that did not fit into a queue; the run continues.
     let mut last = (0.0, 0);
     let mut newest: Option<Frame> = None;
     loop {
@@ -214,7 +214,7 @@ fn say_state(tree: &Tree<'_>, frame: &Frame, counts: LiveCounts) {
     for message in message::state(frame) {
         drop(tree.say(message));
     }
-    // Last, so that who has the clock has the state it belongs to.
+    // Last, so that a subscriber that has the clock also has the state that belongs to it.
     drop(tree.say(message::clock(frame.t_s, frame.step, false, counts)));
 }
 
@@ -227,7 +227,7 @@ fn say_rest(tree: &Tree<'_>, rest: &Rest) {
     }
 }
 
-/// The configuration, and what the user should know of it.
+/// The configuration, and a line for the user if necessary.
 fn configured(
     options: &LiveOptions,
     from_env: Option<PathBuf>,
@@ -263,7 +263,7 @@ fn configured(
         "listen/endpoints",
         &serde_json::json!([endpoint]),
     )?;
-    // Slow or refused on many machines; clients are told the endpoint instead.
+    // Multicast is slow or refused on many machines; clients are told the endpoint instead.
     set(&mut config, "scouting/multicast/enabled", &false.into())?;
     Ok((config, notice))
 }
@@ -289,7 +289,7 @@ fn default_endpoint() -> Result<(String, Option<String>), LiveError> {
     Ok((endpoint, notice))
 }
 
-/// Tells a busy port before zenoh does, in words that name the cure.
+/// Reports a busy port before zenoh does, with a message that names the cure.
 fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
     let bad = || LiveError::Endpoint {
         endpoint: endpoint.to_owned(),
@@ -298,7 +298,7 @@ fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
     if parsed.protocol().as_str() != "tcp" {
         return Ok(());
     }
-    // A name, or options behind the address, are zenoh's to understand.
+    // zenoh itself interprets names, and options after the address.
     let Ok(address) = parsed.address().as_str().parse::<SocketAddr>() else {
         return Ok(());
     };
@@ -311,7 +311,7 @@ fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
     }
 }
 
-/// Where clients connect: the loopback first, for it is the same on every machine.
+/// Where clients connect: the loopback address first, because it is the same on every machine.
 fn endpoint(session: &Session) -> String {
     let mut locators: Vec<String> = session
         .info()
@@ -327,7 +327,7 @@ fn endpoint(session: &Session) -> String {
         .unwrap_or_else(|| "none".to_owned())
 }
 
-/// zenoh's words without the places in its source (` at /…/file.rs:12.`).
+/// zenoh's message without positions in its source (` at /…/file.rs:12.`).
 fn plain(error: &zenoh::Error) -> String {
     let mut words: Vec<String> = Vec::new();
     for word in error.to_string().split_whitespace() {

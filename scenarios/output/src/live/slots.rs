@@ -1,16 +1,16 @@
-//! Parts of the mailbox: the newest of each vehicle, and how often something may pass.
+//! Parts of the mailbox: the newest value of each vehicle, and a limit on how often something passes.
 
 use std::collections::BTreeMap;
 use std::time::{Duration, Instant};
 
-/// What a vehicle took, with how many it has taken.
+/// A value from a vehicle, and how many values it has delivered.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Numbered<T> {
     pub(super) taken: u64,
     pub(super) value: T,
 }
 
-/// The newest of each vehicle.
+/// The newest value of each vehicle.
 #[derive(Debug)]
 pub(super) struct Newest<T> {
     waiting: BTreeMap<String, Numbered<T>>,
@@ -27,7 +27,7 @@ impl<T> Default for Newest<T> {
 }
 
 impl<T> Newest<T> {
-    /// Whether nothing waited before.
+    /// Stores a value. Returns whether nothing waited before.
     pub(super) fn put(&mut self, robot: &str, value: T) -> bool {
         let first = self.waiting.is_empty();
         let count = self.taken.entry(robot.to_owned()).or_default();
@@ -37,18 +37,18 @@ impl<T> Newest<T> {
         first
     }
 
-    /// Whether something waits.
+    /// Whether anything waits.
     pub(super) fn waits(&self) -> bool {
         !self.waiting.is_empty()
     }
 
-    /// What waits, in the order of the vehicles' ids.
+    /// The waiting values, in the order of the vehicles' ids.
     pub(super) fn take(&mut self) -> Vec<Numbered<T>> {
         std::mem::take(&mut self.waiting).into_values().collect()
     }
 }
 
-/// Lets something pass once a period.
+/// Lets something pass once per period.
 #[derive(Debug)]
 pub(super) struct Gate {
     period: Duration,
@@ -60,7 +60,7 @@ impl Gate {
         Self { period, due: None }
     }
 
-    /// How long until it may pass; nothing if nothing waits.
+    /// How long until it may pass; `None` if nothing waits.
     pub(super) fn wait(&self, waiting: bool, now: Instant) -> Option<Duration> {
         let left = |at: Instant| at - now.min(at);
         waiting.then(|| self.due.map_or(Duration::ZERO, left))

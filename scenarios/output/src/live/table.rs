@@ -1,4 +1,4 @@
-//! The table of topics, one row a field.
+//! The table of topics, one row for each field.
 
 use super::topics::{Field, Kind, Payload, Topic};
 
@@ -48,7 +48,7 @@ const T: Field = always(
 const E_N: Kind = Kind::Vector(2);
 const E_N_U: Kind = Kind::Vector(3);
 
-// Rows stay rows.
+// Keeps each row on one line.
 #[rustfmt::skip]
 pub(super) const TOPICS: &[Topic] = &[
     json("clock", "clock", STATE_RATE, "Simulated time, and what became of the states.", &[

@@ -1,6 +1,6 @@
-//! What is published: a row of the table, and from each row its JSON Schema.
+//! The published topics: a table with a row for each, and the JSON Schema of each row.
 //!
-//! `rheotaxis topics` prints it and a run publishes each schema under `meta/schema/<name>`.
+//! `rheotaxis topics` prints the table, and a run publishes each schema under `meta/schema/<name>`.
 
 use super::table::TOPICS;
 use robots::handoff::{Behaviour, GantryBehaviour};
@@ -23,7 +23,7 @@ pub enum Kind {
     GantryBehaviour,
     /// One of these words.
     Word(&'static [&'static str]),
-    /// So many numbers.
+    /// A fixed number of numbers.
     Vector(usize),
     /// Any number of (east, north).
     Points,
@@ -73,20 +73,20 @@ pub struct Field {
     pub name: &'static str,
     /// Type.
     pub kind: Kind,
-    /// Always there; otherwise left out when there is nothing to say.
+    /// Always present; otherwise the field is omitted if it has no value.
     pub required: bool,
-    /// What it is.
+    /// What it means.
     pub what: &'static str,
 }
 
-/// How a message is packed.
+/// Encoding of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Payload {
     /// The payload is a JSON object.
     Json,
-    /// The payload is little-endian f32, the attachment a JSON object.
+    /// The payload is little-endian f32; the attachment is a JSON object.
     PackedF32,
-    /// The payload is a picture (JPEG), the attachment a JSON object.
+    /// The payload is a picture (JPEG); the attachment is a JSON object.
     Jpeg,
     /// The payload is a JSON Schema.
     Schema,
@@ -99,18 +99,18 @@ pub struct Topic {
     pub name: &'static str,
     /// Key below `rheotaxis/<run>/`.
     pub key: &'static str,
-    /// What it says.
+    /// What it contains.
     pub what: &'static str,
-    /// How often.
+    /// How often it is published.
     pub rate: &'static str,
-    /// How it is packed.
+    /// Its encoding.
     pub payload: Payload,
-    /// Fields of the payload, or of the attachment of a packed one.
+    /// Fields of the payload, or of the attachment if the payload is packed.
     pub fields: &'static [Field],
 }
 
 impl Topic {
-    /// JSON Schema (draft 2020-12) of the payload, or of the attachment of a packed one.
+    /// JSON Schema (draft 2020-12) of the payload, or of the attachment if the payload is packed.
     #[must_use]
     pub fn schema(&self) -> Value {
         if self.payload == Payload::Schema {

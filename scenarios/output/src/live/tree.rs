@@ -1,5 +1,4 @@
-//! The keys of one run in zenoh: what is published, kept for those who come later, and told when
-//! the run is alive.
+//! The keys of one run in zenoh: they publish messages, keep them for late subscribers, and show that the run is alive.
 
 use super::message::Message;
 use super::{LiveOptions, Payload};
@@ -13,7 +12,7 @@ use zenoh::query::{Query, Queryable};
 use zenoh::{Result, Session, Wait};
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig};
 
-/// The newest message of every key, for those who ask.
+/// The newest message of every key, to answer queries.
 type Kept = Arc<Mutex<BTreeMap<String, (OwnedKeyExpr, Message)>>>;
 
 /// One run's part of the tree, alive until dropped.
@@ -21,14 +20,14 @@ pub(super) struct Tree<'a> {
     session: &'a Session,
     base: String,
     kept: Kept,
-    // Held for what their existence tells others.
+    // Kept because others see that they exist.
     meta: Vec<AdvancedPublisher<'static>>,
     _asked: Queryable<()>,
     _alive: LivelinessToken,
 }
 
 impl<'a> Tree<'a> {
-    /// Declares the run: who sees the token can already ask for all of `meta`.
+    /// Declares the run. A subscriber that sees the token can already ask for all of `meta`.
     pub(super) fn grow(
         session: &'a Session,
         options: &LiveOptions,
@@ -62,7 +61,7 @@ impl<'a> Tree<'a> {
         })
     }
 
-    /// Sends and keeps; a message that does not fit into a subscriber's queue at once is lost to it.
+    /// Sends and keeps a message. If it does not fit into a subscriber's queue at once, that subscriber loses it.
     pub(super) fn say(&self, message: Message) -> Result<()> {
         let key = self.key(&message)?;
         let put = self
@@ -75,7 +74,7 @@ impl<'a> Tree<'a> {
         Ok(())
     }
 
-    /// Like what was there from the start, also for zenoh-ext's advanced subscribers.
+    /// Sends and keeps a message for zenoh-ext's advanced subscribers too, like those from the start.
     pub(super) fn say_for_good(&mut self, message: Message) -> Result<()> {
         let publisher = keep_published(self.session, &self.base, &self.kept, message)?;
         self.meta.push(publisher);
@@ -105,7 +104,7 @@ fn keep_published(
         .declare_publisher(key.clone())
         .encoding(encoding(&message))
         .congestion_control(CongestionControl::Drop)
-        // Numbered rather than stamped: stamps need a setting only routers have by default.
+        // Numbered, not time-stamped: time stamps need a setting that only routers have by default.
         .sample_miss_detection(MissDetectionConfig::default())
         .cache(CacheConfig::default().max_samples(1))
         .publisher_detection()
@@ -116,7 +115,7 @@ fn keep_published(
 }
 
 fn answer(kept: &Kept, query: &Query) {
-    // Copied out, so that one who is slow to take the answer does not hold the lock.
+    // Copied, so that a slow receiver of the answer does not hold the lock.
     let answers: Vec<(OwnedKeyExpr, Message)> = kept
         .lock()
         .unwrap_or_else(PoisonError::into_inner)
@@ -126,7 +125,7 @@ fn answer(kept: &Kept, query: &Query) {
         .collect();
     for (key, message) in answers {
         let encoding = encoding(&message);
-        // One who asked and went away is nobody's failure.
+        // It is no failure if the one who asked has gone away.
         let _gone = query
             .reply(KeyExpr::from(key), message.payload)
             .encoding(encoding)

@@ -68,7 +68,7 @@ impl Cdr {
         self
     }
 
-    /// Doubles of a fixed-length array or of one small message after another.
+    /// Doubles of a fixed-length array, or of several small messages in a row.
     pub fn f64s(&mut self, values: &[f64]) -> &mut Self {
         for v in values {
             self.f64(*v);
@@ -81,7 +81,7 @@ impl Cdr {
         self.u32(u32::try_from(n).expect("a message holds fewer than 2^32 elements"))
     }
 
-    /// A string: length with the closing zero, the bytes, the zero.
+    /// A string: its length including the final zero, its bytes, the zero.
     pub fn text(&mut self, s: &str) -> &mut Self {
         self.len(s.len() + 1);
         self.bytes.extend(s.as_bytes());
@@ -123,7 +123,7 @@ mod tests {
     fn numbers_align_to_their_size_counted_after_the_header() {
         let mut c = Cdr::new();
         c.u8(7).u32(1).f64(1.0).u8(9);
-        // 1 byte, 3 of padding, u32, then the f64 already stands at 8.
+        // 1 byte, 3 of padding, u32; the f64 then stands at 8 already.
         let body = [7, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0xf0, 0x3f, 9];
         let bytes = c.finish();
         assert_eq!(bytes[..4], HEADER);

@@ -1,10 +1,9 @@
-//! An MCAP file of ROS 2 messages, written under a temporary name and renamed when whole.
+//! An MCAP file of ROS 2 messages, written under a temporary name and renamed when it is complete.
 //!
 //! *Source*: MCAP specification (mcap.dev/spec), profile `ros2`, message encoding `cdr`, schema
 //! encoding `ros2msg`.
-//! *Parameters*: [`FLUSH_NS`], chunks closed at least that often in simulated time.
-//! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover`
-//! gives it back its index.
+//! *Parameters*: [`FLUSH_NS`]: chunks are closed at least this often in simulated time.
+//! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover` restores its index.
 
 use super::ros_messages::Kind;
 use ::mcap::records::{MessageHeader, Metadata};
@@ -15,7 +14,7 @@ use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use world::files::Output;
 
-/// Longest simulated time that a crash can cost, ns: a chunk is closed and handed to the system after it.
+/// Longest simulated time that a crash can lose, ns: then a chunk is closed and passed to the system.
 pub const FLUSH_NS: u64 = 5_000_000_000;
 
 /// Why a recording failed; what was written before stays under the temporary name.
@@ -26,7 +25,7 @@ pub enum RecordError {
     Create {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
     /// Writing failed, most often a full disk.
@@ -37,19 +36,19 @@ pub enum RecordError {
         /// What was wrong.
         source: McapError,
     },
-    /// It is whole but cannot be given its name.
+    /// It is complete but cannot be given its name.
     #[error("cannot rename the recording {} to {}: {source}", from.display(), to.display())]
     Rename {
         /// The temporary name.
         from: PathBuf,
         /// The name it should get.
         to: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: io::Error,
     },
 }
 
-/// Nanoseconds of a simulated time in seconds, never negative.
+/// A simulated time in seconds as nanoseconds, never negative.
 #[must_use]
 pub fn nanoseconds(t_s: f64) -> u64 {
     (t_s.max(0.0) * 1e9).round() as u64
@@ -69,10 +68,10 @@ pub struct McapFile {
 }
 
 impl McapFile {
-    /// Begins the recording that shall be `path`, under a name of its own.
+    /// Begins the recording that will become `path`, under a temporary name.
     ///
     /// # Errors
-    /// If the file cannot be made or written, or something else than a regular file stands there.
+    /// If the file cannot be made or written, or if `path` exists and is not a regular file.
     pub fn create(path: &Path, library: &str) -> Result<Self, RecordError> {
         let file = Output::create_kept(path).map_err(|e| RecordError::Create {
             path: e.path,
@@ -82,7 +81,7 @@ impl McapFile {
         let writer = WriteOptions::new()
             .profile("ros2")
             .library(library)
-            // Compression in the caller's thread: the same bytes on any machine, no threads of its own.
+            // Compression in the caller's thread: the same bytes on any machine, and no threads of its own.
             .compression_threads(0)
             .create(BufWriter::new(file))
             .map_err(|source| RecordError::Write {
@@ -97,7 +96,7 @@ impl McapFile {
         })
     }
 
-    /// Where it is written until it is whole.
+    /// The temporary path, until the file is complete.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         &self.temporary
@@ -111,7 +110,7 @@ impl McapFile {
         }
     }
 
-    /// Writes one CDR message at a simulated time; a topic keeps the kind it first had.
+    /// Writes one CDR message at a simulated time; a topic keeps its first message type.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -171,7 +170,7 @@ impl McapFile {
         self.writer.write_metadata(&metadata).map_err(failed)
     }
 
-    /// Adds a file inside the file.
+    /// Attaches a file.
     ///
     /// # Errors
     /// If the file cannot be written.

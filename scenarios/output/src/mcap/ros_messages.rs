@@ -1,8 +1,8 @@
-//! The ROS 2 messages we record, encoded to CDR.
+//! The ROS 2 messages that we record, encoded in CDR.
 //!
 //! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames).
 //! *Parameters*: none.
-//! *Deviations*: covariances are zero, ROS's word for "unknown".
+//! *Deviations*: covariances are zero, which means "unknown" in ROS.
 
 use super::cdr::Cdr;
 use nalgebra::{UnitQuaternion, Vector3};
@@ -56,7 +56,7 @@ fn xyzw(q: &UnitQuaternion<f64>) -> [f64; 4] {
     [q.i, q.j, q.k, q.w]
 }
 
-/// Position and attitude of `child` in `frame`, velocities in the child's axes.
+/// Position and attitude of `child` in `frame`; velocities in the child's axes.
 #[derive(Clone, Debug)]
 pub struct Odometry<'a> {
     /// Time, ns.
@@ -151,8 +151,8 @@ pub fn clock(t_ns: u64) -> Vec<u8> {
     c.finish()
 }
 
-/// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the file it
-/// would be, `png` or `jpeg`.
+/// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the bytes
+/// of a `png` or `jpeg` file.
 #[must_use]
 pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
     let mut c = Cdr::new();
@@ -160,7 +160,7 @@ pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Ve
     c.finish()
 }
 
-/// A joint at an instant, for a `JointState`.
+/// State of a joint at one time, for a `JointState`.
 #[derive(Clone, Copy, Debug)]
 pub struct Joint<'a> {
     /// Its name in the URDF.
@@ -191,7 +191,7 @@ pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
     c.finish()
 }
 
-/// A `PointCloud2` with the named 32-bit fields; `rows` holds one value a field for each point.
+/// A `PointCloud2` with the named 32-bit fields; for each point, `rows` holds one value per field.
 #[must_use]
 pub fn point_cloud<const N: usize>(
     t_ns: u64,

@@ -1,8 +1,8 @@
-//! Definitions of the ROS 2 messages we write, with those they contain, as `ros2msg` schemas.
+//! Definitions of the ROS 2 messages that we write, and of the messages in them, as `ros2msg` schemas.
 //!
 //! *Source*: ROS 2 common_interfaces, rcl_interfaces and geometry2 (Jazzy; unchanged up to Rolling).
 //! *Parameters*: none.
-//! *Deviations*: comments of the originals left out; fields, order and types as there.
+//! *Deviations*: comments of the originals are omitted; fields, order and types are the same.
 
 use super::ros_messages::Kind;
 
@@ -62,7 +62,7 @@ impl Kind {
         }
     }
 
-    /// Definition with those of all types inside it, in the form that `ros2msg` readers expect.
+    /// Definition followed by those of all types in it, in the form that `ros2msg` readers expect.
     #[must_use]
     pub fn schema(self) -> String {
         let (own, parts): (&str, &[(&str, &str)]) = match self {
@@ -126,7 +126,7 @@ impl Kind {
 mod tests {
     use super::*;
 
-    /// Every type a definition mentions is defined below it, else readers refuse the channel.
+    /// Every type that a definition mentions is defined below it; otherwise readers refuse the channel.
     #[test]
     fn schemas_are_closed() {
         const PLAIN: [&str; 7] = [

@@ -1,18 +1,18 @@
-//! Maps of where the source may be, in the recording: which are due, and as what.
+//! Maps of where the source may be, in the recording: when they are recorded, and in which form.
 //!
-//! As a `PointCloud2`, one point a cell with its `probability`: Foxglove's 3D panel, Lichtblick and Rerun colour points
-//! by a field, in the plane and in space, and show small probabilities that an `OccupancyGrid` of whole per cents
-//! would lose. Cells under a millionth of the largest are left out.
+//! They are `PointCloud2` with one point for each cell and its `probability`. Foxglove's 3D panel, Lichtblick and Rerun
+//! colour points by a field, in the plane and in space. They show small probabilities, which an `OccupancyGrid` of
+//! whole per cents would lose. Cells below a millionth of the largest are omitted.
 
 use robots::handoff::Belief;
 
-/// Cells under this share of the largest are left out.
+/// Cells below this share of the largest are omitted.
 const LEAST_SHARE: f64 = 1e-6;
 
 /// Names of a point's values.
 pub(super) const FIELDS: [&str; 5] = ["x", "y", "z", "probability", "share_of_largest"];
 
-/// One point a cell: place (ENU, m), probability, and that as a share of the largest.
+/// One point for each cell: place (ENU, m), probability, and probability as a share of the largest.
 pub(super) fn points(b: &Belief) -> Vec<[f32; 5]> {
     let most = b.p[b.best];
     let kept =
@@ -26,7 +26,7 @@ pub(super) fn points(b: &Belief) -> Vec<[f32; 5]> {
     .collect()
 }
 
-/// Which of a robot's maps are recorded: the first, then one a period if it is new, and the last.
+/// Which maps of a robot are recorded: the first, then one per period if it is new, and the last.
 #[derive(Clone, Debug, Default)]
 pub(super) struct MapTimes {
     next_s: Option<f64>,

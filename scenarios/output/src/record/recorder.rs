@@ -1,4 +1,4 @@
-//! Records a run as `run.mcap`: what frames hold, as ROS 2 topics.
+//! Records a run as `run.mcap`: the content of frames as ROS 2 topics.
 
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
@@ -19,8 +19,8 @@ use std::sync::Arc;
 /// Frame of all poses.
 pub(super) const WORLD: &str = "world";
 
-/// The recording of one run. Dropped without [`Recorder::finish`] it stays under its temporary
-/// name, readable.
+/// The recording of one run. If it is dropped without [`Recorder::finish`], it stays under its temporary name and is
+/// readable.
 pub struct Recorder {
     file: McapFile,
     behaviours: Vec<&'static str>,
@@ -32,7 +32,7 @@ pub struct Recorder {
     map_period_s: f64,
 }
 
-/// What the numbers of `/plume` mean; the schema has names only.
+/// Meaning of the numbers of `/plume`; the schema has only their names.
 const PLUME: [(&str, &str); 7] = [
     ("topic", "/plume"),
     ("x, y, z", "middle of a filament (ENU), m"),
@@ -52,7 +52,7 @@ const PLUME: [(&str, &str); 7] = [
     ),
 ];
 
-/// Time between two recorded maps where the scenario does not say, s.
+/// Default time between two recorded maps, s.
 const MAP_PERIOD_S: f64 = 10.0;
 
 impl Recorder {
@@ -87,13 +87,13 @@ impl Recorder {
         })
     }
 
-    /// Where it is written until it is whole.
+    /// The temporary path, until the recording is complete.
     #[must_use]
     pub fn temporary(&self) -> &Path {
         self.file.temporary()
     }
 
-    /// The same with a period between two recorded maps of where the source may be, s.
+    /// Sets the period between two recorded maps of where the source may be, s.
     #[must_use]
     pub fn with_map_period(mut self, period_s: f64) -> Self {
         self.map_period_s = period_s;
@@ -249,8 +249,8 @@ impl Recorder {
         self.file.write(&topic, Kind::PointCloud2, t, &cloud)
     }
 
-    /// Records filaments as a cloud; `mass` is that of the filaments one stands for (kg), `concentration` that at a filament's
-    /// own middle, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
+    /// Records filaments as a cloud. `mass` is that of all filaments for which one stands (kg); `concentration` is that
+    /// at the centre of one filament, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -272,7 +272,8 @@ impl Recorder {
         Ok(())
     }
 
-    /// Records a line of a sidescan's picture as a cloud on the bed as believed; `level` is in dB, Lambert's fall taken out.
+    /// Records a line of a sidescan's picture as a cloud on the believed bed; `level` is in dB, without Lambert's
+    /// decrease.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -293,7 +294,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Records a picture without loss, and where the camera sits on the robot.
+    /// Records a picture without loss, and the camera's place on the robot.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -327,7 +328,7 @@ fn believed_frame(id: &str) -> String {
     format!("{id}/estimate")
 }
 
-/// `find suppressed, maintain holds, ...`, lowest first.
+/// `find suppressed, maintain holds, ...`, the lowest layer first.
 fn layers_line(layers: &[Layer]) -> String {
     let words: Vec<String> = (layers.iter())
         .map(|l| format!("{} {}", l.name, l.state.name()))

@@ -1,4 +1,4 @@
-//! A gantry's part of a recording: joints, probes, what its searcher works with and decides.
+//! A gantry's part of a recording: joints, probes, and the data and decisions of its searcher.
 
 use super::recorder::{WORLD, on_plane};
 use crate::mcap::{
@@ -8,7 +8,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use rheotaxis::gantry::GantryFrame;
 use world::math;
 
-/// What was recorded of a gantry so far; behaviours and the declaration are written when they change.
+/// What was recorded of a gantry so far. Behaviours and the declaration are written when they change.
 #[derive(Debug, Default)]
 pub(super) struct GantryRecorder {
     behaviour: Option<&'static str>,
@@ -17,8 +17,8 @@ pub(super) struct GantryRecorder {
 }
 
 impl GantryRecorder {
-    /// Records one picture under `/<id>/`: `joint_states`; `probes/<n>`, `thresholds/<n>` (V) and `spikes/<n>` (0 or 1) in the order of
-    /// the URDF, a message a scan; `spike_hz`, `behaviour`, `declaration`.
+    /// Records one frame under `/<id>/`: `joint_states`; `probes/<n>`, `thresholds/<n>` (V) and `spikes/<n>` (0 or 1)
+    /// in the order of the URDF, one message for each scan; `spike_hz`, `behaviour`, `declaration`.
     pub(super) fn record(
         &mut self,
         file: &mut McapFile,
@@ -71,7 +71,7 @@ impl GantryRecorder {
     }
 }
 
-/// Frames of its head and of its probes' tips, all facing where the gantry does.
+/// Frames of its head and of its probes' tips, all in the direction of the gantry.
 pub(super) fn frames_of(
     g: &GantryFrame,
 ) -> impl Iterator<Item = (String, Vector3<f64>, UnitQuaternion<f64>)> {

@@ -1,4 +1,4 @@
-//! `report.html`: one file that needs nothing beside it.
+//! `report.html`: one self-contained file.
 
 use crate::charts::escaped;
 use crate::results::GantrySummary;
@@ -7,7 +7,7 @@ use crate::results::{DeclarationSummary, DeclaredKind, Summary};
 use robots::handoff::Verdict;
 use std::fmt::Write as _;
 
-/// Look of all pages.
+/// Style sheet of all pages.
 pub const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
 h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
 table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
@@ -96,7 +96,7 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
         |p: crate::results::Position| format!("{:.1} m east, {:.1} m north", p.east_m, p.north_m);
     let in_region = d.region_name.as_deref();
     if d.kind == DeclaredKind::UpFlowEdge {
-        // No source is said to be here: how far one is away would be no error.
+        // This declaration does not claim a source here, so the distance to the nearest one is no error.
         let what = format!(
             "the plume leads on over it, {} at {:.0} s",
             place(d.position),

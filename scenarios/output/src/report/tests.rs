@@ -80,7 +80,7 @@ fn table_has_a_column_for_each_value_and_is_on_disk_at_once() {
     for f in &run {
         table.push(f).unwrap();
     }
-    // The table is still open, as when the program is killed here.
+    // The table is still open, as if the program were killed here.
     let text = fs::read_to_string(&path).unwrap();
     let columns = text.lines().next().unwrap().split(',').count();
     assert_eq!(text.lines().count(), 101);
@@ -88,7 +88,7 @@ fn table_has_a_column_for_each_value_and_is_on_disk_at_once() {
     let row: Vec<&str> = text.lines().nth(1).unwrap().split(',').collect();
     assert_eq!(row[..2], ["0.000", "auv0"]);
     assert_eq!(row[columns - 2..], ["go_to", "find"]);
-    // Nose up in both, whatever the axes say: the believed pitch is 0.1 rad.
+    // Nose up in both, whatever the axes are: the believed pitch is 0.1 rad.
     assert_eq!(row[12], "5.730");
     assert_eq!(table.finish().robots[0].rows.len(), 100);
 }
@@ -299,7 +299,7 @@ fn runs_in_which_nothing_happened() {
         report_of(&nobody, &none, &[], None, &area(), &terrain()).len(),
         4
     );
-    // Zero frames, a robot known beforehand.
+    // No frames, and a robot known beforehand.
     let track = TrackTable::in_memory(robots()).finish();
     report_of(&nobody, &track, &[], None, &area(), &terrain());
     // One frame; an empty plume.

@@ -61,7 +61,8 @@ fn flume() -> Area {
 const DT_S: f64 = 0.025;
 const DECLARED_S: f64 = 38.0;
 
-/// Forty a second, a scan in every other: 20 s of sweep, then a metre up-stream to the stop; every tenth scan a spike.
+/// Forty frames a second, a scan in every other one: 20 s of sweep, then a metre up-stream to the stop; every tenth
+/// scan has a spike.
 fn frames() -> Vec<Frame> {
     (0..1600_u32)
         .map(|k| {
@@ -128,7 +129,7 @@ fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
     for f in &run {
         tables.push(f).unwrap();
     }
-    // The table is still open, as when the program is killed here.
+    // The table is still open, as if the program were killed here.
     let text = fs::read_to_string(dir.path().join("probes-crab0.csv")).unwrap();
     let header: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     assert_eq!(text.lines().count(), run.len() + 1);
@@ -142,7 +143,7 @@ fn probes_table_is_on_disk_at_once_with_a_column_for_each_value() {
     assert_eq!(of(1000, "behaviour"), "step_up");
     assert_eq!(of(18, "probe_left_v"), "-4.6000");
     assert_eq!(of(18, "probe_left_threshold_v"), "-4.9000");
-    // Known a scan later, and told once though two rows show that scan.
+    // A spike is known one scan later, and reported once although two rows show that scan.
     let spikes = [18, 19, 20, 21, 22].map(|row| of(row, "probe_left_spike"));
     assert_eq!(spikes, ["0", "0", "1", "0", "0"]);
     let counted = tables.finish()[0]
@@ -277,7 +278,7 @@ fn figures_of_a_flume_stand_in_for_the_map() {
     assert!(of("report.html").contains("14.0 cm from nozzle"));
 }
 
-/// A concentration that cannot be asked, as a slip in a figure would be.
+/// A concentration that panics when asked, as a mistake in a figure would.
 struct Broken;
 
 impl Concentration for Broken {
@@ -308,7 +309,7 @@ fn a_figure_that_fails_is_an_error_of_that_figure_alone() {
 #[test]
 fn a_gantry_of_which_little_is_known_breaks_no_figure() {
     let run = frames();
-    // No source, no chemical; one moment; none at all.
+    // Without source or chemical; with one moment; with none at all.
     assert!(
         written(&run, None, &[])
             .iter()
@@ -319,7 +320,7 @@ fn a_gantry_of_which_little_is_known_breaks_no_figure() {
     assert_eq!(nothing.len(), 2, "summary and report");
 }
 
-/// The length of a run taken off its end may be a hair before its beginning.
+/// A start computed backwards from the end of a run may lie slightly before its beginning.
 #[test]
 fn a_run_shorter_than_the_window_of_its_probes_is_drawn() {
     let run = frames();

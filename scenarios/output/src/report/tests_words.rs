@@ -1,4 +1,4 @@
-//! What a report says in words and numbers: kinds of declarations, ends of searches, title and rule, masses.
+//! The words and numbers of a report: kinds of declarations, ends of searches, title and rule, masses.
 
 use super::tests::told;
 use crate::results::TrackTable;
@@ -8,7 +8,7 @@ use rheotaxis::frame::Frame;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
 use std::sync::Arc;
 
-/// A mission over two subregions: the first left by the plume's edge, the second timed out.
+/// A mission over two subregions: the first ended at the plume's edge, the second timed out.
 fn over_subregions() -> Vec<Frame> {
     let mut run = frames(20);
     let region = |state| Region {
@@ -65,7 +65,7 @@ fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    // The way from the edge to the nearest source is no error of anything declared.
+    // The distance from the edge to the nearest source is no error of a declaration.
     assert!(!page.contains("Nearest true source") && !page.contains("source free"));
 }
 
@@ -79,7 +79,7 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
         top.contains("Success: a source is declared within 20 m of a true one"),
         "{top}"
     );
-    // For paper and for a telephone: figures whole on a sheet, nothing wider than the screen.
+    // For paper and telephone: figures whole on a sheet, and nothing wider than the screen.
     for rule in [
         "initial-scale=1",
         "@media print",

@@ -1,4 +1,4 @@
-//! Everything a run leaves behind, written into one folder.
+//! Writes everything that a run leaves into one folder.
 
 use super::html;
 use crate::figures;
@@ -11,13 +11,14 @@ use std::path::PathBuf;
 use world::area::Area;
 use world::files::Folder;
 
-/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder; the paths of what was written. Figures, each as `.svg` and `.png`: `map` (left out where gantries are alone), `series-<robot>`, and
-/// `flume-<gantry>`, `probes-<gantry>`, `approach-<gantry>`.
-/// For robots that keep a map also `belief-<robot>` and `convergence`, and `belief-<robot>.csv`; for those whose map says more
-/// of the odour `odour-<robot>`, with a table; for one whose sidescan surveyed a declared place `sidescan-<robot>`.
+/// Writes `summary.json`, `plume.csv`, figures and `report.html` into a folder and returns the paths. Figures, each as
+/// `.svg` and `.png`: `map` (not if there are only gantries), `series-<robot>`, and `flume-<gantry>`,
+/// `probes-<gantry>`, `approach-<gantry>`. For robots with a map also `belief-<robot>` and `convergence`, and
+/// `belief-<robot>.csv`; for those whose map says more about the odour `odour-<robot>`, with a table; for one whose
+/// sidescan surveyed a declared place `sidescan-<robot>`.
 ///
 /// # Errors
-/// If a file cannot be written or a figure not be drawn, each that could not; all others are.
+/// If files cannot be written or figures cannot be drawn; names each of them. All others are written.
 pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, ReportError> {
     let mut kept = Kept::new(out);
     kept.write("summary.json", run.summary.json().as_bytes());
@@ -48,13 +49,13 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     kept.done()
 }
 
-/// A figure's name, title and SVG, or why there is none.
+/// A figure's name, title, and SVG or the reason why there is none.
 type Drawn = (String, String, Result<String, String>);
 
 /// Each figure of the run.
 fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
     let mut figures: Vec<Drawn> = Vec::new();
-    // A gantry's own figures show all there is to see of a flume.
+    // A gantry's own figures show all of a flume.
     if run.gantries.is_empty() || !run.track.robots.is_empty() {
         figures.push((
             "map".to_owned(),
@@ -128,8 +129,9 @@ fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
     figures
 }
 
-/// The filaments that the map shows: `mass_kg` is that of all filaments one stands for, so that the column sums to what is in
-/// the water, and `stands_for` how many those are. Places to the hundredth of a metre, or in a flume of a millimetre.
+/// The filaments that the map shows. `mass_kg` is that of all filaments for which one stands, so that the column sums
+/// to the mass in the water; `stands_for` is their number. Places are rounded to a hundredth of a metre, in a flume of
+/// a millimetre.
 pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
     let (d, d_z, s) = if area.width_m < 10.0 {
         (5, 5, 6)

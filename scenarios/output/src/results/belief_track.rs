@@ -1,4 +1,4 @@
-//! `belief-<robot>.csv`: how a map of where the source may be drew together; and maps kept for the figures.
+//! `belief-<robot>.csv`: how a map of where the source may be converged. Also the maps kept for the figures.
 
 use super::SourceTruth;
 use nalgebra::Vector3;
@@ -7,9 +7,9 @@ use robots::handoff::{Belief, Odour};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Most rows kept of a robot; beyond, every other is left out.
+/// Most rows kept for a robot; beyond that, every other row is dropped.
 const ROWS: usize = 40_000;
-/// Most numbers kept in the maps of a robot between first and last.
+/// Most numbers kept in a robot's maps between the first and the last.
 const NUMBERS: usize = 2_000_000;
 /// Most maps kept between first and last.
 const MAPS: usize = 64;
@@ -21,19 +21,19 @@ pub struct BeliefRow {
     pub t_s: f64,
     /// Updates so far.
     pub updates: u64,
-    /// A detection went into it.
+    /// Whether it includes a detection.
     pub informed: bool,
     /// Entropy, nat.
     pub entropy_nat: f64,
-    /// Middle of the most probable cell (ENU), m.
+    /// Centre of the most probable cell (ENU), m.
     pub best: Vector3<f64>,
     /// Its probability.
     pub p_best: f64,
-    /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in space).
+    /// Size of the smallest set of cells that contains 95 % of the probability, m² (m³ in space).
     pub credible_95: f64,
 }
 
-/// A map with what was planned on it, and the plume as it was last shown.
+/// A map with its plan, and the plume as it was last shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefSnapshot {
     /// The map.
@@ -47,17 +47,17 @@ pub struct BeliefSnapshot {
 /// All that is kept of a robot's map.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotBelief {
-    /// Which robot.
+    /// Id of the robot.
     pub id: String,
-    /// Its updates; thinned evenly when the run is long.
+    /// Its updates; evenly thinned if the run is long.
     pub rows: Vec<BeliefRow>,
     /// The last map before the first detection.
     pub before: Option<BeliefSnapshot>,
     /// The first map with a detection in it.
     pub first: Option<BeliefSnapshot>,
-    /// Maps in between, evenly.
+    /// Maps in between, at even intervals.
     pub between: Vec<BeliefSnapshot>,
-    /// What else the map said of the odour, evenly.
+    /// What the map said about the odour, at even intervals.
     pub odour: Vec<Arc<Odour>>,
     /// The last map.
     pub last: BeliefSnapshot,
@@ -67,13 +67,13 @@ pub struct RobotBelief {
 /// The maps of all robots that keep one.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct BeliefTrack {
-    /// A robot each.
+    /// One entry for each robot.
     pub robots: Vec<RobotBelief>,
     plume: Option<Arc<PlumeFrame>>,
 }
 
 impl BeliefTrack {
-    /// Takes in what is new in a frame.
+    /// Adds what is new in a frame.
     pub fn push(&mut self, frame: &Frame) {
         for r in &frame.robots {
             let Some(belief) = &r.belief else { continue };
@@ -85,7 +85,7 @@ impl BeliefTrack {
         }
     }
 
-    /// Takes in the newest picture of the plume.
+    /// Adds the newest snapshot of the plume.
     pub fn plume(&mut self, plume: &PlumeFrame) {
         self.plume = Some(Arc::new(plume.clone()));
     }
@@ -115,7 +115,7 @@ impl RobotBelief {
 
     fn push(&mut self, new: BeliefSnapshot) {
         if new.belief.updates == self.last.belief.updates {
-            // The plan may have changed on the same map.
+            // The plan may have changed although the map is the same.
             self.last = new;
             return;
         }
@@ -135,7 +135,7 @@ impl RobotBelief {
         thin(&mut self.between, old, most, &mut self.thinning[1]);
     }
 
-    /// When the most probable cell came to where it was at the end, and stayed, s.
+    /// When the most probable cell reached its final place and stayed there, s.
     #[must_use]
     pub fn settled_s(&self) -> Option<f64> {
         let end = self.rows.last()?;
@@ -144,7 +144,7 @@ impl RobotBelief {
     }
 }
 
-/// Keeps every so many, and half of them when there are too many.
+/// Keeps one of every few values, and drops half of them if there are too many.
 fn thin<T>(list: &mut Vec<T>, new: T, most: usize, (stride, skip): &mut (usize, usize)) {
     if *skip > 0 {
         *skip -= 1;
@@ -181,7 +181,7 @@ pub(crate) fn off(best: &Vector3<f64>, sources: &[SourceTruth]) -> Option<f64> {
     away.min_by(f64::total_cmp)
 }
 
-/// The table; the size of the credible region has its unit in the header.
+/// The table; its header gives the unit of the credible region's size.
 pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
     let plane = robot.last.belief.grid.n[2] == 1;
     let unit = if plane { "m2" } else { "m3" };
@@ -189,7 +189,7 @@ pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
         "t_s,updates,informed,entropy_nat,best_east_m,best_north_m,best_up_m,best_probability,off_m,credible_95_{unit}\n"
     );
     for r in &robot.rows {
-        // A map of the plane says nothing of the height.
+        // A map of the plane does not tell the height.
         let up = if plane {
             String::new()
         } else {

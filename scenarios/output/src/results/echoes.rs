@@ -1,37 +1,37 @@
-//! What sidescan sonars heard, kept as pictures of straight passes for figure and recording.
+//! Echoes of sidescan sonars, kept as pictures of straight passes for figure and recording.
 
 use rheotaxis::frame::PingFrame;
 use robots::survey::{Row, Waterfall};
 
 /// A vehicle that turns faster than this makes no picture, rad/s.
 const TURNING_RAD_S: f64 = 0.05;
-/// A pass is over after so long without a ping on it, s.
+/// A pass ends if it gets no ping for this long, s.
 const APART_S: f64 = 2.0;
-/// A pass of fewer lines is left out.
+/// Passes with fewer lines are omitted.
 const FEWEST: usize = 40;
-/// Most passes kept of a robot, the newest ones.
+/// Most passes kept for a robot: the newest ones.
 const MOST: usize = 32;
 
 /// The passes of one robot.
 #[derive(Clone, Debug)]
 pub struct RobotEchoes {
-    /// Which.
+    /// Id of the robot.
     pub id: String,
     passes: Vec<Waterfall>,
     last_s: f64,
 }
 
 impl RobotEchoes {
-    /// Its passes, in order of time; short ones left out.
+    /// Its passes in order of time, without short ones.
     pub fn passes(&self) -> impl Iterator<Item = &Waterfall> {
         self.passes.iter().filter(|p| p.rows().len() >= FEWEST)
     }
 }
 
-/// The passes of all robots whose sidescan pinged.
+/// The passes of all robots with a sidescan.
 #[derive(Clone, Debug, Default)]
 pub struct Echoes {
-    /// A robot each.
+    /// One entry for each robot.
     pub robots: Vec<RobotEchoes>,
 }
 
@@ -39,7 +39,7 @@ impl Echoes {
     /// Size of a cell, m.
     pub const CELL_M: f64 = 0.25;
 
-    /// Takes in a ping; the line of a picture that it completes.
+    /// Adds a ping; returns the line of a picture that it completes, if any.
     pub fn push(&mut self, frame: &PingFrame) -> Option<&Row> {
         if frame.estimate.attitude.rates_rad_s.z.abs() > TURNING_RAD_S {
             return None;
@@ -93,7 +93,7 @@ mod tests {
         for k in 0..1000 {
             let t_s = f64::from(k) * 0.1;
             estimate.t_s = t_s;
-            // 30 s straight, 10 s of turning, and again.
+            // 30 s straight, 10 s of turning, and the same again.
             estimate.attitude.rates_rad_s.z = if k % 400 < 300 { 0.0 } else { 0.15 };
             let frame = PingFrame {
                 t_s,
@@ -104,7 +104,7 @@ mod tests {
             lines += usize::from(echoes.push(&frame).is_some());
         }
         let kept: Vec<usize> = echoes.robots[0].passes().map(|p| p.rows().len()).collect();
-        // The first ping of a pass has nothing before it to measure the way from.
+        // The first ping of a pass has no predecessor from which to measure the distance.
         assert_eq!(kept, [299, 299, 199]);
         assert_eq!(lines, 299 + 299 + 199);
     }

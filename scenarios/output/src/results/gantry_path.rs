@@ -1,10 +1,10 @@
-//! What a gantry did in a run: its path from the end of the first sweep to its stop.
+//! A gantry's path in a run, from the end of the first sweep to its stop.
 //!
-//! *Source*: the figures of Webster, Volyanskyy & Weissburg 2012, section 5 and Fig. 11: time, speed, NGDR, and
-//! speed and distance from the centreline 100-50 cm and 50-0 cm from the source.
+//! *Source*: the figures of Webster, Volyanskyy & Weissburg 2012, section 5 and Fig. 11: time, speed, NGDR, and speed
+//! and distance from the centreline 100-50 cm and 50-0 cm from the source.
 //!
 //! *Deviations*: the paper's path begins at "the initial tracker position"; ours begins with the first step up-stream,
-//! since a metre of sweep in the path would leave no room for the NGDR of 0.7 that it reports.
+//! because with a metre of sweep in the path, the reported NGDR of 0.7 would be impossible.
 
 use super::{DeclarationSummary, SourceTruth};
 use nalgebra::Vector2;
@@ -21,7 +21,7 @@ const NEAR_M: [f64; 2] = [0.0, 0.5];
 pub struct GantryPath {
     id: String,
     forward: Vector2<f64>,
-    /// Time and true place of the head (east, north), from the first step up-stream on, not beyond the stop.
+    /// Time and true place of the head (east, north), from the first step up-stream to the stop.
     track: Vec<(f64, Vector2<f64>)>,
     last: Vector2<f64>,
     travelled_m: f64,
@@ -38,24 +38,24 @@ pub struct GantryPath {
     declaration: Option<Declaration>,
 }
 
-/// What a gantry did.
+/// The results of a gantry.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GantrySummary {
     /// Its id in the scenario.
     pub id: String,
-    /// How it ended: true when it declared a source, false when it gave up; none when it did neither.
+    /// How it ended: true if it declared a source, false if it gave up, `None` if it did neither.
     pub stopped: Option<bool>,
     /// Its declaration.
     pub declaration: Option<DeclarationSummary>,
-    /// Time at which its first sweep was over, s.
+    /// End of its first sweep, s.
     pub sweep_s: Option<f64>,
     /// Time of the first spike, s.
     pub first_spike_s: Option<f64>,
-    /// Scans with a spike on any probe.
+    /// Number of scans with a spike on any probe.
     pub spikes: u64,
-    /// Steps up-stream, casts and full sweeps.
+    /// Number of steps up-stream, casts and full sweeps.
     pub moves: [u32; 3],
-    /// A drive gave up against something.
+    /// Whether a drive gave up against an obstacle.
     pub blocked: bool,
     /// Length of the whole path, m.
     pub travelled_m: f64,
@@ -63,16 +63,16 @@ pub struct GantrySummary {
     pub tracked_m: Option<f64>,
     /// Speed along that path, m/s.
     pub speed_m_s: Option<f64>,
-    /// Straight way over path length, from the first step up-stream.
+    /// Straight distance divided by path length, from the first step up-stream.
     pub ngdr: Option<f64>,
-    /// Speed while 1 to 0.5 m and while 0.5 to 0 m from the source along the stream, m/s.
+    /// Speed at 1 to 0.5 m, and at 0.5 to 0 m, from the source along the stream, m/s.
     pub speed_far_near_m_s: [Option<f64>; 2],
-    /// Mean distance from the source's line along the stream in the same ranges, m.
+    /// Mean distance from the line along the stream through the source, in the same ranges, m.
     pub offset_far_near_m: [Option<f64>; 2],
 }
 
 impl GantryPath {
-    /// From its first picture.
+    /// Begins with the first frame.
     #[must_use]
     pub fn new(g: &GantryFrame) -> Self {
         Self {
@@ -95,7 +95,7 @@ impl GantryPath {
         }
     }
 
-    /// The next picture.
+    /// Adds the next frame.
     pub fn observe(&mut self, t_s: f64, g: &GantryFrame) {
         let head = g.head_W.xy();
         self.travelled_m += (head - self.last).norm();
@@ -131,7 +131,7 @@ impl GantryPath {
         self.declaration = self.declaration.or(g.declaration);
     }
 
-    /// What it came to, against the true sources.
+    /// The results, compared with the true sources.
     #[must_use]
     pub fn summary(&self, sources: &[SourceTruth]) -> GantrySummary {
         let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));
@@ -167,7 +167,7 @@ impl GantryPath {
         }
     }
 
-    /// Speed and mean distance from the source's line while so far from it along the stream.
+    /// Speed, and mean distance from that line, while the distance to the source along the stream is in a range.
     fn within(&self, source: Vector2<f64>, [from, to]: [f64; 2]) -> (Option<f64>, Option<f64>) {
         let inside = |p: &Vector2<f64>| (from..to).contains(&(source - p).dot(&self.forward));
         let pieces = || {

@@ -1,5 +1,5 @@
-//! What a robot's map of the source came to, held against the truth and against what the robot declared: a map may be sure
-//! of a wrong cell.
+//! The final state of a robot's source map, compared with the truth and with the robot's declaration: a map may be
+//! certain of a wrong cell.
 
 use super::{Position, SourceTruth};
 use nalgebra::Vector2;
@@ -7,30 +7,30 @@ use robots::handoff::{Belief, Declaration, Verdict};
 use serde::Serialize;
 use std::fmt::Write as _;
 
-/// A map is sure of a cell from this probability on.
+/// A map is certain of a cell from this probability on.
 const SURE: f64 = 0.9;
-/// A place that is so many cells from the middle of another is somewhere else.
+/// Two places count as different if their distance is at least this many cells.
 const CELLS_OFF: f64 = 3.0;
 
 /// The end of a robot's map.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MapEnd {
-    /// Middle of the most probable cell.
+    /// Centre of the most probable cell.
     pub best: Position,
     /// Its probability.
     pub probability: f64,
-    /// Horizontal distance to the nearest true source, m; none in a scenario without one.
+    /// Horizontal distance to the nearest true source, m; `None` in a scenario without one.
     pub off_m: Option<f64>,
-    /// The same in cells, along the axis on which there are more.
+    /// The same distance in cells, along the axis on which there are more.
     pub off_cells: Option<f64>,
-    /// Horizontal distance to the nearest standing declaration of a source, m; none without one.
+    /// Horizontal distance to the nearest standing declaration of a source, m; `None` without one.
     pub from_declared_m: Option<f64>,
-    /// Said where the map is sure of a cell that is many cells from the source or from what was declared.
+    /// A remark if the map is certain of a cell that is many cells from the source or from the declaration.
     pub remark: Option<String>,
 }
 
 impl MapEnd {
-    /// Of the last map (which alone knows its cells), the robot's declarations and the true sources.
+    /// From the last map (only it knows its cells), the robot's declarations and the true sources.
     #[must_use]
     pub fn of(last: &Belief, declarations: &[Declaration], sources: &[SourceTruth]) -> Self {
         let (grid, probability) = (&last.grid, last.p[last.best]);
@@ -78,7 +78,7 @@ mod tests {
     use crate::sample::{belief, source};
     use std::sync::Arc;
 
-    /// A map that gives `p` to the cell of a place and the rest to all others.
+    /// A map with probability `p` in the cell of a place and the rest in all others.
     fn sure_of(place: Vector2<f64>, p: f64) -> Belief {
         let mut b = belief(50.0);
         b.best = b.grid.cell(&place.push(0.0)).unwrap();
@@ -98,7 +98,7 @@ mod tests {
     #[test]
     fn it_says_when_a_map_is_sure_of_a_wrong_cell() {
         let s = source();
-        // Cells of 27 by 24 m: four of them off.
+        // Cells of 27 by 24 m; the place is four cells away.
         let away = s.position.xy() + Vector2::new(60.0, -85.0);
         let end = MapEnd::of(
             &sure_of(away, 0.99),
@@ -114,7 +114,7 @@ mod tests {
                 "the map is sure (0.990) of a cell {m:.0} m from the source and {m:.0} m from what was declared"
             )
         );
-        // Declared where the map has it: only the truth disagrees.
+        // Declared where the map says: only the truth disagrees.
         let end = MapEnd::of(
             &sure_of(away, 0.99),
             &[declared(away)],

@@ -1,4 +1,4 @@
-//! What is gathered from the frames of a run: tracks, maps, echoes, pictures, and the summary.
+//! Data gathered from the frames of a run: tracks, maps, echoes, pictures, and the summary.
 
 pub mod belief_track;
 mod echoes;

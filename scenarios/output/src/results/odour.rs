@@ -1,13 +1,13 @@
-//! `odour-<robot>.csv`: where a map of the odour has it likely to be met, which way it came, and where to meet it.
+//! `odour-<robot>.csv`: where a map expects odour, which way it came, and the way to meet it.
 
 use robots::handoff::Odour;
 use std::fmt::Write as _;
 use std::sync::Arc;
 
-/// Cells with a lesser chance are left out.
+/// Cells with a smaller probability are omitted.
 const LEAST: f64 = 1e-4;
 
-/// The table: for each time the cells where odour may be detected, then the two paths, cell after cell.
+/// The table: for each time, the cells where odour may be detected, then the two paths cell by cell.
 pub(crate) fn csv(said: &[Arc<Odour>]) -> String {
     let mut text = String::from("t_s,what,step,east_m,north_m,up_m,chance\n");
     for o in said {
@@ -20,7 +20,7 @@ pub(crate) fn csv(said: &[Arc<Odour>]) -> String {
         for (what, cells) in all {
             for (step, cell) in cells.into_iter().enumerate() {
                 let p = o.grid.centre(cell);
-                // A map of the plane says nothing of the height.
+                // A map of the plane does not tell the height.
                 let up = if o.grid.n[2] == 1 {
                     String::new()
                 } else {

@@ -1,4 +1,4 @@
-//! Pictures that the robots' cameras took: each a file as soon as it is there, and a table of where and when.
+//! Pictures from the robots' cameras. Each becomes a file at once; a table says where and when it was taken.
 
 use super::probes::file_name;
 use crate::files::{ReportError, write_whole};
@@ -12,7 +12,7 @@ use world::files::Folder;
 use world::math;
 use world::units::Heading;
 
-/// Quality of the pictures within the page; the files beside it lose nothing.
+/// JPEG quality of the pictures in the page; the files beside it are lossless.
 const PAGE_QUALITY: u8 = 85;
 
 /// A picture as the report shows it.
@@ -22,19 +22,19 @@ pub struct ShownPicture {
     pub file: String,
     /// Which robot took it.
     pub robot: String,
-    /// When, s.
+    /// Time, s.
     pub t_s: f64,
     /// The picture, small enough for a page.
     jpeg: Vec<u8>,
 }
 
 impl ShownPicture {
-    /// Words under it in the page.
+    /// Caption in the page.
     pub(crate) fn title(&self) -> String {
         format!("{} at {:.1} s", self.robot, self.t_s)
     }
 
-    /// The picture within a page that needs nothing beside it.
+    /// The picture as it is embedded in the self-contained page.
     pub(crate) fn html(&self) -> String {
         format!(
             "<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
@@ -54,7 +54,7 @@ pub struct Pictures {
 }
 
 impl Pictures {
-    /// Into a folder; at most `most` pictures.
+    /// Writes into a folder, at most `most` pictures.
     #[must_use]
     pub fn new(out: &Folder, most: u32) -> Self {
         Self {
@@ -68,7 +68,7 @@ impl Pictures {
         }
     }
 
-    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns what is in the file; nothing once
+    /// Writes `picture-<robot>-<n>.png` and its line in `pictures.csv`, and returns the bytes of the file; `None` once
     /// there are enough.
     ///
     /// # Errors
@@ -127,7 +127,7 @@ impl Pictures {
         .expect("writing to a String succeeds");
     }
 
-    /// What was kept, in the order in which it was taken.
+    /// The pictures kept, in the order in which they were taken.
     #[must_use]
     pub fn shown(&self) -> &[ShownPicture] {
         &self.shown
@@ -198,7 +198,7 @@ mod tests {
         let rows: Vec<Vec<&str>> = csv.lines().map(|l| l.split(',').collect()).collect();
         assert_eq!(rows.len(), 4);
         assert!(rows.iter().all(|r| r.len() == rows[0].len()));
-        // The camera sits half a metre ahead and looks east and 30° down.
+        // The camera sits half a metre ahead and looks east, 30° down.
         assert_eq!(
             rows[1][..9],
             [

@@ -1,5 +1,5 @@
-//! `probes-<gantry>.csv`: what each gantry's probes read, what its searcher made of it, where its head was; and the
-//! same kept for the figures.
+//! `probes-<gantry>.csv`: readings of each gantry's probes, what its searcher derived from them, and the position of
+//! its head. The same data are kept for the figures.
 
 use crate::files::ReportError;
 use rheotaxis::frame::Frame;
@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use std::io::Write as _;
 use world::files::{Folder, Output};
 
-/// What tables and figures must know of a gantry beforehand.
+/// What tables and figures need to know about a gantry beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GantryInfo {
     /// Its id in the scenario.
@@ -20,11 +20,11 @@ pub struct GantryInfo {
     pub range_v: [f64; 2],
     /// Concentration at full scale, kg/m³.
     pub full_scale_kg_m3: f64,
-    /// Concentration of what leaves the source; none where the source has no nozzle, kg/m³.
+    /// Concentration of the fluid that leaves the source; `None` if the source has no nozzle, kg/m³.
     pub effluent_kg_m3: Option<f64>,
 }
 
-/// One moment of one gantry, as far as figures need it.
+/// One moment of one gantry, as the figures need it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GantryRow {
     /// Time, s.
@@ -33,13 +33,13 @@ pub struct GantryRow {
     pub head: [f64; 2],
     /// True speed of the head, m/s.
     pub speed_m_s: f64,
-    /// Output of each probe, V; none before the first scan.
+    /// Output of each probe, V; `None` before the first scan.
     pub volts: Option<[f64; MAX_PROBES]>,
     /// Threshold of each probe, V.
     pub threshold_v: [f64; MAX_PROBES],
-    /// The scan before this one was a spike.
+    /// Whether the scan before this one was a spike.
     pub spike: [bool; MAX_PROBES],
-    /// Spikes a second lately, Hz.
+    /// Recent rate of spikes, Hz.
     pub spike_hz: f64,
     /// What the searcher was doing.
     pub behaviour: GantryBehaviour,
@@ -50,9 +50,9 @@ pub struct GantryRow {
 /// A gantry's whole run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct GantryTrack {
-    /// Which gantry.
+    /// Data of the gantry.
     pub info: GantryInfo,
-    /// Its moments; thinned evenly when the run is long.
+    /// Its moments; evenly thinned if the run is long.
     pub rows: Vec<GantryRow>,
     /// Its forward direction in the world (east, north): up-stream.
     pub forward: [f64; 2],
@@ -67,7 +67,7 @@ pub struct GantryTrack {
     scanned_s: Option<f64>,
 }
 
-/// Moments kept for a gantry: half an hour at 20 Hz before they are thinned.
+/// Most moments kept for a gantry: half an hour at 20 Hz without thinning.
 const KEPT: usize = 40_000;
 
 impl GantryTrack {
@@ -79,7 +79,7 @@ impl GantryTrack {
         }
     }
 
-    /// Takes in a picture; what it says of the latest scan, if that is a new one.
+    /// Adds a frame; returns what it says about the latest scan, if that is new.
     fn push(&mut self, t_s: f64, g: &GantryFrame) -> GantryRow {
         let new_scan = g.scan.filter(|s| self.scanned_s != Some(s.t_s));
         self.scanned_s = g.scan.map(|s| s.t_s);
@@ -131,14 +131,14 @@ impl GantryTrack {
     }
 }
 
-/// A spike outlives the moment that is left out.
+/// Keeps a spike even if its moment is dropped.
 fn join(kept: &mut GantryRow, left_out: &GantryRow) {
     for (spike, other) in kept.spike.iter_mut().zip(left_out.spike) {
         *spike |= other;
     }
 }
 
-/// The tables being written: every row is handed to the system at once, so a kill loses nothing computed.
+/// The tables being written. Every row is passed to the system at once, so a kill loses nothing.
 #[derive(Debug)]
 pub struct ProbeTables {
     files: Vec<Output>,
@@ -147,7 +147,7 @@ pub struct ProbeTables {
 }
 
 impl ProbeTables {
-    /// A table for each gantry, written into `folder` as they grow.
+    /// Makes a table for each gantry, which grows in `folder`.
     ///
     /// # Errors
     /// If a file cannot be written.
@@ -166,7 +166,7 @@ impl ProbeTables {
         })
     }
 
-    /// Kept for the figures only, no files.
+    /// Keeps data for the figures only, without files.
     #[must_use]
     pub fn in_memory(gantries: Vec<GantryInfo>) -> Self {
         Self {
@@ -202,7 +202,7 @@ impl ProbeTables {
     }
 }
 
-/// An id may hold what a file's name may not.
+/// An id may contain characters that a file's name must not.
 pub(crate) fn file_name(id: &str) -> String {
     id.chars()
         .map(|c| if c.is_ascii_alphanumeric() { c } else { '_' })

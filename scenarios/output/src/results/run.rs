@@ -1,4 +1,4 @@
-//! Which run it is, and all that its figures and report are made of.
+//! The identity of a run, and all data for its figures and report.
 
 use super::{BeliefTrack, Echoes, GantryTrack, ShownPicture, SourceTruth, Summary, Track};
 use rheotaxis::frame::PlumeFrame;
@@ -7,14 +7,14 @@ use world::fields::Concentration;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
-/// Which run this is.
+/// The identity of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunInfo {
     /// Name of the scenario.
     pub scenario_name: String,
     /// Its title.
     pub title: String,
-    /// When it counts as a success, in words.
+    /// Its rule of success, in words.
     pub success: String,
     /// Text of its file.
     pub scenario_text: String,
@@ -33,28 +33,28 @@ pub struct ObstacleOutline {
     pub corners: Vec<[f64; 2]>,
     /// Heights of its lowest and highest point (z, ENU), m.
     pub z: [f64; 2],
-    /// Water and dye pass through it.
+    /// Whether water and dye pass through it.
     pub permeable: bool,
 }
 
-/// What [`write_all`](crate::report::write_all) makes files of.
+/// The input from which [`write_all`](crate::report::write_all) makes files.
 #[derive(Clone)]
 pub struct RunReport<'a> {
-    /// What the run came to.
+    /// The results of the run.
     pub summary: &'a Summary,
-    /// Where the robots went.
+    /// The tracks of the robots.
     pub track: &'a Track,
-    /// What the gantries did.
+    /// The tracks of the gantries.
     pub gantries: &'a [GantryTrack],
     /// The robots' maps of where the source may be.
     pub beliefs: &'a BeliefTrack,
-    /// Pictures that cameras took; their files are there already.
+    /// Pictures that cameras took; their files already exist.
     pub pictures: &'a [ShownPicture],
-    /// What sidescan sonars heard.
+    /// The echoes of sidescan sonars.
     pub echoes: &'a Echoes,
-    /// Some of the plume's filaments at the end; none in a run without one.
+    /// Some of the plume's filaments at the end; `None` in a run without a plume.
     pub plume: Option<&'a PlumeFrame>,
-    /// What is dissolved in the water at the end, for sections through it.
+    /// The chemical in the water at the end, for sections through it.
     pub dye: Option<&'a dyn Concentration>,
     /// The operating area.
     pub area: &'a Area,
@@ -66,7 +66,7 @@ pub struct RunReport<'a> {
     pub interfaces: &'a [f64],
     /// Solid things.
     pub obstacles: &'a [ObstacleOutline],
-    /// The same as they are, for sections through them; where it is `None`, outline and heights stand for them.
+    /// The obstacles themselves, for sections through them; if `None`, outline and heights are used.
     pub solids: Option<&'a Obstacles>,
     /// Text of the scenario's file.
     pub scenario_text: &'a str,

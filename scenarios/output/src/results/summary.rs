@@ -22,30 +22,30 @@ pub struct Position {
 pub struct SourceSummary {
     /// Its id in the scenario.
     pub id: String,
-    /// Where it is.
+    /// Its position.
     pub position: Position,
     /// Its depth below the still surface, m.
     pub depth_m: f64,
-    /// Where the mean flow at the source goes, degrees from north; none in still water.
+    /// Where the mean flow at the source goes, degrees from north; `None` in still water.
     pub flow_heading_deg: Option<f64>,
 }
 
-/// A declared position against the nearest true source.
+/// A declared position compared with the nearest true source.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SourceError {
     /// The nearest true source.
     pub source: String,
-    /// Where it is.
+    /// Its position.
     pub position: Position,
     /// Horizontal distance, m.
     pub total_m: f64,
-    /// Part along the mean flow at the source, m; positive: declared too far down-flow.
+    /// Component along the mean flow at the source, m; positive if declared too far down-flow.
     pub along_flow_m: Option<f64>,
-    /// Part across it, m; positive: declared too far to the right, looking down-flow.
+    /// Component across it, m; positive if declared too far to the right, looking down-flow.
     pub across_flow_m: Option<f64>,
-    /// Declared minus true, m.
+    /// Declared minus true, east, m.
     pub east_m: f64,
-    /// Declared minus true, m.
+    /// Declared minus true, north, m.
     pub north_m: f64,
 }
 
@@ -53,55 +53,55 @@ pub struct SourceError {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum DeclaredKind {
-    /// A source, at the place.
+    /// A source at the declared place.
     Source,
-    /// A plume, traced to where it crosses the up-flow edge of a subregion: its source is beyond.
+    /// A plume that was traced to the up-flow edge of a subregion; its source is beyond.
     UpFlowEdge,
 }
 
 /// A declaration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct DeclarationSummary {
-    /// Its number among the robot's, from 0, edges included.
+    /// Its number among the robot's declarations, from 0, including edges.
     pub number: u32,
-    /// Of a source or of an edge.
+    /// Whether it declares a source or an edge.
     pub kind: DeclaredKind,
-    /// Its name in report and pictures: `source 1` and so on, edges not counted, or `edge of A`.
+    /// Its name in report and pictures: `source 1` and so on, without counting edges, or `edge of A`.
     pub name: String,
-    /// Subregion in which it was made, from 0; none where the area is one.
+    /// Subregion in which it was made, from 0; `None` if the area is not divided.
     pub region: Option<u32>,
     /// That subregion's name: a letter.
     pub region_name: Option<String>,
-    /// When, s of mission time.
+    /// Mission time, s.
     pub t_s: f64,
-    /// By which rule.
+    /// Name of the rule that declared it.
     pub rule: String,
-    /// Where.
+    /// Declared position.
     pub position: Position,
-    /// How wrong, or how far the nearest source is from an edge; none in a scenario without a source.
+    /// Its error, or the distance of an edge from the nearest source; `None` in a scenario without a source.
     pub error: Option<SourceError>,
-    /// The last detection points it rests on, where the rule is one on them.
+    /// The last detection points on which it rests, if its rule uses them.
     pub evidence: Option<Evidence>,
-    /// What a look at it said.
+    /// The verdict of a look at it.
     pub verdict: Verdict,
-    /// Where the sidescan had the source, as the vehicle believed.
+    /// Where the sidescan found the source, in the vehicle's believed coordinates.
     pub surveyed: Option<Position>,
-    /// How wrong that was.
+    /// The error of that place.
     pub surveyed_error: Option<SourceError>,
-    /// Straight distance from the first detection in this area, or subregion, to it, m.
+    /// Straight distance from the first detection in this area or subregion to it, m.
     pub traced_m: Option<f64>,
-    /// How far a position fix moved what the robot believed in the minute before, the farthest, m; none without one.
+    /// The largest shift by a position fix of what the robot believed, in the minute before, m; `None` without a fix.
     pub fix_m: Option<f64>,
 }
 
-/// A subregion at the end.
+/// A subregion at the end of the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RegionSummary {
     /// Its name: a letter, in the order of search.
     pub name: String,
-    /// Its middle.
+    /// Its centre.
     pub centre: Position,
-    /// How its search stood.
+    /// The state of its search.
     pub state: RegionState,
     /// When its search began, s.
     pub from_s: Option<f64>,
@@ -109,38 +109,38 @@ pub struct RegionSummary {
     pub until_s: Option<f64>,
 }
 
-/// What one robot did.
+/// The results of one robot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobotSummary {
     /// Its id in the scenario.
     pub id: String,
-    /// Its declarations, by number.
+    /// Its declarations, in order of their numbers.
     pub declarations: Vec<DeclarationSummary>,
-    /// How many of these are sources.
+    /// Number of declarations that are sources.
     pub sources_declared: usize,
-    /// How many are plumes traced to the up-flow edge of a subregion.
+    /// Number of plumes that were traced to the up-flow edge of a subregion.
     pub up_flow_edges: usize,
-    /// The subregions of its mission, in the order of their search; none where the area is one.
+    /// The subregions of its mission, in the order of their search; empty if the area is not divided.
     pub regions: Vec<RegionSummary>,
-    /// How many of these had their time run out.
+    /// Number of subregions whose time ran out.
     pub regions_timed_out: usize,
     /// Time of the first detection, s.
     pub first_detection_s: Option<f64>,
-    /// Where it truly was then.
+    /// True position at that time.
     pub first_detection: Option<Position>,
     /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
     pub detections: u64,
     /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
     pub traced_m: Option<f64>,
-    /// When the likeliest cell of its map came to be that of a true source, to stay it until the end, s.
+    /// When the most probable cell of its map became that of a true source and stayed so to the end, s.
     pub correct_cell_s: Option<f64>,
-    /// What its map came to; none for a robot without.
+    /// The final state of its map; `None` for a robot without a map.
     pub map: Option<MapEnd>,
     /// Length of the true path, m.
     pub travelled_m: f64,
     /// Distance between believed and true position at the end, m.
     pub final_position_error_m: f64,
-    /// Greatest such distance over the run, m.
+    /// Greatest distance between believed and true position, m.
     pub greatest_position_error_m: f64,
     /// Behaviour at the end.
     pub last_behaviour: String,
@@ -153,19 +153,19 @@ pub struct RobotSummary {
 pub struct AbnormalSummary {
     /// The robot's id in the scenario.
     pub robot: String,
-    /// What.
+    /// The kind of event.
     pub what: Abnormality,
-    /// Since when, s of mission time.
+    /// Beginning, s of mission time.
     pub t_s: f64,
-    /// How long, s.
+    /// Duration, s.
     pub lasted_s: f64,
-    /// It was over before the run.
+    /// Whether it ended before the run.
     pub over: bool,
-    /// Where it began.
+    /// Position at its beginning.
     pub position: Position,
-    /// How deep below the still surface, m.
+    /// Depth below the still surface, m.
     pub depth_m: f64,
-    /// All that on one line, for people.
+    /// The whole event in one line, for people.
     pub line: String,
 }
 
@@ -189,16 +189,16 @@ impl From<&Abnormal> for AbnormalSummary {
 pub struct MassBalance {
     /// Released, kg.
     pub released_kg: f64,
-    /// Still in the water simulated, kg.
+    /// Still in the simulated water, kg.
     pub in_water_kg: f64,
-    /// Carried out of it, kg.
+    /// Carried out of the simulated water, kg.
     pub left_kg: f64,
-    /// Released − in the water − carried out, kg: rounding only.
+    /// Released − in the water − carried out, kg: only rounding.
     pub imbalance_kg: f64,
 }
 
 impl MassBalance {
-    /// From its three parts.
+    /// From its three terms.
     #[must_use]
     pub fn new(released_kg: f64, in_water_kg: f64, left_kg: f64) -> Self {
         Self {
@@ -210,7 +210,7 @@ impl MassBalance {
     }
 }
 
-/// What the run itself took.
+/// Counts and times of the run itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Totals {
     /// Simulated time of the mission, s.
@@ -225,33 +225,33 @@ pub struct Totals {
     pub steps: u64,
     /// Filaments at the end.
     pub filaments: usize,
-    /// Where the chemical went; none without a source.
+    /// Where the chemical went; `None` without a source.
     pub mass: Option<MassBalance>,
 }
 
-/// [`Totals`] with the speeds that follow from it.
+/// [`Totals`] with the resulting speeds.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct RunSummary {
-    /// What was counted.
+    /// Counts and times.
     #[serde(flatten)]
     pub totals: Totals,
-    /// Simulated over wall time, mission only.
+    /// Simulated time divided by wall time, mission only.
     pub real_time_factor: Option<f64>,
-    /// Simulated mission time over all wall time, spin-up's included: what a user waits for.
+    /// Simulated mission time divided by all wall time, including the spin-up: what a user waits for.
     pub real_time_factor_with_spin_up: Option<f64>,
 }
 
-/// Version of rapier3d that the program is built with; the joints of gantries, which it moves, go into the digest.
+/// Version of rapier3d in the program. It moves the joints of gantries, which are part of the digest.
 const RAPIER: &str = "0.36.1";
 
-/// By what a run was made: equal digests are promised for equal versions.
+/// The versions that made a run: equal digests are promised for equal versions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Versions {
-    /// The program.
+    /// Version of the program.
     pub rheotaxis: String,
-    /// The schema of scenario files.
+    /// Version of the format of scenario files.
     pub scenario: u32,
-    /// The rigid-body solver.
+    /// Version of the rigid-body solver.
     pub rapier3d: &'static str,
 }
 
@@ -265,20 +265,20 @@ impl Versions {
     }
 }
 
-/// What a run came to.
+/// The results of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
     /// Name of the scenario.
     pub scenario: String,
     /// Its title.
     pub title: String,
-    /// When it counts as a success, in words.
+    /// The scenario's rule of success, in words.
     pub success_rule: String,
     /// Seed.
     pub seed: u64,
-    /// What it was run by.
+    /// The versions that made the run.
     pub versions: Versions,
-    /// Digest of the whole state sequence; the same run again gives the same.
+    /// Digest of the whole state sequence; the same run has the same digest.
     pub digest: String,
     /// How it ended.
     pub outcome: RunOutcome,
@@ -290,7 +290,7 @@ pub struct Summary {
     pub robots: Vec<RobotSummary>,
     /// Each gantry.
     pub gantries: Vec<GantrySummary>,
-    /// What went wrong without ending the run.
+    /// Events that went wrong without ending the run.
     pub abnormal: Vec<AbnormalSummary>,
     /// The run itself.
     pub run: RunSummary,

@@ -23,13 +23,13 @@ use world::units::Heading;
 pub struct SourceTruth {
     /// Its id in the scenario.
     pub id: String,
-    /// Where it is (ENU), m.
+    /// Its position (ENU), m.
     pub position: Vector3<f64>,
     /// Mean flow there (east, north), m/s: where the water goes.
     pub flow: Vector2<f64>,
 }
 
-/// Flow too slow to have a direction, m/s.
+/// Slower flow has no direction, m/s.
 const STILL_M_S: f64 = 1e-6;
 
 impl SourceTruth {
@@ -53,7 +53,7 @@ impl SourceTruth {
     }
 }
 
-/// A place against the true source nearest to it.
+/// Compares a place with the true source nearest to it.
 fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> {
     (sources.iter())
         .map(|s| s.error_of(place))
@@ -61,7 +61,7 @@ fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> 
 }
 
 impl DeclarationSummary {
-    /// A declaration against the true sources.
+    /// A declaration compared with the true sources.
     #[must_use]
     pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
         let region_name = d.region.map(region_name);
@@ -113,7 +113,7 @@ pub struct RunEnd {
     pub totals: Totals,
 }
 
-/// Fixes are remembered for so long, s: those that may have spoilt a declaration.
+/// How long fixes are remembered, s: those that may have spoilt a declaration.
 const FIX_S: f64 = 60.0;
 
 /// A declaration, with what was known when it was made.
@@ -135,14 +135,14 @@ struct Robot {
     detections: u64,
     declarations: Vec<Made>,
     regions: Regions,
-    /// First detection in the subregion in hand, or in the one left last.
+    /// First detection in the present subregion, or in the last one.
     in_region: Option<Vector2<f64>>,
-    /// Fixes of the last minute: when, and how far they moved what it believed, m.
+    /// Fixes of the last minute: the time, and how far each moved the estimate, m.
     fixes: VecDeque<(f64, f64)>,
     error_m: f64,
     greatest_error_m: f64,
     behaviour_s: Vec<(Behaviour, f64)>,
-    /// The likeliest cell of its map and since when, with the map's cells.
+    /// The most probable cell of its map and since when, with the map's cells.
     best: Option<(f64, usize, Arc<BeliefGrid>)>,
     /// The last map.
     map: Option<Belief>,
@@ -199,14 +199,14 @@ impl Robot {
             self.best = Some((b.t_s, b.best, b.grid.clone()));
         }
         if let Some(b) = &r.belief {
-            // A copy costs two counts: the cells are shared.
+            // A copy is cheap: it only counts two references, because the cells are shared.
             self.map = Some(b.clone());
         }
         self.error_m = (r.estimate.position - p.xy()).norm();
         self.greatest_error_m = self.greatest_error_m.max(self.error_m);
     }
 
-    /// What there is to say of a declaration only when it is made.
+    /// Notes what is known about a declaration only at the time when it is made.
     fn declared(&mut self, t_s: f64, r: &RobotFrame) {
         self.fixes.extend(r.fix_m.map(|m| (t_s, m)));
         self.fixes.retain(|(then, _)| t_s - then <= FIX_S);
@@ -293,7 +293,7 @@ impl Robot {
     }
 }
 
-/// Gathers what a [`Summary`] says; feed it every frame, in order.
+/// Gathers the data of a [`Summary`]; it needs every frame, in order.
 #[derive(Debug)]
 pub struct SummaryBuilder {
     run: RunInfo,
@@ -303,7 +303,7 @@ pub struct SummaryBuilder {
 }
 
 impl SummaryBuilder {
-    /// For a run that has not begun.
+    /// Begins the summary of a run.
     #[must_use]
     pub fn new(run: &RunInfo) -> Self {
         Self {
@@ -314,12 +314,12 @@ impl SummaryBuilder {
         }
     }
 
-    /// What went wrong up to the end, which may lie between two frames.
+    /// Everything that went wrong up to the end, which may lie between two frames.
     pub fn went_wrong(&mut self, abnormal: &[Abnormal]) {
         self.abnormal = abnormal.to_vec();
     }
 
-    /// Takes in a frame.
+    /// Adds a frame.
     pub fn observe(&mut self, frame: &Frame) {
         self.abnormal.clone_from(&frame.abnormal);
         if self.robots.is_empty() {
@@ -338,7 +338,7 @@ impl SummaryBuilder {
         }
     }
 
-    /// The summary of the run, against the true sources.
+    /// The summary of the run, compared with the true sources.
     #[must_use]
     pub fn finish(&self, end: RunEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;

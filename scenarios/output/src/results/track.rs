@@ -1,4 +1,4 @@
-//! `track.csv`: where each robot was, what it believed, read and did; and the same kept for the figures.
+//! `track.csv`: where each robot was, and what it believed, read and did. The same data are kept for the figures.
 
 use crate::files::ReportError;
 use rheotaxis::frame::{Frame, RobotFrame};
@@ -9,22 +9,22 @@ use std::path::Path;
 use std::sync::Arc;
 use world::files::Output;
 
-/// What tables and figures must know of a robot beforehand.
+/// What tables and figures need to know about a robot beforehand.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RobotInfo {
     /// Its id in the scenario.
     pub id: String,
-    /// Concentration at full scale of its chemical sensor, µg/L; none without one.
+    /// Concentration at full scale of its chemical sensor, µg/L; `None` without a sensor.
     pub full_scale_ug_l: Option<f64>,
     /// Detection threshold as a share of full scale.
     pub threshold: Option<f64>,
-    /// Its mission has subregions.
+    /// Whether its mission has subregions.
     pub regions: bool,
-    /// Its planner has layers.
+    /// Whether its planner has layers.
     pub layered: bool,
 }
 
-/// One moment of one robot, as far as figures need it.
+/// One moment of one robot, as the figures need it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrackRow {
     /// Time, s.
@@ -35,9 +35,9 @@ pub struct TrackRow {
     pub believed: [f64; 2],
     /// True altitude, m.
     pub altitude_m: f64,
-    /// Altitude asked for, m.
+    /// Commanded altitude, m.
     pub altitude_asked_m: Option<f64>,
-    /// Depth asked for, m.
+    /// Commanded depth, m.
     pub depth_asked_m: Option<f64>,
     /// Chemical reading as a share of full scale.
     pub reading: Option<f64>,
@@ -48,21 +48,21 @@ pub struct TrackRow {
 /// A robot's whole track.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
-    /// Which robot.
+    /// Data of the robot.
     pub info: RobotInfo,
-    /// Its moments; thinned evenly when the run is long.
+    /// Its moments; evenly thinned if the run is long.
     pub rows: Vec<TrackRow>,
-    /// True positions (east, north, m) at which something was detected; all of them, up to a bound.
+    /// True positions (east, north, m) of detections; all of them, up to a limit.
     pub detections: Vec<[f64; 2]>,
-    /// Points where it lost the plume, as it believed at the end, of a subregion or of the run (east, north), m.
+    /// Points where it lost the plume, in its final belief, in a subregion or the run (east, north), m.
     pub lost_points: Vec<[f64; 2]>,
     /// Its declarations so far.
     pub declarations: Vec<Declaration>,
-    /// The subregions of its mission, as they stand.
+    /// The present state of the subregions of its mission.
     pub regions: Arc<[Region]>,
     region: Option<u32>,
     lost_before: usize,
-    /// How the layers of its planner stood, from each time on (s) until the next, up to a bound.
+    /// States of its planner's layers, each from a time (s) until the next, up to a limit.
     pub layers: Vec<(f64, Arc<[Layer]>)>,
     stride: usize,
     skip: usize,
@@ -71,11 +71,12 @@ pub struct RobotTrack {
 /// The tracks of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Track {
-    /// One a robot, in the scenario's order.
+    /// One for each robot, in the scenario's order.
     pub robots: Vec<RobotTrack>,
 }
 
-/// Moments kept for a robot: three hours at 10 Hz are thinned to every fourth; no figure shows more.
+/// Most moments kept for a robot: three hours at 10 Hz are thinned to every fourth, which is all that a figure can
+/// show.
 const KEPT: usize = 40_000;
 
 impl RobotTrack {
@@ -102,7 +103,7 @@ impl RobotTrack {
             .map(|d| [d.position.x, d.position.y])
     }
 
-    /// The same without those on an edge to which a plume was traced.
+    /// The declared sources, without the plumes traced to an edge.
     pub fn declared_inside(&self) -> impl Iterator<Item = [f64; 2]> + '_ {
         let inside = self.declarations.iter().filter(|d| !d.at_edge());
         inside.map(|d| [d.position.x, d.position.y])
@@ -113,7 +114,7 @@ impl RobotTrack {
         if r.detected && self.detections.len() < KEPT {
             self.detections.push([p.x, p.y]);
         }
-        // Those of subregions searched before stay.
+        // Those of earlier subregions are kept.
         if r.regions.now.is_some() && r.regions.now != self.region {
             self.region = r.regions.now;
             self.lost_before = self.lost_points.len();
@@ -173,25 +174,26 @@ const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,headin
 est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
 speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
 
-/// A further column where a robot's mission has subregions: the letter of the one it searches; empty in transits.
+/// An additional column if a robot's mission has subregions: the letter of the one it searches; empty in transits.
 const REGION: &str = ",region";
 
-/// And one where its planner has layers: the one that holds the vehicle.
+/// An additional column if a robot's planner has layers: the one that controls the vehicle.
 const LAYER: &str = ",layer";
 
-/// The table being written: every row is handed to the system at once, so a kill loses nothing computed.
+/// The table being written. Every row is passed to the system at once, so a kill loses nothing.
 #[derive(Debug)]
 pub struct TrackTable {
     file: Option<Output>,
     layered: bool,
     line: String,
     track: Track,
-    /// The table has the column of subregions.
+    /// Whether the table has the column of subregions.
     regions: bool,
 }
 
 impl TrackTable {
-    /// A table written to `path` as it grows; the folder must exist. Without robots there is nothing to write, and no file.
+    /// Makes a table that grows in `path`; the folder must exist. Without robots there is nothing to write, and no
+    /// file.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -200,7 +202,7 @@ impl TrackTable {
             return Ok(Self::in_memory(robots));
         }
         let mut file = Output::create(path)?;
-        // Only where a robot's planner has layers, or its mission subregions, is there a column for them.
+        // There is a column for layers or subregions only if a robot has them.
         let mut table = Self::in_memory(robots);
         let region = if table.regions { REGION } else { "" };
         let layer = if table.layered { LAYER } else { "" };
@@ -211,7 +213,7 @@ impl TrackTable {
         Ok(table)
     }
 
-    /// Kept for the figures only, no file.
+    /// Keeps data for the figures only, without a file.
     #[must_use]
     pub fn in_memory(robots: Vec<RobotInfo>) -> Self {
         Self {
@@ -272,7 +274,7 @@ impl TrackTable {
     }
 }
 
-/// Pitch of the true pose made nose-up, as the estimate's.
+/// The pitch of the true pose is converted to nose-up, as in the estimate.
 fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
     let (p, e) = (&r.truth.pose, &r.estimate);
     let (roll, pitch_down) = p.roll_pitch();

@@ -1,4 +1,4 @@
-//! A block of runs and its file, which grows by being replaced: each time whole, each time with more rows.
+//! A block of runs and its file. The file grows by replacement: each version is whole and has more rows.
 
 use super::contained::contained;
 use super::error::CampaignError;
@@ -14,12 +14,12 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_on_disk};
 
-/// How a block stands.
+/// The state of a block.
 #[derive(Debug)]
 pub enum BlockState {
     /// No file yet.
     Missing,
-    /// Some of its rows, those that were done when it was cut off.
+    /// Some of its rows: those that were done when it was cut off.
     Part(Vec<RunRow>),
     /// All of its rows.
     Done(Vec<RunRow>),
@@ -28,7 +28,7 @@ pub enum BlockState {
 }
 
 impl BlockState {
-    /// The rows there are; none of a broken one.
+    /// The rows that exist; none of a damaged block.
     #[must_use]
     pub fn rows(self) -> Vec<RunRow> {
         match self {
@@ -44,7 +44,7 @@ pub fn block_path(dir: &Path, block: u64) -> PathBuf {
     dir.join(format!("part-{block:06}.parquet"))
 }
 
-/// The blocks that have a file, in order: what is to be read follows from what is there, not from what was planned.
+/// The blocks that have a file, in order. Readers go by the files that exist, not by the plan.
 pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, CampaignError> {
     let unread = |e: std::io::Error| CampaignError::Read {
         path: dir.to_owned(),
@@ -68,7 +68,7 @@ pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, Campa
     Ok(blocks)
 }
 
-/// Writes a block's rows, all or those there are: to a temporary file, to the disk, and under its name.
+/// Writes the rows of a block, all or some: to a temporary file, to the disk, and then under its name.
 pub(super) fn write_block(dir: &Path, block: u64, rows: &[RunRow]) -> Result<(), CampaignError> {
     let path = block_path(dir, block);
     let notes = [
@@ -90,7 +90,7 @@ pub(super) fn write_block(dir: &Path, block: u64, rows: &[RunRow]) -> Result<(),
     Ok(())
 }
 
-/// Adds rows to what a block's file has, whoever wrote that; a file that is not sound is replaced.
+/// Adds rows to those in a block's file, whoever wrote them; a damaged file is replaced.
 pub(super) fn add_to_block(
     dir: &Path,
     manifest: &Manifest,
@@ -110,8 +110,8 @@ pub(super) fn add_to_block(
     write_block(dir, block, &all)
 }
 
-/// Reads a block and makes sure of it: seal, footer, indices of its runs, hash of its rows. Whatever its bytes are, the
-/// answer is one of the four.
+/// Reads a block and verifies it: seal, footer, indices of its runs, hash of its rows. Whatever its bytes are, the
+/// answer is one of the four states.
 #[must_use]
 pub fn read_block(dir: &Path, manifest: &Manifest, block: u64) -> BlockState {
     let path = block_path(dir, block);
@@ -139,7 +139,7 @@ pub fn read_block(dir: &Path, manifest: &Manifest, block: u64) -> BlockState {
 fn sound(mut file: File, runs: Range<u64>, sealed: bool) -> Result<Vec<RunRow>, String> {
     match seal::look(&mut file).map_err(|e| e.to_string())? {
         Seal::Whole => {}
-        // Blocks written before there were seals have none.
+        // Older programs wrote blocks without seals.
         Seal::Missing if !sealed => {}
         Seal::Missing => return Err("it does not begin as a block does".to_string()),
         Seal::Wrong => {

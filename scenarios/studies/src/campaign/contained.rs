@@ -1,10 +1,10 @@
-//! Work whose panic is an answer: kept off the screen and told to whoever asked.
+//! Work whose panic is an answer: it is kept off the screen and returned to the caller.
 
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
 use std::sync::Once;
 
-/// What `work` returns, or what its panic said.
+/// The result of `work`, or the message of its panic.
 pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     hush();
     let before = QUIET.replace(true);
@@ -18,11 +18,11 @@ pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 thread_local! {
-    /// Whether this thread is within such work.
+    /// Whether this thread is doing such work.
     static QUIET: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Panics of such work stay off the screen; all others are shown as ever.
+/// Keeps the panics of such work off the screen; all others are shown as usual.
 fn hush() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -1,22 +1,23 @@
-//! How many runs a block holds, from what a run costs.
+//! How many runs a block holds, from the cost of a run.
 
 use super::plan::Campaign;
 
-/// Wall time that a block takes one thread, if a run allows it, s.
+/// Wall time of a block on one thread, s, if a run is short enough.
 const BLOCK_S: f64 = 30.0;
 
-/// Most runs in a block that nobody asked for.
+/// Most runs in a block unless another length is asked for.
 pub const LONGEST: u64 = 256;
 
-/// Blocks of a share that there shall be at least, where the campaign has enough runs: something to deal out.
+/// Least number of blocks per share, where the campaign has enough runs, so that work can be distributed.
 const A_SHARE: u64 = 4;
 
-/// Runs in a block: what one thread does in about half a minute, a multiple of the arms, at most [`LONGEST`] and few
-/// enough that each of `shares` processes has several. `spin_up_s` and `mission_s` are the wall times of one run.
+/// Runs in a block: as many as one thread does in about half a minute. The number is a multiple of the arms, at most
+/// [`LONGEST`], and small enough that each of `shares` processes has several. `spin_up_s` and `mission_s` are the wall
+/// times of one run.
 #[must_use]
 pub fn block_of(campaign: &Campaign, spin_up_s: f64, mission_s: f64, shares: u64) -> u64 {
     let arms = campaign.n_arms();
-    // At best the arms of a seed share its spin-up.
+    // At best, the arms of a seed share its spin-up.
     let group_s = spin_up_s + arms as f64 * mission_s;
     let in_time = if group_s > 0.0 {
         (BLOCK_S / group_s).min(LONGEST as f64) as u64
@@ -41,7 +42,7 @@ mod tests {
         let of = |spin_up_s, mission_s, shares| block_of(&campaign, spin_up_s, mission_s, shares);
         assert_eq!(of(4.0, 1.0, 1), 18);
         assert_eq!(of(3600.0, 60.0, 1), 6);
-        // 100 seeds in 4 blocks at least.
+        // 100 seeds in at least 4 blocks.
         assert_eq!(of(0.0, 0.01, 1), 150);
         assert_eq!(of(0.0, 0.0, 1), 150);
         assert_eq!(of(0.0, 0.01, 5), 30);

@@ -1,11 +1,11 @@
-//! How many runs are enough: campaigns that go on until every success share is known well enough.
+//! How many runs are enough, for campaigns that continue until every success share is known precisely.
 //!
-//! *Source*: [`next_n`](super::stats::next_n), asked for each arm under each condition; the greatest answer counts.
+//! *Source*: [`next_n`](super::stats::next_n), evaluated for each arm under each condition; the greatest answer counts.
 //!
 //! *Parameters*: `until.half_width`: greatest half width of the Wilson intervals; `seeds`: the most seeds.
 //!
-//! *Deviations*: looks are at whole numbers of seeds, whatever the blocks. What is wanted follows from the rows in the folder
-//! alone, so any number of processes, stopped and started at will, comes to the same end.
+//! *Deviations*: the share is examined at whole numbers of seeds, whatever the blocks are. What is wanted follows only
+//! from the rows in the folder, so any number of processes, stopped and started at will, arrives at the same end.
 
 use super::block::read_block;
 use super::manifest::Manifest;
@@ -14,24 +14,24 @@ use super::stats::next_n;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// What a campaign needs, as far as its rows can say.
+/// What a campaign needs, as far as its rows tell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Wanted {
-    /// The runs from 0 to this one, exclusive.
+    /// Runs from 0 to this one, exclusive.
     pub runs: u64,
-    /// It will not be more: they are all there and enough, or all there can be.
+    /// The number will not grow: all runs exist and suffice, or no more are allowed.
     pub decided: bool,
 }
 
 impl Wanted {
-    /// The blocks in which those runs lie: from 0 to this one, exclusive.
+    /// The blocks that contain those runs: from 0 to this one, exclusive.
     #[must_use]
     pub fn blocks(&self, manifest: &Manifest) -> u64 {
         self.runs.div_ceil(manifest.block)
     }
 }
 
-/// The runs that `dir` must hold before the campaign is done, or before more can be said.
+/// The runs that `dir` must hold before the campaign is done, or before more can be decided.
 #[must_use]
 pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
     let Some(until) = &campaign.spec.until else {
@@ -41,7 +41,7 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
         };
     };
     let (cells, most) = (campaign.n_cells(), campaign.spec.seeds.count());
-    // Successes among the seeds looked at so far of each cell that has any.
+    // Successes of each cell that has any, among the seeds examined so far.
     let mut found: BTreeMap<u64, u64> = BTreeMap::new();
     let mut seeds = 0;
     loop {
@@ -55,7 +55,7 @@ pub fn wanted(campaign: &Campaign, dir: &Path, manifest: &Manifest) -> Wanted {
                 decided: true,
             };
         };
-        // Runs go seed by seed: these are the rows of the seeds not looked at yet.
+        // Runs go seed by seed, so these are the rows of the seeds that have not been examined.
         let new = seeds * cells..next * cells;
         let mut there = 0;
         for block in new.start / manifest.block..new.end.div_ceil(manifest.block) {

@@ -1,4 +1,4 @@
-//! What can go wrong with a campaign as a whole; what goes wrong in a run is a row.
+//! Errors of a campaign as a whole. An error in one run becomes a row.
 
 use rheotaxis::scenario::ScenarioError;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use world::files::OutputError;
 /// A campaign cannot be planned, run or read.
 #[derive(Debug, thiserror::Error)]
 pub enum CampaignError {
-    /// The campaign's file, its base scenario, or what an arm makes of it.
+    /// The campaign's file, its base scenario, or the scenario of an arm is wrong.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
     /// The path of an override leads nowhere in the scenario.
@@ -15,7 +15,7 @@ pub enum CampaignError {
     Override {
         /// Campaign, arm and condition.
         variant: String,
-        /// The path given.
+        /// The given path.
         path: String,
         /// What is wrong.
         problem: String,
@@ -25,7 +25,7 @@ pub enum CampaignError {
     Differs {
         /// The folder.
         dir: PathBuf,
-        /// What differs, each with both values.
+        /// What differs, with both values.
         what: Vec<String>,
     },
     /// The folder holds no campaign.
@@ -33,23 +33,23 @@ pub enum CampaignError {
     NoCampaign {
         /// The folder.
         dir: PathBuf,
-        /// Why.
+        /// The reason.
         problem: String,
     },
-    /// A file or folder cannot be written: not writable, disk full.
+    /// A file or folder cannot be written: no permission, or the disk is full.
     #[error("cannot write {}: {problem}", path.display())]
     Write {
-        /// Which.
+        /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// A file cannot be read.
     #[error("cannot read {}: {problem}", path.display())]
     Read {
-        /// Which.
+        /// The path.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// A block that is not whole.
@@ -57,18 +57,18 @@ pub enum CampaignError {
     Broken {
         /// The file.
         path: PathBuf,
-        /// How it was found out.
+        /// How the damage was found.
         problem: String,
     },
-    /// Which share of the work this process has cannot be told.
+    /// This process cannot tell which share of the work is its own.
     #[error("{0}")]
     Shard(String),
     /// The campaign has no such run.
     #[error("there is no run {run}: the campaign has {runs}, counted from 0")]
     NoRun {
-        /// Asked for.
+        /// The run asked for.
         run: u64,
-        /// How many there are.
+        /// The number of runs.
         runs: u64,
     },
 }

@@ -1,4 +1,4 @@
-//! Reading a campaign file.
+//! Reads campaign files.
 
 use super::error::CampaignError;
 use super::plan::Campaign;
@@ -30,10 +30,10 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "moth_plus"
 ];
 
-/// Reads a campaign: a file or, where there is none, the one of that name that comes with the program.
+/// Reads a campaign from a file or, if there is none, the one of that name that comes with the program.
 ///
 /// # Errors
-/// If it or its base scenario cannot be read. What the arms make of it [`Campaign::check`] checks.
+/// If it or its base scenario cannot be read. [`Campaign::check`] checks the scenarios of the arms.
 pub fn load(path: &Path) -> Result<Campaign, CampaignError> {
     let shown = path.display().to_string();
     let refused = |problem: String, help: Option<String>| {

@@ -11,10 +11,10 @@ use world::files::{self, write_new, write_on_disk};
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
-/// Longest one read, bytes: it holds two texts of at most a megabyte each, escaped.
+/// Longest one read, bytes: it holds two escaped texts of at most a megabyte each.
 const LONGEST: u64 = 16 << 20;
 
-/// What `campaign.json` says.
+/// The content of `campaign.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
     /// Name of the campaign.
@@ -27,17 +27,17 @@ pub struct Manifest {
     pub scenario_hash: String,
     /// Runs in a block.
     pub block: u64,
-    /// Runs in all.
+    /// Total number of runs.
     pub runs: u64,
-    /// The runs' seeds, for people; what counts is the campaign's text.
+    /// The runs' seeds, for people; the campaign's text is what counts.
     #[serde(default)]
     pub seeds: String,
-    /// Whether every block has its seal: those of older programs had none.
+    /// Whether every block has a seal; those of older programs have none.
     #[serde(default)]
     pub(super) sealed: bool,
     /// Name of the base scenario.
     pub scenario_name: String,
-    /// Folder that paths in the scenario are relative to.
+    /// Folder to which paths in the scenario are relative.
     pub base_dir: PathBuf,
     /// The campaign's text.
     pub campaign_text: String,
@@ -46,7 +46,7 @@ pub struct Manifest {
 }
 
 impl Manifest {
-    /// Of a campaign run by this program in blocks of that many runs.
+    /// For a campaign that this program runs in blocks of that many runs.
     #[must_use]
     pub fn new(campaign: &Campaign, block: u64) -> Self {
         let base = &campaign.base;
@@ -79,10 +79,10 @@ impl Manifest {
         first..(first + self.block).min(self.runs)
     }
 
-    /// Reads a folder's; `None` where there is none yet.
+    /// Reads the manifest of a folder; `None` if there is none yet.
     ///
     /// # Errors
-    /// If it cannot be read, or a number in it is none that this program writes.
+    /// If it cannot be read, or contains a number that this program does not write.
     pub fn find(dir: &Path) -> Result<Option<Self>, CampaignError> {
         let path = dir.join(FILE);
         let text = match files::read_text(&path, LONGEST) {
@@ -108,7 +108,7 @@ impl Manifest {
         Ok(Some(read))
     }
 
-    /// Reads a folder's, which must be there.
+    /// Reads the manifest of a folder, which must exist.
     ///
     /// # Errors
     /// If there is none, or it cannot be read.
@@ -119,10 +119,10 @@ impl Manifest {
         })
     }
 
-    /// The campaign it tells of.
+    /// The campaign that it describes.
     ///
     /// # Errors
-    /// If this program does not read its texts, or its hashes and numbers are not theirs.
+    /// If this program cannot read its texts, or if its hashes and numbers do not belong to them.
     pub fn campaign(&self) -> Result<Campaign, CampaignError> {
         let unlike = |problem: String| CampaignError::Read {
             path: PathBuf::from(FILE),
@@ -164,7 +164,7 @@ impl Manifest {
         Ok(campaign)
     }
 
-    /// What differs from another, in words: nothing if blocks of both may lie in one folder.
+    /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
     #[must_use]
     pub fn differences(&self, ours: &Self) -> Vec<String> {
         let pairs = [
@@ -183,7 +183,7 @@ impl Manifest {
             .collect()
     }
 
-    /// Writes it into the folder, whole or not at all, in the place of what is there.
+    /// Writes it into the folder, completely or not at all, in place of an existing one.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -192,8 +192,8 @@ impl Manifest {
         Ok(())
     }
 
-    /// Writes it into the folder unless there is one: the first of several processes says how long blocks are, unless
-    /// that was `asked` for. Gives back what the folder has then.
+    /// Writes it into the folder unless there is one. Of several processes, the first one determines the length of
+    /// blocks, unless a length was `asked` for. Returns the manifest that the folder has afterwards.
     ///
     /// # Errors
     /// If it cannot be written or read, or if there is another campaign's.
@@ -295,7 +295,7 @@ mod tests {
             let said = said(field, value);
             assert!(said.contains(says), "{field}: {said}");
         }
-        // Of an older program: without what it did not know.
+        // From an older program: without the fields that it did not know.
         let mut old = good.clone();
         for field in ["seeds", "sealed"] {
             old.as_object_mut().unwrap().remove(field);

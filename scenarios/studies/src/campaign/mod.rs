@@ -1,4 +1,4 @@
-//! Thousands of seeded runs: planned, cut into blocks, run on any number of machines, and compared.
+//! Thousands of seeded runs: planned, divided into blocks, run on any number of machines, and compared.
 
 mod block;
 mod contained;

@@ -1,4 +1,4 @@
-//! One run of a campaign, whatever becomes of it: a row.
+//! One run of a campaign. Whatever happens to it, it becomes a row.
 #![allow(
     clippy::disallowed_methods,
     reason = "wall times are columns of the table; nothing of them enters the run"
@@ -18,7 +18,7 @@ use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
 use robots::handoff::Verdict;
 use std::time::Instant;
 
-/// What names a run in the table.
+/// What identifies a run in the table.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunName {
     /// Index of the run in the campaign.
@@ -27,19 +27,19 @@ pub struct RunName {
     pub arm: String,
     /// Name of the condition.
     pub condition: String,
-    /// Which of the seeds.
+    /// Index of the seed.
     pub seed_index: u64,
     /// The seed itself.
     pub seed: u64,
 }
 
-/// Makes the run. A run that fails or panics is a row too, with its error.
+/// Makes the run. A run that fails or panics also becomes a row, with its error.
 #[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
     guarded(name, || attempt(loaded, name, None))
 }
 
-/// Makes the run, taking over a spin-up of `spun` that fits or leaving its own there.
+/// Makes the run. It takes over a fitting spin-up from `spun`, or adds its own to it.
 pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
     guarded(name, || attempt(loaded, name, Some(spun)))
 }
@@ -93,7 +93,7 @@ fn attempt(
     Ok(row(name, &summary, within_m))
 }
 
-/// Makes a row of `run`, or of the error it returns, or of its panic.
+/// Makes a row from `run`, from the error that it returns, or from its panic.
 pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
     match contained(run) {
         Ok(Ok(row)) => row,
@@ -149,7 +149,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         })
     };
     let sources_declared = summary.sources.iter().filter(near).count() as u64;
-    // Several gantries share a row only where nobody asks for the path of one.
+    // Several gantries share a row only if nobody asks for the path of one of them.
     let gantry = summary.gantries.first();
     let paired = |of: fn(&GantrySummary) -> [Option<f64>; 2]| gantry.map_or([None; 2], of);
     let ([far_speed_m_s, near_speed_m_s], [far_offset_m, near_offset_m]) = (
@@ -215,7 +215,7 @@ fn declared_at(d: &DeclarationSummary) -> DeclaredAt {
     }
 }
 
-/// A row of a run that came to nothing.
+/// The row of a run that failed.
 fn failed(name: &RunName, error: String) -> RunRow {
     RunRow {
         run: name.run,
@@ -229,7 +229,7 @@ fn failed(name: &RunName, error: String) -> RunRow {
     }
 }
 
-/// As in `summary.json`.
+/// The name that `summary.json` uses.
 fn outcome_name(outcome: RunOutcome) -> String {
     match serde_json::to_value(outcome) {
         Ok(serde_json::Value::String(name)) => name,

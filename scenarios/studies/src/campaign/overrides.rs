@@ -1,11 +1,11 @@
-//! A scenario's text with the value of a path changed; the rest stays word for word, comments too.
+//! Changes the value at a path in a scenario's text. The rest stays word for word, including comments.
 
 use rheotaxis::scenario::Outline;
 
-/// Puts `value` (RON) where `path` leads. A field that the text leaves to its default is added.
+/// Puts `value` (RON) at `path`. A field that the text leaves to its default is added.
 ///
 /// # Errors
-/// What is wrong with path or value; whether the scenario allows the value, its reader says.
+/// What is wrong with path or value. Whether the scenario allows the value is for its reader to say.
 pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
     let value = value.trim();
     whole(value)?;
@@ -20,7 +20,7 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
         changed.replace_range(node.value.clone(), value);
         return Ok(changed);
     }
-    // The nearest structure around it that the text has, and the fields it lacks.
+    // The nearest enclosing structure in the text, and the fields that it lacks.
     let mut around = path;
     let (at, missing, comma) = loop {
         let cut = around.rfind(['.', '[']).unwrap_or(0);
@@ -70,7 +70,7 @@ pub fn put(text: &str, path: &str, value: &str) -> Result<String, String> {
     Ok(changed)
 }
 
-/// A value is one RON value: nothing that would end the field and begin another.
+/// A value must be one RON value: it must not end the field and begin another.
 fn whole(value: &str) -> Result<(), String> {
     let outline = Outline::of(value);
     let one = outline.open.is_empty()

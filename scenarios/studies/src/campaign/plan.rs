@@ -1,4 +1,4 @@
-//! The runs of a campaign: which there are, with which seeds, from which scenario.
+//! The runs of a campaign: their number, their seeds and their scenarios.
 
 use super::error::CampaignError;
 use super::overrides::put;
@@ -13,11 +13,11 @@ use world::seeds::Stream;
 /// A campaign, read and laid out.
 #[derive(Clone, Debug)]
 pub struct Campaign {
-    /// What its file says.
+    /// The content of its file.
     pub spec: CampaignSpec,
-    /// Name: the file's without its ending.
+    /// Name: that of the file, without its ending.
     pub name: String,
-    /// What errors call it: the file as it was asked for.
+    /// The name that errors use: the file as it was asked for.
     pub shown: String,
     /// The file, word for word.
     pub text: String,
@@ -27,23 +27,23 @@ pub struct Campaign {
     pub base: Loaded,
 }
 
-/// Where a run stands in its campaign.
+/// The position of a run in its campaign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
     /// Index of the run.
     pub run: u64,
     /// Index of its condition.
     pub condition: u64,
-    /// Which of the seeds.
+    /// Index of the seed.
     pub seed_index: u64,
     /// Index of its arm.
     pub arm: usize,
-    /// Its seed: the same for every arm (common random numbers), that of `rheotaxis run --seed`.
+    /// Its seed. It is the same for every arm (common random numbers) and that of `rheotaxis run --seed`.
     pub seed: u64,
 }
 
 impl Campaign {
-    /// From its parts, read already; errors call it `shown`.
+    /// Makes a campaign from its parts, which have been read; errors call it `shown`.
     ///
     /// # Errors
     /// If the text is not a campaign.
@@ -58,7 +58,7 @@ impl Campaign {
         })
     }
 
-    /// What should be known of how the file was read: that its seeds are those of version 1.
+    /// Remarks on how the file was read: that its seeds are those of version 1.
     #[must_use]
     pub fn notes(&self) -> Vec<Fault> {
         let located =
@@ -78,25 +78,25 @@ impl Campaign {
         self.spec.arms.len() as u64
     }
 
-    /// Arms under each condition.
+    /// Number of arms under each condition, times conditions.
     #[must_use]
     pub fn n_cells(&self) -> u64 {
         self.spec.n_conditions() * self.n_arms()
     }
 
-    /// The arm of that index.
+    /// The arm with an index.
     #[must_use]
     pub fn arm(&self, arm: usize) -> &Arm {
         &self.spec.arms[arm]
     }
 
-    /// Where a run stands: arms of one seed are neighbours, then seeds, then conditions.
+    /// Position of a run: arms of one seed are neighbours, then seeds, then conditions.
     #[must_use]
     pub fn place(&self, run: u64) -> Place {
         let (group, seeds) = (run / self.n_arms(), self.spec.seeds);
         let (condition, seed_index) = match &self.spec.until {
             None => (group / seeds.count(), group % seeds.count()),
-            // Seed by seed, so that a campaign that ends early has as many of each condition.
+            // Seed by seed, so that a campaign that ends early has the same number of runs of each condition.
             Some(_) => (
                 group % self.spec.n_conditions(),
                 group / self.spec.n_conditions(),
@@ -111,7 +111,7 @@ impl Campaign {
         }
     }
 
-    /// What a condition sets: paths and values.
+    /// The paths and values that a condition sets.
     #[must_use]
     pub fn condition(&self, condition: u64) -> Vec<(String, String)> {
         match &self.spec.conditions {
@@ -137,7 +137,7 @@ impl Campaign {
         }
     }
 
-    /// The condition as rows of the table name it: `path=value; path=value`.
+    /// The condition's name in rows of the table: `path=value; path=value`.
     #[must_use]
     pub fn condition_name(&self, condition: u64) -> String {
         let set = self.condition(condition);
@@ -175,7 +175,7 @@ impl Campaign {
         })
     }
 
-    /// The time limit of its missions, s; the least, where arms or conditions set it.
+    /// The time limit of its missions, s; the shortest, if arms or conditions set it.
     ///
     /// # Errors
     /// If a scenario cannot be made.
@@ -198,8 +198,8 @@ impl Campaign {
         Ok(least)
     }
 
-    /// Reads and checks every arm under every condition, so that nothing starts that cannot end.
-    /// Warnings stay unsaid: those of the base are `rheotaxis check`'s to give.
+    /// Reads and checks every arm under every condition, so that no campaign starts that must fail. Warnings are not
+    /// shown: `rheotaxis check` gives those of the base.
     ///
     /// # Errors
     /// The first mistake, in the order of conditions and arms.
@@ -261,7 +261,7 @@ mod tests {
             assert_eq!(pair[0].seed, pair[1].seed);
             assert_eq!((pair[0].arm, pair[1].arm), (0, 1));
         }
-        // Three seeds under each condition: the first three there are.
+        // Three seeds under each condition: the first three of the campaign.
         for (k, place) in places.iter().enumerate() {
             assert_eq!(place.seed, 1 + k as u64 / 2 % 3);
         }
@@ -297,7 +297,7 @@ mod tests {
             .map(|i| c.loaded(i, 0).unwrap().scenario.time.limit_s.get())
             .collect();
         assert!(limits.iter().all(|l| (10.0..1000.0).contains(l)));
-        // Half of them below the geometric mean: 25 of 50, standard deviation 3.5, five of those.
+        // Half of them lie below the geometric mean: 25 of 50, standard deviation 3.5; five of these are allowed.
         let below = limits.iter().filter(|l| **l < 100.0).count();
         assert!((8..=42).contains(&below), "{below}");
         assert_eq!(c.condition_name(7), c.clone().condition_name(7));

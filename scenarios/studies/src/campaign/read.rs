@@ -10,10 +10,10 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 use world::files::Output;
 
-/// All rows there are, in the order of runs; what is not done yet is left out.
+/// All existing rows, in the order of runs; runs that are not done yet are left out.
 ///
 /// # Errors
-/// If there is no campaign, or a block is not whole: `campaign run` does it again.
+/// If there is no campaign, or if a block is not whole: `campaign run` computes it again.
 pub fn read_rows(dir: &Path) -> Result<Vec<RunRow>, CampaignError> {
     let mut all = Vec::new();
     each_block(dir, |rows| {
@@ -39,7 +39,7 @@ fn each_block(
     Ok(manifest)
 }
 
-/// A run's row; `None` where it is not done yet.
+/// The row of a run; `None` if the run is not done yet.
 ///
 /// # Errors
 /// If there is no such run, or its block is not whole.
@@ -59,20 +59,19 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
     }
 }
 
-/// What a merge wrote.
+/// The result of a merge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Merged {
-    /// Rows in the file.
+    /// Number of rows in the file.
     pub rows: u64,
-    /// Runs the campaign wants, as far as is known.
+    /// Number of runs that the campaign wants, as far as is known.
     pub of: u64,
 }
 
-/// Writes all rows there are into one Parquet file and, if asked, one CSV file. One block at a time is
-/// held in memory.
+/// Writes all existing rows into one Parquet file and, if asked, one CSV file. It holds one block at a time in memory.
 ///
 /// # Errors
-/// If a block is not whole, or a file cannot be written; what was there before stays then.
+/// If a block is not whole, or if a file cannot be written; what was there before then stays.
 pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, CampaignError> {
     if csv == Some(to) {
         let problem = "the Parquet file and the CSV file would be the same".to_string();
@@ -111,7 +110,7 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
         Ok::<_, CampaignError>(file.finish_on_disk()?)
     };
     let table = table.finish().map_err(|e| unwritten(to, e.to_string()))?;
-    // One that cannot be given its name costs the other nothing.
+    // If one file cannot be given its name, the other is not affected.
     let table = close(to, table);
     if let Some((path, file)) = lines {
         close(path, file)?;

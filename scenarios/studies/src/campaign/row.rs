@@ -1,16 +1,16 @@
 //! One run of a campaign as a row of its table.
 
-/// What a campaign keeps of a run. Everything but the two wall times is the same on any machine,
-/// shard count, number of jobs and order.
+/// What a campaign keeps of a run. Except for the two wall times, it does not depend on the machine, the number of
+/// shards or jobs, or the order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunRow {
     /// Index of the run in the campaign.
     pub run: u64,
     /// Name of the arm.
     pub arm: String,
-    /// The conditions drawn or laid out for it, `path=value` joined by `; `, in the campaign's order.
+    /// The conditions of the run, `path=value` joined by `; `, in the campaign's order.
     pub condition: String,
-    /// Which of the seeds, from 0: equal in two rows that differ only in their arm.
+    /// Index of the seed, from 0. It is equal in two rows that differ only in their arm.
     pub seed_index: u64,
     /// The seed itself.
     pub seed: u64,
@@ -28,9 +28,9 @@ pub struct RunRow {
     pub first_detection_s: Option<f64>,
     /// First declaration by any robot, s.
     pub declared_s: Option<f64>,
-    /// Where it was (east, north), m.
+    /// Its position east, m.
     pub declared_east_m: Option<f64>,
-    /// Where it was (east, north), m.
+    /// Its position north, m.
     pub declared_north_m: Option<f64>,
     /// Its distance from the nearest true source, m.
     pub error_m: Option<f64>,
@@ -38,21 +38,21 @@ pub struct RunRow {
     pub error_along_m: Option<f64>,
     /// Part of it across the flow, right positive looking down-flow, m.
     pub error_across_m: Option<f64>,
-    /// Last detection points it rests on, where its rule is one on them.
+    /// Number of last detection points on which it rests, if its rule uses them.
     pub zone_points: Option<f64>,
     /// Time of the oldest of them, s.
     pub zone_since_s: Option<f64>,
-    /// Straight way from the first detection to the declaration, m.
+    /// Straight distance from the first detection to the declaration, m.
     pub traced_m: Option<f64>,
-    /// All declarations of all robots and gantries, in the order of time.
+    /// All declarations of all robots and gantries, in order of time.
     pub declarations: Vec<DeclaredAt>,
-    /// True sources declared within the distance at which the scenario's success counts; 0 where it asks for none.
+    /// True sources declared within the distance that the scenario's success requires; 0 if it requires none.
     pub sources_declared: u64,
-    /// Way travelled by all robots, m.
+    /// Distance travelled by all robots, m.
     pub travelled_m: f64,
-    /// Detections by all robots.
+    /// Number of detections by all robots.
     pub detections: u64,
-    /// When a gantry's first sweep was over, s.
+    /// End of a gantry's first sweep, s.
     pub sweep_s: Option<f64>,
     /// A gantry's speed along its path from there to its stop, m/s.
     pub speed_m_s: Option<f64>,
@@ -62,13 +62,13 @@ pub struct RunRow {
     pub far_speed_m_s: Option<f64>,
     /// Its speed in the nearer half, m/s.
     pub near_speed_m_s: Option<f64>,
-    /// Its mean distance from the source's line along the flow in the farther half, m.
+    /// Its mean distance from the line along the flow through the source, in the farther half, m.
     pub far_offset_m: Option<f64>,
-    /// The same in the nearer half, m.
+    /// Its mean distance from that line in the nearer half, m.
     pub near_offset_m: Option<f64>,
-    /// When a belief's best cell came to be the source's and stayed so to the end, s.
+    /// When a belief's best cell became that of the source and stayed so to the end, s.
     pub correct_cell_s: Option<f64>,
-    /// Wall time of the spin-up, s; zero where it was taken over from another run.
+    /// Wall time of the spin-up, s; zero if the spin-up was taken over from another run.
     pub spin_up_wall_s: f64,
     /// Wall time of the mission, s.
     pub mission_wall_s: f64,
@@ -79,15 +79,15 @@ pub struct RunRow {
 pub struct DeclaredAt {
     /// Subregion in which it was made, from 0.
     pub region: Option<u32>,
-    /// By which rule.
+    /// Name of the rule that declared it.
     pub rule: String,
-    /// What a look at it said: `unchecked`, `verified` or `rejected`.
+    /// The verdict of a look at it: `unchecked`, `verified` or `rejected`.
     pub verdict: String,
-    /// When, s.
+    /// Time, s.
     pub t_s: f64,
-    /// Where (east), m.
+    /// Position east, m.
     pub east_m: f64,
-    /// Where (north), m.
+    /// Position north, m.
     pub north_m: f64,
     /// Its distance from the nearest true source, m.
     pub error_m: Option<f64>,
@@ -95,15 +95,15 @@ pub struct DeclaredAt {
     pub error_along_m: Option<f64>,
     /// Part of it across the flow, right positive looking down-flow, m.
     pub error_across_m: Option<f64>,
-    /// Straight way to it from the first detection in this area or subregion, m.
+    /// Straight distance to it from the first detection in this area or subregion, m.
     pub traced_m: Option<f64>,
-    /// How far a position fix moved what the robot believed in the minute before, the farthest, m.
+    /// The largest shift by a position fix of what the robot believed, in the minute before, m.
     pub fix_m: Option<f64>,
 }
 
 impl DeclaredAt {
-    /// Many as one field of a table: `; ` between them, a blank between their fields in the order above, `-` for
-    /// what there is none of. Numbers read back bit for bit.
+    /// Several declarations as one field of a table: separated by `; `, with their fields in the order above separated
+    /// by blanks and `-` for a missing value. Numbers read back bit for bit.
     #[must_use]
     pub fn words(all: &[DeclaredAt]) -> String {
         let maybe = |v: Option<f64>| v.map_or_else(|| "-".to_string(), |v| v.to_string());
@@ -124,7 +124,7 @@ impl DeclaredAt {
         all.iter().map(one).collect::<Vec<_>>().join("; ")
     }
 
-    /// The other way; `None` where it is not such a field.
+    /// The inverse of `words`; `None` if the text is not such a field.
     #[must_use]
     pub fn read(words: &str) -> Option<Vec<DeclaredAt>> {
         if words.is_empty() {

@@ -1,4 +1,4 @@
-//! Runs a campaign: what is left of this process's share.
+//! Runs the remaining work of this process's share of a campaign.
 #![allow(
     clippy::disallowed_methods,
     reason = "wall time decides when rows are written, never what a run does"
@@ -22,67 +22,67 @@ use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 use world::files::{OutputError, make_folder};
 
-/// Wall time after which rows of a block in hand are written, whole or not: what a kill costs at most.
+/// Interval of wall time at which finished rows of incomplete blocks are written; a kill loses at most this.
 const SAVE: Duration = Duration::from_secs(30);
 
-/// How to run a campaign; none of it changes a row.
+/// How to run a campaign; nothing here changes a row.
 #[derive(Clone, Debug, Default)]
 pub struct RunOptions {
     /// The share of the blocks.
     pub shard: Shard,
-    /// Runs at a time; 0 for one a core.
+    /// Number of runs at a time; 0 means one for each core.
     pub jobs: usize,
-    /// Runs in a block, made a multiple of the number of arms; without it the folder's, or what
-    /// [`block_of`](super::block_of) makes of the first run's cost.
+    /// Runs in a block, made a multiple of the number of arms. Without it, that of the folder, or what
+    /// [`block_of`](super::block_of) derives from the cost of the first run.
     pub block: Option<u64>,
     /// Wall time after which to stop.
     pub max_wall: Option<Duration>,
-    /// Go on in a folder of another campaign, keeping the blocks it has.
+    /// Continue in a folder of another campaign and keep its blocks.
     pub force: bool,
 }
 
-/// What is told while a campaign runs, from any thread.
+/// What is reported while a campaign runs, from any thread.
 #[derive(Debug)]
 pub enum Event<'a> {
-    /// Before the first run: runs of this share, and how many of them are done.
+    /// Before the first run: the number of runs of this share, and how many of them are done.
     Begun {
-        /// Of this share.
+        /// Number of runs of this share.
         runs: u64,
-        /// Done before.
+        /// Number of runs done before.
         done: u64,
     },
-    /// A block was found that is not whole; it is done again.
+    /// A block is not whole and is computed again.
     Broken(&'a CampaignError),
     /// A run has ended.
     Ran(&'a RunRow),
-    /// A block was written that has all its rows.
+    /// A block was written with all its rows.
     Wrote(u64),
 }
 
-/// How it ended.
+/// How the campaign ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnded {
     /// Every run of the share has its row.
     Complete,
-    /// Stopped from outside or by the limit of wall time.
+    /// Stopped from outside, or by the limit of wall time.
     Stopped {
-        /// Runs done since the start; their rows are written.
+        /// Number of runs done since the start; their rows are written.
         done: u64,
-        /// Runs of the share still to do.
+        /// Number of runs of the share still to do.
         left: u64,
     },
-    /// The share is done as far as is known; whether more runs are needed hangs on blocks of others.
+    /// The share is done as far as is known. Whether more runs are needed depends on blocks of other shares.
     Waiting {
-        /// Blocks of other shares that are not there.
+        /// Number of missing blocks of other shares.
         missing: u64,
     },
 }
 
-/// Runs what is left of a share of a campaign into `dir`. Once `stop` is set the rows that are done are written, those
-/// of the runs in hand when these end, and no run is begun.
+/// Runs the remaining work of a share of a campaign into `dir`. Once `stop` is set, no run begins. Finished rows are
+/// written at once, and those of the current runs when they end.
 ///
 /// # Errors
-/// If the folder holds another campaign or cannot be written; rows written before stay as they are.
+/// If the folder holds another campaign or cannot be written. Rows written before stay as they are.
 pub fn run(
     campaign: &Campaign,
     dir: &Path,
@@ -106,7 +106,7 @@ pub fn run(
     if let Some(settled) = settle(campaign, dir, options)? {
         let _ = manifest.set(settled);
     } else if options.shard.count > 1 {
-        // Which runs are this share's hangs on the length of blocks: one run is made to find it out.
+        // The runs of this share depend on the length of blocks, so one run is made to determine it.
         let row = work.one(0, &mut Vec::new())?;
         let first = new_manifest(campaign, options, &row).write_first(dir, false)?;
         if options.shard.has(0) {
@@ -117,7 +117,7 @@ pub fn run(
     let by_cost = |row: &RunRow| new_manifest(campaign, options, row).write_first(dir, false);
     let mut reached = None;
     loop {
-        // A new folder has no rows, whatever the length of blocks.
+        // A new folder has no rows, whatever the length of blocks is.
         let stand_in = Manifest::new(campaign, campaign.n_arms());
         let wanted = wanted(campaign, dir, manifest.get().unwrap_or(&stand_in));
         if reached == Some(wanted) {
@@ -134,7 +134,7 @@ pub fn run(
         let mut saved = Instant::now();
         let mut stopping = false;
         let ended = work.go(&|| share.next(), &|row| share.keep(row), &mut |over| {
-            // At once when the end is asked for: whoever asked may ask again, less kindly.
+            // At once when a stop is requested, because a second request may be a kill.
             if (over && !stopping) || saved.elapsed() > SAVE {
                 stopping = over;
                 saved = Instant::now();
@@ -142,7 +142,7 @@ pub fn run(
             }
             Ok(())
         });
-        // What can be kept is kept, whatever went wrong.
+        // Whatever went wrong, everything that can be kept is kept.
         ended.and(share.write_out())?;
         let left = share.runs - share.done - share.kept();
         if left > 0 {
@@ -158,7 +158,7 @@ pub fn run(
     }
 }
 
-/// Blocks below a run that lack rows.
+/// Blocks up to a run that lack rows.
 fn missing_blocks(dir: &Path, manifest: &Manifest, end: u64) -> Result<u64, CampaignError> {
     let whole = |block: &u64| {
         let runs = manifest.runs_of(*block);
@@ -177,8 +177,8 @@ fn new_manifest(campaign: &Campaign, options: &RunOptions, first: &RunRow) -> Ma
     Manifest::new(campaign, block)
 }
 
-/// Makes the folder the campaign's, or makes sure that it is. `None`: it is new, and how long blocks are is for the first
-/// run to say.
+/// Makes the folder the campaign's own, or checks that it is. `None` if it is new: then the first run determines the
+/// length of blocks.
 fn settle(
     campaign: &Campaign,
     dir: &Path,

@@ -1,34 +1,34 @@
-//! A seal at the head of a block: a hash of all its bytes, tried before anything in the file is believed.
+//! A seal at the beginning of a block: a hash of all its bytes, checked before anything in the file is used.
 //!
-//! A reader of Parquet goes by the places that the footer names, so it passes over what stands between the
-//! mark at the head of the file and the first column. There the seal stands: [`MARK`] and 32 hexadecimal digits.
+//! A reader of Parquet goes to the positions that the footer names, so it skips what stands between the mark at the
+//! beginning of the file and the first column. The seal stands there: [`MARK`] and 32 hexadecimal digits.
 
 use std::io::{Read, Result, Seek, SeekFrom};
 use world::digest::Digest;
 
-/// What a seal begins with.
+/// Beginning of a seal.
 const MARK: &[u8] = b"rheotaxis sealed ";
 const DIGITS: usize = 32;
-/// Where it stands: behind Parquet's own mark.
+/// Position of the seal: behind Parquet's own mark.
 const AT: usize = 4;
 
-/// How a file's seal is.
+/// The state of a file's seal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seal {
-    /// There is none.
+    /// There is no seal.
     Missing,
-    /// It fits the file.
+    /// The seal fits the file.
     Whole,
-    /// The bytes are not those that were sealed.
+    /// The bytes differ from those that were sealed.
     Wrong,
 }
 
-/// Room for a seal, to be written first of all.
+/// Space for a seal, to be written before everything else.
 pub(super) fn room() -> Vec<u8> {
     [MARK, &[b'0'; DIGITS]].concat()
 }
 
-/// Puts the seal into the room for it.
+/// Puts the seal into its space.
 pub(super) fn close(bytes: &mut [u8]) {
     let digits = AT + MARK.len();
     assert_eq!(
@@ -42,7 +42,7 @@ pub(super) fn close(bytes: &mut [u8]) {
     bytes[digits..digits + DIGITS].copy_from_slice(digest.hex().as_bytes());
 }
 
-/// Reads a file through, in small pieces, and holds it against its seal.
+/// Reads a file in small pieces and compares it with its seal.
 ///
 /// # Errors
 /// If it cannot be read.

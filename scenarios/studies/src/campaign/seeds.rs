@@ -1,4 +1,4 @@
-//! Which seeds the runs of a campaign have.
+//! The seeds of a campaign's runs.
 
 use ron::value::RawValue;
 use serde::{Deserialize, Deserializer};
@@ -7,28 +7,28 @@ use world::seeds::key;
 /// Most seeds of a campaign, and most runs.
 pub(super) const MOST: u64 = 1 << 40;
 
-/// The seeds under each condition; every arm runs with each of them.
+/// The seeds under each condition. Every arm runs with each of them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Seeds {
-    /// Consecutive ones, the same under each condition: those of `rheotaxis run --seed`.
+    /// Consecutive seeds, the same under each condition: those of `rheotaxis run --seed`.
     Literal {
-        /// The first.
+        /// The first seed.
         first: u64,
-        /// How many.
+        /// Number of seeds.
         count: u64,
     },
-    /// Each a hash of this seed, the condition and its index: others under each condition, and none that anybody
-    /// would give by hand.
+    /// Each seed is a hash of this seed, the condition and its index. They differ between conditions, and nobody would
+    /// give them by hand.
     Hashed {
-        /// What they are made from.
+        /// The seed from which they are made.
         seed: u64,
-        /// How many.
+        /// Number of seeds.
         count: u64,
     },
 }
 
 impl Seeds {
-    /// How many under each condition.
+    /// Number of seeds under each condition.
     #[must_use]
     pub fn count(self) -> u64 {
         match self {
@@ -36,7 +36,7 @@ impl Seeds {
         }
     }
 
-    /// The seed of that index, from 0, under a condition.
+    /// The seed with an index, from 0, under a condition.
     #[must_use]
     pub fn seed(self, condition: u64, index: u64) -> u64 {
         match self {
@@ -49,7 +49,7 @@ impl Seeds {
         }
     }
 
-    /// For people.
+    /// The seeds in words.
     #[must_use]
     pub fn words(self) -> String {
         match self {
@@ -62,7 +62,7 @@ impl Seeds {
         }
     }
 
-    /// What is wrong with its numbers: the field within `seeds`, and what.
+    /// What is wrong with its numbers: the field in `seeds`, and the problem.
     pub(super) fn fault(self) -> Option<(&'static str, String)> {
         let count = self.count();
         if !(1..=MOST).contains(&count) {
@@ -80,12 +80,12 @@ impl Seeds {
     }
 }
 
-/// As the file has it: a number means seeds 1 to that number in version 2, hashed ones in version 1.
+/// The form in the file. A number means seeds 1 to that number in version 2, and hashed seeds in version 1.
 #[derive(Clone, Debug)]
 pub(super) enum Asked {
     Number(u64),
     Form(Seeds),
-    /// Neither: what is wrong with it.
+    /// Neither of them: what is wrong with it.
     Odd(String),
 }
 

@@ -3,12 +3,12 @@
 use super::error::CampaignError;
 use std::str::FromStr;
 
-/// A share: of `count` processes the one that counts `index`, from 0.
+/// A share: that of process `index` (from 0) of `count` processes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
-    /// Which, from 0.
+    /// Index of this process, from 0.
     pub index: u64,
-    /// Of how many.
+    /// Number of processes.
     pub count: u64,
 }
 
@@ -45,17 +45,17 @@ impl FromStr for Shard {
 }
 
 impl Shard {
-    /// Whether a block is this process's to do: blocks are dealt out in turn.
+    /// Whether this process has to do a block; blocks are assigned in turn.
     #[must_use]
     pub fn has(self, block: u64) -> bool {
         block % self.count == self.index
     }
 
-    /// The share that a cluster's scheduler says in its environment variables; the whole where there
-    /// are none. First of: a Slurm array (`SLURM_ARRAY_TASK_ID`, `_MIN`, `_STEP`, `_COUNT`), a
-    /// HyperQueue task array (`HQ_TASK_ID`, counted from 1) and an indexed Job of Kubernetes
-    /// (`JOB_COMPLETION_INDEX`). The latter two do not tell their tasks how many there are: set
-    /// `RHEOTAXIS_SHARDS`, or for Kubernetes `JOB_COMPLETIONS`, to that number.
+    /// The share that a cluster's scheduler gives in its environment variables; the whole work if there are none. The
+    /// first of these counts: a Slurm array (`SLURM_ARRAY_TASK_ID`, `_MIN`, `_STEP`, `_COUNT`), a HyperQueue task array
+    /// (`HQ_TASK_ID`, counted from 1), and an indexed Job of Kubernetes (`JOB_COMPLETION_INDEX`). The latter two do not
+    /// tell their tasks how many there are: set `RHEOTAXIS_SHARDS`, or for Kubernetes `JOB_COMPLETIONS`, to that
+    /// number.
     ///
     /// # Errors
     /// If the variables do not make a share.

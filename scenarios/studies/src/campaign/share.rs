@@ -1,4 +1,4 @@
-//! A share of a campaign: which runs are still to do, and the blocks that their rows fill.
+//! A share of a campaign: the runs still to do, and the blocks that their rows fill.
 
 use super::block::{BlockState, add_to_block, block_path, present, read_block, write_block};
 use super::error::CampaignError;
@@ -11,36 +11,36 @@ use std::path::Path;
 use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 use world::files::is_special;
 
-/// What is left of a share below a run, and the blocks in hand.
+/// The remaining runs of a share up to a limit, and its incomplete blocks.
 pub(super) struct Share<'a> {
     dir: &'a Path,
-    /// Known before the first run but in a new folder that one process alone fills: there the first run says how long
-    /// blocks are.
+    /// Known before the first run, except in a new folder that one process fills alone: there the first run determines
+    /// the length of blocks.
     manifest: &'a OnceLock<Manifest>,
-    /// Writes the manifest of a new folder, given its first row.
+    /// Writes the manifest of a new folder, from its first row.
     settle: &'a (dyn Fn(&RunRow) -> Result<Manifest, CampaignError> + Sync),
     shard: Shard,
     arms: u64,
-    /// The runs from 0 to this one, exclusive, are wanted.
+    /// Runs from 0 to this one, exclusive, are wanted.
     end: u64,
     line: Mutex<Line>,
-    /// Held while a block is written, so that less never replaces more.
+    /// Locked while a block is written, so that a smaller version never replaces a larger one.
     writing: Mutex<()>,
     tell: &'a (dyn Fn(Event<'_>) + Sync),
-    /// Runs of the share, and how many of them were there before.
+    /// Number of runs of the share, and how many of them existed before.
     pub(super) runs: u64,
     pub(super) done: u64,
 }
 
 #[derive(Default)]
 struct Line {
-    /// The run to look at next: the first arm of a seed.
+    /// The next run to look at: the first arm of a seed.
     next: u64,
-    /// Blocks that need nothing more.
+    /// Blocks that are complete.
     whole: BTreeSet<u64>,
-    /// Runs that are done of blocks that need more.
+    /// Finished runs of incomplete blocks.
     there: BTreeMap<u64, BTreeSet<u64>>,
-    /// New rows of blocks in hand.
+    /// New rows of incomplete blocks.
     open: BTreeMap<u64, Open>,
     kept: u64,
 }
@@ -48,7 +48,7 @@ struct Line {
 #[derive(Default)]
 struct Open {
     rows: Vec<RunRow>,
-    /// How many of them are on the disk.
+    /// Number of rows that are on the disk.
     written: usize,
 }
 
@@ -57,7 +57,7 @@ fn lock<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 impl<'a> Share<'a> {
-    /// Looks through the folder: what is done, what is broken.
+    /// Examines the folder: what is done, and what is damaged.
     pub(super) fn look(
         dir: &'a Path,
         manifest: &'a OnceLock<Manifest>,
@@ -120,7 +120,7 @@ impl<'a> Share<'a> {
         Ok(share)
     }
 
-    /// The runs of a block that are wanted.
+    /// The wanted runs of a block.
     fn asked(&self, manifest: &Manifest, block: u64) -> std::ops::Range<u64> {
         let runs = manifest.runs_of(block);
         runs.start..runs.end.min(self.end)
@@ -152,12 +152,12 @@ impl<'a> Share<'a> {
         None
     }
 
-    /// Keeps a row, and writes its block if that was the last one it wanted.
+    /// Keeps a row. If it completes its block, the block is written.
     pub(super) fn keep(&self, row: RunRow) -> Result<(), CampaignError> {
         let manifest = match self.manifest.get() {
             Some(manifest) => manifest,
             None => {
-                // One thread settles it, the others wait for it here.
+                // One thread settles it; the others wait for it here.
                 let _one = lock(&self.writing);
                 match self.manifest.get() {
                     Some(manifest) => manifest,
@@ -195,7 +195,7 @@ impl<'a> Share<'a> {
         Ok(())
     }
 
-    /// Writes what is done of the blocks in hand.
+    /// Writes the finished rows of incomplete blocks.
     pub(super) fn write_out(&self) -> Result<(), CampaignError> {
         let Some(manifest) = self.manifest.get() else {
             return Ok(());
@@ -214,7 +214,7 @@ impl<'a> Share<'a> {
         Ok(())
     }
 
-    /// Rows kept since the folder was looked through.
+    /// Rows kept since the folder was examined.
     pub(super) fn kept(&self) -> u64 {
         lock(&self.line).kept
     }

@@ -1,10 +1,10 @@
-//! What a campaign file says.
+//! The content of a campaign file.
 
 use super::seeds::{Asked, MOST, Seeds};
 use rheotaxis::scenario::{Fault, Found, Outline, ScenarioError, read};
 use serde::{Deserialize, Serialize};
 
-/// Version of the campaign files this program writes; it reads version 1, too.
+/// Version of the campaign files that this program writes. It also reads version 1.
 const VERSION: u32 = 2;
 
 /// A campaign: one scenario, several arms, many seeds.
@@ -12,17 +12,17 @@ const VERSION: u32 = 2;
 pub struct CampaignSpec {
     /// Version of the file.
     pub version: u32,
-    /// What is compared, in a line.
+    /// What is compared, in one line.
     pub title: String,
-    /// Scenario: a file, relative to the campaign's, or the name of one that comes with the program.
+    /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
     pub base: String,
-    /// Seeds for each condition; every arm runs with each of them.
+    /// Seeds for each condition. Every arm runs with each of them.
     pub seeds: Seeds,
-    /// Stop before that, once every success share is known well enough.
+    /// Stop earlier, once every success share is known precisely enough.
     pub until: Option<Until>,
-    /// What is compared.
+    /// The things compared.
     pub arms: Vec<Arm>,
-    /// Circumstances in which it is compared.
+    /// The conditions under which they are compared.
     pub conditions: Conditions,
 }
 
@@ -33,7 +33,7 @@ struct File {
     version: u32,
     title: String,
     base: String,
-    /// Of version 1: what seeds and drawn conditions are made from.
+    /// Only in version 1: what seeds and drawn conditions are derived from.
     #[serde(default)]
     seed: Option<u64>,
     seeds: Asked,
@@ -44,11 +44,11 @@ struct File {
     conditions: Conditions,
 }
 
-/// When enough is known.
+/// When enough is known to stop.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Until {
-    /// Greatest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
+    /// Largest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
     pub half_width: f64,
 }
 
@@ -58,7 +58,7 @@ pub struct Until {
 pub struct Arm {
     /// Its name in tables.
     pub name: String,
-    /// Changes: path in the scenario and the new value as RON.
+    /// Changes: a path in the scenario and the new value in RON.
     #[serde(default)]
     pub set: Vec<(String, String)>,
 }
@@ -76,13 +76,13 @@ impl Arm {
     }
 }
 
-/// Circumstances, the same for every arm.
+/// Conditions, the same for every arm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub enum Conditions {
-    /// The scenario as it is.
+    /// Only the scenario as it is.
     #[default]
     Single,
-    /// Every combination of these values, the last path changing fastest.
+    /// Every combination of these values; the last path changes fastest.
     Grid(Vec<(String, Vec<String>)>),
     /// Drawn at random.
     Random(RandomConditions),
@@ -92,9 +92,9 @@ pub enum Conditions {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RandomConditions {
-    /// How many conditions, 1 to 2^40.
+    /// Number of conditions, 1 to 2^40.
     pub n: u64,
-    /// What they are drawn from; without it 1. In a file of version 1 its own `seed`.
+    /// Seed of the random values; 1 by default. In a file of version 1, the `seed` of the file.
     #[serde(default)]
     pub seed: Option<u64>,
     /// Which values vary, and how.
@@ -106,9 +106,9 @@ pub struct RandomConditions {
 pub enum Draw {
     /// Uniform between two numbers.
     Uniform(f64, f64),
-    /// Its logarithm uniform between those of two positive numbers.
+    /// Its logarithm is uniform between the logarithms of two positive numbers.
     LogUniform(f64, f64),
-    /// One of these values, each as likely.
+    /// One of these values, all equally likely.
     Choice(Vec<String>),
 }
 
@@ -136,7 +136,7 @@ impl CampaignSpec {
         }
     }
 
-    /// What a file means, and what of it its version does not know.
+    /// What a file means, and which of its fields its version does not have.
     fn of(file: File) -> (Self, Vec<Found>) {
         let mut found = Vec::new();
         let mut conditions = file.conditions;
@@ -189,7 +189,7 @@ impl CampaignSpec {
         (spec, found)
     }
 
-    /// What a file of version 1 means and how version 2 writes it; nothing of one of version 2.
+    /// What a file of version 1 means, and how to write it in version 2; `None` for version 2.
     pub(super) fn note(&self) -> Option<Found> {
         let (1, Seeds::Hashed { seed, count }) = (self.version, self.seeds) else {
             return None;

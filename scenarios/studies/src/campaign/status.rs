@@ -1,4 +1,4 @@
-//! How far a campaign has come.
+//! Progress of a campaign.
 
 use super::block::{BlockState, present, read_block};
 use super::enough::{Wanted, wanted};
@@ -8,33 +8,33 @@ use super::row::RunRow;
 use super::seeds::Seeds;
 use std::path::Path;
 
-/// How an arm stands, over all conditions.
+/// Progress of an arm, over all conditions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ArmStatus {
     /// Its name.
     pub name: String,
-    /// Runs done.
+    /// Number of runs done.
     pub runs: u64,
-    /// Of them, successes.
+    /// Number of successes among them.
     pub successes: u64,
-    /// Of them, failed with an error.
+    /// Number of runs among them that failed with an error.
     pub failed: u64,
 }
 
-/// How a campaign stands.
+/// Progress of a campaign.
 #[derive(Debug)]
 pub struct Status {
-    /// What it needs, as far as its blocks say.
+    /// What it needs, as far as its blocks tell.
     pub wanted: Wanted,
     /// What the folder was made from.
     pub manifest: Manifest,
-    /// Blocks that hold all that is wanted of them.
+    /// Number of blocks that contain everything wanted of them.
     pub blocks_done: u64,
     /// Blocks whose file is not whole.
     pub broken: Vec<CampaignError>,
-    /// Runs that have a row.
+    /// Number of runs that have a row.
     pub runs_done: u64,
-    /// Of the runs wanted, those that have none.
+    /// Number of wanted runs that have no row.
     pub missing: u64,
     /// The first run that failed, with its error.
     pub first_error: Option<(u64, String)>,
@@ -45,7 +45,7 @@ pub struct Status {
 }
 
 impl Status {
-    /// Looks through a folder.
+    /// Examines a folder.
     ///
     /// # Errors
     /// If there is no campaign in it.

@@ -1,4 +1,4 @@
-//! Rows as Parquet and as CSV: one column for each field of [`RunRow`], under the field's name.
+//! Rows as Parquet and as CSV: one column for each field of [`RunRow`], with the field's name.
 
 use super::row::{DeclaredAt, RunRow};
 use parquet::basic::Compression;
@@ -14,7 +14,7 @@ use parquet::schema::parser::parse_message_type;
 use std::io::Write;
 use std::sync::Arc;
 
-/// How a column is got from a row and put back.
+/// How a column is read from a row and written to it.
 enum Column {
     Number(fn(&RunRow) -> u64, fn(&mut RunRow, u64)),
     Truth(fn(&RunRow) -> bool, fn(&mut RunRow, bool)),
@@ -140,12 +140,12 @@ impl<W: Write + Send> TableWriter<W> {
         )?))
     }
 
-    /// Puts bytes before the first column; readers pass over them.
+    /// Puts bytes before the first column; readers skip them.
     pub(super) fn before_columns(&mut self, bytes: &[u8]) -> Result<()> {
         Ok(self.0.write_all(bytes)?)
     }
 
-    /// Adds rows, as a group of their own.
+    /// Adds rows as a group.
     pub(super) fn rows(&mut self, rows: &[RunRow]) -> Result<()> {
         let mut group = self.0.next_row_group()?;
         for (_, optional, column) in &COLUMNS {
@@ -154,7 +154,7 @@ impl<W: Write + Send> TableWriter<W> {
         group.close().map(drop)
     }
 
-    /// Writes the footer and gives back what it was written to.
+    /// Writes the footer and returns the file.
     pub(super) fn finish(self) -> Result<W> {
         self.0.into_inner()
     }
@@ -212,8 +212,8 @@ fn write_column<W: Write + Send>(
     writer.close()
 }
 
-/// All rows of a table of at most `most` rows, and the notes in its footer. What footer and pages say of themselves is held
-/// against the file and that number first: the library would reserve room for whatever they say.
+/// All rows of a table of at most `most` rows, and the notes in its footer. What footer and pages claim is first
+/// compared with the file and with that number, because the library would reserve memory for any claim.
 pub(super) fn read<R: ChunkReader + 'static>(
     from: R,
     most: usize,
@@ -243,7 +243,7 @@ pub(super) fn read<R: ChunkReader + 'static>(
         }
         let pages = reader.get_row_group(k)?;
         for (c, column) in group.columns().iter().enumerate() {
-            // Numbers below 0 make the library panic: its caller is ready for that.
+            // Numbers below 0 make the library panic; the caller handles that.
             let (at, size) = column.byte_range();
             if at.checked_add(size).is_none_or(|end| end > length) || !fits(column.num_values()) {
                 return Err(odd("a column lies outside the file"));
@@ -292,7 +292,7 @@ pub(super) fn csv_head() -> String {
     names.join(",")
 }
 
-/// A row as a line of CSV; what there is none of stays empty. Numbers read back bit for bit.
+/// A row as a line of CSV; a missing value is empty. Numbers read back bit for bit.
 pub(super) fn csv_line(row: &RunRow) -> String {
     let cells: Vec<String> = (COLUMNS.iter())
         .map(|(_, _, column)| match column {

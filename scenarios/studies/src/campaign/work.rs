@@ -1,4 +1,4 @@
-//! The threads of a campaign: each takes the arms of one seed at a time, and every row is kept as soon as its run is over.
+//! The threads of a campaign. Each takes the arms of one seed at a time, and every row is kept as soon as its run ends.
 #![allow(
     clippy::disallowed_methods,
     reason = "the limit of wall time decides when to stop, never what a run does"
@@ -17,13 +17,13 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 use std::time::{Duration, Instant};
 
-/// How often the thread that waits looks up.
+/// How often the waiting thread checks for a stop.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Conditions whose scenarios are kept in memory.
+/// Number of conditions whose scenarios are kept in memory.
 const CONDITIONS: usize = 64;
 
-/// Until when runs are begun.
+/// Limits up to which runs begin.
 pub(super) struct Limits<'a> {
     begun: Instant,
     max_wall: Option<Duration>,
@@ -42,7 +42,7 @@ impl<'a> Limits<'a> {
         }
     }
 
-    /// Whether a run may begin: nobody said stop, and one as long as the longest so far would end in time.
+    /// Whether a run may begin: no stop was requested, and a run as long as the longest so far would end in time.
     pub(super) fn going(&self) -> bool {
         let longest = Duration::from_millis(self.longest_ms.load(Ordering::Relaxed));
         let in_time = |max: Duration| self.begun.elapsed() + longest <= max;
@@ -50,7 +50,7 @@ impl<'a> Limits<'a> {
     }
 }
 
-/// What the threads of one process work on.
+/// The common data of one process's threads.
 pub(super) struct Work<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) limits: &'a Limits<'a>,
@@ -60,12 +60,12 @@ pub(super) struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// Runs what `next` deals out, the runs of one seed and condition at a time, until there is nothing more or the
-    /// limits say so. `keep` gets every row from the thread that made it; `meanwhile` is called now and then,
-    /// and told whether the end was asked for.
+    /// Runs what `next` returns, the runs of one seed and condition at a time, until nothing is left or a limit is
+    /// reached. `keep` gets every row, in the thread that made it. `meanwhile` is called from time to time and told
+    /// whether a stop was requested.
     ///
     /// # Errors
-    /// The first that `keep` or `meanwhile` returned: then no run is begun any more.
+    /// The first error that `keep` or `meanwhile` returned; after it, no run begins.
     pub(super) fn go(
         &self,
         next: &(dyn Fn() -> Option<Vec<u64>> + Sync),
@@ -83,7 +83,7 @@ impl Work<'_> {
         let worker = || {
             while going() {
                 let Some(runs) = next() else { break };
-                // The arms of a seed, one after the other, so that they can share a spun-up state.
+                // The arms of a seed one after the other, so that they can share a spun-up state.
                 let mut spun = Vec::new();
                 for run in runs {
                     if !going() {
@@ -113,7 +113,7 @@ impl Work<'_> {
                 }
             }
             drop(over);
-            // Ends when every thread has dropped its end.
+            // Ends when every thread has dropped its sender.
             while waiting.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
                 if let Err(error) = meanwhile(!going()) {
                     fail(error);

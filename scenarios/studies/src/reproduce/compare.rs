@@ -1,20 +1,20 @@
-//! One figure of ours against the paper's.
+//! One figure of ours, compared with the paper's.
 
 use super::quantity::Estimate;
 use super::row::{Figure, Paper, Row};
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, wilson};
 
-/// Where the paper's figure stands against ours.
+/// How the paper's figure compares with ours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Standing {
     /// The paper has no such figure, or we have none.
     None,
     /// Inside our 95 % interval.
     Inside,
-    /// Outside, but the paper's own interval (from its counts) meets ours.
+    /// Outside, but the paper's own interval (from its counts) overlaps ours.
     Meets,
-    /// Outside the interval of our median, but where 95 % of our single runs lie: the paper's is a single run.
+    /// Outside the interval of our median, but within 95 % of our single runs: the paper's is a single run.
     AmongRuns,
     /// Outside.
     Outside,
@@ -34,16 +34,16 @@ impl Standing {
     }
 }
 
-/// A figure with both sides.
+/// A figure of ours and of the paper.
 #[derive(Clone, Debug)]
 pub struct Compared {
     /// The figure.
     pub figure: Figure,
-    /// Ours.
+    /// Our value.
     pub ours: Estimate,
     /// Wilson's interval of the paper's counts.
     pub papers_interval: Option<Interval>,
-    /// Where the paper's stands.
+    /// How the paper's value compares.
     pub standing: Standing,
 }
 
@@ -123,7 +123,7 @@ mod tests {
         assert_eq!(standing(Some(Paper::Run(7.0)), i, s), Standing::Inside);
         assert_eq!(standing(Some(Paper::Run(13.0)), i, s), Standing::AmongRuns);
         assert_eq!(standing(Some(Paper::Run(31.0)), i, s), Standing::Outside);
-        // A figure over many runs is not excused by the spread of single ones.
+        // A figure over many runs is not excused by the spread of single runs.
         assert_eq!(standing(Some(Paper::Value(13.0)), i, s), Standing::Outside);
         assert_eq!(standing(None, i, s), Standing::None);
         assert_eq!(standing(Some(Paper::Run(7.0)), None, s), Standing::None);

@@ -1,37 +1,37 @@
-//! What a run has to say for itself: events and measures, by the names row files use.
+//! Events and measures of a run, with the names that row files use.
 
 use crate::campaign::report::Unit;
 use crate::campaign::{DeclaredAt, RunRow};
 use serde::{Deserialize, Serialize};
 
-/// Something that happened in a run, or not.
+/// Something that did or did not happen in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Event {
     /// It succeeded as the scenario defines it.
     Success,
-    /// A source was declared, wherever.
+    /// A source was declared, at any place.
     Declared,
-    /// Of the runs that declared: the error is more along the flow than across.
+    /// Among runs that declared: the error is larger along the flow than across.
     MostlyAlong,
-    /// The belief's best cell came to be the source's, and stayed to the end.
+    /// The belief's best cell became that of the source and stayed so to the end.
     CorrectCell,
-    /// A source was declared in this subregion, counted from 0, or on its up-flow edge.
+    /// A source was declared in this subregion (counted from 0), or on its up-flow edge.
     RegionDeclared(u32),
     /// The declaration of this subregion is on its up-flow edge.
     RegionAtEdge(u32),
-    /// Of the runs that declared in this subregion: a position fix moved what the vehicle believed by so many metres
-    /// or more in the minute before.
+    /// Among runs that declared in this subregion: a position fix moved what the vehicle believed by at least so many
+    /// metres in the minute before.
     RegionFixOver(u32, u32),
-    /// The same, but none moved it so far.
+    /// Among runs that declared in this subregion: no position fix moved it that far in the minute before.
     RegionFixUnder(u32, u32),
-    /// Of the runs that declared in this subregion: the declaration is so many metres off, or more.
+    /// Among runs that declared in this subregion: the error is at least so many metres.
     RegionErrorOver(u32, u32),
-    /// The same of the part of the error across the flow.
+    /// Among runs that declared in this subregion: the error across the flow is at least so many metres.
     RegionAcrossOver(u32, u32),
 }
 
-/// Rule of declarations on a subregion's up-flow edge.
+/// The rule named in declarations on a subregion's up-flow edge.
 const EDGE: &str = "up_flow_edge";
 
 /// The first declaration of a subregion that the vehicle did not reject.
@@ -40,7 +40,7 @@ fn of_region(r: &RunRow, k: u32) -> Option<&DeclaredAt> {
 }
 
 impl Event {
-    /// Whether it happened; none where the run cannot say.
+    /// Whether it happened; `None` if the run cannot tell.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<bool> {
         match self {
@@ -66,7 +66,7 @@ impl Event {
     }
 }
 
-/// A number of a run. Errors are of declarations, against the nearest true source.
+/// A number of a run. Errors are those of declarations, relative to the nearest true source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Measure {
@@ -76,15 +76,15 @@ pub enum Measure {
     ErrorAlongM,
     /// Size of the error across the flow, m.
     ErrorAcrossM,
-    /// Way from the first detection to the declared source, m.
+    /// Distance from the first detection to the declared source, m.
     TracedM,
     /// Time of the declaration, s.
     DeclaredS,
-    /// Time from the oldest last detection point that a declaration rests on to the declaration, s.
+    /// Time from the oldest last detection point on which a declaration rests to the declaration, s.
     IdentificationS,
-    /// That time over the intervals between those points, s.
+    /// That time divided by the number of intervals between those points, s.
     LcdpIntervalS,
-    /// Way travelled, m, in runs that did not fail.
+    /// Distance travelled, m, in runs that did not fail.
     TravelledM,
     /// Time from the end of a gantry's sweep to its stop, s.
     TrackedS,
@@ -92,17 +92,18 @@ pub enum Measure {
     SpeedMS,
     /// A gantry's net-to-gross displacement ratio from the end of the sweep to its stop.
     Ngdr,
-    /// The same speed in the half of the way nearer to the source less that in the farther half, m/s.
+    /// That speed in the nearer half of the way to the source, minus that in the farther half, m/s.
     NearGainMS,
-    /// Mean distance from the source's line along the flow in the farther half less that in the nearer, m.
+    /// Mean distance from the line along the flow through the source in the farther half, minus that in the nearer
+    /// half, m.
     OffsetGainM,
-    /// Time at which the belief's best cell came to be the source's for good, s.
+    /// Time at which the belief's best cell finally became that of the source, s.
     CorrectCellS,
-    /// Declarations of a run.
+    /// Number of declarations of a run.
     Declarations,
-    /// Declarations of a run that are so many metres or more from every true source and on no subregion's edge.
+    /// Declarations of a run at least so many metres from every true source and on no subregion's edge.
     FarDeclarations(u32),
-    /// True sources declared within the distance at which the scenario's success counts.
+    /// True sources declared within the distance that the scenario's success requires.
     SourcesDeclared,
     /// Error of the declaration of this subregion, counted from 0, m.
     RegionErrorM(u32),
@@ -110,7 +111,7 @@ pub enum Measure {
     RegionAlongM(u32),
     /// Size of its part across the flow, m.
     RegionAcrossM(u32),
-    /// Way from the first detection in this subregion to its declaration, m.
+    /// Distance from the first detection in this subregion to its declaration, m.
     RegionTracedM(u32),
     /// How far a position fix moved what the vehicle believed in the minute before that declaration, m.
     RegionFixM(u32),
@@ -135,13 +136,13 @@ impl Measure {
         }
     }
 
-    /// Whether it may be below 0: the others are times, ways, speeds, shares of a way and counts.
+    /// Whether it can be negative. The others are times, distances, speeds, shares and counts.
     #[must_use]
     pub fn is_signed(self) -> bool {
         matches!(self, Measure::NearGainMS | Measure::OffsetGainM)
     }
 
-    /// Of a run; none where it has none.
+    /// The value for a run; `None` if the run has none.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<f64> {
         let sound = |count: usize| r.error.is_none().then_some(count as f64);
@@ -233,7 +234,7 @@ mod tests {
             (Some(3.0), Some(31.0))
         );
         assert_eq!(of(Measure::RegionErrorM(1)), None);
-        // A failed run says nothing of its declarations.
+        // A failed run says nothing about its declarations.
         let failed = RunRow {
             error: Some("x".into()),
             ..row.clone()
@@ -252,7 +253,7 @@ mod tests {
         assert_eq!(Measure::IdentificationS.of(&found), Some(500.0));
         // Six points, five intervals.
         assert_eq!(Measure::LcdpIntervalS.of(&found), Some(100.0));
-        // One point has none; a rule on other things has no points; nothing declared, nothing measured.
+        // One point has no interval; a rule on other things has no points; without a declaration nothing is measured.
         let one = RunRow {
             zone_points: Some(1.0),
             ..found

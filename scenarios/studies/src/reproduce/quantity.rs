@@ -1,4 +1,4 @@
-//! What is computed from the rows of many runs to stand beside a paper's figure.
+//! What is computed from the rows of many runs for comparison with a paper's figure.
 
 use super::measure::{Event, Measure};
 use crate::campaign::RunRow;
@@ -22,19 +22,20 @@ pub enum Quantity {
     Quantile(Measure, f64),
 }
 
-/// A quantity as our runs have it.
+/// A quantity computed from our runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Estimate {
-    /// Values behind it.
+    /// Number of values.
     pub n: u64,
-    /// Of them counted, for a share.
+    /// For a share: the number of values that count.
     pub count: Option<u64>,
-    /// The figure; none where nothing is behind it.
+    /// The figure; `None` if there are no values.
     pub value: Option<f64>,
-    /// Its 95 % interval: Wilson's for shares, bootstrap's for quantiles, for means Student's on the scale of the logarithm or, of
-    /// quantities of either sign, as it is. Of fewer than 5 values there is none, but for shares.
+    /// Its 95 % interval: Wilson's for shares and bootstrap for quantiles. For means, Student's on the logarithm's
+    /// scale, or on the plain scale for quantities of either sign. With fewer than 5 values there is none, except for
+    /// shares.
     pub interval: Option<Interval>,
-    /// Where 95 % of single runs lie (2.5 % to 97.5 % quantile), but for shares.
+    /// Where 95 % of single runs lie (2.5 % to 97.5 % quantile); not for shares.
     pub spread: Option<Interval>,
 }
 
@@ -48,7 +49,7 @@ impl Quantity {
         }
     }
 
-    /// From rows of runs. In a failed run nothing happened and nothing was measured.
+    /// From rows of runs. In a failed run, nothing happened and nothing was measured.
     #[must_use]
     pub fn of(self, rows: &[RunRow]) -> Estimate {
         let quantile_of = |m: Measure, p: f64| {
@@ -99,7 +100,7 @@ fn share(k: u64, n: u64) -> Estimate {
     }
 }
 
-/// Seed of the bootstrap: a table made again from the same runs is the same.
+/// Seed of the bootstrap, fixed so that a table of the same runs is always the same.
 const SEED: u64 = 1;
 
 fn of_values(
@@ -152,7 +153,7 @@ mod tests {
         assert_eq!(Quantity::Median(Measure::TravelledM).of(&rows).n, 3);
         let mean = Quantity::Mean(Measure::ErrorM).of(&rows);
         assert_eq!(mean.value, Some(27.5));
-        // Two values say nothing of their spread: Student's interval of them would reach from -258 to 313 m.
+        // Two values say nothing about their spread: Student's interval of them would reach from -258 to 313 m.
         assert_eq!((mean.n, mean.interval), (2, None));
         assert_eq!(Quantity::Median(Measure::ErrorM).of(&rows).interval, None);
     }
@@ -166,9 +167,9 @@ mod tests {
         };
         let rows: Vec<RunRow> = (0..5).map(|k| gained(k, 0.01 * (k as f64 - 2.0))).collect();
         let interval = |m| Quantity::Mean(m).of(&rows).interval.unwrap();
-        // One of five a thousand times the others: Student's would begin at -1775 m.
+        // One of five values is a thousand times the others: Student's interval would begin at -1775 m.
         assert!(interval(Measure::ErrorM).low > 0.0);
-        // A gain may be a loss: the interval about 0 is as wide on both sides.
+        // A gain may be a loss: the interval about 0 is equally wide on both sides.
         let gain = interval(Measure::NearGainMS);
         assert!(
             (gain.low + gain.high).abs() < 1e-12 && gain.low < 0.0,

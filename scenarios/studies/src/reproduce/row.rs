@@ -1,4 +1,4 @@
-//! What a paper reports and with which scenario we ask for it: one row file each.
+//! What a paper reports, and the scenario with which we compare it: one row file each.
 
 use super::measure::Event;
 use super::quantity::Quantity;
@@ -20,16 +20,16 @@ const LONGEST: u64 = 1 << 20;
 pub struct Row {
     /// Its name.
     pub id: String,
-    /// What is done.
+    /// What the experiment does.
     pub what: String,
     /// Paper, section, table or figure.
     pub source: String,
-    /// A scenario that comes with the program, or a file beside the row's.
+    /// A scenario that comes with the program, or a file beside that of the row.
     pub scenario: String,
-    /// What is changed in it, by arm; all arms run with the same seeds. Without any, the scenario as it is.
+    /// Changes to the scenario, by arm; all arms run with the same seeds. Without arms, the scenario runs as it is.
     #[serde(default)]
     pub arms: Vec<Arm>,
-    /// What is compared.
+    /// The figures compared.
     pub figures: Vec<Figure>,
 }
 
@@ -37,20 +37,20 @@ pub struct Row {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
-    /// What people call it.
+    /// Its name for people.
     pub name: String,
-    /// Of which arm; needed where there are any.
+    /// Name of the arm; required if the row has arms.
     #[serde(default)]
     pub arm: Option<String>,
-    /// Of those runs only in which this happened.
+    /// Only runs in which this happened count.
     #[serde(default)]
     pub among: Option<Event>,
     /// What is computed from our runs.
     pub quantity: Quantity,
-    /// What the paper has; absent where it has nothing to compare.
+    /// The paper's figure; absent if there is nothing to compare.
     #[serde(default)]
     pub paper: Option<Paper>,
-    /// What must be known to compare.
+    /// A remark that is needed for the comparison.
     #[serde(default)]
     pub note: String,
 }
@@ -62,9 +62,9 @@ pub enum Paper {
     Value(f64),
     /// A figure of a single run, in the quantity's unit.
     Run(f64),
-    /// So many of so many.
+    /// A count: so many of so many.
     Count(u64, u64),
-    /// So many of so few that it is no share: one run that did or did not.
+    /// So few of so few that it is no share: one run that did or did not.
     RunCount(u64, u64),
 }
 
@@ -89,22 +89,22 @@ impl Paper {
 /// Why a row cannot be reproduced.
 #[derive(Debug, thiserror::Error)]
 pub enum ReproduceError {
-    /// No such row.
+    /// There is no such row.
     #[error(
         "there is no row `{name}`; there are: {known}. A row file of your own may be named, too"
     )]
     Unknown {
-        /// As asked.
+        /// The name asked for.
         name: String,
-        /// Those there are.
+        /// The existing names.
         known: String,
     },
-    /// No row asked for has such an arm.
+    /// No row that was asked for has such an arm.
     #[error("no row asked for has an arm `{name}`; there are: {known}")]
     Arm {
-        /// As asked.
+        /// The name asked for.
         name: String,
-        /// Those there are.
+        /// The existing names.
         known: String,
     },
     /// A row file that cannot be read.
@@ -115,18 +115,18 @@ pub enum ReproduceError {
         /// What is wrong.
         problem: String,
     },
-    /// Its scenario.
+    /// Its scenario is wrong.
     #[error(transparent)]
     Scenario(#[from] ScenarioError),
-    /// Its results.
+    /// Its results cannot be written.
     #[error(transparent)]
     Report(#[from] ReportError),
-    /// The threads.
+    /// The threads cannot be started.
     #[error("cannot start {jobs} threads: {problem}")]
     Threads {
-        /// As asked; 0 for one a core.
+        /// The number asked for; 0 means one for each core.
         jobs: usize,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// Ctrl-C or a termination signal.
@@ -141,7 +141,7 @@ pub struct Reference {
     pub row: Row,
     /// Its scenario.
     pub loaded: Loaded,
-    /// The scenario as each arm changes it, with the arm's name: one at least.
+    /// The scenario as each arm changes it, with the arm's name; at least one.
     pub arms: Vec<(String, Loaded)>,
 }
 
@@ -173,17 +173,17 @@ const ROWS: &[(&str, &str)] = &[
 /// All rows that come with the program.
 ///
 /// # Errors
-/// If one is broken (tests keep this from happening).
+/// If one is wrong (tests prevent this).
 pub fn rows() -> Result<Vec<Reference>, ReproduceError> {
     ROWS.iter()
         .map(|(name, text)| embedded(name, text))
         .collect()
 }
 
-/// The rows asked for by name or by file, each once; all of them if none is. Of their arms only those named, if any is.
+/// The rows asked for by name or by file, each once; all rows if none is named. Only the named arms are kept, if any.
 ///
 /// # Errors
-/// If one is not known, or its file or scenario is broken, or no row has such an arm.
+/// If a name is unknown, if its file or scenario is wrong, or if no row has such an arm.
 pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, ReproduceError> {
     let mut found: Vec<Reference> = Vec::new();
     if names.is_empty() {
@@ -215,7 +215,7 @@ pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, Repr
     Ok(found)
 }
 
-/// A row by its name; where no row has that, all whose names begin with it and `_`; or a row file.
+/// A row by its name; if no row has that name, all rows whose names begin with it and `_`; or a row file.
 fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
     let name = path.display().to_string();
     if let Some((id, text)) = ROWS.iter().find(|(id, _)| *id == name) {
@@ -279,7 +279,7 @@ impl Reference {
         Ok(Self { row, loaded, arms })
     }
 
-    /// Keeps these arms and their figures: each runs as it does with the others beside it.
+    /// Keeps these arms and their figures; each arm runs as it would together with the others.
     fn keep(&mut self, arms: &[String]) {
         let asked = |name: &String| arms.contains(name);
         self.arms.retain(|(name, _)| asked(name));
@@ -298,7 +298,7 @@ fn embedded(name: &str, text: &str) -> Result<Reference, ReproduceError> {
     Reference::new(name, row, loaded)
 }
 
-/// The scenario that comes with the program, whatever lies in the folder we are in.
+/// The scenario that comes with the program, whatever files the current folder has.
 fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
     let template = template(&row.scenario).ok_or_else(|| ReproduceError::Row {
         name: name.to_string(),

@@ -1,4 +1,4 @@
-//! The runs behind a row: consecutive seeds, on all cores, until there are enough.
+//! The runs of a row: consecutive seeds, on all cores, until there are enough.
 
 use super::compare::{Compared, compare};
 use super::row::{Reference, ReproduceError, Row};
@@ -9,23 +9,23 @@ use rayon::prelude::*;
 use rheotaxis::scenario::Loaded;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Seeds after which what is known so far is shown: little is lost when the program is killed.
+/// Seeds after which the current results are written, so that little is lost if the program is killed.
 const BATCH: u64 = 50;
 
 /// How many runs, on how many threads.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plan {
-    /// Seeds; with `until_half_width` at most.
+    /// Number of seeds; with `until_half_width`, the greatest number.
     pub n: u64,
     /// The first seed; the others follow it.
     pub first_seed: u64,
-    /// Stop when the half width of the success interval is this or less.
+    /// Stop when the half width of the success interval is at most this.
     pub until_half_width: Option<f64>,
-    /// Threads; 0 for one a core.
+    /// Number of threads; 0 means one for each core.
     pub jobs: usize,
 }
 
-/// A row with what our runs came to.
+/// A row with our results.
 #[derive(Clone, Debug)]
 pub struct Reproduced {
     /// The row.
@@ -38,11 +38,11 @@ pub struct Reproduced {
     pub figures: Vec<Compared>,
 }
 
-/// Runs one row. `heard` is told of every run that ends (from the threads), with the number now planned; `kept` is shown
+/// Runs one row. `heard` is called for every run that ends (from the threads), with the number now planned. `kept` gets
 /// the row as far as it has come, every 50 seeds and at the end.
 ///
 /// # Errors
-/// If the threads cannot be started, if `kept` says so, or if `stop` was set: the runs in hand end, no more are begun.
+/// If the threads cannot be started, if `kept` fails, or if `stop` was set: current runs end, and no more begin.
 pub fn reproduce(
     reference: &Reference,
     plan: Plan,
@@ -101,7 +101,7 @@ pub fn reproduce(
     Ok(row)
 }
 
-/// How many seeds there shall be next; `None` when there are enough for every arm.
+/// The next number of seeds; `None` if there are enough for every arm.
 fn next(runs: &[RunRow], reference: &Reference, plan: Plan) -> Option<u64> {
     let n = (runs.len() / reference.arms.len()) as u64;
     let Some(half_width) = plan.until_half_width else {

@@ -1,4 +1,4 @@
-//! The reproduction table: on the screen, as REPRODUCTION.md, and the runs behind it as CSV.
+//! The reproduction table on the screen and in REPRODUCTION.md, and its runs as CSV.
 
 use super::compare::{Compared, Standing};
 use super::row::Paper;
@@ -85,10 +85,10 @@ pub fn table(r: &Reproduced) -> String {
     out
 }
 
-/// Writes REPRODUCTION.md, figures.csv and rows.csv into a folder, making it if need be.
+/// Writes REPRODUCTION.md, figures.csv and rows.csv into a folder, which is made if necessary.
 ///
 /// # Errors
-/// If the folder or a file cannot be written; all other files are.
+/// If the folder or a file cannot be written; all other files are written.
 pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
@@ -97,7 +97,7 @@ pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError
         ("figures.csv", figures_csv(all)),
         ("rows.csv", runs_csv(&runs)),
     ];
-    // One that cannot be written costs no other.
+    // If one file cannot be written, the others are not affected.
     let mut failures = Vec::new();
     let mut written = Vec::new();
     for (name, text) in files {

@@ -1,28 +1,28 @@
-//! What is in a scene and how it is seen, drawn at random: source, dye, water, light, camera.
+//! The content of a scene and how it is seen, drawn at random: source, dye, water, light, camera.
 
 use serde::Serialize;
 use world::math;
 use world::seeds::Stream;
 
-/// Ends of the ranges of visibility by which results are shown, m.
+/// Ranges of visibility by which results are shown, m.
 pub const BINS: [(f64, f64); 4] = [(1.5, 3.0), (3.0, 6.0), (6.0, 12.0), (12.0, 24.0)];
 
-/// What stands and drifts before the camera.
+/// The objects in front of the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Content {
-    /// The source, giving off dye.
+    /// The source, releasing dye.
     Source,
     /// Dye alone: the plume some metres down-flow.
     Dye,
-    /// A body like the source that gives off nothing.
+    /// A body that looks like the source but releases nothing.
     Body,
-    /// Water and bed.
+    /// Only water and bed.
     Nothing,
 }
 
 impl Content {
-    /// Of scene `n`: every other one shows the source, the others the rest in turn.
+    /// The content of scene `n`: every other scene shows the source, the rest take turns.
     fn of(n: u64) -> Self {
         match n % 6 {
             0..=2 => Content::Source,
@@ -49,43 +49,43 @@ impl Content {
 pub struct Drawn {
     /// Its number, from 0.
     pub n: u64,
-    /// What is there.
+    /// Its content.
     pub content: Content,
-    /// How far one sees, m.
+    /// Visibility, m.
     pub visibility_m: f64,
     /// Daylight on the surface, klx.
     pub illuminance_klx: f64,
     /// Height of the sun, °.
     pub sun_elevation_deg: f64,
-    /// Where it stands, °.
+    /// Direction of the sun, °.
     pub sun_heading_deg: f64,
     /// Mean current, m/s.
     pub current_m_s: f64,
-    /// Dye given off, g/min.
+    /// Dye released, g/min.
     pub dye_g_min: f64,
-    /// Share of light that the body throws back.
+    /// Share of light that the body reflects.
     pub albedo: f64,
     /// Direction of the body's long side, °.
     pub body_heading_deg: f64,
-    /// From the camera to what it looks at, level, m.
+    /// Horizontal distance from the camera to its target, m.
     pub range_m: f64,
-    /// Where it looks from, anticlockwise from down-flow, °.
+    /// Direction of the camera seen from the target, anticlockwise from down-flow, °.
     pub bearing_deg: f64,
     /// Height above the bed, m.
     pub height_m: f64,
-    /// How far the middle of the picture lies off what it looks at, left and up, °.
+    /// Offset of the picture's centre from the target, left and up, °.
     pub off_deg: [f64; 2],
-    /// Where on the plume it looks if there is no body, m down-flow.
+    /// The target on the plume if there is no body, m down-flow.
     pub down_flow_m: f64,
 }
 
-/// Which range of visibility a scene belongs to.
+/// The range of visibility to which a scene belongs.
 #[must_use]
 pub fn bin(visibility_m: f64) -> usize {
     (BINS.iter().position(|(_, high)| visibility_m < *high)).unwrap_or(BINS.len() - 1)
 }
 
-/// Scene `n` of a seed: no scene depends on another.
+/// Scene `n` of a seed; no scene depends on another.
 #[must_use]
 pub fn draw(seed: u64, n: u64) -> Drawn {
     let mut rng = Stream::new(seed, &format!("scene-{n}"), "score_vision");

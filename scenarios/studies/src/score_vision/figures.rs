@@ -8,7 +8,7 @@ use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::{GREY, INK};
 use output::charts::panel::Panel;
 
-/// Colours of the ways (Okabe & Ito 2008), in their order.
+/// Colours of the methods (Okabe & Ito 2008), in their order.
 const COLOURS: [&str; 6] = [
     "#999999", "#0072b2", "#56b4e9", "#d55e00", "#e69f00", "#009e73",
 ];
@@ -88,7 +88,8 @@ pub(super) fn shares(all: &[Figures]) -> Canvas {
     c
 }
 
-/// True against false verifications as the score's limit moves, one panel a range of visibility; a ring marks the limit of 1.
+/// True against false verifications as the score's limit varies, one panel for each range of visibility; a ring marks
+/// limit 1.
 pub(super) fn curves(all: &[Figures]) -> Canvas {
     let mut c = Canvas::new(1240.0, 440.0);
     legend(&mut c, 60.0, 22.0);

@@ -1,31 +1,32 @@
-//! Ways to find dye and source in a picture that are scored side by side: readings of the paper, ours, and one without fuzzy rules.
+//! Methods to find dye and source in a picture, scored side by side: readings of the paper, ours, and one without fuzzy
+//! rules.
 //!
-//! The last one asks no colour pattern: dye is what is redder than most of the picture, a body what is darker. Its two limits were set
-//! by eye on a handful of scenes and are not tuned.
+//! The last one uses no colour pattern: dye is redder than most of the picture, a body is darker. Its two limits were
+//! set by eye on a few scenes and are not tuned.
 
 use image::{GrayImage, Luma, RgbImage};
 use robots::vision::{ColourSpec, Edges, Sighting, Target, Verifier, VerifierSpec, segment};
 use serde::Serialize;
 
-/// One way.
+/// A method.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Method {
     /// The paper's passes, all of them united.
     AllPasses,
-    /// Its passes and clusters, edges by the colours.
+    /// The paper's passes and clusters, with edges between colours.
     Clusters,
-    /// Its passes and clusters, edges by the distances to the reference.
+    /// The paper's passes and clusters, with edges between distances to the reference.
     ClustersByReference,
-    /// As `Clusters`; what they drop from the plume goes back before the source is looked for.
+    /// As `Clusters`, but patterns dropped from the plume are given back before the source is searched.
     GivenBack,
-    /// As `GivenBack`, the picture dehazed first: the verifier's default.
+    /// As `GivenBack`, after removing haze from the picture: the verifier's default.
     Dehazed,
     /// Redder and darker than most of the picture.
     Plain,
 }
 
-/// All ways, in the order of the tables.
+/// All methods, in the order of the tables.
 pub const METHODS: [Method; 6] = [
     Method::AllPasses,
     Method::Clusters,
@@ -35,9 +36,9 @@ pub const METHODS: [Method; 6] = [
     Method::Plain,
 ];
 
-/// Redder than the median share of red by this.
+/// Dye is redder than the median share of red by this.
 const REDDER: f64 = 0.06;
-/// Darker than this share of the median brightness.
+/// A body is darker than this share of the median brightness.
 const DARKER: f64 = 0.6;
 
 impl Method {
@@ -123,9 +124,9 @@ mod tests {
             let (dye, body, seen) = method.look(&picture, &spec);
             let n = |m: &GrayImage| m.pixels().filter(|p| p.0[0] > 0).count();
             let want = match method {
-                // Three passes towards red take the picture whole.
+                // Three passes towards red take the whole picture.
                 Method::AllPasses => (4800, 0, false),
-                // They take the body from the source's passes.
+                // These methods take the body from the source's passes.
                 Method::Clusters | Method::ClustersByReference => (300, 0, false),
                 Method::GivenBack | Method::Dehazed | Method::Plain => (300, 300, true),
             };

@@ -1,4 +1,5 @@
-//! `rheotaxis score-vision`: how well dye and source are found in rendered pictures of known truth, from clear to murky water.
+//! `rheotaxis score-vision`: how well dye and source are found in rendered pictures of known content, in clear to murky
+//! water.
 
 mod draw;
 mod figures;

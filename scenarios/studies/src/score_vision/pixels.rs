@@ -1,7 +1,8 @@
-//! Pixels found against pixels there: precision and recall over many pictures, each with its interval.
+//! Pixels found, compared with true pixels: precision and recall over many pictures, each with its interval.
 //!
-//! *Source*: precision and recall of pooled counts (van Rijsbergen 1979, Information Retrieval, ch. 7); intervals by drawing whole pictures
-//! again, since pixels of one picture are not independent: percentile bootstrap (Efron & Tibshirani 1993, ch. 13).
+//! *Source*: precision and recall of pooled counts (van Rijsbergen 1979, Information Retrieval, ch. 7). Intervals come
+//! from resampling whole pictures, because pixels of one picture are not independent: percentile bootstrap (Efron &
+//! Tibshirani 1993, ch. 13).
 //!
 //! *Parameters*: [`RESAMPLES`] 2000; 95 %.
 //!
@@ -12,22 +13,22 @@ use image::GrayImage;
 use serde::Serialize;
 use world::seeds::Stream;
 
-/// Resamples behind an interval.
+/// Number of resamples for an interval.
 pub(super) const RESAMPLES: usize = 2000;
 
 /// Pixels of one picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Counts {
-    /// Found and there.
+    /// Number of true pixels that were found.
     pub hit: u64,
-    /// Found, not there.
+    /// Number of found pixels that are not true.
     pub false_alarm: u64,
-    /// There, not found.
+    /// Number of true pixels that were not found.
     pub missed: u64,
 }
 
 impl Counts {
-    /// Of what was found against what is there.
+    /// Compares found pixels with true pixels.
     #[must_use]
     pub fn of(found: &GrayImage, there: &GrayImage) -> Self {
         let mut counts = Self::default();
@@ -46,21 +47,21 @@ impl Counts {
 /// A share of pooled pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Ratio {
-    /// Pictures that count.
+    /// Number of pictures that count.
     pub pictures: usize,
-    /// The share; none of no pixels.
+    /// The share; `None` if there are no pixels.
     pub value: Option<f64>,
     /// Its 95 % interval.
     pub interval: Option<Interval>,
 }
 
-/// Share of what was found that is there, over all pictures.
+/// Share of the found pixels that are true, over all pictures.
 #[must_use]
 pub fn precision(counts: &[Counts], name: &str) -> Ratio {
     ratio(counts, name, |c| (c.hit, c.hit + c.false_alarm))
 }
 
-/// Share of what is there that was found, over all pictures.
+/// Share of the true pixels that are found, over all pictures.
 #[must_use]
 pub fn recall(counts: &[Counts], name: &str) -> Ratio {
     ratio(counts, name, |c| (c.hit, c.hit + c.missed))
@@ -119,7 +120,7 @@ mod tests {
         assert_eq!((p.pictures, p.value), (1, Some(0.75)));
         assert_eq!((r.pictures, r.value), (2, Some(30.0 / 90.0)));
         assert_eq!(p.interval, None);
-        // Of two pictures a resample may hold the one or the other alone.
+        // With two pictures, a resample may contain only one of them.
         let i = r.interval.unwrap();
         assert_eq!((i.low, i.high), (0.0, 1.0));
         assert_eq!(precision(&[], "none").value, None);

@@ -1,4 +1,4 @@
-//! A drawn scene, built and rendered: its plume released into a turbulent stream, its picture, and what is really in each pixel.
+//! A drawn scene, built and rendered: its plume in a turbulent stream, its picture, and the true content of each pixel.
 
 use super::draw::{Content, Drawn};
 use super::run::ScoreError;
@@ -23,43 +23,43 @@ use world::units::Heading;
 
 /// Depth of the water, m.
 const DEPTH_M: f64 = 6.0;
-/// The source: 1.0 m by 0.5 m (Tian et al. 2013, section 4), its height half a metre; dye leaves it just above its top.
+/// The source: 1.0 m by 0.5 m (Tian et al. 2013, section 4), half a metre high; dye leaves it just above its top.
 const BODY_M: [f64; 3] = [1.0, 0.5, 0.5];
 const NOZZLE_M: f64 = 0.55;
 /// Sand roughness of the bed, m.
 const BED_M: f64 = 0.01;
-/// Filaments a second, and their size at release, m.
+/// Filaments per second, and their size at release, m.
 const FILAMENTS_HZ: f64 = 20.0;
 const FILAMENT_M: f64 = 0.03;
-/// What is smaller than the eddies resolved, m: a quarter of the depth over 2π.
+/// Size below which eddies are not resolved, m: a quarter of the depth over 2π.
 const EDDY_M: f64 = 0.24;
-/// The plume is as old as it takes to reach this far down-flow at half the mean current, m.
+/// The plume is as old as it needs to be to reach this far down-flow at half the mean current, m.
 const REACH_M: f64 = 10.0;
 const STEP_S: f64 = 0.5;
-/// A pixel shows dye from this change of its light on; Blackwell's 2 % would be an even patch at its limit.
+/// A pixel shows dye if its light changes by at least this much; Blackwell's 2 % is the limit for an even patch.
 pub(super) const DYED: f32 = 0.1;
-/// A pixel shows the body while this share of its own light arrives.
+/// A pixel shows the body if at least this share of the body's own light arrives.
 pub(super) const CLEAR: f32 = 0.02;
 
 /// Width and height of the pictures, px.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizePx(pub u32, pub u32);
 
-/// A picture of known truth.
+/// A picture with known content.
 #[derive(Clone, Debug)]
 pub struct Shot {
     /// The picture.
     pub picture: RgbImage,
     /// Where dye changes the light: 255 or 0.
     pub dye: GrayImage,
-    /// Where the source can be seen; empty where there is none.
+    /// The pixels that show the source; empty if there is none.
     pub source: GrayImage,
 }
 
 /// Renders a scene.
 ///
 /// # Errors
-/// If the scene cannot be built: a slip in its ranges.
+/// If the scene cannot be built: a mistake in its ranges.
 pub fn shoot(seed: u64, d: &Drawn, size: SizePx) -> Result<Shot, ScoreError> {
     let wrong = |problem: String| ScoreError::Scene { n: d.n, problem };
     let terrain = Terrain::Level { depth_m: DEPTH_M };
@@ -188,7 +188,7 @@ fn optics(d: &Drawn) -> OpticsSpec {
     }
 }
 
-/// The camera: round what it looks at, looking at it but for `off_deg`.
+/// The camera's pose: at a distance from its target and looking at it, except for `off_deg`.
 fn pose(d: &Drawn) -> world::frames::Pose {
     let at = match d.content {
         Content::Source | Content::Body | Content::Nothing => {
@@ -219,7 +219,7 @@ mod tests {
         mask.pixels().filter(|m| m.0[0] > 0).count()
     }
 
-    /// In the clearest water each thing is where it should be: scenes 18 to 23 are of the last range of visibility.
+    /// In the clearest water everything is where it should be: scenes 18 to 23 have the last range of visibility.
     #[test]
     fn pictures_show_what_was_drawn() {
         for n in 18..24 {

@@ -1,7 +1,8 @@
-//! Verdicts against the truth: shares at the verifier's limit, and the curve when the limit is moved.
+//! Verdicts compared with the truth: shares at the verifier's limit, and the curve for varying limits.
 //!
-//! *Source*: area under the curve as the chance that a picture with a source scores higher than one without, ties half (Hanley & McNeil
-//! 1982, Radiology 143, 29); its interval by drawing pictures of each kind again (percentile bootstrap, Efron & Tibshirani 1993, ch. 13).
+//! *Source*: area under the curve as the probability that a picture with a source scores higher than one without; ties
+//! count half (Hanley & McNeil 1982, Radiology 143, 29). Its interval comes from resampling the pictures of each kind
+//! (percentile bootstrap, Efron & Tibshirani 1993, ch. 13).
 //!
 //! *Parameters*: limit of the score, 1; 2000 resamples; 95 %.
 //!
@@ -21,27 +22,27 @@ pub struct Scored {
     pub source: bool,
 }
 
-/// What the scores of many pictures say.
+/// Evaluation of the scores of many pictures.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Roc {
     /// Pictures with a source, and how many of them are verified.
     pub with: (u64, u64),
-    /// Share of them, 95 % (Wilson).
+    /// Interval of their share, 95 % (Wilson).
     pub true_share: Interval,
-    /// Pictures without, and how many of them are verified all the same.
+    /// Pictures without a source, and how many of them are verified nevertheless.
     pub without: (u64, u64),
-    /// Share of them, 95 % (Wilson).
+    /// Interval of their share, 95 % (Wilson).
     pub false_share: Interval,
     /// Area under the curve.
     pub area: Option<f64>,
     /// Its 95 % interval.
     pub area_interval: Option<Interval>,
-    /// The curve: shares of false and true verifications at each score, from the highest down.
+    /// The curve: shares of false and true verifications at each score, in descending order.
     pub curve: Vec<[f64; 2]>,
 }
 
 impl Roc {
-    /// Of some pictures; `name` keeps the random numbers of different curves apart.
+    /// From some pictures; `name` separates the random numbers of different curves.
     #[must_use]
     pub fn new(scored: &[Scored], name: &str) -> Self {
         let of = |source: bool| -> Vec<f64> {
@@ -73,7 +74,7 @@ impl Roc {
     }
 }
 
-/// Chance that one of `with` lies above one of `without`; both in order.
+/// Probability that one of `with` is greater than one of `without`; both are sorted.
 fn area(with: &[f64], without: &[f64]) -> Option<f64> {
     let pairs = with.len() as f64 * without.len() as f64;
     let won: f64 = (with.iter())
@@ -152,7 +153,8 @@ mod tests {
         assert_eq!((none.area, none.area_interval), (None, None));
     }
 
-    /// 60 against 60 normal scores one standard deviation apart: area Φ(1/√2) = 0.760, standard error about 0.044 (Hanley & McNeil).
+    /// 60 against 60 normal scores one standard deviation apart: area Φ(1/√2) = 0.760, standard error about 0.044
+    /// (Hanley & McNeil).
     #[test]
     fn intervals_are_as_wide_as_they_should_be() {
         let mut rng = Stream::new(5, "t", "scores");

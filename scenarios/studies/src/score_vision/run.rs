@@ -1,4 +1,4 @@
-//! All scenes rendered, looked at in every way, and counted.
+//! All scenes: rendered, examined with every method, and counted.
 
 use super::draw::{Drawn, draw};
 use super::methods::{METHODS, Method};
@@ -10,12 +10,12 @@ use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// What one way made of one scene.
+/// The result of one method for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Row {
     /// The scene.
     pub scene: Drawn,
-    /// The way.
+    /// The method.
     pub method: Method,
     /// Its pixels of dye.
     pub dye: Counts,
@@ -38,12 +38,12 @@ pub enum ScoreError {
         /// What is wrong.
         problem: String,
     },
-    /// The threads.
+    /// The threads cannot be started.
     #[error("cannot start {jobs} threads: {problem}")]
     Threads {
-        /// As asked; 0 for one a core.
+        /// The number asked for; 0 means one for each core.
         jobs: usize,
-        /// What the system said.
+        /// The system's message.
         problem: String,
     },
     /// Results cannot be written.
@@ -54,11 +54,11 @@ pub enum ScoreError {
     Interrupted,
 }
 
-/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one a core). The rows stand in order and do not depend on `jobs`; `done` is
-/// given every scene with its picture as it comes.
+/// Scores scenes 0 to `scenes` of a seed, `jobs` at a time (0: one for each core). The rows are in order and do not
+/// depend on `jobs`. `done` gets every scene with its picture when it is finished.
 ///
 /// # Errors
-/// If threads cannot be started, a scene not be built, or `stop` is set.
+/// If threads cannot be started, if a scene cannot be built, or if `stop` is set.
 pub fn score(
     seed: u64,
     scenes: u64,

@@ -1,4 +1,4 @@
-//! A rendered picture and its truth as files, for whoever wants to look.
+//! A rendered picture and its true content as files, for people to look at.
 
 use super::draw::Drawn;
 use super::render::Shot;
@@ -10,7 +10,7 @@ use world::files::Folder;
 /// Writes `scene-N.png`, `scene-N-dye.png` and `scene-N-source.png` into a folder.
 ///
 /// # Errors
-/// If a file cannot be written, each that could not; the others are.
+/// If files cannot be written; names each such file. The others are written.
 pub fn save(out: &Folder, scene: &Drawn, shot: &Shot) -> Result<(), ReportError> {
     let mut kept = Kept::new(out);
     let mut file = |what: &str, encode: &dyn Fn(&mut Cursor<Vec<u8>>) -> ImageResult<()>| {

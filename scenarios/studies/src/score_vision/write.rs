@@ -13,12 +13,12 @@ use serde::Serialize;
 use std::fmt::Write as _;
 use world::files::Folder;
 
-/// What was asked for.
+/// The plan of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Plan {
     /// Seed of the scenes.
     pub seed: u64,
-    /// How many.
+    /// Number of scenes.
     pub scenes: u64,
     /// Width and height of the pictures, px.
     pub size_px: [u32; 2],
@@ -26,11 +26,11 @@ pub struct Plan {
     pub verifier: VerifierSpec,
 }
 
-/// All figures of one way in one range of visibility.
+/// All figures of one method in one range of visibility.
 #[derive(Clone, Debug, Serialize)]
 pub(super) struct Figures {
     pub(super) method: Method,
-    /// Range of visibility, m; none for all of them.
+    /// Range of visibility, m; `None` for all ranges.
     pub(super) visibility_m: Option<(f64, f64)>,
     pub(super) dye_precision: Ratio,
     pub(super) dye_recall: Ratio,
@@ -39,7 +39,7 @@ pub(super) struct Figures {
     pub(super) verification: Roc,
 }
 
-/// The figures of each way: all scenes, then each range.
+/// The figures of each method: all scenes, then each range.
 fn figures(rows: &[Row]) -> Vec<Figures> {
     let mut all = Vec::new();
     for method in METHODS {
@@ -76,7 +76,7 @@ fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&Row]) -> Figur
     }
 }
 
-/// The figures as a table; intervals are of 95 %.
+/// The figures as a table, with 95 % intervals.
 #[must_use]
 pub fn table(rows: &[Row]) -> String {
     let mut out = String::from(
@@ -128,7 +128,7 @@ fn percent(r: &Ratio) -> String {
 /// Writes `scores.md`, `scores.csv`, `scores.json`, `scenes.csv` and the figures into a folder.
 ///
 /// # Errors
-/// If a file cannot be written, each that could not; all others are.
+/// If files cannot be written; names each such file. All others are written.
 pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError> {
     let mut kept = Kept::new(out);
     let all = figures(rows);

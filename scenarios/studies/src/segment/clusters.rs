@@ -1,4 +1,4 @@
-//! The colour patterns of both groups as swatches, with their distances, kept or dropped.
+//! The colour patterns of both groups as swatches, with their distances, and whether they are kept or dropped.
 
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::palette::{GREY, INK};
@@ -7,7 +7,7 @@ use robots::vision::{ColourSpec, Fate, Pass, Reference, Target};
 
 /// Width of the figure.
 pub(super) const WIDTH: f64 = 980.0;
-/// Height of a group: its axis and what stands under it.
+/// Height of a group: its axis and what stands below it.
 const GROUP: f64 = 96.0;
 /// Height of a row of the table.
 const ROW: f64 = 26.0;
@@ -15,9 +15,9 @@ const ROW: f64 = 26.0;
 const SIDE: f64 = 18.0;
 /// Where the columns of the table begin.
 const COLUMNS: [f64; 6] = [30.0, 90.0, 125.0, 285.0, 455.0, 610.0];
-/// Colour of what is dropped.
+/// Colour of dropped patterns.
 const DROPPED: &str = "#d55e00";
-/// Band in which the first criterion keeps.
+/// Band in which the first criterion keeps a pattern.
 const BAND: &str = "#dcefe6";
 
 fn hex(rgb: [u8; 3]) -> String {
@@ -169,7 +169,7 @@ fn one_group(
     y + 30.0
 }
 
-/// The way to the pivot and what becomes of the pattern, in words.
+/// The distance to the pivot and what happens to the pattern, in words.
 pub(super) fn fate(fate: Fate, spec: &ColourSpec) -> (String, String) {
     match fate {
         Fate::Pivot => ("–".into(), "pivot".into()),

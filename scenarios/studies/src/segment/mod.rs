@@ -1,4 +1,4 @@
-//! `rheotaxis segment`: a picture taken apart by the fuzzy colour extractor, with everything drawn.
+//! `rheotaxis segment`: a picture analysed by the fuzzy colour extractor, with every step drawn.
 
 mod clusters;
 mod overlay;

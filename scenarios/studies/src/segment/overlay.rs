@@ -1,19 +1,19 @@
-//! The picture with what was found drawn over it.
+//! The picture with the results drawn over it.
 
 use image::{GrayImage, Rgb, RgbImage};
 use robots::vision::{Blob, Segmentation, Target};
 
-/// Colour over the plume: yellow, which neither dye nor water has.
+/// Colour for the plume: yellow, which neither dye nor water has.
 pub(super) const PLUME: [u8; 3] = [255, 221, 0];
 /// Colour over the source.
 pub(super) const SOURCE: [u8; 3] = [0, 220, 255];
-/// Colour of the frame round the patch that is taken for the source.
+/// Colour of the frame round the patch that counts as the source.
 pub(super) const PATCH: [u8; 3] = [255, 255, 255];
 /// Share of the colour over the picture.
 const COVER: f64 = 0.45;
 
-/// The picture with plume and source (of the patterns that stayed in their groups) tinted and outlined, and a frame round
-/// the patch taken for the source.
+/// The picture with plume and source (of the patterns that stayed in their groups) tinted and outlined, and a frame
+/// round the patch that counts as the source.
 pub(super) fn overlay(picture: &RgbImage, s: &Segmentation, patch: Option<&Blob>) -> RgbImage {
     let mut out = picture.clone();
     for (target, colour) in [(Target::Plume, PLUME), (Target::Source, SOURCE)] {

@@ -1,4 +1,4 @@
-//! A picture from a file: 8 bits a colour, on white where it is transparent, or why not.
+//! A picture from a file: 8 bits per colour, on white where it is transparent; or the reason why it cannot be used.
 
 use image::{DynamicImage, ImageError, ImageFormat, ImageReader, Limits, Rgb, RgbImage};
 use std::io::{Cursor, Read};
@@ -7,14 +7,14 @@ use world::files;
 
 /// Greatest width and height, px.
 pub const MOST_SIDE: u32 = 32_768;
-/// Most pixels.
+/// Largest number of pixels.
 pub const MOST_PIXELS: u64 = 64_000_000;
 /// Longest file, bytes.
 const MOST_BYTES: u64 = 512 << 20;
-/// Most memory that decoding may take, bytes: a whole picture of 16 bits with alpha, and as much beside it.
+/// Most memory for decoding, bytes: a whole picture of 16 bits with alpha, and the same again.
 const MOST_MEMORY: u64 = 16 * MOST_PIXELS;
 
-/// Why there is no picture.
+/// Why a picture cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// It cannot be opened or read.
@@ -22,21 +22,21 @@ pub enum PictureError {
     Read {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's message.
         source: std::io::Error,
     },
-    /// It is none of the formats.
+    /// Its format is unknown.
     #[error("{}: not a picture that can be read here", path.display())]
     NotAPicture {
         /// The file.
         path: PathBuf,
     },
-    /// It is one, but not whole or not sound.
+    /// It is a picture, but incomplete or damaged.
     #[error("{}: a broken {format} file: {problem}", path.display())]
     Broken {
         /// The file.
         path: PathBuf,
-        /// Which format it begins as.
+        /// The format with which it begins.
         format: &'static str,
         /// What is wrong.
         problem: String,
@@ -46,13 +46,13 @@ pub enum PictureError {
     TooLarge {
         /// The file.
         path: PathBuf,
-        /// How large.
+        /// Its size, in words.
         what: String,
     },
 }
 
 impl PictureError {
-    /// How to put it right.
+    /// How to solve the problem.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {
         match self {
@@ -68,13 +68,13 @@ impl PictureError {
     }
 }
 
-/// Reads a picture of any format and depth of colour.
+/// Reads a picture of any format and colour depth.
 ///
-/// Grey becomes three equal colours, 16 bits are rounded to 8, floating-point levels cut to 0 to 1. What is transparent shows white
-/// behind it: to the extractor white is what is not there. A turn noted in the file's metadata is not followed.
+/// Grey becomes three equal colours, 16 bits are rounded to 8, and floating-point levels are limited to 0 to 1.
+/// Transparent parts show white, which means "nothing" to the extractor. A rotation in the file's metadata is ignored.
 ///
 /// # Errors
-/// If it cannot be read, is none, is not whole or is too large.
+/// If the file cannot be read, is no picture, is not whole, or is too large.
 pub fn read_picture(path: &Path) -> Result<RgbImage, PictureError> {
     let unreadable = |source| PictureError::Read {
         path: path.to_owned(),
@@ -143,8 +143,8 @@ fn name(format: ImageFormat) -> Option<&'static str> {
     }
 }
 
-/// Whether the last scan of a JPEG is followed by its end marker; the decoder would fill what is missing with grey. Inside a scan
-/// neither marker can occur: 0xFF is followed by 0 or a restart marker.
+/// Whether an end marker follows the last scan of a JPEG; the decoder would fill missing parts with grey. Neither
+/// marker can occur inside a scan, where 0xFF is followed by 0 or a restart marker.
 fn jpeg_ends(bytes: &[u8]) -> bool {
     let last = |marker: u8| bytes.windows(2).rposition(|w| w == [0xff, marker]);
     match (last(0xda), last(0xd9)) {
@@ -209,7 +209,7 @@ mod tests {
         );
     }
 
-    /// Every beginning of a file is either refused or, where only what follows the picture is missing, gives the picture.
+    /// Every beginning of a file is refused or, if only bytes after the picture are missing, gives the picture.
     #[test]
     fn no_beginning_of_a_file_gives_another_picture() {
         let whole = RgbImage::from_fn(23, 17, |x, y| {

@@ -8,19 +8,19 @@ use output::charts::palette::GREY;
 use output::charts::png;
 use robots::vision::Target;
 
-/// Tiles side by side.
+/// Number of tiles in a row.
 const COLUMNS: usize = 5;
 /// Width of a tile.
 const TILE: f64 = 240.0;
 /// Tallest tile, as a share of its width.
 const TALLEST: f64 = 1.5;
-/// Room above a tile for its caption, and between tiles.
+/// Space above a tile for its caption, and between tiles.
 const CAPTION: f64 = 22.0;
 const GAP: f64 = 14.0;
 /// Pixels of the rasterised sheet for one unit.
 const SCALE: f64 = 2.0;
 
-/// The sheet: the picture, each pass, the unions, what is left, what was found.
+/// The sheet: the picture, each pass, the unions, the remainder, and the results.
 pub(super) fn sheet(s: &Segmented) -> Result<RgbImage, String> {
     let tiles = tiles(s);
     let (w, h) = s.picture.dimensions();
@@ -97,7 +97,7 @@ fn tiles(s: &Segmented) -> Vec<(String, RgbImage)> {
     tiles
 }
 
-/// The picture as large as fits in, its shape kept; pixels stay square and sharp when enlarged.
+/// The picture as large as possible in its original shape; pixels stay square and sharp when enlarged.
 fn fitted(picture: &RgbImage, room: [u32; 2]) -> RgbImage {
     let (w, h) = picture.dimensions();
     let scale = (f64::from(room[0]) / f64::from(w)).min(f64::from(room[1]) / f64::from(h));

@@ -1,4 +1,4 @@
-//! What a segmentation leaves: a picture for each step, the clusters, a sheet of all, and the numbers.
+//! The files of a segmentation: a picture for each step, the clusters, a sheet of all, and the numbers.
 
 use super::clusters::{clusters, fate};
 use super::overlay::overlay;
@@ -12,18 +12,18 @@ use std::io::Cursor;
 use std::path::PathBuf;
 use world::files::Folder;
 
-/// A picture taken apart and judged.
+/// A picture, analysed and judged.
 #[derive(Clone, Debug)]
 pub struct Segmented {
     /// The file's name.
     pub name: String,
     /// The picture.
     pub picture: RgbImage,
-    /// With which parameters.
+    /// The parameters.
     pub spec: VerifierSpec,
-    /// Its parts.
+    /// The results of the passes.
     pub parts: Segmentation,
-    /// What it shows.
+    /// The verdict.
     pub sighting: Sighting,
 }
 
@@ -37,7 +37,7 @@ struct Numbers<'a> {
 }
 
 impl Segmented {
-    /// Takes a picture apart and judges it.
+    /// Analyses a picture and judges it.
     #[must_use]
     pub fn new(name: String, picture: RgbImage, spec: VerifierSpec) -> Self {
         let (parts, sighting) = Verifier::new(&spec).look(&picture);
@@ -58,7 +58,7 @@ impl Segmented {
 /// Writes everything into a folder; returns the sheet's path.
 ///
 /// # Errors
-/// If a file cannot be written, each that could not; all others are.
+/// If files cannot be written; names each such file. All others are written.
 pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
     let mut kept = Kept::new(out);
     for pass in &s.parts.passes {

@@ -1,16 +1,16 @@
-//! What a channel's plume should look like by the textbook.
+//! The textbook's expectations for the plume of a channel.
 //!
-//! *Source*: transverse K = 0.15 u_*H and depth mean of the vertical one 0.067 u_*H (Fischer et al. 1979, Mixing in Inland and Coastal Waters,
-//! section 5.1); plume of a steady point source, Q/(4πx√(K_yK_z)), σ = √(2Kx/U) (Csanady 1973, Turbulent Diffusion in the Environment); intensities and
-//! macro-scale of Nezu & Nakagawa 1993.
+//! *Source*: transverse K = 0.15 u_*H and depth mean of the vertical one 0.067 u_*H (Fischer et al. 1979, Mixing in
+//! Inland and Coastal Waters, section 5.1); plume of a steady point source, Q/(4πx√(K_yK_z)), σ = √(2Kx/U) (Csanady
+//! 1973, Turbulent Diffusion in the Environment); intensities and macro-scale of Nezu & Nakagawa 1993.
 //!
 //! *Parameters*: depth, mean speed, friction velocity.
 //!
-//! *Deviations*: bed and surface are left out of the centreline figure, as in the textbook; they can as much as double it.
+//! *Deviations*: as in the textbook, the centreline figure ignores bed and surface, which can as much as double it.
 
 use plumes::flow::channel::{Channel, TRANSVERSE};
 
-/// Elder's depth mean over u_*H.
+/// Elder's depth mean divided by u_*H.
 const VERTICAL: f64 = 0.067;
 
 /// Figures of a channel.
@@ -40,13 +40,13 @@ impl Expected {
         (2.0 * self.k_y * x_m / self.mean_m_s).sqrt()
     }
 
-    /// Mean concentration on the centreline over that at the nozzle, given the volume it gives off (m³/s).
+    /// Mean concentration on the centreline divided by that at the nozzle, for the volume that it releases (m³/s).
     pub(super) fn centreline(&self, x_m: f64, volume_m3_s: f64) -> f64 {
         let mixing = (self.k_y * self.k_z).sqrt();
         volume_m3_s / (4.0 * std::f64::consts::PI * x_m * mixing)
     }
 
-    /// Time the macro-scale L = H(z/H)^½ takes to pass, s.
+    /// Time in which the macro-scale L = H(z/H)^½ passes, s.
     pub(super) fn passing_s(channel: &Channel, height_m: f64) -> f64 {
         let part = (height_m / channel.depth_m).min(0.6);
         channel.depth_m * part.sqrt() / channel.speed(height_m)

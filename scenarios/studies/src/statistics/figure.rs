@@ -1,25 +1,25 @@
 //! One figure of a plume, and all of them.
 
-/// Beyond this factor from what is expected a figure is flagged.
+/// A figure is flagged if it differs from the expectation by more than this factor.
 const FACTOR: f64 = 2.0;
 
-/// A figure of ours beside what is expected.
+/// A figure of ours and its expected value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// What it is.
     pub name: String,
     /// Its unit; empty for a ratio.
     pub unit: &'static str,
-    /// Ours.
+    /// Our value.
     pub ours: f64,
-    /// What is expected, where something is.
+    /// The expected value, if there is one.
     pub expected: Option<f64>,
-    /// Where the expectation comes from, or how ours is defined.
+    /// Where the expectation comes from, or how our figure is defined.
     pub source: &'static str,
 }
 
 impl Figure {
-    /// Ours over what is expected.
+    /// Our value divided by the expected one.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         self.expected.map(|e| self.ours / e)
@@ -40,7 +40,7 @@ pub struct Statistics {
     pub name: String,
     /// Seed of the run.
     pub seed: u64,
-    /// How long the plume was watched after the spin-up, s.
+    /// How long the plume was observed after the spin-up, s.
     pub watched_s: f64,
     /// The figures.
     pub figures: Vec<Figure>,

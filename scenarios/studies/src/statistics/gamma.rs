@@ -1,7 +1,7 @@
-//! The gamma distribution fitted to a sample, and how far the sample is from it.
+//! The gamma distribution fitted to a sample, and the distance of the sample from it.
 //!
-//! *Source*: regularised incomplete gamma function by series and continued fraction, Abramowitz & Stegun 1964, 6.5.29 and 6.5.31;
-//! ln Γ by Lanczos 1964, SIAM J. Numer. Anal. B 1, 86; distance of Kolmogorov and Smirnov.
+//! *Source*: regularised incomplete gamma function by series and continued fraction, Abramowitz & Stegun 1964, 6.5.29
+//! and 6.5.31; ln Γ by Lanczos 1964, SIAM J. Numer. Anal. B 1, 86; distance of Kolmogorov and Smirnov.
 //!
 //! *Parameters*: shape k = mean²/variance (moments), scale mean/k.
 //!
@@ -33,7 +33,7 @@ fn ln_gamma(x: f64) -> f64 {
     0.5 * math::ln(std::f64::consts::TAU) + (x + 0.5) * math::ln(t) - t + math::ln(sum)
 }
 
-/// P(k, x): share of a gamma variable of shape k and scale 1 below x.
+/// P(k, x): probability that a gamma variable of shape k and scale 1 is below x.
 fn below(k: f64, x: f64) -> f64 {
     if x <= 0.0 {
         return 0.0;
@@ -68,9 +68,10 @@ fn below(k: f64, x: f64) -> f64 {
     }
 }
 
-/// Shape by moments and the Kolmogorov-Smirnov distance of the sample from that gamma distribution; sorts the sample.
+/// Shape from moments, and the Kolmogorov-Smirnov distance of the sample from that gamma distribution; sorts the
+/// sample.
 ///
-/// `None` for fewer than ten values or values all alike.
+/// `None` for fewer than ten values, or if all values are equal.
 pub(super) fn fit(sample: &mut [f64]) -> Option<(f64, f64)> {
     let n = sample.len() as f64;
     if sample.len() < 10 {

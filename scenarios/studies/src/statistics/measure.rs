@@ -1,11 +1,11 @@
-//! Watches a scenario's water and plume for a while and works out the figures.
+//! Observes a scenario's water and plume for a while and computes the figures.
 //!
 //! *Source*: definitions in `series`, `gamma` and `expected`.
 //!
-//! *Parameters*: how long to watch; [`THRESHOLD`].
+//! *Parameters*: the time of observation; [`THRESHOLD`].
 //!
-//! *Deviations*: widths are those of the mass in slices across the stream, all heights together. Down-stream is where the water at the
-//! source goes at the end of the spin-up. Heights are parts of the source's water depth.
+//! *Deviations*: widths are those of the mass in slices across the stream, at all heights together. Down-stream is
+//! where the water at the source goes at the end of the spin-up. Heights are parts of the water depth at the source.
 
 use super::expected::Expected;
 use super::figure::{Figure, Statistics};
@@ -18,15 +18,16 @@ use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
 use world::fields::{Concentration, Flow};
 
-/// Odour is felt above this part of the time mean on the centreline at the nearest distance.
+/// Odour counts above this part of the time mean on the centreline at the nearest distance.
 const THRESHOLD: f64 = 0.01;
-/// A channel is watched for so long unless told otherwise, s.
+/// Default time of observation of a channel, s.
 const CHANNEL_S: f64 = 1200.0;
-/// Heights of the intermittency's probes, parts of the depth, beside the source's own; the lowest is 2.5 cm of 20 cm.
+/// Heights of the probes for intermittency, as parts of the depth, beside the source's own; the lowest is 2.5 cm of 20
+/// cm.
 const HEIGHTS: [f64; 3] = [0.125, 0.375, 0.625];
 /// Heights of the water's profile, parts of the depth.
 pub(super) const PROFILE: [f64; 6] = [0.1, 0.2, 0.3, 0.5, 0.7, 0.9];
-/// Places across and along at which the profile is asked at each sample.
+/// Number of places across and along at which the profile is evaluated in each sample.
 const PLACES: usize = 8;
 
 /// Why a scenario has no statistics.
@@ -38,29 +39,29 @@ pub enum StatisticsError {
     /// Stopped from outside.
     #[error("interrupted: nothing was written")]
     Interrupted,
-    /// Nothing is released.
+    /// The scenario releases nothing.
     #[error("{0} has no source: there is no plume to measure; add one under `sources`")]
     NoSource(String),
-    /// The water stands at the source.
+    /// The water at the source stands still.
     #[error(
         "the water at the source of {0} stands still: there is no down-stream to measure along"
     )]
     Still(String),
-    /// The plume did not come to the first distance.
+    /// The plume did not reach the first distance.
     #[error(
         "no odour reached {distance_m:.2} m down-stream of the source of {name} in {watched_s} s: watch it longer (--seconds)"
     )]
     Clean {
-        /// Scenario.
+        /// Name of the scenario.
         name: String,
         /// Nearest distance, m.
         distance_m: f64,
-        /// Time watched, s.
+        /// Time of observation, s.
         watched_s: f64,
     },
 }
 
-/// What is collected while the plume goes by.
+/// Data collected during the observation.
 pub(super) struct Watch {
     pub(super) source: Vector3<f64>,
     pub(super) bed_z: f64,
@@ -77,9 +78,9 @@ pub(super) struct Watch {
     pub(super) speed: Series,
 }
 
-/// Lets a scenario's plume develop, watches it, and works out its figures.
+/// Lets a scenario's plume develop, observes it, and computes its figures.
 ///
-/// `heard` is told the share done and ends it by answering `false`.
+/// `heard` gets the share that is done, and ends the observation by returning `false`.
 ///
 /// # Errors
 /// If the scenario cannot be built or has no plume to measure.
@@ -171,7 +172,7 @@ impl Watch {
             .last()
             .unwrap_or(0.0);
         let depth = -bed_z;
-        // In a channel at multiples of the depth, as far as it goes; elsewhere at parts of the way to the edge.
+        // In a channel, at multiples of the depth, as far as it reaches; elsewhere, at parts of the way to the edge.
         let distances: Vec<f64> = match water.channel() {
             Some(_) if reach > 2.5 * depth => [2.5, 5.0, 7.5, 10.0]
                 .map(|k| k * depth)
@@ -226,7 +227,8 @@ impl Watch {
         let q = Vector3::new(p.x, p.y, self.source.z);
         let u = water.velocity(&q, t_s).xy().dot(&channel.along);
         self.speed.values.push(u);
-        // Places that wander, so that a few a time are many in all; the middle half of the width.
+        // Places that move from sample to sample, so that a few at a time are many in all; the middle half of the
+        // width.
         for n in 0..PLACES {
             let turn = |by: f64| ((t_s * 7.0 + n as f64) * by).fract();
             let across = 2.0 * self.half_width(water) * 0.5 * (turn(0.618_034) - 0.5);
@@ -297,7 +299,8 @@ mod tests {
         .unwrap()
     }
 
-    /// The flume's figures have expectations and, but for the gaps and what so short a record leaves open, lie within a factor of 2.
+    /// The flume's figures have expectations. Except for the gaps, and where the record is too short, they lie within a
+    /// factor of 2.
     #[test]
     fn flume_has_all_its_figures() {
         let s = of("flume_crab", 120.0);

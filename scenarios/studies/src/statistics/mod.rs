@@ -1,4 +1,4 @@
-//! The plume's statistics beside published ones: `rheotaxis statistics`.
+//! The plume's statistics, compared with published ones: `rheotaxis statistics`.
 
 mod expected;
 mod figure;

@@ -1,12 +1,13 @@
-//! From what was collected to the figures.
+//! Turns the collected samples into figures.
 //!
-//! *Source*: said with each figure.
+//! *Source*: given with each figure.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: "almost all" gaps is read as 95 %. Ours are longer than published ones, for two reasons that the model has by
-//! construction: structure below the filaments' size (8 mm in the flume, 0.2 s as it passes) is smoothed, and with it the short gaps that
-//! sheets and holes of that size make; what is left are gaps of the meander, when the whole plume is elsewhere.
+//! *Deviations*: "almost all" gaps is read as 95 %. Our gaps are longer than published ones for two reasons that follow
+//! from the model: structure below the filaments' size (8 mm in the flume, 0.2 s as it passes) is smoothed, and with it
+//! the short gaps that sheets and holes of that size make; what remains are gaps of the meander, when the whole plume
+//! is elsewhere.
 
 use super::expected::Expected;
 use super::figure::Figure;

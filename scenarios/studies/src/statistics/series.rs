@@ -1,4 +1,4 @@
-//! A record at a point: how often and how long above a threshold, how it fluctuates, how long it remembers.
+//! A record at a point: how often and how long it is above a threshold, how it fluctuates, and its memory.
 //!
 //! *Source*: integral time scale, Tennekes & Lumley 1972, A First Course in Turbulence, section 1.4 and 6.4.
 //!
@@ -18,7 +18,7 @@ impl Series {
         self.values.iter().sum::<f64>() / self.values.len() as f64
     }
 
-    /// Share of the time above a threshold.
+    /// Share of the time during which it is above a threshold.
     pub(super) fn above(&self, threshold: f64) -> f64 {
         let n = self.values.iter().filter(|v| **v > threshold).count();
         n as f64 / self.values.len() as f64
@@ -46,7 +46,7 @@ impl Series {
         gaps
     }
 
-    /// Integral time of the fluctuations, s; none for a record that does not fluctuate.
+    /// Integral time of the fluctuations, s; `None` for a record that does not fluctuate.
     pub(super) fn integral_time_s(&self) -> Option<f64> {
         let (mean, n) = (self.mean(), self.values.len());
         let off: Vec<f64> = self.values.iter().map(|v| v - mean).collect();
@@ -89,7 +89,8 @@ mod tests {
 
     #[test]
     fn integral_time_of_a_process_that_forgets() {
-        // First-order process with memory 2 s, sampled every 0.1 s for 20 000 s: standard error about √(2·2/20 000)·few = 5 %.
+        // First-order process with memory 2 s, sampled every 0.1 s for 20 000 s: standard error about √(2·2/20 000)·few
+        // = 5 %.
         let (tau, step_s) = (2.0, 0.1);
         let a = math::exp(-step_s / tau);
         let mut r = Stream::new(3, "test", "memory");

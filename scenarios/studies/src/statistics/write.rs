@@ -5,7 +5,7 @@ use output::files::{ReportError, make_folder, write_whole};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
-/// The table: figure, ours, expected, ratio, source; `!` where the ratio is outside 0.5 to 2.
+/// The table: figure, ours, expected, ratio, source; `!` marks a ratio outside 0.5 to 2.
 #[must_use]
 pub fn table(statistics: &Statistics) -> String {
     let s = statistics;

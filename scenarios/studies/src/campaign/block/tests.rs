@@ -9,7 +9,7 @@ fn campaign() -> Campaign {
     load(Path::new("uniform_beta")).unwrap()
 }
 
-/// The rows of some runs, as if they had been made.
+/// Rows of some runs, as if the runs had been made.
 fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
     let one = |run| {
         let place = campaign.place(run);
@@ -28,7 +28,7 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
     runs.map(one).collect()
 }
 
-/// A folder of blocks of 8 runs, with the manifest; of an older program if not sealed.
+/// A folder of blocks of 8 runs with its manifest; if not sealed, as an older program wrote it.
 fn folder(sealed: bool) -> (tempfile::TempDir, Manifest) {
     let dir = tempfile::tempdir().unwrap();
     let manifest = Manifest {
@@ -52,12 +52,12 @@ fn a_block_grows_row_by_row_and_never_shrinks() {
     write_block(dir, 1, &rows(&campaign, 8..16)).unwrap();
     add_to_block(dir, &manifest, 1, &rows(&campaign, 8..9)).unwrap();
     assert!(matches!(state(), BlockState::Done(there) if there == rows(&campaign, 8..16)));
-    // Parts are rows like any other to all who read them.
+    // All readers treat the rows of a partial block as any others.
     write_block(dir, 0, &rows(&campaign, 2..4)).unwrap();
     let all = [rows(&campaign, 2..4), rows(&campaign, 8..16)].concat();
     assert_eq!(read_rows(dir).unwrap(), all);
     assert_eq!(merge(dir, &dir.join("all.parquet"), None).unwrap().rows, 10);
-    // Rows of another block, or none at all, are no part of this one.
+    // Rows of another block, or no rows at all, are no part of this one.
     for odd in [rows(&campaign, 0..2), rows(&campaign, 14..18), Vec::new()] {
         write_block(dir, 1, &odd).unwrap();
         assert!(matches!(state(), BlockState::Broken(_)), "{odd:?}");
@@ -115,7 +115,7 @@ fn what_is_no_regular_file_is_said_and_never_waited_for_nor_replaced() {
     }
 }
 
-/// Bytes changed, cut out, put in, repeated, cut off: as disks and hands do.
+/// Bytes changed, removed, inserted, repeated or cut off, as disks and hands do it.
 fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     let mut odd = bytes.to_vec();
     let at = |draw: &mut Stream, n: usize| (draw.uniform() * n as f64) as usize;
@@ -124,7 +124,7 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
         if n == 0 {
             break;
         }
-        // Where it hurts most lies at the end: the footer.
+        // Damage at the end, in the footer, does most harm.
         let from = if draw.uniform() < 0.5 {
             n - n.min(1500)
         } else {
@@ -148,7 +148,7 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     odd
 }
 
-/// Reads so many damaged blocks; how many of them are said not to be whole. The others are as they were written.
+/// Reads `n` damaged blocks. Returns how many of them are reported as not whole; the others are unchanged.
 fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
     let ((dir, manifest), campaign) = (folder(sealed), campaign());
     let (dir, path) = (dir.path(), block_path(dir.path(), 0));
@@ -156,7 +156,7 @@ fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
     write_block(dir, 0, &good).unwrap();
     let mut bytes = fs::read(&path).unwrap();
     if !sealed {
-        // As an older program left it: nothing between Parquet's mark and the first column is ever looked at.
+        // As an older program wrote it: nothing between Parquet's mark and the first column is ever looked at.
         bytes[4..4 + seal::room().len()].fill(b' ');
         fs::write(&path, &bytes).unwrap();
         assert!(matches!(read_block(dir, &manifest, 0), BlockState::Done(there) if there == good));
@@ -180,11 +180,11 @@ fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
 #[test]
 fn damaged_blocks_are_not_whole_whatever_the_library_does() {
     assert!(survives(true, 1000, 1) >= 990);
-    // Without a seal the library reads what it gets, and its panics are answers.
+    // Without a seal, the library reads whatever bytes it gets, and its panics count as answers.
     assert!(survives(false, 1000, 2) >= 900);
 }
 
-/// By hand: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p rheotaxis --lib many_damaged -- --ignored`.
+/// By hand: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib many_damaged -- --ignored`.
 #[test]
 #[ignore = "takes minutes"]
 fn many_damaged_blocks() {

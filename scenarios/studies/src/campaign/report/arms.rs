@@ -1,4 +1,4 @@
-//! The figures of each arm, over all conditions and in each.
+//! The figures of each arm, over all conditions and under each.
 
 use super::restricted::{Restricted, restricted};
 use super::unit::Unit;
@@ -7,25 +7,25 @@ use crate::campaign::stats::{
     Interval, LEAST_VALUES, finite_sorted, quantile, quantile_interval, wilson,
 };
 
-/// Seed of the bootstrap: a report made again from the same rows is the same.
+/// Seed of the bootstrap, fixed so that a report of the same rows is always the same.
 pub(super) const SEED: u64 = 1;
 
-/// What is measured of a run.
+/// A quantity measured in each run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Time of the first declaration, of runs that declared.
+    /// Time of the first declaration, for runs that declared.
     Time,
-    /// Way travelled by all robots, of runs that did not fail.
+    /// Distance travelled by all robots, for runs that did not fail.
     Path,
-    /// Distance of the declaration from the nearest true source, of runs that declared.
+    /// Distance of the declaration from the nearest true source, for runs that declared.
     Error,
 }
 
 impl Measure {
-    /// All of them, in the order of tables.
+    /// All measures, in the order of the tables.
     pub const ALL: [Measure; 3] = [Measure::Time, Measure::Path, Measure::Error];
 
-    /// In words.
+    /// Its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -44,7 +44,7 @@ impl Measure {
         }
     }
 
-    /// Of one run; none where there is nothing to measure.
+    /// The value for one run; `None` if there is nothing to measure.
     #[must_use]
     pub fn of(self, row: &RunRow) -> Option<f64> {
         match self {
@@ -58,13 +58,13 @@ impl Measure {
 /// A measure over many runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
-    /// What.
+    /// The measure.
     pub measure: Measure,
-    /// Runs behind it.
+    /// Number of runs.
     pub n: u64,
     /// Median.
     pub median: Option<f64>,
-    /// Its 95 % bootstrap interval; none of too few.
+    /// Its 95 % bootstrap interval; `None` for too few values.
     pub median_interval: Option<Interval>,
     /// 90 % quantile.
     pub q90: Option<f64>,
@@ -72,7 +72,7 @@ pub struct Measured {
     pub q90_interval: Option<Interval>,
 }
 
-/// A share with what it was counted from.
+/// A share and the counts behind it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Share {
     pub(super) count: u64,
@@ -96,22 +96,22 @@ impl Share {
     }
 }
 
-/// What an arm came to.
+/// The figures of an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmFigures {
     /// Its name.
     pub arm: String,
-    /// Runs that failed: they count as neither declared nor successful.
+    /// Runs that failed; they count as neither declared nor successful.
     pub failed: u64,
     pub(super) success: Share,
     pub(super) declared: Share,
-    /// Mean time to success, failures at the limit.
+    /// Mean time to success; failures count as the limit.
     pub restricted: Restricted,
     /// Time, path and error.
     pub measured: Vec<Measured>,
 }
 
-/// What an arm came to under one condition.
+/// The figures of an arm under one condition.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConditionFigures {
     /// The condition.
@@ -163,7 +163,7 @@ fn measured(measure: Measure, rows: &[&RunRow]) -> Measured {
     }
 }
 
-/// Success of each arm under each condition, in the order of the rows; nothing where there is only one.
+/// Success of each arm under each condition, in the order of the rows; empty if there is only one condition.
 pub(super) fn conditions(arms: &[String], rows: &[RunRow]) -> Vec<ConditionFigures> {
     use std::collections::BTreeMap;
     let mut order: Vec<&str> = Vec::new();

@@ -1,12 +1,12 @@
-//! Curves of an arm: not yet declared over time, share of errors at or below a distance.
+//! Curves of an arm: the share not yet declared over time, and the share of errors up to a distance.
 
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Ecdf, Interval, Survival};
 
-/// Steps of a curve that are kept: more cannot be seen.
+/// Steps of a curve that are kept; more would not be visible.
 const MOST: usize = 1000;
 
-/// From `x` on the curve stands at `y`.
+/// From `x` on, the curve has the value `y`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Point {
     /// Time, s, or distance, m.
@@ -20,18 +20,18 @@ pub struct Point {
 /// A step curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Of which arm.
+    /// Name of the arm.
     pub arm: String,
-    /// Its steps in order, at most 1000 of them, evenly taken.
+    /// Its steps in order, at most 1000 of them, evenly selected.
     pub points: Vec<Point>,
     /// Where it ends.
     pub end: f64,
-    /// Trials behind it.
+    /// Number of trials.
     pub n: u64,
 }
 
-/// Share of runs that have not yet declared, over mission time. A run that ends without declaring leaves the
-/// curve then; failed runs are left out.
+/// Share of runs that have not yet declared, over mission time. A run that ends without declaring leaves the curve at
+/// that time; failed runs are left out.
 pub(super) fn not_yet_declared(arm: &str, rows: &[&RunRow]) -> Curve {
     let sound = rows.iter().filter(|r| r.error.is_none());
     let survival = Survival::new(sound.map(|r| match r.declared_s {
@@ -51,7 +51,7 @@ pub(super) fn not_yet_declared(arm: &str, rows: &[&RunRow]) -> Curve {
     }
 }
 
-/// Share of all runs whose declaration is at most so far off.
+/// Share of all runs whose declaration is at most this far from the source.
 pub(super) fn errors(arm: &str, rows: &[&RunRow]) -> Curve {
     let ecdf = Ecdf::new(rows.iter().filter_map(|r| r.error_m), rows.len() as u64);
     let (y, interval) = ecdf.at(-1.0);
@@ -73,7 +73,7 @@ pub(super) fn errors(arm: &str, rows: &[&RunRow]) -> Curve {
     }
 }
 
-/// First, last and evenly taken ones between.
+/// The first, the last, and evenly selected points between.
 fn thinned(points: Vec<Point>) -> Vec<Point> {
     let n = points.len();
     if n <= MOST {

@@ -1,4 +1,4 @@
-//! What a campaign came to: tables, CSVs, figures, one page.
+//! The results of a campaign: tables, CSVs, figures, one page.
 
 mod arms;
 mod curves;

@@ -1,4 +1,4 @@
-//! Arm against arm on the same seeds and conditions.
+//! Comparison of arms on the same seeds and conditions.
 
 use super::arms::{Measure, SEED, of_arm};
 use super::restricted::time_s;
@@ -9,22 +9,22 @@ use crate::campaign::stats::{
 };
 use std::collections::BTreeMap;
 
-/// Up to so many arms each is compared with each; of more, each with the first.
+/// Up to this many arms, each is compared with each; of more arms, each is compared with the first.
 pub(super) const EACH_WITH_EACH: usize = 5;
 
-/// What two arms are compared by.
+/// The quantity by which two arms are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compares {
     /// Share of successes.
     Success,
-    /// Mean time to success, failures at the limit.
+    /// Mean time to success; failures count as the limit.
     Restricted,
     /// Median of the differences of a measure, over pairs where both have it.
     Measure(Measure),
 }
 
 impl Compares {
-    /// All of them.
+    /// All quantities.
     pub const ALL: [Compares; 5] = [
         Compares::Success,
         Compares::Restricted,
@@ -33,7 +33,7 @@ impl Compares {
         Compares::Measure(Measure::Error),
     ];
 
-    /// In words.
+    /// Its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -61,13 +61,13 @@ pub struct Comparison {
     pub first: String,
     /// Second arm.
     pub second: String,
-    /// By what.
+    /// The quantity.
     pub by: Compares,
-    /// The difference; none without a pair.
+    /// The difference; `None` without a pair.
     pub difference: Option<Difference>,
-    /// Which pairs it rests on.
+    /// The pairs on which it rests, in words.
     pub rests_on: String,
-    /// What must be known before it is believed.
+    /// What one must know before one believes it.
     pub warning: Option<String>,
 }
 
@@ -139,8 +139,8 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
     Compares::ALL.map(one).to_vec()
 }
 
-/// Where both declared the arm that fails more is the faster: times of declarations that the other arm made in the hard runs
-/// are not in it.
+/// Among the pairs where both declared, the arm that fails more looks faster: the hard runs, in which only the other
+/// arm declared, are not among them.
 fn looks_faster(
     names: [&str; 2],
     pairs: &[Pair<'_>],

@@ -19,14 +19,14 @@ const WIDTH: f64 = 760.0;
 const HEIGHT: f64 = 340.0;
 /// Height of a line of a list.
 const LINE: f64 = 24.0;
-/// Room for names left of a list.
+/// Space for names to the left of a list.
 const NAMES: f64 = 300.0;
 
 fn colour(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 
-/// After the seventh, colours come again with dashes.
+/// After seven colours, they repeat with dashes.
 fn line_style(k: usize) -> Style<'static> {
     let style = Style::line(colour(k), 2.0);
     match k / COLOURS.len() {
@@ -36,7 +36,8 @@ fn line_style(k: usize) -> Style<'static> {
     }
 }
 
-/// Step curves with their bands. `until_end` draws each on to its end (survival), else to the right edge.
+/// Step curves with their bands. With `until_end`, each curve goes to its own end (survival), otherwise to the right
+/// edge.
 pub(super) fn curves(
     name: &str,
     title: &str,

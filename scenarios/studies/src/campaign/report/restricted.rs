@@ -1,11 +1,11 @@
 //! Time to success when some runs have none: the restricted mean.
 //!
-//! *Source*: restricted mean survival time, Royston & Parmar, BMC Med. Res. Methodol. 13 (2013) 152: the mean of the time to the
-//! event or to a limit, whichever comes first; the area under the curve of those that wait. It is of all runs, so an
-//! arm that fails more does not look faster by its failures being left out.
-//! *Parameters*: the limit: the scenario's time limit, the least of the arms and conditions where they differ.
-//! *Deviations*: nobody is lost from sight: a run that ended early without success never has any, and counts as
-//! the limit. Success is what the scenario calls so; failed runs have no time and are left out.
+//! *Source*: restricted mean survival time, Royston & Parmar, BMC Med. Res. Methodol. 13 (2013) 152: the mean of the
+//! time to the event or to a limit, whichever comes first; it is the area under the survival curve. It covers all runs,
+//! so an arm that fails more does not look faster because its failures are left out.
+//! *Parameters*: the limit: the scenario's time limit, or the shortest one if arms or conditions set it.
+//! *Deviations*: there is no censoring. A run that ended early without success never has any, and counts as the limit.
+//! Success is what the scenario defines; failed runs have no time and are left out.
 
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, positive_mean_interval};
@@ -15,9 +15,9 @@ use crate::campaign::stats::{Interval, positive_mean_interval};
 pub struct Restricted {
     /// The limit, s.
     pub limit_s: f64,
-    /// Runs behind it.
+    /// Number of runs.
     pub n: u64,
-    /// Of them, those without success by the limit.
+    /// Number of runs without success by the limit.
     pub at_limit: u64,
     /// Mean time to success, at most the limit, s.
     pub mean_s: Option<f64>,
@@ -25,7 +25,7 @@ pub struct Restricted {
     pub interval: Option<Interval>,
 }
 
-/// Time to success, at most the limit, s; none of a failed run.
+/// Time to success, at most the limit, s; `None` for a failed run.
 pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
     let t_s = match (&row.error, row.success) {
         (Some(_), _) => return None,
@@ -35,8 +35,8 @@ pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
     Some(t_s.min(limit_s))
 }
 
-/// When a successful run had its success: at the declaration that did it, the last where it takes several; without any
-/// declaration at its end.
+/// When a successful run had its success: at the declaration that brought it, which is the last one if it takes
+/// several; without any declaration, at its end.
 fn success_s(row: &RunRow) -> f64 {
     let mut kept = (row.declarations.iter())
         .filter(|d| d.verdict != "rejected")
@@ -49,7 +49,7 @@ fn success_s(row: &RunRow) -> f64 {
     at.or(row.declared_s).unwrap_or(row.mission_s)
 }
 
-/// Of an arm's rows.
+/// From the rows of an arm.
 pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> Restricted {
     let times: Vec<f64> = rows.iter().filter_map(|r| time_s(r, limit_s)).collect();
     let n = times.len() as u64;
@@ -84,9 +84,9 @@ mod tests {
         };
         let r = restricted(&[&found, &wrong, &none, &error], 1200.0);
         assert_eq!((r.n, r.at_limit, r.mean_s), (3, 2, Some(1100.0)));
-        // Three are too few for an interval.
+        // Three values are too few for an interval.
         assert_eq!(r.interval, None);
-        // After the limit is no success by the limit.
+        // A success after the limit does not count.
         assert_eq!(time_s(&found, 800.0), Some(800.0));
         let many: Vec<RunRow> = (0..10).map(|k| row(k, Some((1.0, 1.0)))).collect();
         let r = restricted(&many.iter().collect::<Vec<_>>(), 950.0);

@@ -1,9 +1,9 @@
-//! Rows made by hand for tests.
+//! Invented rows for tests.
 
 use crate::campaign::RunRow;
 
-/// A row of arm `a` that declared with this error (along, across) and found the source if within 40 m, or
-/// declared nothing.
+/// A row of arm `a`. It declared with this error (along, across) and found the source if within 40 m, or it declared
+/// nothing.
 pub(crate) fn row(seed_index: u64, error: Option<(f64, f64)>) -> RunRow {
     let error_m = error.map(|(a, c)| (a * a + c * c).sqrt());
     let success = error_m.is_some_and(|e| e <= 40.0);

@@ -1,4 +1,4 @@
-//! The report's tables, for the screen and the page, and every number as CSV.
+//! The report's tables for the screen and the page, and every number as CSV.
 
 use super::arms::{ArmFigures, ConditionFigures};
 use super::curves::Curve;
@@ -14,7 +14,7 @@ fn shown(unit: Unit, value: Option<f64>) -> String {
     value.map_or("-".to_string(), |v| unit.show(v))
 }
 
-/// The interval of a figure of `n` values; of too few there is none.
+/// The interval of a figure of `n` values; for too few values there is none.
 pub(crate) fn range(unit: Unit, interval: Option<Interval>, n: u64) -> String {
     match interval {
         Some(i) if n >= LEAST_VALUES as u64 => unit.show_interval(i),
@@ -110,7 +110,7 @@ pub(super) const PAIRS: [&str; 8] = [
     "rests on",
 ];
 
-/// Of a share it is exact however few the pairs; of a quantity there must be enough.
+/// For a share, the interval is exact however few the pairs are; for a quantity, there must be enough pairs.
 fn sound_interval(c: &Comparison) -> Option<Interval> {
     let enough = |d: &Difference| c.by == Compares::Success || d.pairs >= LEAST_VALUES;
     c.difference.filter(enough).map(|d| d.interval)

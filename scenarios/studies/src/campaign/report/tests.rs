@@ -1,4 +1,4 @@
-//! The whole report from rows made by hand.
+//! The whole report of invented rows.
 
 use super::sample::row;
 use super::*;
@@ -29,7 +29,7 @@ fn about(planned: u64) -> About<'static> {
     }
 }
 
-/// No file of the folder names a number that is none.
+/// No file of the folder contains NaN or infinity as a number.
 fn sound(dir: &Path) {
     for file in fs::read_dir(dir).unwrap() {
         let path = file.unwrap().path();
@@ -84,7 +84,7 @@ fn says_which_arm_is_better_and_by_how_much() {
     );
     let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
     assert!(html.contains("<h1>c&lt;1&gt;</h1>") && html.matches("<svg").count() == 4);
-    // Restricted time: `far` succeeds in half of its runs, the others count as the limit.
+    // Restricted time: `far` succeeds in half of its runs; the others count as the limit.
     let restricted = of("restricted time");
     assert_eq!(
         (restricted[3].as_str(), restricted[7].as_str()),
@@ -103,7 +103,7 @@ fn says_which_arm_is_better_and_by_how_much() {
         written.text
     );
 
-    // Blocks come in any order: the numbers are the same, and the arms as asked.
+    // Blocks come in any order: the numbers do not change, and the arms are in the order asked for.
     rows.reverse();
     let other = tempfile::tempdir().unwrap();
     let names = ["near".to_string(), "far".to_string()];

@@ -4,12 +4,12 @@ use crate::campaign::RunRow;
 use crate::campaign::table::{csv_head, csv_line};
 use std::fmt::Write as _;
 
-/// Widest column, characters: what is longer stands out of line.
+/// Widest column, characters; longer cells are not aligned.
 const WIDEST: usize = 200;
 
 const TEXT: &str = "writing to a String succeeds";
 
-/// A table with columns aligned by spaces; the first column of words, as wide as it must be.
+/// A table whose columns are aligned by spaces. The first column holds words and is as wide as necessary.
 pub(crate) fn align<const N: usize>(head: &[&str; N], rows: &[[String; N]]) -> String {
     let width = |k: usize| {
         (rows.iter().map(|r| r[k].chars().count()))
@@ -37,7 +37,7 @@ pub(crate) fn align<const N: usize>(head: &[&str; N], rows: &[[String; N]]) -> S
     out
 }
 
-/// A field of a CSV, quoted where it must be (RFC 4180).
+/// A field of a CSV file, quoted if necessary (RFC 4180).
 pub(crate) fn csv_field(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
@@ -46,7 +46,7 @@ pub(crate) fn csv_field(text: &str) -> String {
     }
 }
 
-/// Rows of runs as CSV, every column.
+/// Rows of runs as CSV, with all columns.
 pub(crate) fn runs_csv(rows: &[RunRow]) -> String {
     let mut out = csv_head();
     out.push('\n');
@@ -62,7 +62,7 @@ mod tests {
     use super::super::sample::row;
     use super::*;
 
-    /// The formatter's widest field has 65 535 characters; a row file may name a figure with more.
+    /// The formatter's widest field has 65 535 characters; a row file may contain a longer name.
     #[test]
     fn a_cell_of_any_length_is_written_out() {
         let long = "a".repeat(70_000);

@@ -5,20 +5,20 @@ use crate::campaign::stats::Interval;
 /// Unit of a quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
-    /// From 0 to 1.
+    /// A share from 0 to 1.
     Share,
-    /// m.
+    /// Metres.
     Metres,
-    /// s.
+    /// Seconds.
     Seconds,
-    /// m/s.
+    /// Metres per second.
     Speed,
     /// Without a unit.
     Number,
 }
 
 impl Unit {
-    /// A value for people.
+    /// A value in words.
     #[must_use]
     pub fn show(self, value: f64) -> String {
         match self {
@@ -34,11 +34,11 @@ impl Unit {
         }
     }
 
-    /// An interval for people.
+    /// An interval in words.
     #[must_use]
     pub fn show_interval(self, i: Interval) -> String {
         let (low, high) = (self.show(i.low), self.show(i.high));
-        // The unit once, where both ends have the same.
+        // The unit once, if both ends have the same.
         match (low.split_once(' '), high.split_once(' ')) {
             (Some((bare, unit)), Some((_, other))) if unit == other => format!("{bare} to {high}"),
             _ => format!("{low} to {high}"),

@@ -1,13 +1,13 @@
-//! Where the wall time of many runs goes.
+//! How the wall time of many runs was spent.
 
 use crate::campaign::RunRow;
 
 /// Sums over runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Walls {
-    /// Runs.
+    /// Number of runs.
     pub(crate) runs: usize,
-    /// Runs that took a spin-up over from another.
+    /// Number of runs that took over a spin-up.
     pub(crate) shared: usize,
     /// Wall time of all spin-ups, s.
     pub(crate) spin_up_s: f64,
@@ -27,7 +27,7 @@ impl Walls {
         walls
     }
 
-    /// In a sentence.
+    /// The sums in a sentence.
     pub(crate) fn words(&self) -> String {
         let total = self.spin_up_s + self.mission_s;
         if total <= 0.0 {

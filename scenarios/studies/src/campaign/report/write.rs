@@ -1,4 +1,4 @@
-//! Everything a campaign's report consists of, written into one folder.
+//! Writes all parts of a campaign's report into one folder.
 
 use super::arms::{self, arm_names, of_arm};
 use super::page::Page;
@@ -9,18 +9,18 @@ use crate::campaign::RunRow;
 use output::files::{Kept, ReportError, begin_folder};
 use std::path::{Path, PathBuf};
 
-/// What the report says about the campaign beside its rows.
+/// What the report says about the campaign in addition to its rows.
 #[derive(Clone, Copy, Debug)]
 pub struct About<'a> {
     /// Name of the campaign.
     pub name: &'a str,
-    /// What it compares, in a line; the page's title.
+    /// What it compares, in one line; this is the page's title.
     pub title: &'a str,
     /// What each arm sets, in the order of `arms`.
     pub sets: &'a [String],
     /// The runs' seeds, for people.
     pub seeds: &'a str,
-    /// The least time limit of its scenarios, s; without it the longest mission there was.
+    /// The shortest time limit of its scenarios, s; without it, the longest mission counts.
     pub limit_s: Option<f64>,
     /// Base scenario.
     pub scenario: &'a str,
@@ -28,13 +28,13 @@ pub struct About<'a> {
     pub hash: &'a str,
     /// Version that ran it.
     pub version: &'a str,
-    /// Arms in the order to show them; others follow in the order of their rows.
+    /// Arms in the order in which to show them; others follow in the order of their rows.
     pub arms: &'a [String],
-    /// Runs planned; fewer rows are said to be a part.
+    /// Number of runs planned; if there are fewer rows, the report says that it shows a part.
     pub planned: u64,
 }
 
-/// What a report came to.
+/// A report that was written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Written {
     /// The tables as plain text.
@@ -57,11 +57,11 @@ const PAIR_NOTES: &str = "Pairs are runs of the same seed and condition. Success
     path, error: median of the differences within pairs where both arms have it, with its bootstrap interval; less is \
     better. Each comparison holds for itself: of twenty, one finds something by chance.";
 
-/// Writes tables (CSV), figures (SVG and PNG) and `report.html` of a campaign's rows into a folder, making it if
-/// need be. The order of the rows changes nothing.
+/// Writes tables (CSV), figures (SVG and PNG) and `report.html` of a campaign's rows into a folder, which is made if
+/// necessary. The order of the rows makes no difference.
 ///
 /// # Errors
-/// If the folder cannot be made or a file not be written, each that could not; all others are.
+/// If the folder cannot be made or files cannot be written; names each such file. All others are written.
 pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, ReportError> {
     let folder = begin_folder(dir, "report")?;
     let names = arm_names(about.arms, rows);

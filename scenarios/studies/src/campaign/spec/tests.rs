@@ -1,4 +1,4 @@
-//! What campaign files mean, and what is said of mistakes in them.
+//! What campaign files mean, and how mistakes in them are reported.
 
 use super::*;
 
@@ -103,7 +103,7 @@ fn version_1_means_what_it_meant_and_says_so() {
     assert_eq!(other.seeds, Seeds::Hashed { seed: 9, count: 20 });
     assert!(matches!(other.conditions, Conditions::Random(r) if r.seed == Some(9)));
     assert_eq!(CampaignSpec::parse("c.ron", GOOD).unwrap().note(), None);
-    // What the other version has is refused by name.
+    // A field that belongs to the other version is refused by name.
     let said = faults(&GOOD.replace("seeds: 20", "seed: 9, seeds: 20"));
     assert!(
         said[0].contains("seed: a file of version 2 has no field `seed`"),

@@ -1,16 +1,17 @@
-//! How many runs until a share is known as closely as asked.
+//! How many runs are needed until a share is known as precisely as wanted.
 //!
-//! *Source*: the Wilson interval of [`wilson`](super::wilson) inverted for n; looking after whole batches only.
-//! *Parameters*: half width asked; greatest n; least first batch, 20.
-//! *Deviations*: stopping by looking at the interval makes it hold a little less often than 95 % (Frey, Am. Stat. 64
-//! (2010) 242-245): the few looks, each at least 1.25 times the runs of the last, keep that small.
+//! *Source*: the Wilson interval of [`wilson`](super::wilson), solved for n; examined only after whole batches.
+//! *Parameters*: wanted half width; greatest n; smallest first batch, 20.
+//! *Deviations*: if the interval decides when to stop, it holds a little less often than 95 % (Frey, Am. Stat. 64
+//! (2010) 242-245). There are few looks, each with at least 1.25 times the runs of the last, which keeps this effect
+//! small.
 
 use super::wilson;
 
 const FIRST: u64 = 20;
 
-/// The number of runs to go to next, given what `n` runs came to; `None` when the half width is as asked
-/// or `n_max` is reached. Depends on counts only, so every machine takes the same steps.
+/// The next number of runs, given the successes of `n` runs; `None` if the half width is small enough or `n_max` is
+/// reached. It depends on counts only, so every machine takes the same steps.
 #[must_use]
 pub fn next_n(successes: u64, n: u64, half_width: f64, n_max: u64) -> Option<u64> {
     if n >= n_max || (n > 0 && wilson(successes, n).half_width() <= half_width) {
@@ -24,7 +25,7 @@ pub fn next_n(successes: u64, n: u64, half_width: f64, n_max: u64) -> Option<u64
         let k = (share * m as f64).round() as u64;
         wilson(k.min(m), m).half_width() <= half_width
     };
-    // Doubling then halving the step: the width falls with n, but for the rounding of k.
+    // Double, then halve the step: the width falls with n, except for the rounding of k.
     let (mut low, mut high) = (n, n.saturating_mul(2).min(n_max));
     while high < n_max && !enough(high) {
         low = high;
@@ -38,7 +39,7 @@ pub fn next_n(successes: u64, n: u64, half_width: f64, n_max: u64) -> Option<u64
             low = middle;
         }
     }
-    // Never less than a quarter more (few looks), never more than four times as many on one guess.
+    // At least a quarter more (few looks), and at most four times as many from one estimate.
     let least = n + (n / 4).max(1);
     Some(high.clamp(least, n.saturating_mul(4)).min(n_max))
 }
@@ -65,7 +66,7 @@ mod tests {
             let looks = run(share, 0.05, 100_000);
             let n = *looks.last().unwrap();
             assert!(wilson((share * n as f64).round() as u64, n).half_width() <= 0.05);
-            // z² p q / h² is what the normal approximation asks for, plus a few for the ends.
+            // The normal approximation requires z² p q / h², plus a few for the ends.
             let normal = super::super::Z95.powi(2) * share * (1.0 - share) / 0.0025;
             assert!((n as f64) < 1.3 * normal + 80.0, "{share}: {looks:?}");
             assert!(looks.len() <= 6, "{looks:?}");

@@ -1,24 +1,25 @@
 //! Bootstrap interval of a quantile, at a cost that does not grow with the sample.
 //!
-//! *Source*: percentile interval, Efron & Tibshirani, An Introduction to the Bootstrap (1993), section 13.3. The k-th of
-//! n values drawn with replacement is the value under the k-th of n uniform numbers; that is Beta(k, n + 1 - k), and
-//! the next one up is the least of n - k uniform numbers above it (David & Nagaraja, Order Statistics (2003), section 2.5).
-//! So a resample's quantile is drawn exactly from two random numbers, without drawing the resample.
-//! Gamma numbers for the Beta: Marsaglia & Tsang, ACM Trans. Math. Softw. 26 (2000) 363-372.
-//! *Parameters*: resamples, [`RESAMPLES`] = 4000 (standard error of an end's level: sqrt(0.025 · 0.975 / 4000) = 0.25 %).
-//! *Deviations*: none in law. With n < 36 even the greatest value lies below the true 90 % quantile in more than 2.5 %
-//! of samples (0.9^n): the upper end then covers less than it says.
+//! *Source*: percentile interval, Efron & Tibshirani, An Introduction to the Bootstrap (1993), section 13.3. The k-th
+//! of n values drawn with replacement is the value that belongs to the k-th of n uniform numbers, which has the
+//! distribution Beta(k, n + 1 - k). The next one is the smallest of n - k uniform numbers above it (David & Nagaraja,
+//! Order Statistics (2003), section 2.5). So a resample's quantile is drawn exactly from two random numbers, without
+//! drawing the resample. Gamma numbers for the Beta: Marsaglia & Tsang, ACM Trans. Math. Softw. 26 (2000) 363-372.
+//! *Parameters*: resamples, [`RESAMPLES`] = 4000 (standard error of an end's level: sqrt(0.025 · 0.975 / 4000) = 0.25
+//! %).
+//! *Deviations*: none in distribution. With n < 36, even the greatest value lies below the true 90 % quantile in more
+//! than 2.5 % of samples (0.9^n), so the upper end then covers less than stated.
 
 use super::Interval;
 use super::quantile::{between, place, quantile};
 use world::math;
 use world::seeds::Stream;
 
-/// Resamples behind an interval.
+/// Number of resamples for an interval.
 pub const RESAMPLES: usize = 4000;
 
-/// 95 % bootstrap interval of the `p` quantile of values in order; `None` of none. `name` keeps the random
-/// numbers of different quantities apart.
+/// 95 % bootstrap interval of the `p` quantile of sorted values; `None` if there are none. `name` separates the random
+/// numbers of different quantities.
 #[must_use]
 pub fn quantile_interval(sorted: &[f64], p: f64, seed: u64, name: &str) -> Option<Interval> {
     let last = sorted.len().checked_sub(1)?;
@@ -42,7 +43,7 @@ fn resampled(sorted: &[f64], (k, share): (usize, f64), rng: &mut Stream) -> f64 
     if share == 0.0 {
         return under(u);
     }
-    // A share above 0 means that there is a next one.
+    // A share above 0 means that there is a next value.
     let above = (n - k - 1) as f64;
     let next = 1.0 - (1.0 - u) * math::powf(1.0 - rng.uniform(), 1.0 / above);
     between(under(u), under(next), share)
@@ -70,8 +71,8 @@ mod tests {
     use super::super::finite_sorted;
     use super::*;
 
-    /// Quantiles of resamples against those of resamples drawn value by value: the means of 20 000
-    /// of each agree within 5 standard errors.
+    /// Quantiles of resamples, compared with those of resamples drawn value by value: the means of 20 000 of each agree
+    /// within 5 standard errors.
     #[test]
     fn draws_the_law_of_resampling() {
         let x = [1.0, 2.0, 4.0, 8.0, 16.0, 32.0, 64.0];
@@ -101,8 +102,8 @@ mod tests {
         }
     }
 
-    /// 95 % intervals of the median of 60 exponential numbers hold ln 2 in 95 % of 1000 trials, within
-    /// 4 standard errors of the count (0.7 % each) and 2 % for the sample's steps.
+    /// 95 % intervals of the median of 60 exponential numbers contain ln 2 in 95 % of 1000 trials, within 4 standard
+    /// errors of the count (0.7 % each) and 2 % for the steps of the sample.
     #[test]
     fn covers_as_often_as_it_says() {
         let mut rng = Stream::new(11, "coverage", "test");

@@ -1,9 +1,9 @@
 //! Share of a sample at or below a value.
 //!
-//! *Source*: the empirical distribution; its band of one value is [`wilson`](super::wilson) of the count there.
+//! *Source*: the empirical distribution; its interval at one value is [`wilson`](super::wilson) of the count there.
 //! *Parameters*: none.
-//! *Deviations*: the sample may be a part of more trials (errors of those that declared anything): then the shares
-//! are of all trials, and the curve ends below 1 where the others never came.
+//! *Deviations*: the sample may belong to a larger number of trials (errors exist only for trials that declared). Then
+//! the shares are of all trials, and the curve ends below 1.
 
 use super::{Interval, finite_sorted, wilson};
 
@@ -15,7 +15,7 @@ pub struct Ecdf {
 }
 
 impl Ecdf {
-    /// Of the finite values of a sample out of `n` trials.
+    /// From the finite values of a sample, out of `n` trials.
     #[must_use]
     pub fn new(values: impl IntoIterator<Item = f64>, n: u64) -> Self {
         let sorted = finite_sorted(values);
@@ -23,26 +23,26 @@ impl Ecdf {
         Self { sorted, n }
     }
 
-    /// Values in order.
+    /// Sorted values.
     #[must_use]
     pub fn values(&self) -> &[f64] {
         &self.sorted
     }
 
-    /// Trials behind it.
+    /// Number of trials.
     #[must_use]
     pub fn n(&self) -> u64 {
         self.n
     }
 
-    /// Share of trials at or below `x`, with its interval; share 0 of no trials.
+    /// Share of trials at or below `x`, with its interval; 0 if there are no trials.
     #[must_use]
     pub fn at(&self, x: f64) -> (f64, Interval) {
         let k = self.sorted.partition_point(|v| *v <= x) as u64;
         (k as f64 / self.n.max(1) as f64, wilson(k, self.n))
     }
 
-    /// Each different value with the share and interval there.
+    /// Each distinct value with the share and interval there.
     #[must_use]
     pub fn steps(&self) -> Vec<(f64, f64, Interval)> {
         let mut values = self.sorted.clone();

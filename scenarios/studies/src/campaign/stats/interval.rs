@@ -1,4 +1,4 @@
-//! A range that is meant to hold a figure.
+//! The range in which a figure is expected to lie.
 
 use serde::Serialize;
 

@@ -1,17 +1,18 @@
 //! Interval of a mean.
 //!
-//! *Source*: Student's t: mean plus or minus t(n - 1) s / √n; the quantile of t by bisection of its distribution
-//! function, a finite sum for whole degrees of freedom (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4). Of a quantity
-//! that cannot be below 0 the same on the scale of the logarithm (delta method): mean · exp(± t(n - 1) s / (√n mean)), which
-//! stays above 0 and, for the skewed quantities that times and distances are, holds more often: exponential
-//! numbers 93 % of samples of 5 to 10 and 94 % of 20 (Student's 88 to 90 and 92 %), normal ones the same 95 %.
+//! *Source*: Student's t: mean plus or minus t(n - 1) s / √n. The quantile of t comes from bisection of its
+//! distribution function, a finite sum for whole degrees of freedom (Abramowitz & Stegun 1964, 26.7.3 and 26.7.4). For
+//! a quantity that cannot be negative, the same on the logarithm's scale (delta method): mean · exp(± t(n - 1) s / (√n
+//! mean)). This interval stays above 0 and holds more often for skewed quantities such as times and distances: for
+//! exponential numbers in 93 % of samples of 5 to 10 and 94 % of 20 (Student's: 88 to 90 and 92 %), for normal ones in
+//! the same 95 %.
 //! *Parameters*: 95 %; least number of values, [`LEAST_VALUES`].
-//! *Deviations*: of fewer values there is none: two of them say next to nothing of their spread.
+//! *Deviations*: for fewer values there is no interval, because two of them say almost nothing about their spread.
 
 use super::{Interval, LEAST_VALUES};
 use world::math;
 
-/// 95 % interval of the mean of a quantity of either sign; none of fewer than [`LEAST_VALUES`] values.
+/// 95 % interval of the mean of a quantity of either sign; `None` for fewer than [`LEAST_VALUES`] values.
 #[must_use]
 pub fn mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
@@ -21,11 +22,11 @@ pub fn mean_interval(values: &[f64]) -> Option<Interval> {
     })
 }
 
-/// 95 % interval of the mean of a quantity that cannot be below 0; none of fewer than [`LEAST_VALUES`] values.
+/// 95 % interval of the mean of a quantity that cannot be negative; `None` for fewer than [`LEAST_VALUES`] values.
 #[must_use]
 pub fn positive_mean_interval(values: &[f64]) -> Option<Interval> {
     let (mean, half) = student(values)?;
-    // All of them 0: there is no spread to speak of.
+    // If all of them are 0, there is no spread.
     let wide = if mean > 0.0 {
         math::exp(half / mean)
     } else {
@@ -37,7 +38,7 @@ pub fn positive_mean_interval(values: &[f64]) -> Option<Interval> {
     })
 }
 
-/// The mean and half of its interval.
+/// The mean, and half the width of its interval.
 fn student(values: &[f64]) -> Option<(f64, f64)> {
     let n = values.len();
     if n < LEAST_VALUES {
@@ -50,7 +51,7 @@ fn student(values: &[f64]) -> Option<(f64, f64)> {
 
 /// The value that |t| exceeds in 5 % of cases.
 fn quantile_of_t(freedom: usize) -> f64 {
-    // The quantile changes by less than 1e-3 of itself beyond; more terms would buy nothing.
+    // Beyond this the quantile changes by less than 1e-3 of itself, so more terms would gain nothing.
     const MANY: usize = 2000;
     let (mut low, mut high) = (1.9, 13.0);
     for _ in 0..60 {
@@ -64,7 +65,7 @@ fn quantile_of_t(freedom: usize) -> f64 {
     0.5 * (low + high)
 }
 
-/// Chance that |t| is at most this.
+/// Probability that |t| is at most this.
 fn within(t: f64, freedom: usize) -> f64 {
     let theta = math::atan2(t, (freedom as f64).sqrt());
     let (sine, cosine) = math::sin_cos(theta);
@@ -138,7 +139,7 @@ mod tests {
                 (None, None)
             );
         }
-        // Student's would reach far below 0.
+        // Student's interval would reach far below 0.
         let skewed = [1.0, 1.0, 2.0, 3.0, 500.0];
         assert!(mean_interval(&skewed).unwrap().low < -100.0);
         let i = positive_mean_interval(&skewed).unwrap();
@@ -147,7 +148,7 @@ mod tests {
         assert_eq!((zero.low, zero.high), (0.0, 0.0));
     }
 
-    /// Exponential numbers, 10 at a time, 4000 times: 93 %, the standard error of a share there 0.4 %.
+    /// Exponential numbers, 10 at a time, 4000 times: 93 %, with a standard error of the share of 0.4 %.
     #[test]
     fn holds_skewed_means_more_often_than_students() {
         let mut rng = Stream::new(5, "coverage", "of means");

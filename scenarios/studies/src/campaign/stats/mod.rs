@@ -1,4 +1,4 @@
-//! What many runs say: shares, quantiles, waiting times and differences, each with its interval.
+//! Statistics of many runs: shares, quantiles, waiting times and differences, each with its interval.
 
 mod adaptive;
 mod bootstrap;
@@ -22,5 +22,5 @@ pub use quantile::{finite_sorted, quantile};
 pub use survival::{Survival, SurvivalStep};
 pub use wilson::{Z95, wilson};
 
-/// Values below which a mean or quantile has no interval that is worth saying: "too few".
+/// With fewer values than this, a mean or quantile has no useful interval: "too few".
 pub const LEAST_VALUES: usize = 5;

@@ -1,39 +1,40 @@
-//! Difference between two arms that met the same seeds and conditions.
+//! Difference between two arms that ran with the same seeds and conditions.
 //!
-//! *Source*: shares: Agresti & Min, Stat. Med. 24 (2005) 729-740: Wald's interval for matched pairs with 1/2 added to
-//! each of the four cells. Quantities: median of the differences within pairs, bootstrap interval
-//! ([`quantile_interval`](super::quantile_interval)), or mean of the differences, Student's interval ([`mean_interval`](super::mean_interval)).
-//! *Parameters*: z = 1.96; least pairs for a verdict, [`LEAST_PAIRS`] = 6: with fewer, even pairs that all point one way
-//! come by chance more often than 5 % (2 · 0.5^5 = 6 %).
-//! *Deviations*: none. Each comparison holds for itself; many at once find something by chance.
+//! *Source*: for shares, Agresti & Min, Stat. Med. 24 (2005) 729-740: Wald's interval for matched pairs with 1/2 added
+//! to each of the four cells. For quantities, the median of the differences within pairs with a bootstrap interval
+//! ([`quantile_interval`](super::quantile_interval)), or the mean of the differences with Student's interval
+//! ([`mean_interval`](super::mean_interval)).
+//! *Parameters*: z = 1.96; least pairs for a verdict, [`LEAST_PAIRS`] = 6: with fewer, even pairs that all agree in
+//! direction occur by chance more often than 5 % (2 · 0.5^5 = 6 %).
+//! *Deviations*: none. Each comparison stands alone; among many, some differ by chance.
 
 use super::{Interval, Z95, finite_sorted, mean_interval, quantile, quantile_interval};
 
-/// Pairs needed for a verdict.
+/// Least number of pairs for a verdict.
 pub const LEAST_PAIRS: usize = 6;
 
-/// Which way is better.
+/// Which direction is better.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Better {
-    /// More of it.
+    /// A larger value is better.
     More,
-    /// Less of it.
+    /// A smaller value is better.
     Less,
 }
 
-/// What a difference says.
+/// The verdict of a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// The first arm is better than the second.
     Better,
     /// The first arm is worse.
     Worse,
-    /// The interval holds 0, or there are too few pairs.
+    /// The interval contains 0, or there are too few pairs.
     NotSeparable,
 }
 
 impl Verdict {
-    /// In words.
+    /// The verdict in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -47,7 +48,7 @@ impl Verdict {
 /// First arm minus second.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Difference {
-    /// Pairs behind it.
+    /// Number of pairs.
     pub pairs: usize,
     /// The difference.
     pub estimate: f64,
@@ -83,7 +84,7 @@ impl Difference {
     }
 }
 
-/// Difference of two shares from pairs of (first, second); `None` of no pairs.
+/// Difference of two shares from pairs of (first, second); `None` if there are no pairs.
 #[must_use]
 pub fn paired_share(
     pairs: impl IntoIterator<Item = (bool, bool)>,
@@ -113,8 +114,8 @@ pub fn paired_share(
     ))
 }
 
-/// Median of the differences within pairs of (first, second); pairs with a value that is not finite are
-/// left out, `None` of no pairs.
+/// Median of the differences within pairs of (first, second). Pairs with a value that is not finite are left out;
+/// `None` if there are no pairs.
 #[must_use]
 pub fn paired_median(
     pairs: impl IntoIterator<Item = (f64, f64)>,
@@ -128,8 +129,8 @@ pub fn paired_median(
     Some(Difference::new(sorted.len(), estimate, interval, better))
 }
 
-/// Mean of the differences within pairs of (first, second); pairs with a value that is not finite are left out. Of
-/// fewer pairs than an interval needs the interval is everything.
+/// Mean of the differences within pairs of (first, second). Pairs with a value that is not finite are left out. If
+/// there are fewer pairs than an interval needs, the interval is infinite.
 #[must_use]
 pub fn paired_mean(
     pairs: impl IntoIterator<Item = (f64, f64)>,

@@ -1,11 +1,11 @@
 //! Quantiles of a sample.
 //!
-//! *Source*: Hyndman & Fan, Am. Stat. 50 (1996) 361-365, definition 7: linear between order statistics, at the
-//! place h = (n - 1) p counted from 0 (the default of R and NumPy).
+//! *Source*: Hyndman & Fan, Am. Stat. 50 (1996) 361-365, definition 7: linear between order statistics, at the position
+//! h = (n - 1) p counted from 0 (the default of R and NumPy).
 //! *Parameters*: p, from 0 to 1.
 //! *Deviations*: none; values that are not finite are left out first.
 
-/// The finite values, in order.
+/// The finite values, sorted.
 #[must_use]
 pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
@@ -13,7 +13,7 @@ pub fn finite_sorted(values: impl IntoIterator<Item = f64>) -> Vec<f64> {
     sorted
 }
 
-/// The `p` quantile of values in order; `None` of none.
+/// The `p` quantile of sorted values; `None` if there are none.
 #[must_use]
 pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     let last = sorted.len().checked_sub(1)?;
@@ -21,14 +21,14 @@ pub fn quantile(sorted: &[f64], p: f64) -> Option<f64> {
     Some(between(sorted[k], sorted[(k + 1).min(last)], share))
 }
 
-/// The order statistic (from 0) under the `p` quantile, and how far the quantile lies towards the next.
+/// The order statistic (from 0) below the `p` quantile, and the position of the quantile between it and the next.
 pub(super) fn place(last: usize, p: f64) -> (usize, f64) {
     let h = last as f64 * p.clamp(0.0, 1.0);
     let k = (h.floor() as usize).min(last);
     (k, h - k as f64)
 }
 
-/// Between two values; exactly the one where the share is 0, or where both are the same.
+/// Interpolates between two values; returns exactly one of them if the share is 0, or if both are the same.
 pub(super) fn between(a: f64, b: f64, share: f64) -> f64 {
     if share == 0.0 { a } else { a + (b - a) * share }
 }

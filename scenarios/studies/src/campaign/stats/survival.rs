@@ -1,23 +1,23 @@
-//! Share of trials still without the event, over time, when some end before it comes.
+//! Share of trials without the event so far, over time, when some trials end before it.
 //!
-//! *Source*: Kaplan & Meier, J. Am. Stat. Assoc. 53 (1958) 457-481, eq. (3a); variance by Greenwood's formula, eq. (3b);
-//! the interval on the scale of ln(-ln S): Kalbfleisch & Prentice, The Statistical Analysis of Failure Time Data
+//! *Source*: Kaplan & Meier, J. Am. Stat. Assoc. 53 (1958) 457-481, eq. (3a); variance by Greenwood's formula, eq.
+//! (3b); the interval on the scale of ln(-ln S): Kalbfleisch & Prentice, The Statistical Analysis of Failure Time Data
 //! (1980), section 1.3, which keeps it between 0 and 1.
 //! *Parameters*: z = 1.96 (pointwise 95 %).
-//! *Deviations*: where the curve has reached 0, or stands at 1 before the first event, Greenwood's formula says nothing: there
-//! the interval is Wilson's for that share of those at risk (before the first event: of all trials).
+//! *Deviations*: where the curve has reached 0, or is 1 before the first event, Greenwood's formula gives nothing.
+//! There, the interval is Wilson's for that share of those at risk (before the first event: of all trials).
 
 use super::{Interval, Z95, wilson};
 use world::math;
 
-/// The curve from an event on.
+/// A step of the curve, at an event.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurvivalStep {
     /// Time of the event, s; 0 for the beginning.
     pub t_s: f64,
-    /// Trials at risk just before.
+    /// Number of trials at risk just before.
     pub at_risk: u64,
-    /// Events then.
+    /// Number of events at that time.
     pub events: u64,
     /// Share without the event from then on.
     pub share: f64,
@@ -30,15 +30,15 @@ pub struct SurvivalStep {
 pub struct Survival {
     /// Beginning and events, in order of time.
     pub steps: Vec<SurvivalStep>,
-    /// Until when anybody was looked at, s.
+    /// End of the longest observation, s.
     pub end_s: f64,
-    /// Trials.
+    /// Number of trials.
     pub n: u64,
 }
 
 impl Survival {
-    /// From (time, event or not): `true` for the event at that time, `false` for a trial that ended then
-    /// without it. Times that are not finite are left out. An event counts before a trial's end at the same time.
+    /// From pairs (time, event): `true` for the event at that time, `false` for a trial that ended then without it.
+    /// Times that are not finite are left out. An event counts before the end of a trial at the same time.
     #[must_use]
     pub fn new(trials: impl IntoIterator<Item = (f64, bool)>) -> Self {
         let mut trials: Vec<(f64, bool)> = (trials.into_iter())
@@ -92,10 +92,10 @@ impl Survival {
         }
     }
 
-    /// Least time by which half have had the event, s; `None` if never.
+    /// Earliest time by which half of the trials have had the event, s; `None` if never.
     #[must_use]
     pub fn median_s(&self) -> Option<f64> {
-        // A hair above a half: the product of (1 - d/r) comes with rounding.
+        // Slightly more than a half, because the product of (1 - d/r) has rounding.
         let half = |s: &&SurvivalStep| s.share <= 0.5 + 1e-12;
         self.steps.iter().find(half).map(|s| s.t_s)
     }

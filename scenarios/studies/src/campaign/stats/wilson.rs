@@ -3,14 +3,14 @@
 //! *Source*: Wilson, J. Am. Stat. Assoc. 22 (1927) 209-212; recommended for all n by Brown, Cai & DasGupta,
 //! Stat. Sci. 16 (2001) 101-133, eq. (4).
 //! *Parameters*: z, [`Z95`] = 1.96, two-sided 95 %.
-//! *Deviations*: none; no correction for continuity. Of no trials nothing is known: 0 to 1.
+//! *Deviations*: none; no correction for continuity. Without trials nothing is known: 0 to 1.
 
 use super::Interval;
 
 /// 97.5 % quantile of the standard normal.
 pub const Z95: f64 = 1.959_963_984_540_054;
 
-/// 95 % score interval of the share behind `successes` of `n`.
+/// 95 % score interval of the true share, given `successes` of `n`.
 #[must_use]
 pub fn wilson(successes: u64, n: u64) -> Interval {
     assert!(
@@ -27,7 +27,7 @@ pub fn wilson(successes: u64, n: u64) -> Interval {
     let p = k / n_f;
     let centre = (k + z2 / 2.0) / (n_f + z2);
     let half = Z95 * (n_f * p * (1.0 - p) + z2 / 4.0).sqrt() / (n_f + z2);
-    // At the ends the formula gives 0 and 1 but for rounding.
+    // At the ends the formula gives 0 and 1 up to rounding.
     Interval {
         low: if successes == 0 { 0.0 } else { centre - half },
         high: if successes == n { 1.0 } else { centre + half },

@@ -1,4 +1,4 @@
-//! Rows as they are read, chosen and refused.
+//! How rows are read, selected and refused.
 
 use super::*;
 
@@ -28,7 +28,7 @@ fn a_row_is_chosen_by_its_name_alone_and_a_group_by_what_no_row_is_called() {
         let rows = wanted(&names, &[]).unwrap();
         rows.into_iter().map(|r| r.row.id).collect()
     };
-    // Every row by its name is that row, whatever other names begin with it.
+    // The name of a row selects that row, whatever other names begin with it.
     for (id, _) in ROWS {
         assert_eq!(ids(&[id]), [*id]);
     }
