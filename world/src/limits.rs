@@ -2,7 +2,14 @@
 //! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader then says place, value and range, as for the types of
 //! [`crate::ranges`], which keep the sign.
 //!
+//! Beside it stands its twin, `#[schemars(transform = world::limits::schema::density_kg_m3)]`, which puts the same limit and
+//! its unit into the schema of scenario files.
+//!
 //! A limit is no judgement of a good value. It is where the models stop: beyond it there is no such water, instrument or hull.
+
+mod narrow;
+
+pub use narrow::UNIT;
 
 use crate::ranges::{Finite, Fraction, NonNegative, Positive};
 use serde::{Deserialize, Deserializer, de::Error};
@@ -97,7 +104,8 @@ pub fn shown(v: f64) -> String {
 }
 
 macro_rules! limits {
-    ($($(#[$doc:meta])* $name:ident: $low:expr, $high:expr, $unit:literal;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident: $low:expr, $high:expr, $unit:literal;)*) => {
+        $(
         $(#[$doc])*
         ///
         /// # Errors
@@ -108,9 +116,30 @@ macro_rules! limits {
             T: Limited<Raw: Deserialize<'de>>,
         {
             let raw = T::Raw::deserialize(from)?;
-            T::limited(raw, &Range($low, $high, $unit)).map_err(D::Error::custom)
+            T::limited(raw, &range::$name).map_err(D::Error::custom)
         }
-    )*};
+        )*
+
+        /// The limits themselves, by name.
+        #[expect(non_upper_case_globals, reason = "named as the reader and the schema's twin are")]
+        pub mod range {
+            use super::Range;
+            $(
+                $(#[$doc])*
+                pub const $name: Range = Range($low, $high, $unit);
+            )*
+        }
+
+        /// The limits in a schema: `#[schemars(transform = world::limits::schema::NAME)]` beside each field read with one.
+        pub mod schema {
+            $(
+                $(#[$doc])*
+                pub fn $name(field: &mut schemars::Schema) {
+                    super::range::$name.narrow(field);
+                }
+            )*
+        }
+    };
 }
 
 limits! {

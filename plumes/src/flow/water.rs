@@ -19,6 +19,7 @@
 mod answers;
 
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
@@ -42,7 +43,7 @@ use crate::flow::tide::Tide;
 use crate::flow::waves::Waves;
 
 /// The water of a scenario; by default still.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WaterSpec {
     /// Currents that add up; none is still water.
@@ -53,6 +54,7 @@ pub struct WaterSpec {
     pub mixing: MixingSpec,
     /// Density where no layers give it, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
+    #[schemars(transform = world::limits::schema::density_kg_m3)]
     pub density_kg_m3: Positive,
     /// Obstacles and bed turn the currents aside; absent: currents pass through obstacles.
     pub blockage: Option<BlockageSpec>,

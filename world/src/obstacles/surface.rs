@@ -1,16 +1,18 @@
 //! How an obstacle's surface looks and sounds: what it throws back of light and of sound.
 
 use crate::ranges::{Finite, Fraction};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Optical and acoustic properties of a surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Surface {
     /// Share of red, green and blue light thrown back, evenly to all sides.
     pub albedo: (Fraction, Fraction, Fraction),
     /// Backscatter strength of a square metre at grazing angle 90°, dB.
     #[serde(deserialize_with = "crate::limits::level_db")]
+    #[schemars(transform = crate::limits::schema::level_db)]
     pub backscatter_db: Finite,
 }
 

@@ -19,6 +19,7 @@ use crate::error::PlumeError;
 use crate::filaments::quad::Quad;
 use crate::flow::channel::Channel;
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use world::area::Area;
@@ -28,7 +29,7 @@ use world::math;
 use world::seeds::Stream;
 
 /// How finely turbulence is resolved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EddiesSpec {
     /// Cells of the eddies' grid from bed to surface, from 8 to 32.
