@@ -2,6 +2,7 @@
 
 pub mod abnormal;
 pub mod assemble;
+pub mod explain;
 pub mod frame;
 pub mod gantry;
 pub mod ocean;

@@ -10,7 +10,6 @@ mod check_obstacles;
 mod check_steps;
 mod check_view;
 pub mod cost;
-mod explain;
 mod fault;
 mod load;
 mod outline;
@@ -19,6 +18,7 @@ mod schema;
 mod success;
 #[cfg(test)]
 mod told;
+mod unread;
 
 pub use catalog::{CATALOG, Template, template};
 pub use check::within;

@@ -18,7 +18,7 @@ mod token;
 mod tree;
 mod value;
 
-use super::explain::unread;
+use super::unread::unread;
 use super::fault::Severity;
 use super::fault::{Fault, Found, ScenarioError};
 use mend::Mender;
