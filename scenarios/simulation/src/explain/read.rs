@@ -3,7 +3,7 @@
 //! It knows the forms of JSON Schema only, and nothing of how the types are written: a choice is a `oneOf` of names (`const`, `enum`)
 //! and of objects with one property, the variant's name.
 
-use super::schema::{Object, ORDER, SOURCE, WHAT};
+use super::schema::{ORDER, Object, SOURCE, WHAT};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use world::limits::UNIT;
@@ -226,11 +226,12 @@ fn array(schema: &Value) -> Shape {
 }
 
 fn number(schema: &Value, whole: bool) -> Number {
+    let only = schema["const"].as_f64();
     Number {
         whole,
-        low: schema["minimum"].as_f64().or(schema["const"].as_f64()),
+        low: only.or(schema["minimum"].as_f64()),
         above: schema["exclusiveMinimum"].as_f64(),
-        high: schema["maximum"].as_f64().or(schema["const"].as_f64()),
+        high: only.or(schema["maximum"].as_f64()),
         unit: text(schema, UNIT).unwrap_or_default(),
     }
 }
@@ -239,13 +240,22 @@ fn text(schema: &Value, key: &str) -> Option<String> {
     schema[key].as_str().map(str::to_string)
 }
 
-/// What it means: the catalogue's words, then the type's own where they are other ones.
+/// What it means: the type's own words, and the catalogue's where they say more.
 fn what(schema: &Value) -> String {
     let own = schema["description"].as_str().map(plain);
     let listed = schema[WHAT].as_str().map(sentence);
-    match (listed, own) {
-        (Some(listed), Some(own)) if !own.starts_with("See ") => format!("{own} {listed}"),
-        (Some(one), _) | (None, Some(one)) => one,
+    match (own, listed) {
+        (Some(own), Some(listed)) => {
+            // Of an algorithm the catalogue says all; of the field of a part, what stands there.
+            let variant = schema["properties"].is_object() || schema["const"].is_string();
+            let again = listed.starts_with(own.trim_end_matches('.'));
+            if variant || again {
+                listed
+            } else {
+                format!("{own} {listed}")
+            }
+        }
+        (Some(one), None) | (None, Some(one)) => one,
         (None, None) => String::new(),
     }
 }
@@ -253,7 +263,11 @@ fn what(schema: &Value) -> String {
 /// As a sentence of its own.
 fn sentence(s: &str) -> String {
     let mut letters = s.chars();
-    let first: String = letters.next().into_iter().flat_map(char::to_uppercase).collect();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
     let end = if s.ends_with('.') { "" } else { "." };
     first + letters.as_str() + end
 }

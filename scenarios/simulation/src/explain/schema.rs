@@ -67,13 +67,3 @@ fn sorted(value: Value) -> Value {
         one => one,
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dump() {
-        std::fs::write("/tmp/schema.json", format!("{:#}\n", schema())).unwrap();
-    }
-}

@@ -26,6 +26,7 @@ pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use load::{Loaded, load, parse};
 pub use outline::{Node, Outline};
+pub(crate) use reader::distance;
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,

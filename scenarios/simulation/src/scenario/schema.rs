@@ -72,6 +72,7 @@ pub struct Scenario {
 /// Version of the schema.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "u32", into = "u32")]
+#[schemars(extend("const" = VERSION))]
 pub struct Version(u32);
 
 impl TryFrom<u32> for Version {
@@ -94,6 +95,7 @@ impl From<Version> for u32 {
 /// A name that fits into keys and file names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
+#[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
 pub struct Id(String);
 
 impl Id {
