@@ -2,8 +2,15 @@
 //! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader reports place, value and range, as it does
 //! for the types of [`crate::ranges`], which keep the sign.
 //!
+//! Beside it stands its twin, `#[schemars(transform = world::limits::schema::density_kg_m3)]`, which puts the same limit and
+//! its unit into the schema of scenario files.
+//!
 //! A limit does not judge whether a value is good. It marks where the models end: no water, instrument or hull lies
 //! beyond.
+
+mod narrow;
+
+pub use narrow::UNIT;
 
 use crate::ranges::{Finite, Fraction, NonNegative, Positive};
 use serde::{Deserialize, Deserializer, de::Error};
@@ -99,7 +106,8 @@ pub fn shown(v: f64) -> String {
 }
 
 macro_rules! limits {
-    ($($(#[$doc:meta])* $name:ident: $low:expr, $high:expr, $unit:literal;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident: $low:expr, $high:expr, $unit:literal;)*) => {
+        $(
         $(#[$doc])*
         ///
         /// # Errors
@@ -110,9 +118,30 @@ macro_rules! limits {
             T: Limited<Raw: Deserialize<'de>>,
         {
             let raw = T::Raw::deserialize(from)?;
-            T::limited(raw, &Range($low, $high, $unit)).map_err(D::Error::custom)
+            T::limited(raw, &range::$name).map_err(D::Error::custom)
         }
-    )*};
+        )*
+
+        /// The limits themselves, by name.
+        #[expect(non_upper_case_globals, reason = "named as the reader and the schema's twin are")]
+        pub mod range {
+            use super::Range;
+            $(
+                $(#[$doc])*
+                pub const $name: Range = Range($low, $high, $unit);
+            )*
+        }
+
+        /// The limits in a schema: `#[schemars(transform = world::limits::schema::NAME)]` beside each field read with one.
+        pub mod schema {
+            $(
+                $(#[$doc])*
+                pub fn $name(field: &mut schemars::Schema) {
+                    super::range::$name.narrow(field);
+                }
+            )*
+        }
+    };
 }
 
 limits! {

@@ -5,7 +5,9 @@
     reason = "`contains` cannot be called where a constant is made"
 )]
 
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// Smallest number above zero that a file may give. No quantity of this program is smaller, and its powers do not
 /// underflow, in `f32` either.
@@ -14,7 +16,7 @@ pub const SMALLEST: f64 = 1e-18;
 pub const LARGEST: f64 = 1e18;
 
 macro_rules! ranged {
-    ($($(#[$doc:meta])* $name:ident: $says:literal, $bounds:literal, |$v:ident| $ok:expr, |$w:ident| $within:expr;)*) => {$(
+    ($($(#[$doc:meta])* $name:ident: $says:literal, $bounds:literal, $schema:tt, |$v:ident| $ok:expr, |$w:ident| $within:expr;)*) => {$(
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
         #[serde(try_from = "f64", into = "f64")]
@@ -57,24 +59,44 @@ macro_rules! ranged {
                 v.0
             }
         }
+
+        /// Inline: a number and its bounds.
+        impl JsonSchema for $name {
+            fn inline_schema() -> bool {
+                true
+            }
+
+            fn schema_name() -> Cow<'static, str> {
+                stringify!($name).into()
+            }
+
+            fn json_schema(_: &mut SchemaGenerator) -> Schema {
+                json_schema!($schema)
+            }
+        }
     )*};
 }
 
 ranged! {
     /// Any finite number of either sign up to [`LARGEST`].
     Finite: "must be a finite number", "must be from -1e18 to 1e18",
+        { "type": "number", "minimum": -LARGEST, "maximum": LARGEST },
         |v| v.is_finite(), |v| v <= LARGEST && v >= -LARGEST;
     /// Greater than zero, from [`SMALLEST`] to [`LARGEST`].
     Positive: "must be > 0", "must be from 1e-18 to 1e18",
+        { "type": "number", "exclusiveMinimum": 0.0, "maximum": LARGEST },
         |v| v > 0.0 && v.is_finite(), |v| v >= SMALLEST && v <= LARGEST;
     /// Zero, or from [`SMALLEST`] to [`LARGEST`].
     NonNegative: "must be >= 0", "must be 0 or from 1e-18 to 1e18",
+        { "type": "number", "minimum": 0.0, "maximum": LARGEST },
         |v| v >= 0.0 && v.is_finite(), |v| v == 0.0 || (v >= SMALLEST && v <= LARGEST);
     /// From 0 to 1.
     Fraction: "must be from 0 to 1", "must be from 0 to 1",
+        { "type": "number", "minimum": 0.0, "maximum": 1.0 },
         |v| v >= 0.0 && v <= 1.0, |v| v <= 1.0;
     /// A compass direction in degrees.
     HeadingDeg: "must be a heading from 0 to 360 degrees", "must be a heading from 0 to 360 degrees",
+        { "type": "number", "minimum": 0.0, "maximum": 360.0 },
         |v| v >= 0.0 && v <= 360.0, |v| v <= 360.0;
 }
 

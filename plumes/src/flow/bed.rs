@@ -9,6 +9,7 @@
 //! *Deviations*: the law multiplies the current that flows above, u(z′) = U ln(z′/z0)/ln(δ/z0) below δ, so that the
 //! free current is reached at δ; in water shallower than δ it is reached at the surface. Zero below z0.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::Positive;
@@ -19,14 +20,16 @@ use crate::error::PlumeError;
 pub const KARMAN: f64 = 0.4;
 
 /// A rough bed under the currents.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BedSpec {
     /// Height at which the law reaches zero, m.
     #[serde(deserialize_with = "world::limits::roughness_m")]
+    #[schemars(transform = world::limits::schema::roughness_m)]
     pub roughness_m: Positive,
     /// Height at which it reaches the free current, m.
     #[serde(deserialize_with = "world::limits::depth_m")]
+    #[schemars(transform = world::limits::schema::depth_m)]
     pub thickness_m: Positive,
 }
 

@@ -1,5 +1,6 @@
 //! The currents a scenario can ask for.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
@@ -11,7 +12,7 @@ use crate::flow::uniform::UniformSpec;
 use crate::flow::waves::WavesSpec;
 
 /// One current; a scenario lists those that add up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum CurrentSpec {
     /// The same everywhere.

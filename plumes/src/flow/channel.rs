@@ -16,6 +16,7 @@
 //! and log law meet where they cross (11.6 wall units on a smooth bed), with a kink.
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::{HeadingDeg, NonNegative, Positive};
@@ -30,20 +31,23 @@ pub const INTENSITIES: [f64; 3] = [2.30, 1.63, 1.27];
 pub const TRANSVERSE: f64 = 0.15;
 
 /// A channel between two walls.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct OpenChannelSpec {
     /// Mean over the depth, m/s.
     #[serde(deserialize_with = "world::limits::running_m_s")]
+    #[schemars(transform = world::limits::schema::running_m_s)]
     pub mean_m_s: Positive,
     /// Where the water goes: along the area's axis.
     #[serde(default = "east")]
     pub heading_deg: HeadingDeg,
     /// Equivalent sand roughness k_s, m; 0 means a smooth bed.
     #[serde(default = "smooth", deserialize_with = "world::limits::sand_m")]
+    #[schemars(transform = world::limits::schema::sand_m)]
     pub roughness_m: NonNegative,
     /// Kinematic viscosity, m²/s.
     #[serde(default = "water", deserialize_with = "world::limits::viscosity_m2_s")]
+    #[schemars(transform = world::limits::schema::viscosity_m2_s)]
     pub viscosity_m2_s: Positive,
     /// Resolved turbulence; without it, all turbulence is diffusivity.
     #[serde(default)]

@@ -13,6 +13,7 @@
 //! interface stays at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::limits::shown;
 use world::math;
@@ -31,7 +32,7 @@ const MAX_FACES: usize = MAX_LAYERS - 1;
 const GAP: f64 = 0.02;
 
 /// Layers and the interfaces between them, from the surface down.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LayeredSpec {
     /// One to four layers, top first.
@@ -42,28 +43,33 @@ pub struct LayeredSpec {
 }
 
 /// One layer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "WaterLayer")]
 #[serde(deny_unknown_fields)]
 pub struct LayerSpec {
     /// Speed over ground, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
+    #[schemars(transform = world::limits::schema::stream_m_s)]
     pub speed_m_s: NonNegative,
     /// Where the layer's water goes, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// Density, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
+    #[schemars(transform = world::limits::schema::density_kg_m3)]
     pub density_kg_m3: Positive,
 }
 
 /// One interface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct InterfaceSpec {
     /// Mean depth, m.
     #[serde(deserialize_with = "world::limits::depth_m")]
+    #[schemars(transform = world::limits::schema::depth_m)]
     pub depth_m: Positive,
     /// Thickness, m: the change across the interface divided by the steepest gradient in it.
     #[serde(deserialize_with = "world::limits::depth_m")]
+    #[schemars(transform = world::limits::schema::depth_m)]
     pub thickness_m: Positive,
     /// Waves of its height, summed.
     #[serde(default)]
@@ -71,17 +77,21 @@ pub struct InterfaceSpec {
 }
 
 /// One travelling wave of an interface's height.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "InternalWave")]
 #[serde(deny_unknown_fields)]
 pub struct WaveSpec {
     /// Half the height from trough to crest, m.
     #[serde(deserialize_with = "world::limits::internal_m")]
+    #[schemars(transform = world::limits::schema::internal_m)]
     pub amplitude_m: NonNegative,
     /// Wave length, m.
     #[serde(deserialize_with = "world::limits::internal_length_m")]
+    #[schemars(transform = world::limits::schema::internal_length_m)]
     pub length_m: Positive,
     /// Period at a fixed place, s.
     #[serde(deserialize_with = "world::limits::internal_s")]
+    #[schemars(transform = world::limits::schema::internal_s)]
     pub period_s: Positive,
     /// Where the wave travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

@@ -17,6 +17,7 @@
 use std::collections::VecDeque;
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
@@ -28,28 +29,32 @@ use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
 use crate::flow::solenoidal::Solenoidal;
 
 /// Farrell's wind grid as a meander of the water.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeanderSpec {
     /// Standard deviation of each velocity component at the corners, m/s.
     #[serde(deserialize_with = "world::limits::std_m_s")]
+    #[schemars(transform = world::limits::schema::std_m_s)]
     pub std_m_s: NonNegative,
     /// Natural frequency of the noise, rad/s.
     #[serde(
         default = "farrell_omega",
         deserialize_with = "world::limits::wander_rad_s"
     )]
+    #[schemars(transform = world::limits::schema::wander_rad_s)]
     pub omega_rad_s: Positive,
     /// Damping ratio of the noise, in (0, 1).
     #[serde(
         default = "farrell_damping",
         deserialize_with = "world::limits::damping"
     )]
+    #[schemars(transform = world::limits::schema::damping)]
     pub damping: Positive,
     /// Wanted spacing of the grid, m.
     pub cell_m: Positive,
     /// Diffusivity K of the velocity, m²/s; if absent, 2ω(W/2)², W the area's shorter side.
     #[serde(default, deserialize_with = "world::limits::diffusivity_m2_s")]
+    #[schemars(transform = world::limits::schema::diffusivity_m2_s)]
     pub diffusivity_m2_s: Option<NonNegative>,
 }
 

@@ -12,6 +12,7 @@
 //! shear of the layers. The shear of the bed's stream, u_*/(κz′), is added to S² as a square, so that Ri stays finite
 //! in the tails of an interface. A column without bed friction has only the constants.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::NonNegative;
 use world::units::GRAVITY_M_S2;
@@ -19,17 +20,20 @@ use world::units::GRAVITY_M_S2;
 use crate::flow::bed::KARMAN;
 
 /// Diffusivities that are given, and coefficients of those that are derived.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MixingSpec {
     /// Horizontal diffusivity everywhere, m²/s.
     #[serde(deserialize_with = "world::limits::diffusivity_m2_s")]
+    #[schemars(transform = world::limits::schema::diffusivity_m2_s)]
     pub horizontal_m2_s: NonNegative,
     /// Vertical diffusivity added everywhere, m²/s.
     #[serde(deserialize_with = "world::limits::vertical_m2_s")]
+    #[schemars(transform = world::limits::schema::vertical_m2_s)]
     pub background_vertical_m2_s: NonNegative,
     /// Horizontal diffusivity by bed friction, in units of u_*H.
     #[serde(deserialize_with = "world::limits::transverse")]
+    #[schemars(transform = world::limits::schema::transverse)]
     pub transverse: NonNegative,
 }
 

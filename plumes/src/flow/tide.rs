@@ -14,6 +14,7 @@
 //! the tide as it is at time zero.
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
@@ -21,7 +22,7 @@ use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use crate::error::PlumeError;
 
 /// The tide's current: a sum of constituents.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TideSpec {
     /// At least one.
@@ -29,17 +30,20 @@ pub struct TideSpec {
 }
 
 /// One constituent.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ConstituentSpec {
     /// Period, h.
     #[serde(default = "m2", deserialize_with = "world::limits::tide_h")]
+    #[schemars(transform = world::limits::schema::tide_h)]
     pub period_h: Positive,
     /// Greatest speed, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
+    #[schemars(transform = world::limits::schema::stream_m_s)]
     pub major_m_s: NonNegative,
     /// Speed a quarter of a period later, to the left of the major axis, m/s; negative means to the right.
     #[serde(default = "none", deserialize_with = "world::limits::component_m_s")]
+    #[schemars(transform = world::limits::schema::component_m_s)]
     pub minor_m_s: Finite,
     /// Where the water goes at the greatest speed, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

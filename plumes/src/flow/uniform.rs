@@ -7,11 +7,12 @@
 //! *Deviations*: none.
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{HeadingDeg, NonNegative};
 
 /// A horizontal velocity as a speed and the direction the water goes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct UniformSpec {
     /// Speed over ground, m/s.

@@ -18,6 +18,7 @@
 mod answers;
 
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::fields::{Flow, Mixing};
@@ -41,7 +42,7 @@ use crate::flow::tide::Tide;
 use crate::flow::waves::Waves;
 
 /// The water of a scenario; still by default.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct WaterSpec {
     /// Currents that add up; without any, the water is still.
@@ -52,6 +53,7 @@ pub struct WaterSpec {
     pub mixing: MixingSpec,
     /// Density where no layers set it, kg/m³.
     #[serde(deserialize_with = "world::limits::density_kg_m3")]
+    #[schemars(transform = world::limits::schema::density_kg_m3)]
     pub density_kg_m3: Positive,
     /// Obstacles and bed divert the currents; if absent, currents pass through obstacles.
     pub blockage: Option<BlockageSpec>,

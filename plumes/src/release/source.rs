@@ -14,6 +14,7 @@
 
 use crate::error::PlumeError;
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
@@ -22,16 +23,18 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::terrain::Terrain;
 
 /// A source as in the scenario file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SourceSpec {
     /// Name, unique in the scenario.
     pub id: String,
     /// East of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub east_m: Finite,
     /// North of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub north_m: Finite,
     /// Height above the bed, m; either this or `depth_m`.
     #[serde(default)]
@@ -41,6 +44,7 @@ pub struct SourceSpec {
     pub depth_m: Option<Finite>,
     /// Mass released, g/s.
     #[serde(deserialize_with = "world::limits::source_g_s")]
+    #[schemars(transform = world::limits::schema::source_g_s)]
     pub rate_g_s: Positive,
     /// How it is divided into filaments.
     #[serde(default)]
@@ -48,39 +52,45 @@ pub struct SourceSpec {
 }
 
 /// How a source divides its release into filaments.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ReleaseSpec {
     /// Filaments per second, 1/s.
     pub rate_hz: Positive,
     /// Size (standard deviation of the kernel) at release, m.
     #[serde(deserialize_with = "world::limits::filament_m")]
+    #[schemars(transform = world::limits::schema::filament_m)]
     pub initial_size_m: Positive,
     /// Growth of the squared size, m²/s.
     #[serde(deserialize_with = "world::limits::growth_m2_s")]
+    #[schemars(transform = world::limits::schema::growth_m2_s)]
     pub growth_m2_s: NonNegative,
     /// Greatest vertical size, m; without it half the local depth.
     #[serde(deserialize_with = "world::limits::depth_m")]
+    #[schemars(transform = world::limits::schema::depth_m)]
     pub vertical_size_limit_m: Option<Positive>,
     /// At random times (true) or at equal intervals (false).
     pub poisson: bool,
     /// Size of the smallest eddies that are resolved, m. Below it a filament grows by the eddies smaller than itself
     /// instead of by `growth_m2_s`, and only the larger ones kick it.
     #[serde(deserialize_with = "world::limits::filament_m")]
+    #[schemars(transform = world::limits::schema::filament_m)]
     pub eddy_size_m: Option<Positive>,
     /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
 }
 
 /// A round nozzle in the stream.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct NozzleSpec {
     /// Inner diameter, m.
     #[serde(deserialize_with = "world::limits::nozzle_m")]
+    #[schemars(transform = world::limits::schema::nozzle_m)]
     pub diameter_m: Positive,
     /// Speed of the fluid that leaves it, m/s; iso-kinetic if it is that of the water around.
     #[serde(deserialize_with = "world::limits::nozzle_m_s")]
+    #[schemars(transform = world::limits::schema::nozzle_m_s)]
     pub speed_m_s: Positive,
 }
 

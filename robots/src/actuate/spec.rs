@@ -1,12 +1,13 @@
 //! What a scenario may say of the autopilot.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 
 /// Gains and limits; the defaults are for the REMUS 100. Gains of fins hold at `design_speed_m_s`
 /// through the water and are scaled by the dynamic pressure from there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AutopilotSpec {
     /// Turn rate asked per heading error, 1/s.
@@ -39,12 +40,15 @@ pub struct AutopilotSpec {
     pub speed_integral_rpm_m: NonNegative,
     /// Speed through the water at which the gains hold, m/s.
     #[serde(deserialize_with = "world::limits::vehicle_m_s")]
+    #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub design_speed_m_s: Positive,
     /// Greatest deflection of rudder and stern plane, deg.
     #[serde(deserialize_with = "world::limits::fin_deg")]
+    #[schemars(transform = world::limits::schema::fin_deg)]
     pub fin_limit_deg: Positive,
     /// Greatest propeller speed, rpm.
     #[serde(deserialize_with = "world::limits::rpm_limit")]
+    #[schemars(transform = world::limits::schema::rpm_limit)]
     pub rpm_limit: Positive,
 }
 

@@ -18,6 +18,7 @@
 use crate::error::RobotError;
 use crate::handoff::{Manoeuvre, Observation, Side};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::f64::consts::TAU;
@@ -33,7 +34,8 @@ const ON_LINE_M: f64 = 20.0;
 const TURNS_DEG: (f64, f64) = (5.0, 30.0);
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "AvoidParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Obstacles count from this distance on, m.

@@ -3,13 +3,14 @@
 use super::{cloverleaf, find, reacquire, track_in, track_out};
 use crate::error::RobotError;
 use crate::handoff::Behave;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
 macro_rules! place {
     ($(#[$doc:meta])* $spec:ident { $first:ident, $($name:ident => $module:ident :: $ty:ident),+ $(,)? }) => {
         $(#[$doc])*
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
         pub enum $spec {
             $(#[doc = concat!("See `", stringify!($module), ".rs`.")] $name($module::Params)),+

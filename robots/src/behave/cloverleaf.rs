@@ -19,6 +19,7 @@
 use crate::error::RobotError;
 use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::num::NonZeroU32;
@@ -28,7 +29,8 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "CloverleafParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: how often all leaves are flown.

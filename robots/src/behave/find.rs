@@ -17,6 +17,7 @@
 use crate::error::RobotError;
 use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride, edges, inside};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
@@ -28,7 +29,7 @@ use world::units::Heading;
 const OUTWARD: f64 = 0.01;
 
 /// Where the search begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum From {
     /// Where the vehicle is.
     #[default]
@@ -38,7 +39,8 @@ pub enum From {
 }
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "ZigZagParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Where the search begins.

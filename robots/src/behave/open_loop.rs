@@ -9,24 +9,28 @@
 
 use crate::error::RobotError;
 use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// A row of the table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeTableRow {
     /// From this time on, s.
     pub t_s: NonNegative,
     /// Rudder, °, positive to starboard.
     #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
+    #[schemars(transform = world::limits::schema::fin_deg)]
     pub rudder_deg: Finite,
     /// Stern plane, °, positive nose down.
     #[serde(default = "zero", deserialize_with = "world::limits::fin_deg")]
+    #[schemars(transform = world::limits::schema::fin_deg)]
     pub stern_deg: Finite,
     /// Propeller, rpm.
     #[serde(deserialize_with = "world::limits::rpm")]
+    #[schemars(transform = world::limits::schema::rpm)]
     pub rpm: Finite,
 }
 
@@ -35,7 +39,7 @@ fn zero() -> Finite {
 }
 
 /// The table.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeTableParams {
     /// Rows in order of time.

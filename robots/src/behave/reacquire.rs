@@ -16,6 +16,7 @@
 use crate::error::RobotError;
 use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroU32;
@@ -25,7 +26,8 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "BowtieParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// N_re: bowties at a point.

@@ -12,13 +12,15 @@
 
 use crate::error::RobotError;
 use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "CounterTurnParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// The plume counts as lost after this time without detection, s.

@@ -16,6 +16,7 @@
 
 use crate::error::RobotError;
 use crate::handoff::{Behave, Lcdp, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Stride, inside};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
@@ -24,7 +25,8 @@ use world::seeds::Stream;
 use world::units::Heading;
 
 /// Parameters of the behaviour.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "UpAcrossParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// L_u: up-flow of the point, m.
@@ -36,7 +38,7 @@ pub struct Params {
 }
 
 /// Shrinking near the source.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Near {
     /// How many of the newest last detection points are looked at, at least 2.

@@ -8,13 +8,14 @@ use super::unchanged::{self, Unchanged};
 use crate::error::RobotError;
 use crate::handoff::{Belief, Declaration, Evidence, PlumeMemory};
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::catalogue::Entry;
 use world::units::Heading;
 
 /// The rules a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum DeclareSpec {
     /// The most up-flow lost points lie close together along the flow.
@@ -100,7 +101,7 @@ impl DeclareSpec {
 }
 
 /// The rules on a map of the source that a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum BeliefRuleSpec {
     /// The likeliest cell has stayed the same.

@@ -9,11 +9,13 @@
 
 use crate::handoff::Belief;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "CredibleAreaParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Greatest size of the 95 % region, m² (m³ in a map of space).

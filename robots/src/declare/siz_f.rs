@@ -12,13 +12,14 @@
 use super::zone_size::ZoneSize;
 use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 use world::units::Heading;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SizF {
     /// Greatest distance from the mean, m.

@@ -14,13 +14,14 @@
 use super::zone_size::ZoneSize;
 use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 use world::units::Heading;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SizT {
     /// Greatest diagonal of the points' bounding box (axes east and north), m.
@@ -34,7 +35,7 @@ pub struct SizT {
 }
 
 /// Of which order the first points are looked at.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Order {
     /// Newest first.
     #[default]

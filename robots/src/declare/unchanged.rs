@@ -8,11 +8,13 @@
 
 use crate::handoff::Belief;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// The rule's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "UnchangedParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// The likeliest cell must have stayed the same for this long, s.

@@ -15,6 +15,7 @@
 
 use crate::error::RobotError;
 use crate::handoff::Lcdp;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::math;
@@ -25,7 +26,7 @@ use world::units::Heading;
 const MAD_TO_SCALE: f64 = 1.482_602_218_505_602;
 
 /// The size of a zone.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum ZoneSize {
     /// ε, m, in the meaning of the rule: a diagonal for `SizT`, a radius for `SizF`.
@@ -35,7 +36,7 @@ pub enum ZoneSize {
 }
 
 /// Parameters of a size by the scatter of the points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSize {
     /// Share of the points scattered round the source that the zone is to hold, 0 < coverage < 1.

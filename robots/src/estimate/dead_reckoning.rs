@@ -16,13 +16,14 @@ use super::Start;
 use super::layers::{LayerAwareSpec, LayerWatch};
 use crate::handoff::{Attitude, Estimate, FlowEstimate, Readings};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::Clock;
 use world::math;
 use world::ranges::{Fraction, NonNegative};
 
 /// What a scenario may say of dead reckoning.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeadReckoningSpec {
     /// Share of the way to a fix that the position jumps.

@@ -4,12 +4,13 @@ use super::{DeadReckoning, DeadReckoningSpec};
 use crate::handoff::{Estimate, Readings};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::Clock;
 use world::units::Heading;
 
 /// Which estimator, with its parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum EstimatorSpec {
     /// Compass, Doppler log and long-baseline jumps.
     DeadReckoning(DeadReckoningSpec),

@@ -13,6 +13,7 @@
 //! deepest bin nothing is known, and what is not known is not refused: a vehicle that never was above an interface
 //! reads the wrong layer as it did before. A dive from the surface at the start is what makes the profile.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use world::math;
@@ -22,7 +23,7 @@ use world::ranges::Positive;
 const SMOOTH_S: f64 = 1.0;
 
 /// What a scenario may say of telling layers apart.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerAwareSpec {
     /// Densities farther apart than this are of different layers, kg/m³.

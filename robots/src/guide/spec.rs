@@ -1,16 +1,18 @@
 //! What a scenario says about the guidance.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// Guidance parameters; the defaults are Pang 2009, section 4 and Table 4, or the choice stated at the field.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GuidanceSpec {
     /// Greatest rate of the commanded heading, °/s (section 4: 10).
     pub heading_rate_deg_s: Positive,
     /// Greatest speed through the water, m/s (section 4: 2).
     #[serde(deserialize_with = "world::limits::vehicle_m_s")]
+    #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub water_speed_limit_m_s: Positive,
     /// R of eq. 6: arrived at a point, or at the end of a line, within this distance, m (Table 4: 10).
     pub arrive_m: Positive,
@@ -26,6 +28,7 @@ pub struct GuidanceSpec {
     pub line_overshoot_m: Positive,
     /// R_m of section 4.3, m (not printed; a margin over the 11.5 m that 2 m/s at 10 °/s give).
     #[serde(deserialize_with = "world::limits::turn_m")]
+    #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
     /// A Dubins path is planned anew when the vehicle is farther off it than this, m (not printed; just
     /// under the 10 m of a navigation fix, so that a fix makes a new path and noise does not).

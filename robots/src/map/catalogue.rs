@@ -8,6 +8,7 @@ use super::watch::MapObservation;
 use super::workings::CellsSpec;
 use crate::error::RobotError;
 use crate::handoff::Belief;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::catalogue::Entry;
@@ -22,7 +23,7 @@ pub trait Mapper: std::fmt::Debug + Send + Sync {
 }
 
 /// The mappers a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum MapSpec {
     /// Belief state of a partially observable Markov decision process.

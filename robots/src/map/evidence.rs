@@ -12,11 +12,12 @@
 
 use super::spec::invalid;
 use crate::error::RobotError;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative};
 
 /// What the model of the plume is doubted for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DoubtSpec {
     /// Chance ν that dye is missed where the model has it for sure: gaps in the plume, and a plume beside its modelled place.

@@ -22,6 +22,7 @@ use super::watch::MapObservation;
 use super::workings::Workings;
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
@@ -31,7 +32,7 @@ use world::seeds::Stream;
 const PARTICLES: (u32, u32) = (10, 100_000);
 
 /// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ParticleFilterSpec {
     /// The cells of the belief made from the particles.

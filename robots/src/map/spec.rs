@@ -3,6 +3,7 @@
 use super::flow_history::FlowHistory;
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::limits::shown;
@@ -15,7 +16,8 @@ const MOST_CELLS: f64 = 1e6;
 const MOST_RELEASES: f64 = 100_000.0;
 
 /// The cells, over the operating area.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "MapGridSpec")]
 #[serde(deny_unknown_fields, default)]
 pub struct GridSpec {
     /// Cells along the area's axis.
@@ -91,32 +93,39 @@ impl GridSpec {
 }
 
 /// How dye is believed to travel from a source to the sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TrajectorySpec {
     /// Chance of detecting dye that is there, μ.
     pub mu: Fraction,
     /// Spread of dye in a second along the area's axis, σx, m/√s.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
+    #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_x_m_rts: Positive,
     /// The same across it, σy, m/√s.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
+    #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_y_m_rts: Positive,
     /// The same in the vertical, σz, m/√s; not used in a map of the plane.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
+    #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_z_m_rts: Positive,
     /// Standard deviation of the flow on the way from the flow at the vehicle, each horizontal axis, u′, m/s; 0: the flow is
     /// the same everywhere, as in the papers.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
+    #[schemars(transform = world::limits::schema::stream_m_s)]
     pub flow_error_m_s: NonNegative,
     /// How long it lasts along a way, T, s.
     #[serde(deserialize_with = "world::limits::lasting_s")]
+    #[schemars(transform = world::limits::schema::lasting_s)]
     pub flow_error_s: Positive,
     /// Releases older than this are not looked at, h, s.
     #[serde(deserialize_with = "world::limits::lasting_s")]
+    #[schemars(transform = world::limits::schema::lasting_s)]
     pub lookback_s: Positive,
     /// Time between two releases, the papers' time unit, s.
     #[serde(deserialize_with = "world::limits::lasting_s")]
+    #[schemars(transform = world::limits::schema::lasting_s)]
     pub release_period_s: Positive,
     /// Neighbouring releases are taken together while their places differ by less than this share of their
     /// spread (root mean square); 0: never.

@@ -12,12 +12,13 @@ use super::spec::{GridSpec, TrajectorySpec};
 use super::watch::Watch;
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 use world::ranges::{Fraction, Positive};
 
 /// Parameters of a mapper that weighs cells by the back-trajectory kernel.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CellsSpec {
     /// The cells.

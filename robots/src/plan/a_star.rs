@@ -16,11 +16,12 @@ use super::search::{Costs, Search};
 use super::{From, NoPath, Path, Planner, Reach, Room, smooth};
 use crate::error::RobotError;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 
 /// Which costs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Cost {
     /// Length and clearance; 8 moves in the plane, 26 in space; smoothed.
     #[default]
@@ -30,13 +31,15 @@ pub enum Cost {
 }
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "AStarParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Which costs.
     pub cost: Cost,
     /// Turning radius the path is smoothed to, m.
     #[serde(deserialize_with = "world::limits::turn_m")]
+    #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
     pub clearance_weight: NonNegative,

@@ -4,11 +4,12 @@ use super::{AStar, Planner, PotentialField};
 use super::{a_star, potential_field};
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
 /// The planners a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum PlannerSpec {
     /// Cheapest way over the cells.

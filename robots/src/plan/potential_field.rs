@@ -14,6 +14,7 @@ use super::{From, NoPath, Path, Planner, Reach, Room};
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::limits::shown;
 use world::ranges::Positive;
@@ -28,7 +29,8 @@ const STEPS_A_CELL: f64 = 20.0;
 const STEPS: f64 = 8.0;
 
 /// Parameters of the planner.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "PotentialFieldParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
     /// Slope of the attraction.

@@ -15,6 +15,7 @@ use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AdcpReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -24,7 +25,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// Which way the instrument looks along the body's z axis.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Look {
     /// To the surface.
     #[default]
@@ -34,7 +35,7 @@ pub enum Look {
 }
 
 /// What a scenario may say of the current profiler.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AdcpSpec {
     /// Where it looks.
@@ -47,6 +48,7 @@ pub struct AdcpSpec {
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
+    #[schemars(transform = world::limits::schema::stream_m_s)]
     pub noise_m_s: NonNegative,
     /// Angle between the beams and the axis, degrees, below 60.
     pub beam_angle_deg: Finite,

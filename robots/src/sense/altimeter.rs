@@ -13,6 +13,7 @@ use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AltimeterReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -20,18 +21,20 @@ use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the altimeter.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AltimeterSpec {
     /// Readings a second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
+    #[schemars(transform = world::limits::schema::error_m)]
     pub noise_m: NonNegative,
     /// Least range, m.
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(deserialize_with = "world::limits::sonar_m")]
+    #[schemars(transform = world::limits::schema::sonar_m)]
     pub max_range_m: Positive,
 }
 

@@ -10,6 +10,7 @@
 
 use crate::error::RobotError;
 use crate::handoff::AttitudeReading;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -17,7 +18,7 @@ use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the compass.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CompassSpec {
     /// Readings a second, Hz.

@@ -13,6 +13,7 @@
 use crate::error::RobotError;
 use crate::handoff::CtdReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -22,7 +23,7 @@ use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the CTD.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CtdSpec {
     /// Readings a second, Hz.

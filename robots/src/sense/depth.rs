@@ -9,6 +9,7 @@
 use crate::error::RobotError;
 use crate::handoff::DepthReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::fields::Flow;
@@ -17,13 +18,14 @@ use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the depth sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DepthSpec {
     /// Readings a second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
+    #[schemars(transform = world::limits::schema::error_m)]
     pub noise_m: NonNegative,
 }
 

@@ -16,6 +16,7 @@ use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::DvlReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -23,13 +24,14 @@ use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the Doppler log.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DvlSpec {
     /// Readings a second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
+    #[schemars(transform = world::limits::schema::stream_m_s)]
     pub noise_m_s: NonNegative,
     /// Standard deviation of the relative scale error, drawn once a run.
     pub scale_error: NonNegative,
@@ -37,6 +39,7 @@ pub struct DvlSpec {
     pub min_altitude_m: NonNegative,
     /// Greatest range to the bed for bottom lock, m.
     #[serde(deserialize_with = "world::limits::sonar_m")]
+    #[schemars(transform = world::limits::schema::sonar_m)]
     pub max_altitude_m: Positive,
 }
 

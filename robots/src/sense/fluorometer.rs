@@ -14,6 +14,7 @@
 use crate::error::RobotError;
 use crate::handoff::ChemicalReading;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
@@ -24,7 +25,7 @@ use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
 /// What a scenario may say of the fluorometer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FluorometerSpec {
     /// Readings a second, Hz.

@@ -12,6 +12,7 @@
 use crate::error::RobotError;
 use crate::handoff::LblFix;
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -19,13 +20,14 @@ use world::ranges::{Fraction, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the long baseline.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LblSpec {
     /// Time between two fixes, s.
     pub period_s: Positive,
     /// Standard deviation of east and of north, m.
     #[serde(deserialize_with = "world::limits::error_m")]
+    #[schemars(transform = world::limits::schema::error_m)]
     pub noise_m: NonNegative,
     /// Share of fixes that fail.
     pub dropout: Fraction,

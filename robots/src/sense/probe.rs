@@ -17,6 +17,7 @@
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
@@ -25,7 +26,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// What a scenario may say of the probes.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProbesSpec {
     /// Scans a second, Hz.

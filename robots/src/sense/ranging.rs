@@ -13,6 +13,7 @@
 use crate::error::RobotError;
 use crate::handoff::{Beam, RangeScan};
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::{Clock, Every};
 use world::frames::Truth;
@@ -28,7 +29,7 @@ const MOST: u32 = 1024;
 const BED_STEP: (f64, u32) = (0.5, 20);
 
 /// What a scenario may say of the ranging.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RangingSpec {
     /// Pings a second, Hz.
@@ -45,9 +46,11 @@ pub struct RangingSpec {
     pub min_range_m: NonNegative,
     /// Greatest range, m.
     #[serde(deserialize_with = "world::limits::sonar_m")]
+    #[schemars(transform = world::limits::schema::sonar_m)]
     pub max_range_m: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
+    #[schemars(transform = world::limits::schema::error_m)]
     pub noise_m: NonNegative,
     /// Share of the beams that say nothing.
     pub dropout: Fraction,

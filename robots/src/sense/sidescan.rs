@@ -21,6 +21,7 @@ use super::sidescan_fan::Fan;
 use crate::error::RobotError;
 use crate::handoff::SidescanPing;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_10;
 use std::sync::Arc;
@@ -38,13 +39,14 @@ const MOST: u32 = 4096;
 const SOUND_M_S: f64 = 1500.0;
 
 /// What a scenario may say of the sidescan sonar.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SidescanSpec {
     /// Pings a second, Hz.
     pub rate_hz: Positive,
     /// Greatest slant range, m.
     #[serde(deserialize_with = "world::limits::sonar_m")]
+    #[schemars(transform = world::limits::schema::sonar_m)]
     pub range_m: Positive,
     /// Samples on a side, nearest to farthest.
     pub samples: u32,
@@ -56,9 +58,11 @@ pub struct SidescanSpec {
     pub tilt_deg: NonNegative,
     /// Backscatter strength of a square metre of bed at a grazing angle of 90°, dB.
     #[serde(deserialize_with = "world::limits::level_db")]
+    #[schemars(transform = world::limits::schema::level_db)]
     pub bed_db: Finite,
     /// Backscatter strength whose echo from the greatest range equals the noise, dB.
     #[serde(deserialize_with = "world::limits::level_db")]
+    #[schemars(transform = world::limits::schema::level_db)]
     pub floor_db: Finite,
     /// Absorption, dB/m.
     pub absorption_db_m: NonNegative,

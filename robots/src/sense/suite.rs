@@ -11,6 +11,7 @@ use crate::error::RobotError;
 use crate::handoff::{Behaviour, Decision, Picture, Readings};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::clock::Clock;
 use world::fields::{Concentration, Flow};
@@ -19,7 +20,7 @@ use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// The instruments a scenario fits to a robot; one left out is not on board.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorsSpec {
     /// Chemical sensor.

@@ -7,6 +7,7 @@ use super::subregions::{Subregions, SubregionsSpec};
 use super::subsumption::{Subsumption, SubsumptionSpec};
 use crate::error::RobotError;
 use crate::handoff::{Decision, Observation, Setting, Vertical};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Stream;
@@ -18,7 +19,7 @@ pub trait Strategy: std::fmt::Debug + Send + Sync {
 }
 
 /// The strategies a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum StrategySpec {
     /// Pang's adaptive mission planner: find, track in, track out, reacquire, declare.
@@ -88,7 +89,7 @@ impl StrategySpec {
 }
 
 /// Vertical part of a strategy's goals.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum VerticalSpec {
     /// Height above the bed, m.

@@ -1,10 +1,11 @@
 //! What a scenario says of the search for objects in a sidescan's picture.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// When a bright return with a shadow behind it is an object.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DetectSpec {
     /// Least contrast of highlight over shadow, in standard errors of the bed's own speckle.

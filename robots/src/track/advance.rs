@@ -13,12 +13,13 @@
 //! sweep, which has nothing before it, goes on if it has any spike. `Gated` is not in the paper's tracker.
 
 use super::data::StepRecord;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::{NonNegative, Positive};
 
 /// The rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AdvanceSpec {
     /// More than before, or as predicted.
@@ -34,7 +35,7 @@ impl Default for AdvanceSpec {
 }
 
 /// Parameters of the step rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct StepRule {
     /// The present magnitude must exceed this share of the previous one.
@@ -56,7 +57,7 @@ impl Default for StepRule {
 }
 
 /// Parameters of the gate.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Gated {
     /// Least number of spikes in the step.

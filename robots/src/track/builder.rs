@@ -13,6 +13,7 @@
 
 use super::data::Spike;
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
@@ -21,7 +22,7 @@ use world::ranges::Positive;
 pub(super) const KEPT: usize = 16;
 
 /// Parameters of the full sweep.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SweepSpec {
     /// Length across the stream, m.
@@ -33,7 +34,7 @@ pub struct SweepSpec {
 }
 
 /// What counts as the best place of a sweep.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Best {
     /// That of the greatest spike.
     Peak,

@@ -17,13 +17,14 @@ use crate::handoff::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState,
 };
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 use world::seeds::Stream;
 
 /// Parameters of the searcher.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ChemotaxisSpec {
     /// Step (along the stream, across it), m.

@@ -12,12 +12,13 @@ use super::threshold::ThresholdSpec;
 use crate::error::RobotError;
 use crate::handoff::GantryLayout;
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 
 /// The tracker's units.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabSpec {
     /// Step (along the stream, across it), m.

@@ -13,11 +13,12 @@
 
 use super::data::{Spike, StepRecord, Tally};
 use crate::handoff::MAX_PROBES;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// Where a step's average begins.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Since {
     /// With the decision that began the step.
     Decision,
@@ -26,7 +27,7 @@ pub enum Since {
 }
 
 /// Parameters of the unit.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HistorySpec {
     /// Weight of a centre probe's spike; a steering probe's is 1.

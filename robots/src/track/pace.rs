@@ -15,12 +15,13 @@
 //! enough of them the next step follows without rest, with fewer the head waits for them, at most `dwell_s`.
 
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::{NonNegative, Positive};
 
 /// The paces a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum PaceSpec {
     /// The same speeds and rest for every step.
@@ -36,7 +37,8 @@ impl Default for PaceSpec {
 }
 
 /// Parameters of the fixed pace.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "FixedPace")]
 #[serde(deny_unknown_fields, default)]
 pub struct Fixed {
     /// Speed along the stream, m/s.
@@ -58,7 +60,8 @@ impl Default for Fixed {
 }
 
 /// Parameters of the adaptive pace.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "AdaptivePace")]
 #[serde(deny_unknown_fields, default)]
 pub struct Adaptive {
     /// Forward speed without spikes, m/s.

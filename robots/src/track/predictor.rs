@@ -11,12 +11,13 @@
 //! *Deviations*: none known.
 
 use super::data::Spike;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use world::ranges::{NonNegative, Positive};
 
 /// The predictors a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum PredictorSpec {
     /// Weighted mean of the memory.
@@ -32,7 +33,7 @@ impl Default for PredictorSpec {
 }
 
 /// Parameters of the mean.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Mean {
     /// Length of the memory, s.
@@ -48,7 +49,7 @@ impl Default for Mean {
 }
 
 /// Parameters of the straight line.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Trend {
     /// Length of the memory, s.

@@ -9,11 +9,12 @@
 
 use super::data::{Sample, Spike};
 use crate::handoff::MAX_PROBES;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
 /// Whose spikes are counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Count {
     /// The probe with the most.
     Greatest,

@@ -5,6 +5,7 @@ use super::crab::CrabTracker;
 use super::crab_spec::CrabSpec;
 use crate::error::RobotError;
 use crate::handoff::{GantryDecision, GantryLayout, GantryObservation};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::seeds::Stream;
 
@@ -19,7 +20,7 @@ pub trait GantryStrategy: std::fmt::Debug + Send + Sync {
     clippy::large_enum_variant,
     reason = "one a run, and a box would only cost the reader"
 )]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum GantryStrategySpec {
     /// The blue-crab tracker.

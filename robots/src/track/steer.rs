@@ -14,11 +14,12 @@
 //! gathers spikes since the head last moved aside, so that few spikes steer late and not never.
 
 use super::data::{StepRecord, Tally};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, Positive};
 
 /// The steering rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum ContrastSpec {
     /// A fixed difference between the sides.
@@ -34,7 +35,8 @@ impl Default for ContrastSpec {
 }
 
 /// Parameters of the fixed threshold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "FixedContrast")]
 #[serde(deny_unknown_fields, default)]
 pub struct Fixed {
     /// Least difference, as a share of the larger side.
@@ -44,7 +46,7 @@ pub struct Fixed {
 }
 
 /// What stands for a side's peak concentration.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Peak {
     /// Mean magnitude of the step's spikes.
     MeanPeak,
@@ -62,7 +64,8 @@ impl Default for Fixed {
 }
 
 /// Parameters of the adaptive threshold.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "AdaptiveContrast")]
 #[serde(deny_unknown_fields, default)]
 pub struct Adaptive {
     /// Least difference, in standard errors of it.

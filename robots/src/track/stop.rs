@@ -22,12 +22,13 @@
 
 use super::data::{Sample, Spike};
 use super::rate::{Count, RateWindow};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 
 /// The stop rules a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum StopSpec {
     /// A fixed frequency of spikes.
@@ -43,7 +44,7 @@ impl Default for StopSpec {
 }
 
 /// Parameters of the fixed frequency.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpikeRate {
     /// Threshold frequency, Hz.
@@ -65,7 +66,7 @@ impl Default for SpikeRate {
 }
 
 /// Parameters of the frequency relative to experience.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Experience {
     /// Threshold over the frequency met first.

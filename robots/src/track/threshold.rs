@@ -15,12 +15,13 @@
 
 use super::data::Spike;
 use crate::handoff::MAX_PROBES;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::{Finite, Fraction, Positive};
 
 /// The analysers a tracker can have.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum ThresholdSpec {
     /// Half of the running average, not below a floor.
@@ -36,7 +37,7 @@ impl Default for ThresholdSpec {
 }
 
 /// Parameters of the C_avg/2 rule.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HalfMean {
     /// Least threshold, V.
@@ -52,7 +53,7 @@ pub struct HalfMean {
 }
 
 /// Which local maxima enter the average.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Averaged {
     /// All above the floor.
     AboveFloor,
@@ -73,7 +74,7 @@ impl Default for HalfMean {
 }
 
 /// Parameters of the constant level.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Level {
     /// The level, V.

@@ -24,12 +24,13 @@
 //! | limits of the actuators | on their state | on the command |
 
 use nalgebra::{Matrix6, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::units::GRAVITY_M_S2;
 
 /// A set of hull parameters.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ParameterSet {
     /// What the simulator ships: the published set without its quirks.
     #[default]

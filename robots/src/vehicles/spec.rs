@@ -1,11 +1,12 @@
 //! What a scenario says of a vehicle.
 
 use super::coefficients::ParameterSet;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
 /// Which vehicle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum VehicleSpec {
     /// REMUS 100.
@@ -19,7 +20,7 @@ impl Default for VehicleSpec {
 }
 
 /// A REMUS 100.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RemusSpec {
     /// Hull parameters: `remus100` or `reference`.

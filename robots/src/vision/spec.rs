@@ -1,6 +1,7 @@
 //! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns and of what makes a picture verify a source.
 
 use crate::error::RobotError;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative, Positive};
 
@@ -8,7 +9,7 @@ use world::ranges::{Fraction, NonNegative, Positive};
 const MOST_PASSES: u32 = 60;
 
 /// The parameters of Tian et al. 2013, section 5, with their values as defaults. Levels are of 8 bits, 0 to 255.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ColourSpec {
     /// Differences below this are wholly Zero (α₁), levels.
@@ -49,7 +50,7 @@ impl ColourSpec {
 }
 
 /// Length of the edge between two colour patterns.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Edges {
     /// The distance of the two colours.
     #[default]
@@ -118,7 +119,7 @@ impl ColourSpec {
 }
 
 /// When a picture verifies a source.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerifierSpec {
     /// The extractor. Without it the paper's with `give_back` and `dehaze`; with it what it does not name is the paper's.

@@ -1,6 +1,7 @@
 //! What the command can be asked.
 
 use super::args_campaign::CampaignArgs;
+use super::args_explain::ExplainArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
@@ -60,6 +61,7 @@ Examples:
   rheotaxis check mine.ron              what is wrong with it: file, line, column, legal range
   rheotaxis run mine.ron --seed 7       run it, into runs/mine-7/
   rheotaxis list sensors                what a scenario can ask for, each with its source
+  rheotaxis explain water.currents      what a field means: unit, range, default
 
 Exit codes:
   0    every mission ended as its scenario defines success
@@ -79,6 +81,8 @@ pub enum Command {
     Init(InitArgs),
     /// List scenarios, algorithms, flows, sensors and vehicles, each with its source.
     List(ListArgs),
+    /// Explain a field of a scenario: unit, range, default, meaning, source; alone, the top of a scenario.
+    Explain(ExplainArgs),
     /// List what a run publishes over zenoh.
     Topics(TopicsArgs),
     /// Run thousands of seeds, arms and conditions, on one machine or many, and compare them.

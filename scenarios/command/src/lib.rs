@@ -7,6 +7,7 @@
 
 mod args;
 mod args_campaign;
+mod args_explain;
 mod args_picture;
 mod args_reproduce;
 mod args_vision;
@@ -15,6 +16,7 @@ mod campaign_plan;
 mod campaign_report;
 mod check;
 mod exit;
+mod explain;
 mod init;
 mod list;
 mod onlooker;
@@ -38,6 +40,7 @@ pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
     StatusArgs,
 };
+pub use args_explain::ExplainArgs;
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
 pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
@@ -69,6 +72,7 @@ fn dispatch(command: Command) -> Exit {
         Command::Check(args) => check::check(&args),
         Command::Init(args) => init::init(&args),
         Command::List(args) => list::list(&args),
+        Command::Explain(args) => explain::explain(&args),
         Command::Topics(args) => topics::topics(&args),
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),

@@ -4,6 +4,7 @@ pub mod abnormal;
 pub mod assemble;
 pub mod auv;
 pub mod error;
+pub mod explain;
 pub mod frame;
 pub mod gantry;
 pub mod ocean;

@@ -2,10 +2,11 @@
 
 use super::Surface;
 use crate::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// One obstacle of a scenario. Obstacles that overlap form one solid.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ObstacleSpec {
     /// Name, unique in the scenario.
@@ -14,9 +15,11 @@ pub struct ObstacleSpec {
     pub shape: ShapeSpec,
     /// East of the datum (down-stream in a flume), m.
     #[serde(deserialize_with = "crate::limits::place_m")]
+    #[schemars(transform = crate::limits::schema::place_m)]
     pub east_m: Finite,
     /// North of the datum (to the left in a flume), m.
     #[serde(deserialize_with = "crate::limits::place_m")]
+    #[schemars(transform = crate::limits::schema::place_m)]
     pub north_m: Finite,
     /// Height of its lowest point; on the bed by default.
     #[serde(default)]
@@ -34,7 +37,7 @@ fn east() -> HeadingDeg {
 }
 
 /// A shape in its own axes: x forward, y left, z up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum ShapeSpec {
     /// A block.
     Box(BoxShape),
@@ -47,46 +50,51 @@ pub enum ShapeSpec {
 }
 
 /// A block, centred on its place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct BoxShape {
     /// Length along x, width along y and height, m.
     #[serde(deserialize_with = "crate::limits::solid_m")]
+    #[schemars(transform = crate::limits::schema::solid_m)]
     pub size_m: (Positive, Positive, Positive),
 }
 
 /// An upright cylinder, centred on its place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct CylinderShape {
     /// Radius, m.
     #[serde(deserialize_with = "crate::limits::solid_m")]
+    #[schemars(transform = crate::limits::schema::solid_m)]
     pub radius_m: Positive,
     /// Height, m.
     #[serde(deserialize_with = "crate::limits::solid_m")]
+    #[schemars(transform = crate::limits::schema::solid_m)]
     pub height_m: Positive,
 }
 
 /// A closed surface from an STL or OBJ file. Its origin stands at the obstacle's place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MeshShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file.
     #[serde(default = "one", deserialize_with = "crate::limits::scale")]
+    #[schemars(transform = crate::limits::schema::scale)]
     pub scale: Positive,
 }
 
 /// Heights on a regular grid from an Esri ASCII grid file (.asc). Its centre stands at the obstacle's place and its
 /// lowest height at the obstacle's base. Below that it is solid for another metre (times the scale).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HeightfieldShape {
     /// Path, relative to the scenario file.
     pub file: String,
     /// Metres in one unit of the file, for `cellsize` and heights alike.
     #[serde(default = "one", deserialize_with = "crate::limits::scale")]
+    #[schemars(transform = crate::limits::schema::scale)]
     pub scale: Positive,
 }
 
@@ -95,7 +103,7 @@ fn one() -> Positive {
 }
 
 /// Where the lowest point of an obstacle stands.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Base {
     /// On the bed: at the lowest point of the bed under the obstacle, so that no gap is left on a slope.
     #[default]

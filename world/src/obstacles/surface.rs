@@ -1,16 +1,18 @@
 //! How an obstacle's surface looks and sounds: how it reflects light and sound.
 
 use crate::ranges::{Finite, Fraction};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Optical and acoustic properties of a surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Surface {
     /// Share of red, green and blue light that is reflected, equally in all directions.
     pub albedo: (Fraction, Fraction, Fraction),
     /// Backscatter strength per square metre at a grazing angle of 90°, dB.
     #[serde(deserialize_with = "crate::limits::level_db")]
+    #[schemars(transform = crate::limits::schema::level_db)]
     pub backscatter_db: Finite,
 }
 

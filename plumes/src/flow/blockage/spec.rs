@@ -1,5 +1,6 @@
 //! Blockage as a scenario asks for it.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
@@ -13,7 +14,7 @@ use crate::flow::grid::GridShape;
 use crate::flow::ground::Ground;
 
 /// Obstacles and bed turn the water aside; without this block currents pass through obstacles as if they were not there.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct BlockageSpec {
     /// Horizontal size of a cell, m: a few to the narrowest obstacle or gap; made to fit, never larger.

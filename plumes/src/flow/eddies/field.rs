@@ -20,6 +20,7 @@ use crate::error::PlumeError;
 use crate::flow::channel::Channel;
 use crate::quad::Quad;
 use nalgebra::{Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::{Arc, Mutex};
 use world::area::Area;
@@ -29,7 +30,7 @@ use world::math;
 use world::seeds::Stream;
 
 /// How finely turbulence is resolved.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EddiesSpec {
     /// Cells of the eddies' grid from bed to surface, from 8 to 32.

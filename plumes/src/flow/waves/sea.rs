@@ -26,6 +26,7 @@
 //! m/s has 190 cm²/s.
 
 use nalgebra::{Rotation2, Vector2, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
 use world::fields::WaterSample;
@@ -38,7 +39,7 @@ use super::spectrum::SpectrumSpec;
 use crate::error::PlumeError;
 
 /// Waves on the surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct WavesSpec {
     /// Regular waves.
@@ -52,18 +53,21 @@ pub struct WavesSpec {
     pub stokes: bool,
     /// Ichiye's coefficient of the mixing.
     #[serde(default = "ichiye", deserialize_with = "world::limits::wave_mixing")]
+    #[schemars(transform = world::limits::schema::wave_mixing)]
     pub mixing: NonNegative,
 }
 
 /// One regular wave.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TrainSpec {
     /// Height from trough to crest, m.
     #[serde(deserialize_with = "world::limits::wave_m")]
+    #[schemars(transform = world::limits::schema::wave_m)]
     pub height_m: Positive,
     /// Period at a fixed place, s.
     #[serde(deserialize_with = "world::limits::wave_s")]
+    #[schemars(transform = world::limits::schema::wave_s)]
     pub period_s: Positive,
     /// Where the train travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,

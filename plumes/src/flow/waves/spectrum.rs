@@ -12,6 +12,7 @@
 //! spectrum's exactly, the heights Gaussian as n grows; unequal bins keep it from repeating. Bins take the directions' quantiles in golden steps from
 //! a drawn one, phases are drawn. s is the same at all frequencies.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 use world::math;
@@ -19,22 +20,26 @@ use world::ranges::{HeadingDeg, NonNegative, Positive};
 use world::seeds::Stream;
 
 /// A sea raised by the wind.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SpectrumSpec {
     /// Four standard deviations of the surface, m.
     #[serde(deserialize_with = "world::limits::wave_m")]
+    #[schemars(transform = world::limits::schema::wave_m)]
     pub significant_height_m: Positive,
     /// Period of the spectrum's peak, s.
     #[serde(deserialize_with = "world::limits::wave_s")]
+    #[schemars(transform = world::limits::schema::wave_s)]
     pub peak_period_s: Positive,
     /// Where the waves travel, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
     /// γ: 3.3 a growing sea, 1 a fully grown one.
     #[serde(default = "jonswap", deserialize_with = "world::limits::peakedness")]
+    #[schemars(transform = world::limits::schema::peakedness)]
     pub peakedness: Positive,
     /// s: the greater, the longer the crests.
     #[serde(default = "wind_waves", deserialize_with = "world::limits::spreading")]
+    #[schemars(transform = world::limits::schema::spreading)]
     pub spreading: NonNegative,
     /// How many waves stand for it, from 1 to 200.
     #[serde(default = "enough")]

@@ -25,6 +25,7 @@ use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
 use crate::map::terms::Terms;
 use crate::map::watch::MapObservation;
 use crate::map::workings::Workings;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
@@ -35,7 +36,7 @@ use world::ranges::{Fraction, Positive};
 const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HmmSpec {
     /// The cells.

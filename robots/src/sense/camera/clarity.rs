@@ -14,6 +14,7 @@
 use super::bands::{GREEN, Spectrum, each, spread};
 use super::waters;
 use crate::error::RobotError;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 
@@ -21,17 +22,20 @@ use world::ranges::{NonNegative, Positive};
 const CONTRAST: f64 = 4.8;
 
 /// What a scenario may say of the water's clarity.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ClaritySpec {
     /// How far a dark thing is seen on a level line, m.
     #[serde(deserialize_with = "world::limits::visibility_m")]
+    #[schemars(transform = world::limits::schema::visibility_m)]
     pub visibility_m: Positive,
     /// Absorption of red, green and blue, 1/m, in place of that of the visibility.
     #[serde(deserialize_with = "world::limits::loss_per_m")]
+    #[schemars(transform = world::limits::schema::loss_per_m)]
     pub absorption_per_m: Option<(Positive, Positive, Positive)>,
     /// Scattering of red, green and blue, 1/m, in place of that of the visibility.
     #[serde(deserialize_with = "world::limits::loss_per_m")]
+    #[schemars(transform = world::limits::schema::loss_per_m)]
     pub scattering_per_m: Option<(NonNegative, NonNegative, NonNegative)>,
 }
 

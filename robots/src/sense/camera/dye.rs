@@ -12,6 +12,7 @@
 //! strong solution; what glows is not taken up and given off again.
 
 use super::bands::{N, Spectrum, each, line};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative};
 
@@ -21,7 +22,7 @@ const ABSORBS: [(f64, f64, f64); 2] = [(554.0, 40.0, 1.0), (520.0, 40.0, 0.33)];
 const GLOWS: (f64, f64) = (580.0, 45.0);
 
 /// What a scenario may say of the dye's looks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DyeSpec {
     /// Absorption at the peak to base e, m²/kg.

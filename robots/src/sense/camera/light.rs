@@ -18,6 +18,7 @@ use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
 use crate::error::RobotError;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use world::math;
@@ -29,7 +30,7 @@ pub(super) const INDEX: f64 = 1.34;
 pub(super) const SCATTER_COSINE: f64 = 0.924;
 
 /// What a scenario may say of daylight.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightSpec {
     /// Height of the sun over the horizon, °, at most 90.

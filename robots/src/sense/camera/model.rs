@@ -11,13 +11,14 @@
 
 use super::sensor::SensorSpec;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::frames::Pose;
 use world::math;
 use world::ranges::{Finite, Positive};
 
 /// What a scenario may say of a camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
     /// Most pictures a second, Hz; one is taken only when asked for.
@@ -54,7 +55,7 @@ impl Default for CameraSpec {
 }
 
 /// A lamp that shines where the camera looks.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LampSpec {
     /// Luminous intensity on its axis, cd.

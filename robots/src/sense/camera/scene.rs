@@ -18,6 +18,7 @@ use super::sensor::hash;
 use crate::error::RobotError;
 use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use world::fields::Concentration;
@@ -27,7 +28,7 @@ use world::ranges::Fraction;
 use world::terrain::Terrain;
 
 /// What a scenario may say of light in its water.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OpticsSpec {
     /// How clear the water is.

@@ -15,13 +15,14 @@
 //! it ends at 3.46 standard deviations; for fewer than some ten electrons it is not yet Poisson's.
 
 use super::bands::Rgb;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// What a scenario may say of the sensor.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorSpec {
     /// Exposure, s; automatic without it.

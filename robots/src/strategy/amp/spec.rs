@@ -5,12 +5,13 @@ use super::super::survey::AfterDeclaration;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::{FixMove, LCDPS};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::{Finite, Positive};
 
 /// Composition and parameters; every default is the paper's.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AmpSpec {
     /// Speed over ground, m/s (section 6: 2).
@@ -59,7 +60,7 @@ impl Default for AmpSpec {
 }
 
 /// A place to go to before the search.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartAt {
     /// East, m.
@@ -72,7 +73,7 @@ pub struct StartAt {
 }
 
 /// What detections count while going to the start.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Detections {
     /// Nothing: the rule for transits (section 6).
     #[default]

@@ -11,6 +11,7 @@
 use crate::handoff::{Manoeuvre, Observation};
 use crate::plan::Room;
 use nalgebra::Vector3;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::units::Heading;
@@ -21,19 +22,22 @@ const STEP_RAD: f64 = std::f64::consts::PI / 12.0;
 const HELD: (f64, f64) = (0.25, 3.0);
 
 /// Parameters.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EvadeSpec {
     /// Turning radius, m.
     #[serde(deserialize_with = "world::limits::turn_m")]
+    #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
     /// Distance looked ahead, m.
     #[serde(deserialize_with = "world::limits::look_m")]
+    #[schemars(transform = world::limits::schema::look_m)]
     pub look_m: Positive,
     /// How long it backs off when held fast, s.
     pub back_s: NonNegative,
     /// Speed of the propeller then, astern, rpm.
     #[serde(deserialize_with = "world::limits::rpm_limit")]
+    #[schemars(transform = world::limits::schema::rpm_limit)]
     pub back_rpm: Positive,
 }
 

@@ -8,6 +8,7 @@ use crate::declare::BeliefRuleSpec;
 use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Setting};
 use crate::plan::PlannerSpec;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::limits::shown;
@@ -19,7 +20,7 @@ const MOST_CELLS: f64 = 4e6;
 const FLATTEST: f64 = 100.0;
 
 /// Composition and parameters; a default with a section is the paper's (Wang & Pang), others are ours.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MapAndPlanSpec {
     /// Speed over ground, m/s (section III-B: 2).
@@ -90,7 +91,7 @@ impl MapAndPlanSpec {
 }
 
 /// The planner's cells, over the operating area.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum RoomSpec {
     /// At one height.
     Plane(PlaneSpec),
@@ -105,7 +106,7 @@ impl Default for RoomSpec {
 }
 
 /// Cells of the plane.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlaneSpec {
     /// Sides along the area's axis and across it, m.
@@ -121,7 +122,7 @@ impl Default for PlaneSpec {
 }
 
 /// Cells of space.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SpaceSpec {
     /// Sides along the area's axis, across it and upwards, m.
@@ -195,7 +196,7 @@ impl RoomSpec {
 }
 
 /// What to do at the target.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum AtTarget {
     /// Steer for it again and again, which circles round it (section III-B: the heading is always that to the target).
     #[default]
@@ -205,7 +206,7 @@ pub enum AtTarget {
 }
 
 /// Crossings down-flow of the target.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrossSpec {
     /// Distance down-flow, m.

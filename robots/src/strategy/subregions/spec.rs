@@ -1,12 +1,13 @@
 //! What a scenario says about a mission over subregions.
 
 use super::super::spec::{StrategySpec, VerticalSpec};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroU32;
 use world::ranges::{Finite, NonNegative, Positive};
 
 /// The subregions, what searches them, and when the search of one is over.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SubregionsSpec {
     /// Where they are, in the order in which they are searched.
@@ -38,7 +39,7 @@ fn vertical() -> VerticalSpec {
 }
 
 /// Where the subregions are.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum RegionsSpec {
     /// The operating area divided evenly.
     Grid(GridSpec),
@@ -47,7 +48,8 @@ pub enum RegionsSpec {
 }
 
 /// An even division of the operating area.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "SubregionsGridSpec")]
 #[serde(deny_unknown_fields)]
 pub struct GridSpec {
     /// Parts along the area's axis.
@@ -60,7 +62,7 @@ pub struct GridSpec {
 }
 
 /// A list of rectangles.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectanglesSpec {
     /// The rectangles, in the order in which they are searched.
@@ -68,7 +70,7 @@ pub struct RectanglesSpec {
 }
 
 /// A rectangle along the operating area's axes, within the area.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectangleSpec {
     /// From and to along the area's axis, m from the area's centre.
@@ -78,7 +80,8 @@ pub struct RectangleSpec {
 }
 
 /// Where the search of a subregion begins.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "SubregionEntry")]
 pub enum Entry {
     /// In its most down-flow corner (section 5.2).
     #[default]
@@ -88,7 +91,7 @@ pub enum Entry {
 }
 
 /// When a plume counts as traced to the up-flow edge.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EdgeSpec {
     /// A detection nearer to the edge than this, or beyond it, has reached it, m.

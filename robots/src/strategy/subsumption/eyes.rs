@@ -9,11 +9,12 @@
 
 use crate::handoff::{Declaration, Observation, PlumeMemory, Verdict};
 use crate::vision::{Verifier, VerifierSpec};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// Looking at last detection points.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EyesSpec {
     /// A picture is asked for within this distance of the newest LCDP, m.

@@ -14,11 +14,12 @@
 
 use crate::handoff::{MARGIN_M, Manoeuvre, Observation, PlumeMemory, inside};
 use nalgebra::Vector2;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Parameters of the layer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct PlumeMapSpec {
     /// The map counts once 95 % of its probability lie in this share of its cells.

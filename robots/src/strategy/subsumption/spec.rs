@@ -7,12 +7,13 @@ use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::{FixMove, LCDPS};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
 use world::ranges::Positive;
 
 /// Composition and parameters.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SubsumptionSpec {
     /// Speed over ground, m/s.
@@ -80,7 +81,8 @@ impl SubsumptionSpec {
 }
 
 /// A layer.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "SubsumptionLayer")]
 #[serde(deny_unknown_fields)]
 pub enum LayerSpec {
     /// Looks for the plume; always asks for the vehicle.
@@ -100,7 +102,7 @@ pub enum LayerSpec {
 }
 
 /// Maintain-Plume.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MaintainSpec {
     /// In the plume.
@@ -119,6 +121,6 @@ impl Default for MaintainSpec {
 }
 
 /// Go-Home; it has no parameters.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GoHomeSpec {}

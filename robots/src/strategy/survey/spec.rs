@@ -3,6 +3,7 @@
 use crate::error::RobotError;
 use crate::survey::DetectSpec;
 use crate::vision::VerifierSpec;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Finite, Positive};
 
@@ -10,7 +11,7 @@ use world::ranges::{Finite, Positive};
 const MOST_LINES: usize = 32;
 
 /// What follows the declaration.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AfterDeclaration {
     /// Home, and the mission is completed there.
@@ -35,7 +36,7 @@ impl AfterDeclaration {
 }
 
 /// A survey of a declared place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SurveySpec {
     /// Passes for the sidescan; its best object takes the camera's passes to itself.
@@ -68,7 +69,7 @@ impl Default for SurveySpec {
 }
 
 /// Lines for the sidescan.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SidescanPasses {
     /// Distances of the lines from the place, across the flow, m; the lines lie along the flow.
@@ -96,7 +97,7 @@ impl Default for SidescanPasses {
 }
 
 /// Lines for the camera.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraPasses {
     /// Distances of the lines from the place, across the flow, m.
@@ -125,7 +126,7 @@ impl Default for CameraPasses {
 
 /// What a source must have been seen by for a declaration to be verified; else it is rejected. An instrument that never
 /// reported has no say.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Verify {
     /// An object by the sidescan.
     #[default]

@@ -1,10 +1,11 @@
 //! What a scenario says of a gantry.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 
 /// Which gantry.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum GantrySpec {
     /// The gantry of the blue-crab tracker, or any other of two level slides.
@@ -19,7 +20,7 @@ impl Default for GantrySpec {
 
 /// A gantry: its frame by URDF, its drives by numbers. Travel, greatest speeds, greatest forces, masses, shapes
 /// and probes stand in the URDF; the paper says nothing of its drives beyond the speeds.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabGantrySpec {
     /// URDF file, relative to the scenario file; `None`: the one built in.

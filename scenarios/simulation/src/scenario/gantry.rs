@@ -6,13 +6,14 @@ use robots::handoff::GantryLayout;
 use robots::sense::ProbesSpec;
 use robots::track::GantryStrategySpec;
 use robots::vehicles::{Gantry, GantrySpec};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::frames::Pose;
 use world::ranges::{Finite, HeadingDeg};
 use world::terrain::Terrain;
 
 /// A gantry: its frame and drives, where it stands, its probes, and what it does with them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GantryBlock {
     /// Name, unique among gantries and robots.
@@ -33,14 +34,16 @@ pub struct GantryBlock {
 }
 
 /// Where the origin of a gantry's URDF stands: on the bed, turned about the vertical.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct PlaceSpec {
     /// East of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub east_m: Finite,
     /// North of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub north_m: Finite,
     /// Where its first axis points: up-stream.
     pub heading_deg: HeadingDeg,
@@ -54,7 +57,7 @@ fn zero() -> Finite {
 }
 
 /// Where the head is, in the gantry's own frame.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HeadSpec {
     /// Along the first axis, m.

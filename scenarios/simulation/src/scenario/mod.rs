@@ -11,7 +11,6 @@ mod check_obstacles;
 mod check_steps;
 mod check_view;
 pub mod cost;
-mod explain;
 mod fault;
 mod gantry;
 mod load;
@@ -21,6 +20,7 @@ mod schema;
 mod success;
 #[cfg(test)]
 mod told;
+mod unread;
 
 pub use catalog::{CATALOG, Template, template};
 pub use check::within;
@@ -29,6 +29,7 @@ pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
 pub use load::{Loaded, load, parse};
 pub use outline::{Node, Outline};
+pub(crate) use reader::distance;
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,

@@ -14,6 +14,7 @@ use robots::sense::SensorsSpec;
 use robots::sense::camera::OpticsSpec;
 use robots::strategy::StrategySpec;
 use robots::vehicles::VehicleSpec;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
@@ -24,7 +25,7 @@ use world::terrain::Terrain;
 pub const VERSION: u32 = 1;
 
 /// An experiment: a place, its water, what is released, who searches, and when it is over.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
     /// Version of the schema; the first field of every file.
@@ -69,8 +70,9 @@ pub struct Scenario {
 }
 
 /// Version of the schema.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "u32", into = "u32")]
+#[schemars(extend("const" = VERSION))]
 pub struct Version(u32);
 
 impl TryFrom<u32> for Version {
@@ -91,8 +93,9 @@ impl From<Version> for u32 {
 }
 
 /// A name that fits into keys and file names.
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
+#[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
 pub struct Id(String);
 
 impl Id {
@@ -124,7 +127,7 @@ impl From<Id> for String {
 }
 
 /// The operating area: a rectangle.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct AreaSpec {
     /// Extent along the axis, m.
@@ -135,9 +138,11 @@ pub struct AreaSpec {
     pub axis_heading_deg: HeadingDeg,
     /// Its centre east of the datum, m.
     #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub east_m: Finite,
     /// Its centre north of the datum, m.
     #[serde(default = "zero", deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub north_m: Finite,
 }
 
@@ -159,7 +164,7 @@ impl AreaSpec {
 }
 
 /// The bed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum TerrainSpec {
     /// The same depth everywhere.
     Level(LevelSpec),
@@ -168,7 +173,7 @@ pub enum TerrainSpec {
 }
 
 /// A level bed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct LevelSpec {
     /// Water depth, m.
@@ -176,7 +181,7 @@ pub struct LevelSpec {
 }
 
 /// A sloping bed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SlopeSpec {
     /// Direction in which the water gets shallower.
@@ -206,7 +211,7 @@ impl TerrainSpec {
 }
 
 /// A robot: a body, its instruments, and what it does with them.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RobotSpec {
     /// Name, unique among the robots.
@@ -251,14 +256,16 @@ impl RobotSpec {
 }
 
 /// Where a robot starts; either its depth or its altitude is given.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartSpec {
     /// East of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub east_m: Finite,
     /// North of the datum, m.
     #[serde(deserialize_with = "world::limits::place_m")]
+    #[schemars(transform = world::limits::schema::place_m)]
     pub north_m: Finite,
     /// Depth below the still surface, m.
     #[serde(default)]
@@ -270,9 +277,11 @@ pub struct StartSpec {
     pub heading_deg: HeadingDeg,
     /// Speed over ground, forward, m/s.
     #[serde(default = "still", deserialize_with = "world::limits::vehicle_m_s")]
+    #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub speed_m_s: NonNegative,
     /// Standard deviation, east and north, of the fix its navigation starts from, m.
     #[serde(default = "still", deserialize_with = "world::limits::error_m")]
+    #[schemars(transform = world::limits::schema::error_m)]
     pub fix_noise_m: NonNegative,
 }
 
@@ -296,7 +305,7 @@ impl StartSpec {
 }
 
 /// Steps, spin-up and the longest mission.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSpec {
     /// Step of the physics, s; every slower stage divides it.
@@ -335,7 +344,7 @@ fn spin_up_period() -> Positive {
 }
 
 /// What is written down, and how often.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordSpec {
     /// Period of the recorded and published state of the robots, and of the rows of `track.csv`, s.

@@ -1,10 +1,11 @@
 //! When a mission counts as a success.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
 /// When the mission counts as a success.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum SuccessSpec {
     /// A robot declared a source, near enough to a real one.
     Declared(DeclaredSpec),
@@ -52,7 +53,7 @@ impl SuccessSpec {
 }
 
 /// What counts as near enough.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct DeclaredSpec {
     /// Greatest horizontal distance from a true source, m.
@@ -60,7 +61,7 @@ pub struct DeclaredSpec {
 }
 
 /// What counts as having come near enough.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachedSpec {
     /// Greatest horizontal distance between a robot and a true source, m.

@@ -144,7 +144,7 @@ pub(super) fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
 }
 
 /// Edits (insert, delete, replace) between two words, case ignored.
-fn distance(a: &str, b: &str) -> usize {
+pub(crate) fn distance(a: &str, b: &str) -> usize {
     let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();
     for (i, ca) in a.chars().enumerate() {

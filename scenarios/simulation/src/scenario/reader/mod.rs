@@ -18,9 +18,10 @@ mod token;
 mod tree;
 mod value;
 
-use super::explain::unread;
 use super::fault::Severity;
 use super::fault::{Fault, Found, ScenarioError};
+use super::unread::unread;
+pub(crate) use hint::distance;
 use mend::Mender;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;

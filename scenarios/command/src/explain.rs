@@ -1,0 +1,66 @@
+//! `rheotaxis explain`: what a scenario file may say, field by field.
+
+use super::args_explain::ExplainArgs;
+use super::exit::Exit;
+use super::say;
+use rheotaxis::explain;
+
+/// Prints one place, or the whole in one of its forms.
+pub(super) fn explain(args: &ExplainArgs) -> Exit {
+    let path = args.path.as_deref().unwrap_or_default();
+    let text = match (args.markdown, args.json_schema) {
+        (true, _) => Ok(explain::markdown()),
+        (_, true) => Ok(explain::json_schema()),
+        _ => explain::explain(path),
+    };
+    match text {
+        Ok(text) => {
+            say::line(text.trim_end());
+            Exit::Success
+        }
+        Err(unknown) => {
+            say::error(&unknown, Some(&help(&unknown.near)));
+            Exit::Error
+        }
+    }
+}
+
+fn help(near: &[String]) -> String {
+    match near {
+        [] => "`rheotaxis explain` shows what there is".to_string(),
+        [one] => format!("did you mean {one}?"),
+        several => format!("the nearest are {}", several.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn explained(path: Option<&str>) -> Exit {
+        explain(&ExplainArgs {
+            path: path.map(str::to_string),
+            markdown: false,
+            json_schema: false,
+        })
+    }
+
+    #[test]
+    fn what_is_there_is_a_success_and_what_is_not_an_error() {
+        assert_eq!(explained(None), Exit::Success);
+        assert_eq!(
+            explained(Some("robots[0].strategy.reacquire")),
+            Exit::Success
+        );
+        assert_eq!(explained(Some("robots.strategy.reaquire")), Exit::Error);
+    }
+
+    #[test]
+    fn help_names_the_nearest() {
+        assert_eq!(help(&["water".to_string()]), "did you mean water?");
+        assert_eq!(
+            help(&["a".to_string(), "b".to_string()]),
+            "the nearest are a, b"
+        );
+    }
+}

@@ -1,0 +1,245 @@
+//! Paths: `robots[0].strategy.reacquire` to what is there.
+//!
+//! Names of variants may be left out, as they are in the paths of error messages: then every variant that has the field is found.
+//! Numbers of elements may be left out, too.
+
+use super::read::{Field, Reference, Shape, Variant};
+use crate::scenario::distance;
+
+/// What a path leads to.
+#[derive(Clone, Debug)]
+pub(super) struct Place<'a> {
+    /// The whole path, with the names of variants.
+    pub(super) path: String,
+    /// What is there.
+    pub(super) at: At<'a>,
+    /// Source of the algorithm it is a part of.
+    pub(super) source: Option<&'a str>,
+}
+
+/// What is at a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum At<'a> {
+    /// A field.
+    Field(&'a Field),
+    /// One of a choice.
+    Variant(&'a Variant),
+    /// An element of a tuple.
+    Part(&'a Shape),
+}
+
+impl<'a> Place<'a> {
+    /// What may stand there; nothing for a bare name.
+    pub(super) fn shape(&self) -> Option<&'a Shape> {
+        match self.at {
+            At::Field(f) => Some(&f.shape),
+            At::Variant(v) => v.holds.as_ref(),
+            At::Part(shape) => Some(shape),
+        }
+    }
+}
+
+/// Nothing is there.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("a scenario has no `{path}`: {}", if within.is_empty() { "no such field at its top".to_string() } else {
+    format!("`{within}` has no such field or variant")
+})]
+pub struct Unknown {
+    /// The path as it was asked for.
+    pub path: String,
+    /// The part of it that is right.
+    pub within: String,
+    /// The nearest legal paths.
+    pub near: Vec<String>,
+}
+
+/// All places of a path, at least one.
+pub(super) fn find<'a>(r: &'a Reference, path: &str) -> Result<Vec<Place<'a>>, Unknown> {
+    let bare = without_numbers(path);
+    let mut places: Vec<Place<'a>> = Vec::new();
+    for (i, word) in bare.split('.').enumerate() {
+        let mut next = Vec::new();
+        if i == 0 {
+            step(r, &r.root, word, "", None, &mut next);
+        }
+        for place in &places {
+            if let Some(shape) = place.shape() {
+                step(r, shape, word, &place.path, place.source, &mut next);
+            }
+        }
+        if next.is_empty() {
+            return Err(unknown(r, path, word, &places));
+        }
+        places = next;
+    }
+    Ok(places)
+}
+
+/// `robots[0].id` as `robots.id`.
+fn without_numbers(path: &str) -> String {
+    let mut inside = false;
+    let outside = |c: &char| {
+        inside = *c == '[' || inside && *c != ']';
+        !inside && *c != ']'
+    };
+    path.trim()
+        .trim_matches('.')
+        .chars()
+        .filter(outside)
+        .collect()
+}
+
+fn step<'a>(
+    r: &'a Reference,
+    shape: &'a Shape,
+    word: &str,
+    path: &str,
+    source: Option<&'a str>,
+    found: &mut Vec<Place<'a>>,
+) {
+    match r.resolved(shape) {
+        Shape::Fields(fields) => {
+            if let Some(f) = fields.iter().find(|f| f.name == word) {
+                found.push(Place {
+                    path: below(r, path, f),
+                    at: At::Field(f),
+                    source: f.source.as_deref().or(source),
+                });
+            }
+        }
+        Shape::Choice(variants) => {
+            if let Some(v) = variants.iter().find(|v| v.name == word) {
+                found.push(Place {
+                    path: joined(path, &v.name),
+                    at: At::Variant(v),
+                    source: v.source.as_deref().or(source),
+                });
+                return;
+            }
+            for v in variants {
+                let source = v.source.as_deref().or(source);
+                if let Some(held) = &v.holds {
+                    step(r, held, word, &joined(path, &v.name), source, found);
+                }
+            }
+        }
+        Shape::List(of) => step(r, of, word, path, source, found),
+        Shape::Tuple(parts) => {
+            if let Some(part) = word.parse().ok().and_then(|i: usize| parts.get(i)) {
+                found.push(Place {
+                    path: joined(path, word),
+                    at: At::Part(part),
+                    source,
+                });
+            }
+        }
+        Shape::Number(_) | Shape::Text(_) | Shape::Truth | Shape::Named(_) => {}
+    }
+}
+
+/// Path of a field; of a list with brackets.
+pub(super) fn below(r: &Reference, path: &str, field: &Field) -> String {
+    let list = matches!(r.resolved(&field.shape), Shape::List(_));
+    joined(path, &field.name) + if list { "[]" } else { "" }
+}
+
+/// With a dot between, if there is something before it.
+pub(super) fn joined(path: &str, name: &str) -> String {
+    let dot = if path.is_empty() { "" } else { "." };
+    format!("{path}{dot}{name}")
+}
+
+/// Every place of a scenario once, a type within itself left out: its path and its last name.
+pub(super) fn all(r: &Reference) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    walk(r, &r.root, "", &mut Vec::new(), &mut |path, name, _| {
+        found.push((path.to_string(), name.to_string()));
+    });
+    found
+}
+
+/// Calls `seen` with path, name and shape of everything in a shape, in the order of the types.
+pub(super) fn walk<'a>(
+    r: &'a Reference,
+    shape: &'a Shape,
+    path: &str,
+    inside: &mut Vec<&'a str>,
+    seen: &mut dyn FnMut(&str, &str, Option<&'a Shape>),
+) {
+    match shape {
+        Shape::Named(name) if inside.contains(&name.as_str()) => {}
+        Shape::Named(name) => {
+            inside.push(name);
+            walk(r, &r.types[name].shape, path, inside, seen);
+            inside.pop();
+        }
+        Shape::Fields(fields) => {
+            for f in fields {
+                let path = below(r, path, f);
+                seen(&path, &f.name, Some(&f.shape));
+                walk(r, &f.shape, &path, inside, seen);
+            }
+        }
+        Shape::Choice(variants) => {
+            for v in variants {
+                let path = joined(path, &v.name);
+                seen(&path, &v.name, v.holds.as_ref());
+                if let Some(held) = &v.holds {
+                    walk(r, held, &path, inside, seen);
+                }
+            }
+        }
+        Shape::List(of) => walk(r, of, path, inside, seen),
+        Shape::Tuple(parts) => parts.iter().for_each(|p| walk(r, p, path, inside, seen)),
+        Shape::Number(_) | Shape::Text(_) | Shape::Truth => {}
+    }
+}
+
+/// Most paths that a mistake is answered with.
+const NEAR: usize = 6;
+
+/// The same name elsewhere; else what is spelt most alike, within what is right of the path before all else.
+fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unknown {
+    let all = all(r);
+    let starts: Vec<String> = match places {
+        [] => vec![String::new()],
+        some => some.iter().map(|p| p.path.clone() + ".").collect(),
+    };
+    let far = |path: &str, name: &str| {
+        let outside = usize::from(!starts.iter().any(|s| path.starts_with(s)));
+        (distance(word, name), outside, path.matches('.').count())
+    };
+    let mut near: Vec<_> = all
+        .iter()
+        .map(|(path, name)| (far(path, name), path))
+        .collect();
+    near.sort();
+    let likely = |d: usize| d <= 1 + word.len() / 4;
+    let mut near: Vec<String> = match near.first() {
+        Some(((best, ..), _)) if likely(*best) => {
+            let same = near.iter().take_while(|((d, ..), _)| d == best);
+            same.map(|(_, path)| (*path).clone()).collect()
+        }
+        // Nothing is spelt alike: what there is.
+        _ => {
+            let next = |path: &str| {
+                let rest = starts.iter().find_map(|s| path.strip_prefix(s.as_str()));
+                rest.is_some_and(|rest| !rest.is_empty() && !rest.contains('.'))
+            };
+            let all = all.iter().map(|(path, _)| path.clone());
+            all.filter(|path| next(path)).collect()
+        }
+    };
+    if near
+        .iter()
+        .any(|path| starts.iter().any(|s| path.starts_with(s)))
+    {
+        near.retain(|path| starts.iter().any(|s| path.starts_with(s)));
+    }
+    near.truncate(NEAR);
+    Unknown {
+        path: path.to_string(),
+        within: places.first().map_or(String::new(), |p| p.path.clone()),
+        near,
+    }
+}

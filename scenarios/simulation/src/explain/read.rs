@@ -1,0 +1,279 @@
+//! From the schema's JSON to what is explained: fields, choices, numbers.
+//!
+//! It knows the forms of JSON Schema only, and nothing of how the types are written: a choice is a `oneOf` of names (`const`, `enum`)
+//! and of objects with one property, the variant's name.
+
+use super::schema::{ORDER, Object, SOURCE, WHAT};
+use serde_json::Value;
+use std::collections::BTreeMap;
+use world::limits::UNIT;
+
+/// The whole reference.
+#[derive(Clone, Debug)]
+pub(super) struct Reference {
+    /// The scenario itself.
+    pub(super) root: Shape,
+    /// What the scenario itself is.
+    pub(super) what: String,
+    /// The types it is made of, by name.
+    pub(super) types: BTreeMap<String, Named>,
+}
+
+/// A type that fields refer to.
+#[derive(Clone, Debug)]
+pub(super) struct Named {
+    /// What it is.
+    pub(super) what: String,
+    /// What it is made of.
+    pub(super) shape: Shape,
+}
+
+/// What may stand in a place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Shape {
+    /// A type of that name.
+    Named(String),
+    /// A number.
+    Number(Number),
+    /// Words in quotes, of this pattern.
+    Text(Option<String>),
+    /// `true` or `false`.
+    Truth,
+    /// Any number of them.
+    List(Box<Shape>),
+    /// So many, in this order.
+    Tuple(Vec<Shape>),
+    /// Names with values.
+    Fields(Vec<Field>),
+    /// One of several.
+    Choice(Vec<Variant>),
+}
+
+/// A number and its legal range.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Number {
+    /// Without a fraction.
+    pub(super) whole: bool,
+    /// Least.
+    pub(super) low: Option<f64>,
+    /// What it must be greater than.
+    pub(super) above: Option<f64>,
+    /// Greatest.
+    pub(super) high: Option<f64>,
+    /// Unit; empty for a pure number.
+    pub(super) unit: String,
+}
+
+/// A field.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Field {
+    /// As written in RON.
+    pub(super) name: String,
+    /// What it means.
+    pub(super) what: String,
+    /// Where it comes from.
+    pub(super) source: Option<String>,
+    /// What may stand there.
+    pub(super) shape: Shape,
+    /// What holds if it is left out; `null`: nothing.
+    pub(super) default: Option<Value>,
+    /// It cannot be left out.
+    pub(super) required: bool,
+}
+
+/// One of a choice.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Variant {
+    /// As written in RON.
+    pub(super) name: String,
+    /// What it means.
+    pub(super) what: String,
+    /// Where it comes from.
+    pub(super) source: Option<String>,
+    /// What stands in its parentheses.
+    pub(super) holds: Option<Shape>,
+}
+
+impl Reference {
+    /// From a schema.
+    pub(super) fn of(schema: &Value) -> Self {
+        let named = |schema: &Value| Named {
+            what: what(schema),
+            shape: shape(schema),
+        };
+        let types = schema["$defs"].as_object().into_iter().flatten();
+        let Named { what, shape: root } = named(schema);
+        Self {
+            root,
+            what,
+            types: types.map(|(name, s)| (name.clone(), named(s))).collect(),
+        }
+    }
+
+    /// The shape itself, where it is a name for one.
+    pub(super) fn resolved<'a>(&'a self, shape: &'a Shape) -> &'a Shape {
+        match shape {
+            Shape::Named(name) => self.resolved(&self.types[name].shape),
+            other => other,
+        }
+    }
+}
+
+/// Name of a variant, if the schema is that of one with a single name.
+pub(super) fn variant_name(variant: &Object) -> Option<String> {
+    if let Some(Value::String(name)) = variant.get("const") {
+        return Some(name.clone());
+    }
+    let fields = variant.get("properties")?.as_object()?;
+    (fields.len() == 1)
+        .then(|| fields.keys().next().cloned())
+        .flatten()
+}
+
+fn shape(schema: &Value) -> Shape {
+    if let Some(Value::String(path)) = schema.get("$ref") {
+        let name = path.rsplit('/').next().unwrap_or(path);
+        return Shape::Named(name.to_string());
+    }
+    if let Some(Value::Array(all)) = schema.get("anyOf") {
+        // One of them is `null`: it may be left out.
+        let given = all.iter().find(|s| s["type"] != "null");
+        return given.map_or(Shape::Truth, shape);
+    }
+    if let Some(Value::Array(variants)) = schema.get("oneOf") {
+        return Shape::Choice(variants.iter().flat_map(variant).collect());
+    }
+    if let Some(Value::Array(names)) = schema.get("enum") {
+        return Shape::Choice(names.iter().filter_map(bare).collect());
+    }
+    let kind = match &schema["type"] {
+        Value::Array(kinds) => kinds.iter().find(|k| *k != "null"),
+        kind => Some(kind),
+    };
+    match kind.and_then(Value::as_str) {
+        Some("object") => Shape::Fields(fields(schema)),
+        Some("array") => array(schema),
+        Some("string") => Shape::Text(schema["pattern"].as_str().map(str::to_string)),
+        Some("boolean") => Shape::Truth,
+        kind => Shape::Number(number(schema, kind == Some("integer"))),
+    }
+}
+
+fn variant(schema: &Value) -> Vec<Variant> {
+    if let Some(Value::Array(names)) = schema.get("enum") {
+        return names.iter().filter_map(bare).collect();
+    }
+    let Some(name) = schema.as_object().and_then(variant_name) else {
+        return Vec::new();
+    };
+    vec![Variant {
+        what: what(schema),
+        source: text(schema, SOURCE),
+        holds: schema.get("properties").map(|p| shape(&p[&name])),
+        name,
+    }]
+}
+
+fn bare(name: &Value) -> Option<Variant> {
+    name.as_str().map(|name| Variant {
+        name: name.to_string(),
+        what: String::new(),
+        source: None,
+        holds: None,
+    })
+}
+
+fn fields(schema: &Value) -> Vec<Field> {
+    let required = names(schema, "required");
+    let mut order = names(schema, ORDER);
+    let all = schema["properties"].as_object();
+    // What has no place in the order comes last.
+    for name in all.into_iter().flat_map(|all| all.keys()) {
+        if !order.contains(&name.as_str()) {
+            order.push(name);
+        }
+    }
+    let field = |name: &str| {
+        let own = all?.get(name)?;
+        Some(Field {
+            name: name.to_string(),
+            what: what(own),
+            source: text(own, SOURCE),
+            shape: shape(own),
+            default: own.get("default").cloned(),
+            required: required.contains(&name),
+        })
+    };
+    order.into_iter().filter_map(field).collect()
+}
+
+fn names<'a>(schema: &'a Value, key: &str) -> Vec<&'a str> {
+    let names = schema[key].as_array().into_iter().flatten();
+    names.filter_map(Value::as_str).collect()
+}
+
+fn array(schema: &Value) -> Shape {
+    if let Some(Value::Array(parts)) = schema.get("prefixItems") {
+        return Shape::Tuple(parts.iter().map(shape).collect());
+    }
+    let item = shape(&schema["items"]);
+    match (schema["minItems"].as_u64(), schema["maxItems"].as_u64()) {
+        (Some(least), Some(most)) if least == most => {
+            Shape::Tuple((0..most).map(|_| item.clone()).collect())
+        }
+        _ => Shape::List(Box::new(item)),
+    }
+}
+
+fn number(schema: &Value, whole: bool) -> Number {
+    let only = schema["const"].as_f64();
+    Number {
+        whole,
+        low: only.or(schema["minimum"].as_f64()),
+        above: schema["exclusiveMinimum"].as_f64(),
+        high: only.or(schema["maximum"].as_f64()),
+        unit: text(schema, UNIT).unwrap_or_default(),
+    }
+}
+
+fn text(schema: &Value, key: &str) -> Option<String> {
+    schema[key].as_str().map(str::to_string)
+}
+
+/// What it means: the type's own words, and the catalogue's where they say more.
+fn what(schema: &Value) -> String {
+    let own = schema["description"].as_str().map(plain);
+    let listed = schema[WHAT].as_str().map(sentence);
+    match (own, listed) {
+        (Some(own), Some(listed)) => {
+            // Of an algorithm the catalogue says all; of the field of a part, what stands there.
+            let variant = schema["properties"].is_object() || schema["const"].is_string();
+            let again = listed.starts_with(own.trim_end_matches('.'));
+            if variant || again {
+                listed
+            } else {
+                format!("{own} {listed}")
+            }
+        }
+        (Some(one), None) | (None, Some(one)) => one,
+        (None, None) => String::new(),
+    }
+}
+
+/// As a sentence of its own.
+fn sentence(s: &str) -> String {
+    let mut letters = s.chars();
+    let first: String = letters
+        .next()
+        .into_iter()
+        .flat_map(char::to_uppercase)
+        .collect();
+    let end = if s.ends_with('.') { "" } else { "." };
+    first + letters.as_str() + end
+}
+
+/// A doc comment as plain text: one line, without the marks of links to code.
+fn plain(doc: &str) -> String {
+    let words: Vec<&str> = doc.split_whitespace().collect();
+    words.join(" ").replace("[`", "`").replace("`]", "`")
+}

@@ -1,0 +1,232 @@
+//! Units of fields: by the end of their names, or stated here where a name says none.
+
+use super::schema::Object;
+use serde_json::Value;
+use world::limits::UNIT;
+
+/// Ends of names, after an underscore or alone, and their units; the longest that fits holds.
+const ENDS: &[(&str, &str)] = &[
+    ("1_s", "1/s"),
+    ("candela", "cd"),
+    ("db", "dB"),
+    ("db_m", "dB/m"),
+    ("deg", "degrees"),
+    ("deg_m", "degrees/m"),
+    ("deg_m_s", "degrees/(m s)"),
+    ("deg_s", "degrees/s"),
+    ("e", "electrons"),
+    ("electrons_per_lux_s", "electrons/(lx s)"),
+    ("g_s", "g/s"),
+    ("h", "h"),
+    ("hz", "1/s"),
+    ("kg_m3", "kg/m3"),
+    ("klux", "klx"),
+    ("m", "m"),
+    ("m2_kg", "m2/kg"),
+    ("m2_s", "m2/s"),
+    ("m_rts", "m/s^0.5"),
+    ("m_s", "m/s"),
+    ("m_s2", "m/s2"),
+    ("per_m", "1/m"),
+    ("per_s", "1/s"),
+    ("rad_s", "rad/s"),
+    ("rpm", "rpm"),
+    ("rpm_limit", "rpm"),
+    ("rpm_m", "rpm/m"),
+    ("rpm_per_speed", "rpm s/m"),
+    ("s", "s"),
+    ("ug_l", "ug/L"),
+    ("v", "V"),
+];
+
+/// Fields whose names are those of a paper, by type.
+const NAMED: &[(&str, &str, &str)] = &[
+    ("ColourSpec", "alpha1", "levels of 255"),
+    ("ColourSpec", "alpha2", "levels of 255"),
+    ("ColourSpec", "delta1", "levels of 255"),
+    ("ColourSpec", "delta2", "levels of 255"),
+    ("ColourSpec", "epsilon", "levels of 255"),
+    ("ColourSpec", "rho_m", "levels of 255"),
+    ("CredibleAreaParams", "below", "m2, in space m3"),
+];
+
+/// Numbers in the parentheses of a variant, by type and name.
+const VARIANTS: &[(&str, &str, &str)] = &[
+    ("Base", "Depth", "m"),
+    ("Base", "Z", "m"),
+    ("VerticalSpec", "Altitude", "m"),
+    ("VerticalSpec", "Depth", "m"),
+    ("ZoneSize", "Fixed", "m"),
+];
+
+/// Puts units into the schema of a type.
+pub(super) fn put(of: &str, schema: &mut Object) {
+    if let Some(Value::Object(fields)) = schema.get_mut("properties") {
+        for (name, field) in fields {
+            if let Some(unit) = of_field(of, name) {
+                put_on(field, unit);
+            }
+        }
+    }
+    if let Some(Value::Array(variants)) = schema.get_mut("oneOf") {
+        for variant in variants {
+            let Some(Value::Object(held)) = variant.get_mut("properties") else {
+                continue;
+            };
+            for (name, held) in held {
+                if let Some(unit) = stated(VARIANTS, of, name) {
+                    put_on(held, unit);
+                }
+            }
+        }
+    }
+}
+
+fn of_field(of: &str, name: &str) -> Option<&'static str> {
+    let fits = |end: &str| {
+        name.strip_suffix(end)
+            .is_some_and(|s| s.is_empty() || s.ends_with('_'))
+    };
+    let ends = ENDS.iter().filter(|(end, _)| fits(end));
+    let by_name = ends.max_by_key(|(end, _)| end.len()).map(|(_, unit)| *unit);
+    stated(NAMED, of, name).or(by_name)
+}
+
+fn stated(table: &[(&str, &str, &'static str)], of: &str, name: &str) -> Option<&'static str> {
+    let row = table.iter().find(|row| (row.0, row.1) == (of, name));
+    row.map(|row| row.2)
+}
+
+/// On every number of a field; a limit has said its own.
+fn put_on(field: &mut Value, unit: &str) {
+    numbers(field, &mut |number| {
+        number.entry(UNIT).or_insert_with(|| unit.into());
+    });
+}
+
+/// Every number, whole ones apart, that stands in a field itself and not in a type it names.
+fn numbers(field: &mut Value, seen: &mut dyn FnMut(&mut Object)) {
+    let Some(field) = field.as_object_mut() else {
+        return;
+    };
+    let is_number = match field.get("type") {
+        Some(Value::Array(kinds)) => kinds.iter().any(|k| k == "number"),
+        kind => kind.is_some_and(|k| k == "number"),
+    };
+    if is_number {
+        seen(field);
+    }
+    for inner in ["items", "prefixItems", "anyOf"] {
+        match field.get_mut(inner) {
+            Some(Value::Array(parts)) => parts.iter_mut().for_each(|part| numbers(part, seen)),
+            Some(part) => numbers(part, seen),
+            None => {}
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explain::schema::schema;
+    use std::collections::BTreeSet;
+
+    /// Shares, factors, weights, coefficients.
+    const PURE: &[&str] = &[
+        "albedo",
+        "bed_albedo",
+        "centre_weight",
+        "clearance_weight",
+        "climb",
+        "contrast",
+        "coverage",
+        "damping",
+        "dropout",
+        "errors",
+        "f_number",
+        "factor",
+        "false_detection",
+        "fix_gain",
+        "flicker",
+        "least",
+        "least_contrast",
+        "least_dye",
+        "least_redness",
+        "least_source",
+        "lost_below",
+        "max_gain",
+        "mean_cosine",
+        "merge",
+        "missed",
+        "mixing",
+        "most_dye",
+        "most_share",
+        "most_source",
+        "mu",
+        "peakedness",
+        "pitch_gain",
+        "prediction_error",
+        "pull",
+        "push",
+        "quantum_yield",
+        "ratio",
+        "reach",
+        "resample_below",
+        "roughening",
+        "saturation",
+        "scale_error",
+        "share",
+        "silence",
+        "spreading",
+        "stern_per_pitch",
+        "stretch",
+        "target",
+        "texture",
+        "threshold",
+        "transverse",
+        "white_balance",
+    ];
+
+    #[test]
+    fn every_number_has_a_unit_or_is_known_to_have_none() {
+        let mut whole = schema();
+        let types = whole["$defs"].as_object_mut().unwrap();
+        let mut pure = BTreeSet::new();
+        for (of, schema) in types {
+            let mut look = |name: &str, field: &mut Value| {
+                numbers(field, &mut |number| {
+                    if !number.contains_key(UNIT) {
+                        assert!(
+                            PURE.contains(&name),
+                            "{of}.{name} has no unit: see explain/units.rs"
+                        );
+                        pure.insert(name.to_string());
+                    }
+                });
+            };
+            let fields = schema.get_mut("properties").and_then(Value::as_object_mut);
+            fields
+                .into_iter()
+                .flatten()
+                .for_each(|(name, field)| look(name, field));
+            let variants = schema.get_mut("oneOf").and_then(Value::as_array_mut);
+            for variant in variants.into_iter().flatten() {
+                let held = variant.get_mut("properties").and_then(Value::as_object_mut);
+                held.into_iter()
+                    .flatten()
+                    .for_each(|(name, held)| look(name, held));
+            }
+        }
+        let stated: BTreeSet<String> = PURE.iter().map(|s| (*s).to_string()).collect();
+        assert_eq!(pure, stated, "stated to be pure numbers, and found to be");
+    }
+
+    #[test]
+    fn the_longest_end_of_a_name_holds() {
+        assert_eq!(of_field("AnySpec", "speed_m_s"), Some("m/s"));
+        assert_eq!(of_field("AnySpec", "t_s"), Some("s"));
+        assert_eq!(of_field("AnySpec", "hz"), Some("1/s"));
+        assert_eq!(of_field("AnySpec", "turns"), None);
+        assert_eq!(of_field("ColourSpec", "rho_m"), Some("levels of 255"));
+    }
+}

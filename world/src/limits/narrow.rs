@@ -1,0 +1,100 @@
+//! A limit in the schema of a field: narrower bounds and the unit, on every number that the field holds.
+
+use super::Range;
+use schemars::Schema;
+use serde_json::{Map, Value};
+
+/// Under this key a schema says the unit of its numbers.
+pub const UNIT: &str = "x-unit";
+
+impl Range {
+    /// Puts the range on every number of a field: itself, or those of a pair, a triple or a list, given or not.
+    pub fn narrow(&self, field: &mut Schema) {
+        if let Some(field) = field.as_object_mut() {
+            self.within(field);
+        }
+    }
+
+    fn within(&self, field: &mut Map<String, Value>) {
+        if is_number(field) {
+            self.bound(field);
+        }
+        for inner in ["items", "prefixItems", "anyOf"] {
+            match field.get_mut(inner) {
+                Some(Value::Array(parts)) => {
+                    let parts = parts.iter_mut().filter_map(Value::as_object_mut);
+                    parts.for_each(|part| self.within(part));
+                }
+                Some(Value::Object(part)) => self.within(part),
+                _ => {}
+            }
+        }
+    }
+
+    fn bound(&self, number: &mut Map<String, Value>) {
+        let Range(low, high, unit) = *self;
+        let said = |number: &Map<String, Value>, key: &str| number.get(key).and_then(Value::as_f64);
+        // The type's own bound may be the narrower one: above zero, where the limit begins at zero.
+        if said(number, "exclusiveMinimum").is_none_or(|least| low > least) {
+            number.remove("exclusiveMinimum");
+            let least = said(number, "minimum").map_or(low, |least| least.max(low));
+            number.insert("minimum".into(), least.into());
+        }
+        let most = said(number, "maximum").map_or(high, |most| most.min(high));
+        number.insert("maximum".into(), most.into());
+        if !unit.is_empty() {
+            number.insert(UNIT.into(), unit.into());
+        }
+    }
+}
+
+fn is_number(schema: &Map<String, Value>) -> bool {
+    match schema.get("type") {
+        Some(Value::String(one)) => one == "number",
+        Some(Value::Array(several)) => several.iter().any(|one| one == "number"),
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::schema;
+    use crate::ranges::{Finite, NonNegative, Positive};
+    use schemars::{JsonSchema, SchemaGenerator};
+    use serde_json::json;
+
+    fn narrowed<T: JsonSchema>(limit: fn(&mut schemars::Schema)) -> serde_json::Value {
+        let mut schema = SchemaGenerator::default().subschema_for::<T>();
+        limit(&mut schema);
+        schema.to_value()
+    }
+
+    #[test]
+    fn a_limit_narrows_what_the_type_allows_and_says_the_unit() {
+        assert_eq!(
+            narrowed::<Positive>(schema::solid_m),
+            json!({"type": "number", "minimum": 1e-3, "maximum": 1e6, "x-unit": "m"})
+        );
+        assert_eq!(
+            narrowed::<Positive>(schema::stream_m_s),
+            json!({"type": "number", "exclusiveMinimum": 0.0, "maximum": 15.0, "x-unit": "m/s"})
+        );
+        assert_eq!(
+            narrowed::<NonNegative>(schema::component_m_s),
+            json!({"type": "number", "minimum": 0.0, "maximum": 15.0, "x-unit": "m/s"})
+        );
+        assert_eq!(
+            narrowed::<Finite>(schema::peakedness),
+            json!({"type": "number", "minimum": 0.1, "maximum": 20.0})
+        );
+    }
+
+    #[test]
+    fn it_reaches_every_number_of_a_triple_and_one_that_may_be_left_out() {
+        let triple = narrowed::<(Positive, Positive, Positive)>(schema::solid_m);
+        assert_eq!(triple["prefixItems"][2]["maximum"], json!(1e6));
+        let maybe = narrowed::<Option<Positive>>(schema::depth_m);
+        assert_eq!(maybe["maximum"], json!(12_000.0));
+        assert_eq!(maybe["type"], json!(["number", "null"]));
+    }
+}
