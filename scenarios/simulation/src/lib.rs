@@ -6,6 +6,7 @@ pub mod frame;
 pub mod gantry;
 pub mod ocean;
 pub mod outcome;
+pub mod registry;
 pub mod scenario;
 pub mod score;
 pub mod spun_up;

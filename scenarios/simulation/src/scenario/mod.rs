@@ -24,7 +24,7 @@ pub use catalog::{CATALOG, Template, template};
 pub use check::within;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
-pub use load::{Loaded, load, parse};
+pub use load::{Loaded, load, load_with, parse, parse_with};
 pub use outline::{Node, Outline};
 pub use reader::read;
 pub use schema::{
