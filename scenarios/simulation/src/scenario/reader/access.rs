@@ -104,7 +104,7 @@ impl VariantAccess<'static> for Choice<'_, '_> {
 
     fn newtype_variant_seed<T: DeserializeSeed<'static>>(self, seed: T) -> Result<T::Value, Fail> {
         let content = self.content()?;
-        let at = content.inner().map_or(content.id, |v| v.id);
+        let at = content.only().unwrap_or(content).id;
         seed.deserialize(content)
             .map_err(|e| content.reading.about(at, e))
     }

@@ -104,18 +104,26 @@ impl<'a, 'b> Value<'a, 'b> {
         self.kid(self.reading.tree.borrow_mut().hole_kid(self.id, name))
     }
 
-    /// The one value in the parentheses of a choice.
+    /// The one value in the parentheses of a choice, if there is one; of any other value itself.
+    pub(super) fn only(&self) -> Option<Self> {
+        match self.group().filter(|_| self.unwrapped) {
+            None => Some(*self),
+            Some(group) => match group.items.as_slice() {
+                [
+                    Item {
+                        key: None, node, ..
+                    },
+                ] => Some(self.kid(*node)),
+                _ => None,
+            },
+        }
+    }
+
+    /// The same, told where there is none.
     pub(super) fn inner(&self) -> Result<Self, Fail> {
-        let Some(group) = self.group().filter(|_| self.unwrapped) else {
-            return Ok(*self);
-        };
-        match group.items.as_slice() {
-            [
-                Item {
-                    key: None, node, ..
-                },
-            ] => Ok(self.kid(*node)),
-            [] => self.fail(What::Missing("0")),
+        match (self.only(), self.group()) {
+            (Some(value), _) => Ok(value),
+            (None, Some(group)) if group.items.is_empty() => self.fail(What::Missing("0")),
             _ => self.wanted("expected one value in the parentheses"),
         }
     }
