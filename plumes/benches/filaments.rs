@@ -136,7 +136,7 @@ fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {
         ..BlockageSpec::default()
     };
     let mut spec = WaterSpec {
-        currents: vec![CurrentSpec::Uniform(UniformSpec {
+        currents: vec![CurrentSpec::new(UniformSpec {
             speed_m_s: NonNegative::new(0.2),
             heading_deg: HeadingDeg::new(90.0),
         })],

@@ -69,7 +69,7 @@ fn water_spec() -> WaterSpec {
         diffusivity_m2_s: None,
     };
     WaterSpec {
-        currents: vec![CurrentSpec::Layered(layers), CurrentSpec::Meander(meander)],
+        currents: vec![CurrentSpec::new(layers), CurrentSpec::new(meander)],
         bed: Some(BedSpec {
             roughness_m: Positive::new(0.001),
             thickness_m: Positive::new(2.0),
@@ -184,7 +184,7 @@ fn round(cell_m: f64, steady: bool) -> Water {
     let mut spec = water_spec();
     if steady {
         spec.currents.truncate(1);
-        if let CurrentSpec::Layered(layered) = &mut spec.currents[0] {
+        if let Some(layered) = spec.currents[0].get_mut::<LayeredSpec>() {
             layered.interfaces[0].waves.clear();
         }
     }

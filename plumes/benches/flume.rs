@@ -27,7 +27,7 @@ fn flume() -> (Water, Plume) {
     };
     let bed = Terrain::Level { depth_m: 0.2 };
     let water = WaterSpec {
-        currents: vec![CurrentSpec::OpenChannel(OpenChannelSpec {
+        currents: vec![CurrentSpec::new(OpenChannelSpec {
             mean_m_s: Positive::new(0.05),
             heading_deg: HeadingDeg::new(90.0),
             roughness_m: NonNegative::new(0.0),

@@ -5,8 +5,8 @@
 use divan::Bencher;
 use nalgebra::{Vector2, Vector3};
 use robots::map::{
-    CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper, ParticleFilterSpec,
-    TrajectorySpec,
+    BayesianSpec, CellsSpec, GridSpec, HmmSpec, MapObservation, MapSpec, Mapper,
+    ParticleFilterSpec, PomdpSpec, TrajectorySpec,
 };
 use world::area::Area;
 use world::math;
@@ -90,11 +90,11 @@ fn trajectory(merge: f64) -> TrajectorySpec {
 }
 
 fn pomdp(n: [u32; 3], merge: f64) -> MapSpec {
-    MapSpec::Pomdp(CellsSpec {
+    MapSpec::new(PomdpSpec(CellsSpec {
         grid: grid(n),
         trajectory: trajectory(merge),
         ..CellsSpec::default()
-    })
+    }))
 }
 
 const ALONG: [f64; 2] = [0.17, 0.0];
@@ -123,11 +123,11 @@ fn bayesian_plane(bencher: Bencher) {
         grid: grid(PLANE),
         ..CellsSpec::default()
     };
-    run(bencher, &MapSpec::Bayesian(spec), ALONG, 1.0);
+    run(bencher, &MapSpec::new(BayesianSpec(spec)), ALONG, 1.0);
 }
 
 fn hmm(n: [u32; 3], step_s: f64) -> MapSpec {
-    MapSpec::Hmm(HmmSpec {
+    MapSpec::new(HmmSpec {
         grid: grid(n),
         step_s: Positive::new(step_s),
         ..HmmSpec::default()
@@ -145,7 +145,7 @@ fn particles_plane(bencher: Bencher) {
         grid: grid(PLANE),
         ..ParticleFilterSpec::default()
     };
-    run(bencher, &MapSpec::ParticleFilter(spec), ALONG, 1.0);
+    run(bencher, &MapSpec::new(spec), ALONG, 1.0);
 }
 
 #[divan::bench(args = [ALONG, SLANTING], sample_count = 30)]

@@ -17,7 +17,7 @@ pub mod math;
 pub mod obstacles;
 pub mod physics;
 pub mod ranges;
-
+pub mod registry;
 pub mod seeds;
 pub mod stage;
 pub mod terrain;

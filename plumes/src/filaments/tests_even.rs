@@ -264,7 +264,7 @@ fn in_unsteady_water_over_a_slope() {
     let bed = Terrain::sloping_over(&area, Heading::from_deg(290.0), 4.0, 8.0);
     let solids = solids(&[(block([8.0, 6.0, 3.0]), 4.0, -7.0, 90.0)], &bed);
     let mut spec = eastward(0.2, spec(2.0, 5, 0.0));
-    spec.currents.push(CurrentSpec::Meander(MeanderSpec {
+    spec.currents.push(CurrentSpec::new(MeanderSpec {
         std_m_s: NonNegative::new(0.05),
         omega_rad_s: Positive::new(0.02),
         damping: Positive::new(0.1),
@@ -333,7 +333,7 @@ fn under_a_quay() {
         density_kg_m3: Positive::new(density),
     };
     let mut spec = eastward(0.0, spec(2.0, 13, 0.0));
-    spec.currents = vec![CurrentSpec::Layered(LayeredSpec {
+    spec.currents = vec![CurrentSpec::new(LayeredSpec {
         layers: vec![layer(0.3, 1012.0), layer(0.2, 1022.0)],
         interfaces: vec![InterfaceSpec {
             depth_m: Positive::new(3.0),

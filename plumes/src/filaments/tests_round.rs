@@ -41,7 +41,7 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
         ..BlockageSpec::default()
     };
     let mut spec = WaterSpec {
-        currents: vec![CurrentSpec::Uniform(uniform)],
+        currents: vec![CurrentSpec::new(uniform)],
         blockage: Some(blockage.clone()),
         ..WaterSpec::default()
     };

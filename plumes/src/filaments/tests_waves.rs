@@ -30,7 +30,7 @@ fn water(stokes: bool) -> Water {
         heading_deg: HeadingDeg::new(90.0),
     };
     let spec = WaterSpec {
-        currents: vec![CurrentSpec::Uniform(current), CurrentSpec::Waves(waves)],
+        currents: vec![CurrentSpec::new(current), CurrentSpec::new(waves)],
         ..WaterSpec::default()
     };
     spec.build(&basin(), &BED, 1).unwrap()

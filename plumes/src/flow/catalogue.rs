@@ -1,67 +1,115 @@
 //! The currents a scenario can ask for.
 
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use nalgebra::Vector2;
+use world::area::Area;
 use world::catalogue::Entry;
+use world::cost::{Cost, Times};
+use world::kind;
+use world::registry::Spec;
+use world::terrain::Terrain;
 
+use crate::error::PlumeError;
 use crate::flow::channel::OpenChannelSpec;
 use crate::flow::layered::LayeredSpec;
 use crate::flow::meander::MeanderSpec;
 use crate::flow::tide::TideSpec;
 use crate::flow::uniform::UniformSpec;
+use crate::flow::water::Water;
 use crate::flow::waves::WavesSpec;
 
-/// One current; a scenario lists those that add up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum CurrentSpec {
-    /// The same everywhere.
-    Uniform(UniformSpec),
-    /// Layers of different density with moving interfaces; at most one of these.
-    Layered(LayeredSpec),
-    /// Slow wandering, the same at all depths.
-    Meander(MeanderSpec),
-    /// A channel between side walls with its own bed and turbulence; at most one of these.
-    OpenChannel(OpenChannelSpec),
-    /// Current ellipses of the tide.
-    Tide(TideSpec),
-    /// Surface waves; at most one of these, with any number of trains.
-    Waves(WavesSpec),
+/// Where a current joins the water.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<'a> {
+    /// Its path in the scenario, such as `water.currents[0]`.
+    pub field: &'a str,
+    /// The operating area.
+    pub area: &'a Area,
+    /// The bed.
+    pub terrain: &'a Terrain,
+    /// Seed of the run.
+    pub seed: u64,
 }
 
-/// One row for each current.
-pub const CATALOGUE: &[Entry] = &[
-    Entry {
-        name: "Uniform",
-        what: "One velocity everywhere and always",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143",
-    },
-    Entry {
-        name: "Layered",
-        what: "Layers of different density and velocity with interfaces that rise and sink",
-        source: "Pang 2009, section 6 (Duck); Hazel 1972, J. Fluid Mech. 51, 39; Gill 1982, section 6.2",
-    },
-    Entry {
-        name: "Meander",
-        what: "Coloured noise at the area's corners carried inside, made divergence-free",
-        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
-    },
-    Entry {
-        name: "OpenChannel",
-        what: "Flume or canal between walls: log law over a smooth or rough bed, and turbulence resolved by random Fourier modes",
-        source: "Nezu & Nakagawa 1993, Turbulence in Open-Channel Flows; Fung et al. 1992, J. Fluid Mech. 236, 281",
-    },
-    Entry {
-        name: "Tide",
-        what: "Tidal current: ellipses of constituents, rotating or rectilinear",
-        source: "Pugh 1987, Tides, Surges and Mean Sea-Level, section 6:4; Foreman 1978",
-    },
-    Entry {
-        name: "Waves",
-        what: "Surface waves by linear theory, trains or a JONSWAP sea: orbits for hull and instruments, Stokes' drift and mixing for the plume",
-        source: "Dean & Dalrymple 1991, Water Wave Mechanics; Hasselmann et al. 1973; Andrews & McIntyre 1978, J. Fluid Mech. 89, 609",
-    },
-];
+impl Place<'_> {
+    /// A mistake of the current as a whole.
+    pub(super) fn wrong<T>(&self, problem: &str) -> Result<T, PlumeError> {
+        Err(PlumeError::Invalid {
+            field: self.field.to_owned(),
+            problem: problem.to_owned(),
+        })
+    }
+}
+
+/// A current that is the same at all depths and known at all times; [`Water::add`] takes one in.
+pub trait PlaneCurrent: std::fmt::Debug + Send + Sync {
+    /// (east, north) at (east, north) `p` at time `t_s`, m/s.
+    fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64>;
+
+    /// Whether it never changes.
+    fn is_steady(&self) -> bool {
+        false
+    }
+}
+
+/// Parameters of a current, and what they say of it before it is made.
+pub trait CurrentParams: Spec {
+    /// Takes its part in the water; currents join in the order of the scenario.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError>;
+
+    /// The same for one that the mean of all others carries: it joins when those have.
+    ///
+    /// # Errors
+    /// As [`Self::join`].
+    fn join_carried(
+        &self,
+        _water: &mut Water,
+        _place: &Place,
+        _carrier: Vector2<f64>,
+    ) -> Result<(), PlumeError> {
+        Ok(())
+    }
+
+    /// Whether it never changes; waves pass by without turning the water.
+    fn is_steady(&self) -> bool {
+        true
+    }
+
+    /// Whether the area's sides are its walls.
+    fn is_walled(&self) -> bool {
+        false
+    }
+
+    /// Surface waves that are summed wherever the water is asked.
+    fn waves(&self) -> f64 {
+        0.0
+    }
+
+    /// How fast it carries things away (east, north), m/s, if it keeps its direction.
+    fn carries_m_s(&self) -> Vector2<f64> {
+        Vector2::zeros()
+    }
+
+    /// Mean depths of the interfaces between layers that it brings, m.
+    fn interfaces_m(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// What it takes, where it is asked for up to `ahead_s` beyond the usual; paths begin with its own fields.
+    fn cost(&self, _area: &Area, _depth_m: f64, _ahead_s: f64, _times: &Times) -> Cost {
+        Cost::default()
+    }
+}
+
+kind! {
+    /// One current; a scenario lists those that add up.
+    pub CurrentSpec = Currents of CurrentParams {
+        heading: "Flows",
+        rows: [UniformSpec, LayeredSpec, MeanderSpec, OpenChannelSpec, TideSpec, WavesSpec],
+    }
+}
 
 /// What a scenario may say of the water beside its currents, by its field in `water`.
 pub const OPTIONS: &[Entry] = &[Entry {

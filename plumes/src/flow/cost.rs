@@ -4,7 +4,6 @@ use nalgebra::Vector2;
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
 
-use crate::flow::catalogue::CurrentSpec;
 use crate::flow::water::WaterSpec;
 
 /// Memory of a node of the plume's flow, bytes: its values, those by cell, and their check.
@@ -19,38 +18,14 @@ impl WaterSpec {
     #[must_use]
     pub fn cost(&self, area: &Area, depth_m: f64, times: &Times) -> Cost {
         let mut cost = Cost::default();
-        let mut waves = 0.0;
-        let mut steady = true;
+        let blockage = self.blockage.as_ref();
+        let ahead_s = blockage.map_or(0.0, |b| 2.0 * b.period_s.get());
         for (i, current) in self.currents.iter().enumerate() {
-            let path = format!("water.currents[{i}]");
-            cost.add(match current {
-                CurrentSpec::Meander(spec) => {
-                    steady = false;
-                    let ahead_s = self
-                        .blockage
-                        .as_ref()
-                        .map_or(0.0, |b| 2.0 * b.period_s.get());
-                    spec.cost(area, ahead_s, times).under(&path)
-                }
-                CurrentSpec::OpenChannel(spec) => match &spec.eddies {
-                    Some(eddies) => eddies.cost(area, depth_m).under(&format!("{path}.eddies")),
-                    None => Cost::default(),
-                },
-                CurrentSpec::Waves(spec) => {
-                    waves += spec.count();
-                    Cost::default()
-                }
-                CurrentSpec::Tide(_) => {
-                    steady = false;
-                    Cost::default()
-                }
-                CurrentSpec::Layered(spec) => {
-                    steady &= spec.interfaces.iter().all(|f| f.waves.is_empty());
-                    Cost::default()
-                }
-                CurrentSpec::Uniform(_) => Cost::default(),
-            });
+            let own = current.cost(area, depth_m, ahead_s, times);
+            cost.add(own.under(&format!("water.currents[{i}]")));
         }
+        let waves = self.waves();
+        let steady = self.currents.iter().all(|c| c.is_steady());
         let shape = self.grid_shape(area);
         if let Some(spec) = &self.blockage {
             cost.add(spec.cost(area, steady, times).under("water.blockage"));
@@ -80,28 +55,14 @@ impl WaterSpec {
     /// Number of waves that are summed whenever the water is evaluated.
     #[must_use]
     pub fn waves(&self) -> f64 {
-        let of = |c: &CurrentSpec| match c {
-            CurrentSpec::Waves(spec) => spec.count(),
-            _ => 0.0,
-        };
-        self.currents.iter().map(of).sum()
+        self.currents.iter().map(|c| c.waves()).sum()
     }
 
     /// Approximate speed at which the water carries things away, m/s: the mean of the currents that keep their
     /// direction.
     #[must_use]
     pub fn carries_m_s(&self) -> f64 {
-        let along = |deg: f64, speed: f64| world::units::Heading::from_deg(deg).unit() * speed;
-        let of = |c: &CurrentSpec| match c {
-            CurrentSpec::Uniform(spec) => spec.velocity(),
-            CurrentSpec::OpenChannel(spec) => along(spec.heading_deg.get(), spec.mean_m_s.get()),
-            // The slowest layer holds filaments longest.
-            CurrentSpec::Layered(spec) => (spec.layers.iter())
-                .map(|l| along(l.heading_deg.get(), l.speed_m_s.get()))
-                .min_by(|a, b| a.norm().total_cmp(&b.norm()))
-                .unwrap_or_default(),
-            _ => Vector2::zeros(),
-        };
-        self.currents.iter().map(of).sum::<Vector2<f64>>().norm()
+        let all = self.currents.iter().map(|c| c.carries_m_s());
+        all.sum::<Vector2<f64>>().norm()
     }
 }

@@ -20,13 +20,17 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 use crate::error::PlumeError;
+use crate::flow::catalogue::{CurrentParams, Place};
 use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
 use crate::flow::solenoidal::Solenoidal;
+use crate::flow::water::Water;
 
 /// Farrell's wind grid as a meander of the water.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -64,6 +68,39 @@ const fn farrell_omega() -> Positive {
 
 const fn farrell_damping() -> Positive {
     Positive::new(0.1)
+}
+
+impl Listed for MeanderSpec {
+    const ENTRY: Entry = Entry {
+        name: "Meander",
+        what: "Coloured noise at the area's corners carried inside, made divergence-free",
+        source: "Farrell et al. 2002, Environ. Fluid Mech. 2, 143; Chorin 1968, Math. Comp. 22, 745",
+    };
+}
+
+impl CurrentParams for MeanderSpec {
+    fn join(&self, _: &mut Water, _: &Place) -> Result<(), PlumeError> {
+        Ok(())
+    }
+
+    fn join_carried(
+        &self,
+        water: &mut Water,
+        place: &Place,
+        carrier: Vector2<f64>,
+    ) -> Result<(), PlumeError> {
+        let meander = self.build(place.field, place.area, carrier, place.seed)?;
+        water.meanders.push(meander);
+        Ok(())
+    }
+
+    fn is_steady(&self) -> bool {
+        false
+    }
+
+    fn cost(&self, area: &Area, _: f64, ahead_s: f64, times: &Times) -> Cost {
+        self.work(area, ahead_s, times)
+    }
 }
 
 /// Most cells along a side; the cost of the projection grows with their cube.
@@ -192,9 +229,8 @@ impl MeanderSpec {
 }
 
 impl MeanderSpec {
-    /// Memory and time, for water that is evaluated `ahead_s` beyond the usual time.
-    #[must_use]
-    pub fn cost(&self, area: &Area, ahead_s: f64, times: &Times) -> Cost {
+    /// What it takes, with water asked for `ahead_s` beyond the usual.
+    pub(super) fn work(&self, area: &Area, ahead_s: f64, times: &Times) -> Cost {
         let extent = [area.length_m, area.width_m];
         let cells = extent.map(|e| (e / self.cell_m.get()).ceil().max(2.0));
         let splines = (cells[0] + 2.0) * (cells[1] + 2.0);

@@ -24,6 +24,6 @@ pub mod water;
 pub mod waves;
 
 pub use blockage::{BlockageSpec, Blocked, Solved};
-pub use catalogue::{CATALOGUE, CurrentSpec, OPTIONS};
+pub use catalogue::{CurrentParams, CurrentSpec, Currents, OPTIONS, Place, PlaneCurrent};
 pub use grid::{FlowGrid, GridSample, GridShape};
 pub use water::{Water, WaterSpec};

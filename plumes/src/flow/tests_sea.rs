@@ -26,7 +26,7 @@ fn area() -> Area {
 }
 
 fn tide() -> CurrentSpec {
-    CurrentSpec::Tide(TideSpec {
+    CurrentSpec::new(TideSpec {
         constituents: vec![ConstituentSpec {
             period_h: Positive::new(12.42),
             major_m_s: NonNegative::new(0.3),
@@ -38,7 +38,7 @@ fn tide() -> CurrentSpec {
 }
 
 fn waves() -> CurrentSpec {
-    CurrentSpec::Waves(regular(vec![train(0.4, 4.0, 70.0), train(0.2, 6.0, 10.0)]))
+    CurrentSpec::new(regular(vec![train(0.4, 4.0, 70.0), train(0.2, 6.0, 10.0)]))
 }
 
 fn build(currents: Vec<CurrentSpec>) -> Water {

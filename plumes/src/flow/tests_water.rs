@@ -65,8 +65,8 @@ fn duck_layers() -> LayeredSpec {
 pub(crate) fn duck() -> WaterSpec {
     WaterSpec {
         currents: vec![
-            CurrentSpec::Layered(duck_layers()),
-            CurrentSpec::Meander(MeanderSpec {
+            CurrentSpec::new(duck_layers()),
+            CurrentSpec::new(MeanderSpec {
                 std_m_s: NonNegative::new(0.02),
                 omega_rad_s: Positive::new(0.02),
                 damping: Positive::new(0.1),
@@ -192,7 +192,7 @@ fn an_interface_keeps_off_bed_and_surface() {
     layers.interfaces[0].depth_m = Positive::new(5.9);
     layers.interfaces[0].waves[0].amplitude_m = NonNegative::new(1.0);
     let w = build(&WaterSpec {
-        currents: vec![CurrentSpec::Layered(layers)],
+        currents: vec![CurrentSpec::new(layers)],
         ..duck()
     });
     let mut touched = 0;
@@ -290,7 +290,7 @@ fn mixing_is_never_negative_and_ends_at_the_bed() {
 #[test]
 fn a_flume_has_its_friction_and_mixing() {
     let spec = WaterSpec {
-        currents: vec![CurrentSpec::Uniform(UniformSpec {
+        currents: vec![CurrentSpec::new(UniformSpec {
             speed_m_s: NonNegative::new(0.0596),
             heading_deg: HeadingDeg::new(90.0),
         })],
@@ -329,7 +329,7 @@ fn stratification_damps_mixing_at_the_interface() {
         let mut layers = duck_layers();
         layers.layers[1].density_kg_m3 = Positive::new(density);
         build(&WaterSpec {
-            currents: vec![CurrentSpec::Layered(layers)],
+            currents: vec![CurrentSpec::new(layers)],
             ..duck()
         })
     };
@@ -357,9 +357,9 @@ fn impossible_water_is_refused_by_field() {
     let layered = |f: &dyn Fn(&mut LayeredSpec)| {
         let mut l = duck_layers();
         f(&mut l);
-        CurrentSpec::Layered(l)
+        CurrentSpec::new(l)
     };
-    let still = CurrentSpec::Uniform(UniformSpec {
+    let still = CurrentSpec::new(UniformSpec {
         speed_m_s: NonNegative::new(0.0),
         heading_deg: HeadingDeg::new(0.0),
     });

@@ -20,6 +20,7 @@ mod answers;
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::obstacles::Obstacles;
@@ -29,7 +30,7 @@ use world::terrain::Terrain;
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
 use crate::flow::blockage::{BlockageSpec, Blocked};
-use crate::flow::catalogue::CurrentSpec;
+use crate::flow::catalogue::{CurrentSpec, Place, PlaneCurrent};
 use crate::flow::channel::Channel;
 use crate::flow::eddies::Eddies;
 use crate::flow::flume::Flume;
@@ -74,17 +75,19 @@ impl Default for WaterSpec {
 /// The water, ready to be evaluated.
 #[derive(Clone, Debug)]
 pub struct Water {
-    ground: Ground,
-    uniform: Vector2<f64>,
-    tides: Vec<Tide>,
-    meanders: Vec<Meander>,
-    layered: Option<Layered>,
-    bed: Option<BoundaryLayer>,
+    pub(super) ground: Ground,
+    pub(super) uniform: Vector2<f64>,
+    pub(super) tides: Vec<Tide>,
+    pub(super) meanders: Vec<Meander>,
+    pub(super) layered: Option<Layered>,
+    pub(super) bed: Option<BoundaryLayer>,
     mixing: MixingSpec,
     density: f64,
-    flume: Option<Flume>,
-    waves: Option<Waves>,
+    pub(super) flume: Option<Flume>,
+    pub(super) waves: Option<Waves>,
     blocked: Option<Blocked>,
+    /// Currents of no kind named above.
+    others: Vec<Arc<dyn PlaneCurrent>>,
 }
 
 /// The water over one place at one time; cheap to evaluate at many heights.
@@ -101,8 +104,7 @@ impl WaterSpec {
     /// Whether the area's sides are the walls of a channel.
     #[must_use]
     pub fn is_walled(&self) -> bool {
-        let channel = |c: &CurrentSpec| matches!(c, CurrentSpec::OpenChannel(_));
-        self.currents.iter().any(channel)
+        self.currents.iter().any(|c| c.is_walled())
     }
 
     /// The grid on which the plume sees the water: the default one or, round obstacles, the corners of the water's
@@ -158,46 +160,24 @@ impl WaterSpec {
             flume: None,
             waves: None,
             blocked: None,
+            others: Vec::new(),
         };
-        for (i, current) in self.currents.iter().enumerate() {
-            let field = format!("water.currents[{i}]");
-            match current {
-                CurrentSpec::Uniform(spec) => water.uniform += spec.velocity(),
-                CurrentSpec::Layered(spec) if water.layered.is_none() => {
-                    water.layered = Some(spec.build(&field, seed)?);
-                }
-                CurrentSpec::Layered(_) => {
-                    let problem = "only one Layered current can fix the water's layers; add the \
-                                   second one's layers to the first"
-                        .to_owned();
-                    return Err(PlumeError::Invalid { field, problem });
-                }
-                CurrentSpec::Meander(_) => {}
-                CurrentSpec::OpenChannel(spec) => {
-                    let alone = water.flume.is_none() && water.bed.is_none();
-                    water.flume = Some(Flume::build(spec, &field, area, terrain, alone, seed)?);
-                }
-                CurrentSpec::Tide(spec) => water.tides.push(spec.build(&field)?),
-                CurrentSpec::Waves(spec) if water.waves.is_none() => {
-                    let depth = -water.ground.floor(area.centre).z;
-                    water.waves = Some(spec.build(&field, depth, seed)?);
-                }
-                CurrentSpec::Waves(_) => {
-                    let problem = "only one Waves can move the surface; add the second one's \
-                                   trains to the first"
-                        .to_owned();
-                    return Err(PlumeError::Invalid { field, problem });
-                }
-            }
+        let fields: Vec<String> = (0..self.currents.len())
+            .map(|i| format!("water.currents[{i}]"))
+            .collect();
+        let place = |field| Place {
+            field,
+            area,
+            terrain,
+            seed,
+        };
+        for (current, field) in self.currents.iter().zip(&fields) {
+            current.join(&mut water, &place(field))?;
         }
         // Meanders last: the mean of the other currents carries them, wherever they stand in the list.
         let carrier = water.depth_mean(area.centre);
-        for (i, current) in self.currents.iter().enumerate() {
-            if let CurrentSpec::Meander(spec) = current {
-                let field = format!("water.currents[{i}]");
-                let meander = spec.build(&field, area, carrier, seed)?;
-                water.meanders.push(meander);
-            }
+        for (current, field) in self.currents.iter().zip(&fields) {
+            current.join_carried(&mut water, &place(field), carrier)?;
         }
         water.advance(0.0);
         Ok(water)
@@ -205,6 +185,11 @@ impl WaterSpec {
 }
 
 impl Water {
+    /// Adds a current that is the same at all depths.
+    pub fn add(&mut self, current: Arc<dyn PlaneCurrent>) {
+        self.others.push(current);
+    }
+
     /// The channel, if the water is a channel.
     #[must_use]
     pub fn channel(&self) -> Option<&Channel> {
@@ -238,6 +223,7 @@ impl Water {
     pub(crate) fn is_steady(&self) -> bool {
         self.meanders.is_empty()
             && self.tides.is_empty()
+            && self.others.iter().all(|o| o.is_steady())
             && self.layered.as_ref().is_none_or(Layered::is_steady)
     }
 
@@ -256,6 +242,7 @@ impl Water {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));
         let wandering = tides.chain(self.meanders.iter().map(|m| m.velocity(p, t_s)));
+        let wandering = wandering.chain(self.others.iter().map(|o| o.velocity(p, t_s)));
         Column {
             water: self,
             floor,

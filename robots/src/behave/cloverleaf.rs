@@ -16,6 +16,7 @@
 //! area. At its end the list of lost points is emptied, as the bowties leave it, so that the next search round begins
 //! at a new one; the queue of last detection points stays.
 
+use super::catalogue::BehaviourParams;
 use crate::error::RobotError;
 use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
 use nalgebra::Vector2;
@@ -23,8 +24,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::num::NonZeroU32;
+use world::catalogue::Entry;
 use world::math;
 use world::ranges::Positive;
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -54,6 +57,20 @@ impl Default for Params {
             turn_radius_m: Positive::new(15.0),
             arrive_m: Positive::new(5.0),
         }
+    }
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "Cloverleaf",
+        what: "reacquire: leaves round the newest last detection point, one of them down-flow",
+        source: "Tian et al. 2013, section 3, Fig. 4b",
+    };
+}
+
+impl BehaviourParams for Params {
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+        Ok(Box::new(Cloverleaf::new(self)?))
     }
 }
 

@@ -14,6 +14,7 @@
 //! as no flow is known the vehicle keeps its heading and is reflected as by a mirror; the search proper
 //! begins with the first flow.
 
+use super::catalogue::BehaviourParams;
 use crate::error::RobotError;
 use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride, edges, inside};
 use nalgebra::Vector2;
@@ -21,7 +22,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
+use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -73,6 +76,20 @@ enum Phase {
     Leg(Heading),
     /// Along an edge, until one of the four satisfies the rule for `before`, the course that met it.
     Along { course: Heading, before: Heading },
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "ZigZag",
+        what: "find: crosses the flow at 70 or 110 degrees to it, reflected at the area's edges",
+        source: "Pang 2009, section 5.2",
+    };
+}
+
+impl BehaviourParams for Params {
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+        Ok(Box::new(ZigZag::new(self)?))
+    }
 }
 
 /// State of the behaviour.

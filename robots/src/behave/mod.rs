@@ -13,13 +13,16 @@ mod track_in;
 mod track_out;
 
 pub use avoid::{Params as AvoidParams, SoftAvoid};
-pub use catalogue::{CATALOGUE, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
-pub use cloverleaf::Cloverleaf;
-pub use find::ZigZag;
+pub use catalogue::{
+    BehaviourParams, FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec,
+    TracksIn, TracksOut,
+};
+pub use cloverleaf::{Cloverleaf, Params as CloverleafParams};
+pub use find::{Params as ZigZagParams, ZigZag};
 pub use go_home::GoHome;
 pub use go_to::GoTo;
 pub use open_loop::{TimeTable, TimeTableParams, TimeTableRow};
-pub use reacquire::Bowtie;
+pub use reacquire::{Bowtie, Params as BowtieParams};
 pub use survey::Passes;
-pub use track_in::CounterTurn;
-pub use track_out::UpAcross;
+pub use track_in::{CounterTurn, Params as CounterTurnParams};
+pub use track_out::{Params as UpAcrossParams, UpAcross};

@@ -13,6 +13,7 @@
 //! are the guidance's way to the next line's start. A line's ends are held 10 m inside the area. With
 //! N_re = 1 the bowtie is centred on the point.
 
+use super::catalogue::BehaviourParams;
 use crate::error::RobotError;
 use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
 use nalgebra::Vector2;
@@ -20,8 +21,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroU32;
+use world::catalogue::Entry;
 use world::math;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -51,6 +54,20 @@ impl Default for Params {
             half_width_m: Positive::new(13.0),
             turn_radius_m: NonNegative::new(5.0),
         }
+    }
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "Bowtie",
+        what: "reacquire: two crossing lines round the lost points, one point after the other",
+        source: "Pang 2009, section 5.5, Table 3, Fig. 6",
+    };
+}
+
+impl BehaviourParams for Params {
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+        Ok(Box::new(Bowtie::new(self)?))
     }
 }
 

@@ -10,11 +10,14 @@
 //! the counter-turn. LHS is set before the course, not after, which saves one sample of delay. Without any
 //! flow measured yet the vehicle's heading stands for up-flow.
 
+use super::catalogue::BehaviourParams;
 use crate::error::RobotError;
 use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -35,6 +38,20 @@ impl Default for Params {
             lambda_s: Positive::new(5.0),
             beta_deg: NonNegative::new(20.0),
         }
+    }
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "CounterTurn",
+        what: "track in: beta off up-flow, to the other side at each detection",
+        source: "Pang 2009, section 5.3, Table 1",
+    };
+}
+
+impl BehaviourParams for Params {
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+        Ok(Box::new(CounterTurn::new(self)?))
     }
 }
 

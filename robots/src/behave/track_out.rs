@@ -14,13 +14,16 @@
 //! gather. L_u and L_c are multiplied by the extent along the flow of the newest points over `far_m`, between `least` and 1;
 //! with fewer points they are whole.
 
+use super::catalogue::BehaviourParams;
 use crate::error::RobotError;
 use crate::handoff::{Behave, Lcdp, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Stride, inside};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::{Fraction, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
@@ -80,6 +83,20 @@ impl Default for Params {
             across_m: NonNegative::new(18.0),
             near: None,
         }
+    }
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "UpAcross",
+        what: "track out: to a point up-flow and across from the most up-flow lost point",
+        source: "Pang 2009, section 5.4, Table 2",
+    };
+}
+
+impl BehaviourParams for Params {
+    fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+        Ok(Box::new(UpAcross::new(self)?))
     }
 }
 

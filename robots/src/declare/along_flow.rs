@@ -9,12 +9,16 @@
 //! they were taken. The difference across the flow is not looked at, as in the paper, which names that among the
 //! causes of its 31 m error and a bound on it as future work: `across_m` is that bound.
 
+use super::catalogue::{DeclareParams, Points};
+use crate::handoff::PlumeMemory;
 use crate::handoff::{Evidence, Lcdp};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
@@ -36,6 +40,28 @@ impl Default for AlongFlow {
             within_m: Positive::new(4.0),
             across_m: None,
         }
+    }
+}
+
+impl Listed for AlongFlow {
+    const ENTRY: Entry = Entry {
+        name: "AlongFlow",
+        what: "the most up-flow lost point, when the first three differ by under 4 m along the flow",
+        source: "Pang 2009, section 5.6",
+    };
+}
+
+impl DeclareParams for AlongFlow {
+    fn points(&self) -> Points {
+        Points::Lost
+    }
+
+    fn needs(&self) -> NonZeroUsize {
+        self.points
+    }
+
+    fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
+        self.declare(memory.lost.all(), up_flow)
     }
 }
 

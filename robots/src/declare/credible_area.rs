@@ -7,11 +7,14 @@
 //!
 //! *Deviations*: none of our own making; none of the papers has this rule.
 
+use super::catalogue::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 
 /// The rule's parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -33,6 +36,20 @@ impl Default for Params {
     }
 }
 
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "CredibleArea",
+        what: "the likeliest cell of the map, when 95 % of the probability lie in a small enough area",
+        source: "Box & Tiao 1973, section 2.8",
+    };
+}
+
+impl BeliefRuleParams for Params {
+    fn build(&self) -> Box<dyn BeliefRule> {
+        Box::new(CredibleArea::new(self))
+    }
+}
+
 /// State of the rule.
 #[derive(Clone, Debug)]
 pub struct CredibleArea {
@@ -49,10 +66,12 @@ impl CredibleArea {
             since_s: None,
         }
     }
+}
 
+impl BeliefRule for CredibleArea {
     /// The source's place (ENU, m), if the map says so at `t_s`: the mean over the cells nearest the likeliest one would
     /// mix separate hills, so it is the likeliest cell itself.
-    pub fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
+    fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
         if !belief.informed || belief.credible_95 > self.params.below.get() {
             self.since_s = None;
             return None;

@@ -13,7 +13,10 @@ mod unchanged;
 mod zone_size;
 
 pub use along_flow::AlongFlow;
-pub use catalogue::{BeliefRule, BeliefRuleSpec, CATALOGUE, DeclareSpec};
+pub use catalogue::{
+    BeliefRule, BeliefRuleParams, BeliefRuleSpec, BeliefRules, DeclareParams, DeclareSpec,
+    Declares, Points,
+};
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
 pub use siz_f::SizF;
 pub use siz_t::{Order as SizOrder, SizT};

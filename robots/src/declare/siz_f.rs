@@ -9,13 +9,18 @@
 //! algorithm), not more than N_min (the text). Of equally far points the most down-flow one goes first. N_ini is 1,
 //! which does nothing: the paper says that it matters only for very small N_min.
 
+use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
+use crate::error::RobotError;
+use crate::handoff::PlumeMemory;
 use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
@@ -37,6 +42,28 @@ impl Default for SizF {
             points: NonZeroUsize::new(6).expect("6 is not zero"),
             initial: NonZeroUsize::MIN,
         }
+    }
+}
+
+impl Listed for SizF {
+    const ENTRY: Entry = Entry {
+        name: "SizF",
+        what: "the most up-flow of six or more last detection points within 6 m of their mean, the others left aside",
+        source: "Tian et al. 2013, section 3, algorithm 2",
+    };
+}
+
+impl DeclareParams for SizF {
+    fn needs(&self) -> NonZeroUsize {
+        self.points.max(self.initial)
+    }
+
+    fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
+        self.declare(memory.lcdps.all(), up_flow, memory.fixes.scale_m())
+    }
+
+    fn check_own(&self) -> Result<(), RobotError> {
+        self.size.check("declare.SizF.size")
     }
 }
 

@@ -11,13 +11,18 @@
 //! up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this rule with these
 //! 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
 
+use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
+use crate::error::RobotError;
+use crate::handoff::PlumeMemory;
 use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 use world::units::Heading;
 
 /// The rule's parameters.
@@ -52,6 +57,28 @@ impl Default for SizT {
             order: Order::default(),
             initial: NonZeroUsize::MIN,
         }
+    }
+}
+
+impl Listed for SizT {
+    const ENTRY: Entry = Entry {
+        name: "SizT",
+        what: "the mean of the six newest last detection points, when they lie within 4 m",
+        source: "Tian et al. 2013, section 3, algorithm 1",
+    };
+}
+
+impl DeclareParams for SizT {
+    fn needs(&self) -> NonZeroUsize {
+        self.points.max(self.initial)
+    }
+
+    fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
+        self.declare(memory.lcdps.all(), up_flow, memory.fixes.scale_m())
+    }
+
+    fn check_own(&self) -> Result<(), RobotError> {
+        self.size.check("declare.SizT.size")
     }
 }
 

@@ -6,11 +6,14 @@
 //!
 //! *Deviations*: time counts from the first detection on: before it the map says nothing, and does not change either.
 
+use super::catalogue::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 
 /// The rule's parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -26,6 +29,20 @@ impl Default for Params {
         Self {
             for_s: Positive::new(30.0),
         }
+    }
+}
+
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "Unchanged",
+        what: "the likeliest cell of the map, when it has been the same for 30 s",
+        source: "Wang & Pang, section II-D",
+    };
+}
+
+impl BeliefRuleParams for Params {
+    fn build(&self) -> Box<dyn BeliefRule> {
+        Box::new(Unchanged::new(self))
     }
 }
 
@@ -45,9 +62,11 @@ impl Unchanged {
             since: None,
         }
     }
+}
 
+impl BeliefRule for Unchanged {
     /// The source's place (ENU, m), if the map says so at `t_s`.
-    pub fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
+    fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
         if !belief.informed {
             self.since = None;
             return None;

@@ -10,12 +10,46 @@
 //! of 1 − Π: the two are near each other where chances are small, and part near the vehicle, where the
 //! product saturates. With ε = `false_detection`: (1 − ε) β + ε / n. Else as `Pomdp`.
 
-use super::catalogue::Mapper;
+use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// The mapper's parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct BayesianSpec(pub CellsSpec);
+
+impl Listed for BayesianSpec {
+    const ENTRY: Entry = Entry {
+        name: "Bayesian",
+        what: "source map: product over releases on non-detection, their sum on detection (reconstructed)",
+        source: "Pang & Farrell 2006, IEEE SMC-B 36(5)",
+    };
+}
+
+impl MapParams for BayesianSpec {
+    fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
+        Ok(Box::new(Bayesian::new(&self.0, self.0.grid.build(area)?)?))
+    }
+
+    fn check(&self, area: &Area) -> Result<(), RobotError> {
+        self.0.check(area)
+    }
+
+    fn cost(&self, times: &Times) -> Cost {
+        self.0.cost(times)
+    }
+}
 
 /// The mapper at work.
 #[derive(Clone, Debug)]

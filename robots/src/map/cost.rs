@@ -6,9 +6,9 @@
 //!
 //! *Deviations*: sets of releases are counted as if the flow were steady: each set then holds ages that differ by 0.8 κ.
 
-use super::catalogue::MapSpec;
 use super::hmm::HmmSpec;
 use super::spec::{GridSpec, TrajectorySpec};
+use super::workings::CellsSpec;
 use world::cost::{Cost, Part, Times};
 use world::math;
 
@@ -17,7 +17,7 @@ const CELL_BYTES: f64 = 80.0;
 /// Time of a cell or particle and a set of releases, s.
 const CELL_S: f64 = 1e-9;
 /// See above.
-const PARTICLE_S: f64 = 2.7e-9;
+pub(super) const PARTICLE_S: f64 = 2.7e-9;
 /// Time to gather a release, s, and memory of one, bytes.
 const RELEASE: (f64, f64) = (20e-9, 80.0);
 /// Memory of a step of the chain, and of a level in it, bytes; time of a hop of a row's cell, s.
@@ -51,41 +51,39 @@ impl TrajectorySpec {
     }
 }
 
-impl MapSpec {
-    /// What it takes; paths below `map`.
-    #[must_use]
-    pub fn cost(&self, times: &Times) -> Cost {
-        let by_kernel = |grid: &GridSpec, way: &TrajectorySpec, period_s: f64, each_s: f64| {
-            let [all, sets] = way.releases(way.release_period_s.get());
-            let updates = times.mission_s / period_s.max(times.step_s);
-            let mut cost = grid.cost();
-            let what = format!("{updates:.1e} updates of the map");
-            let update = Part::new("update_period_s", what)
-                .takes(updates * (sets * each_s + all * RELEASE.0))
-                .by(period_s, -1.0);
-            let what = format!("{all:.1e} releases looked back at");
-            let kept = Part::new("trajectory.release_period_s", what)
-                .holds(all * RELEASE.1)
-                .by(way.release_period_s.get(), -1.0);
-            cost.parts.extend([update, kept]);
-            cost
-        };
-        match self {
-            MapSpec::Pomdp(s) | MapSpec::Bayesian(s) => {
-                let each_s = s.grid.cells() * CELL_S;
-                by_kernel(&s.grid, &s.trajectory, s.update_period_s.get(), each_s)
-            }
-            MapSpec::ParticleFilter(s) => {
-                let each_s = f64::from(s.particles) * PARTICLE_S;
-                by_kernel(&s.grid, &s.trajectory, s.update_period_s.get(), each_s)
-            }
-            MapSpec::Hmm(s) => s.cost(times),
-        }
+/// What a mapper that weighs its cells by the kernel of the look-back takes, `each_s` for a set of releases.
+pub(super) fn by_kernel(
+    grid: &GridSpec,
+    way: &TrajectorySpec,
+    period_s: f64,
+    each_s: f64,
+    times: &Times,
+) -> Cost {
+    let [all, sets] = way.releases(way.release_period_s.get());
+    let updates = times.mission_s / period_s.max(times.step_s);
+    let mut cost = grid.cost();
+    let what = format!("{updates:.1e} updates of the map");
+    let update = Part::new("update_period_s", what)
+        .takes(updates * (sets * each_s + all * RELEASE.0))
+        .by(period_s, -1.0);
+    let what = format!("{all:.1e} releases looked back at");
+    let kept = Part::new("trajectory.release_period_s", what)
+        .holds(all * RELEASE.1)
+        .by(way.release_period_s.get(), -1.0);
+    cost.parts.extend([update, kept]);
+    cost
+}
+
+impl CellsSpec {
+    pub(super) fn cost(&self, times: &Times) -> Cost {
+        let each_s = self.grid.cells() * CELL_S;
+        let period_s = self.update_period_s.get();
+        by_kernel(&self.grid, &self.trajectory, period_s, each_s, times)
     }
 }
 
 impl HmmSpec {
-    fn cost(&self, times: &Times) -> Cost {
+    pub(super) fn work(&self, times: &Times) -> Cost {
         let step_s = self.step_s.get();
         let [steps, sets] = self.trajectory.releases(step_s);
         let (cells, levels) = (self.grid.cells(), f64::from(self.grid.vertical));

@@ -20,12 +20,12 @@ mod terms;
 mod watch;
 mod workings;
 
-pub use bayesian::Bayesian;
-pub use catalogue::{CATALOGUE, MapSpec, Mapper};
+pub use bayesian::{Bayesian, BayesianSpec};
+pub use catalogue::{MapParams, MapSpec, Mapper, Maps};
 pub use evidence::DoubtSpec;
 pub use hmm::{Hmm, HmmSpec};
 pub use particle_filter::{ParticleFilter, ParticleFilterSpec};
-pub use pomdp::Pomdp;
+pub use pomdp::{Pomdp, PomdpSpec};
 pub use spec::{GridSpec, TrajectorySpec};
 pub use watch::MapObservation;
 pub use workings::CellsSpec;

@@ -14,7 +14,8 @@
 //! then drawn anew from the releases that could have been met, as Lenser & Veloso 2000 reset a lost robot.
 //! The belief on the grid is the weight of the particles in each cell, with the share ε spread over all.
 
-use super::catalogue::Mapper;
+use super::catalogue::{MapParams, Mapper};
+use super::cost::{PARTICLE_S, by_kernel};
 use super::evidence::DoubtSpec;
 use super::kernel::Kernel;
 use super::spec::{GridSpec, TrajectorySpec, invalid};
@@ -24,8 +25,12 @@ use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Legal numbers of particles.
@@ -68,6 +73,40 @@ impl Default for ParticleFilterSpec {
             lost_below: Fraction::new(0.01),
             roughening: NonNegative::new(0.2),
         }
+    }
+}
+
+impl Listed for ParticleFilterSpec {
+    const ENTRY: Entry = Entry {
+        name: "ParticleFilter",
+        what: "particles of source positions, weighted by the chance of what was and was not smelt (reconstructed)",
+        source: "Li, Meng, Wang & Zeng 2011, Autonomous Robots 30(3)",
+    };
+}
+
+impl MapParams for ParticleFilterSpec {
+    fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError> {
+        Ok(Box::new(ParticleFilter::new(
+            self,
+            self.grid.build(area)?,
+            rng,
+        )?))
+    }
+
+    fn check(&self, area: &Area) -> Result<(), RobotError> {
+        self.grid.build(area)?;
+        self.trajectory.check()
+    }
+
+    fn cost(&self, times: &Times) -> Cost {
+        let each_s = f64::from(self.particles) * PARTICLE_S;
+        by_kernel(
+            &self.grid,
+            &self.trajectory,
+            self.update_period_s.get(),
+            each_s,
+            times,
+        )
     }
 }
 

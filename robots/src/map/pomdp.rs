@@ -10,12 +10,46 @@
 //! alarm where no cell can explain it leaves a belief; on none it is γ, as in the paper. Any detection within
 //! an update period counts as one. No update while the vehicle is outside the grid. Kernel: see `kernel`.
 
-use super::catalogue::Mapper;
+use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// The mapper's parameters.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub struct PomdpSpec(pub CellsSpec);
+
+impl Listed for PomdpSpec {
+    const ENTRY: Entry = Entry {
+        name: "Pomdp",
+        what: "source map: Bayes' rule with the chance of meeting any release of the look-back",
+        source: "Wang & Pang, section II-C, eqs. 1-6",
+    };
+}
+
+impl MapParams for PomdpSpec {
+    fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
+        Ok(Box::new(Pomdp::new(&self.0, self.0.grid.build(area)?)?))
+    }
+
+    fn check(&self, area: &Area) -> Result<(), RobotError> {
+        self.0.check(area)
+    }
+
+    fn cost(&self, times: &Times) -> Cost {
+        self.0.cost(times)
+    }
+}
 
 /// The mapper at work.
 #[derive(Clone, Debug)]

@@ -1,11 +1,13 @@
 //! Beliefs stay beliefs: sums, hours, memory, and no preferred place or direction.
 
+use super::bayesian::BayesianSpec;
 use super::catalogue::{MapSpec, Mapper};
 use super::flow_history::FlowHistory;
 use super::hmm::HmmSpec;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
 use super::particle_filter::ParticleFilterSpec;
+use super::pomdp::PomdpSpec;
 use super::spec::{GridSpec, TrajectorySpec};
 use super::testing::{grid, p_by_hand, paper_area};
 use super::watch::MapObservation;
@@ -21,22 +23,22 @@ use world::units::Heading;
 pub(super) fn all(grid: &GridSpec, trajectory: &TrajectorySpec, particles: u32) -> [MapSpec; 4] {
     let (grid, trajectory) = (grid.clone(), trajectory.clone());
     [
-        MapSpec::Pomdp(CellsSpec {
+        MapSpec::new(PomdpSpec(CellsSpec {
             grid: grid.clone(),
             trajectory: trajectory.clone(),
             ..CellsSpec::default()
-        }),
-        MapSpec::Bayesian(CellsSpec {
+        })),
+        MapSpec::new(BayesianSpec(CellsSpec {
             grid: grid.clone(),
             trajectory: trajectory.clone(),
             ..CellsSpec::default()
-        }),
-        MapSpec::Hmm(HmmSpec {
+        })),
+        MapSpec::new(HmmSpec {
             grid: grid.clone(),
             trajectory: trajectory.clone(),
             ..HmmSpec::default()
         }),
-        MapSpec::ParticleFilter(ParticleFilterSpec {
+        MapSpec::new(ParticleFilterSpec {
             grid,
             trajectory,
             particles,
@@ -82,16 +84,16 @@ fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
     let (grid, trajectory) = small();
     for spec in all(&grid, &trajectory, 200) {
         // The particle filter costs an exponential a particle and release: fewer of either.
-        let spec = match spec {
-            MapSpec::ParticleFilter(p) => MapSpec::ParticleFilter(ParticleFilterSpec {
+        let spec = match spec.get::<ParticleFilterSpec>() {
+            Some(p) => MapSpec::new(ParticleFilterSpec {
                 particles: 20,
                 trajectory: TrajectorySpec {
                     lookback_s: Positive::new(4.0),
                     ..trajectory.clone()
                 },
-                ..p
+                ..p.clone()
             }),
-            other => other,
+            None => spec,
         };
         let mut rng = Stream::new(3, "auv0", "walk");
         let mut mapper = spec

@@ -15,6 +15,7 @@ use crate::handoff::BeliefGrid;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
+use world::area::Area;
 use world::ranges::{Fraction, Positive};
 
 /// Parameters of a mapper that weighs cells by the back-trajectory kernel.
@@ -42,6 +43,14 @@ impl Default for CellsSpec {
             false_detection: Fraction::new(1e-6),
             doubt: DoubtSpec::default(),
         }
+    }
+}
+
+impl CellsSpec {
+    /// That cells and look-back are as many as a mapper can have.
+    pub(super) fn check(&self, area: &Area) -> Result<(), RobotError> {
+        self.grid.build(area)?;
+        self.trajectory.check()
     }
 }
 

@@ -10,6 +10,7 @@
 //! *Deviations*: eq. 8 gives free cells no cost, which makes the search greedy: it is kept under `Paper` (see
 //! `paper_cost.rs`), and the default is the length. See `search.rs` for the search, `smooth.rs` for what follows it.
 
+use super::catalogue::PlannerParams;
 use super::ends::Ends;
 use super::paper_cost::FiveMoves;
 use super::search::{Costs, Search};
@@ -18,7 +19,9 @@ use crate::error::RobotError;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 
 /// Which costs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -61,6 +64,28 @@ impl Default for Params {
     }
 }
 
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "AStar",
+        what: "cheapest way by length and clearance, smoothed to the turning circle; the paper's costs on request",
+        source: "Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968",
+    };
+}
+
+impl PlannerParams for Params {
+    fn build(&self) -> Result<Box<dyn Planner>, RobotError> {
+        Ok(Box::new(AStar::new(self)?))
+    }
+
+    fn plane_only(&self) -> bool {
+        self.cost == Cost::Paper
+    }
+
+    fn reach(&self) -> (&'static str, f64) {
+        ("clearance_m", self.clearance_m.get())
+    }
+}
+
 /// The planner with the arrays it keeps.
 #[derive(Clone, Debug)]
 pub struct AStar {
@@ -99,12 +124,6 @@ impl AStar {
             search: Search::new(costs),
             ends: Ends::default(),
         })
-    }
-
-    /// Clearance beyond the hull's own that it tells apart, m.
-    #[must_use]
-    pub fn reach_m(params: &Params) -> f64 {
-        params.clearance_m.get()
     }
 }
 

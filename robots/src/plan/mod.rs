@@ -16,7 +16,7 @@ mod smooth;
 pub(crate) mod testing;
 
 pub use a_star::{AStar, Cost, Params as AStarParams};
-pub use catalogue::{CATALOGUE, PlannerSpec};
+pub use catalogue::{PlannerParams, PlannerSpec, Planners};
 pub use follow::Follow;
 pub use planner::{From, NoPath, Path, Planner, Reach};
 pub use potential_field::{Params as PotentialFieldParams, PotentialField};

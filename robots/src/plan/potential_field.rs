@@ -10,14 +10,18 @@
 //! the start to its end at every plan, rather than one step at a time. It ends at the goal, or, when thirty steps bring it
 //! no farther than three do, in a minimum: then the path ends there and says so.
 
+use super::catalogue::PlannerParams;
 use super::{From, NoPath, Path, Planner, Reach, Room};
 use crate::error::RobotError;
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::cost::{Cost, Part};
 use world::limits::shown;
 use world::ranges::Positive;
+use world::registry::Listed;
 
 /// Steps over which progress is judged, and the steps that count as progress.
 const JUDGED: (usize, f64) = (30, 3.0);
@@ -27,6 +31,9 @@ const NEAREST_M: f64 = 0.1;
 const STEPS_A_CELL: f64 = 20.0;
 /// Most steps for each cell side of the room's circumference.
 const STEPS: f64 = 8.0;
+
+/// Time of a step of a descent, s (see `world::cost`).
+const STEP_S: f64 = 300e-9;
 
 /// Parameters of the planner.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -81,6 +88,37 @@ impl Params {
     }
 }
 
+impl Listed for Params {
+    const ENTRY: Entry = Entry {
+        name: "PotentialField",
+        what: "downhill between the goal's pull and the solids' push; caught in local minima",
+        source: "Khatib 1986; Pang & Zhu 2009 (reconstructed)",
+    };
+}
+
+impl PlannerParams for Params {
+    fn build(&self) -> Result<Box<dyn Planner>, RobotError> {
+        Ok(Box::new(PotentialField::new(self)?))
+    }
+
+    fn check(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
+        self.fits(cells, plane)
+    }
+
+    fn reach(&self) -> (&'static str, f64) {
+        ("push_m", self.push_m.get())
+    }
+
+    fn cost(&self, way_m: f64, plans: f64) -> Cost {
+        let steps = way_m / self.step_m.get();
+        let descent = Part::new("step_m", format!("{steps:.1e} steps of a descent"))
+            .holds(8.0 * steps * 24.0)
+            .takes(plans * steps * STEP_S)
+            .by(self.step_m.get(), -1.0);
+        Cost::of(descent)
+    }
+}
+
 /// The planner.
 #[derive(Clone, Debug)]
 pub struct PotentialField {
@@ -101,12 +139,6 @@ impl PotentialField {
         Ok(Self {
             params: params.clone(),
         })
-    }
-
-    /// Clearance beyond the hull's own that it tells apart, m.
-    #[must_use]
-    pub fn reach_m(params: &Params) -> f64 {
-        params.push_m.get()
     }
 
     /// Downhill direction of the potential (not a unit vector).

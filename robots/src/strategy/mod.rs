@@ -2,7 +2,6 @@
 
 mod amp;
 mod catalogue;
-mod cost;
 mod map_and_plan;
 mod open_loop;
 mod spec;
@@ -12,12 +11,12 @@ mod survey;
 mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
-pub use catalogue::CATALOGUE;
+pub use catalogue::{Strategies, StrategySpec};
 pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
 };
 pub use open_loop::{OpenLoop, OpenLoopSpec};
-pub use spec::{Strategy, StrategySpec, VerticalSpec};
+pub use spec::{Strategy, StrategyParams, VerticalSpec};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,
     SubregionsSpec,

@@ -6,18 +6,38 @@
 //!
 //! *Deviations*: none.
 
-use super::spec::Strategy;
+use super::spec::{Strategy, StrategyParams};
 use crate::behave::TimeTable;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, PlumeMemory, Stride,
-    Vertical,
+    Behave, Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, PlumeMemory, Setting,
+    Stride, Vertical,
 };
 use std::sync::Arc;
+use world::catalogue::Entry;
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// The time table.
 pub type OpenLoopSpec = crate::behave::TimeTableParams;
+
+impl Listed for OpenLoopSpec {
+    const ENTRY: Entry = Entry {
+        name: "OpenLoop",
+        what: "rudder, stern plane and propeller from a time table",
+        source: "open-loop vehicle trials (Prestero 2001, chapter 6)",
+    };
+}
+
+impl StrategyParams for OpenLoopSpec {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(OpenLoop::new(self)?))
+    }
+
+    fn searches(&self) -> bool {
+        false
+    }
+}
 
 /// State of the open-loop strategy.
 #[derive(Debug)]

@@ -1,15 +1,14 @@
 //! What a scenario says about the strategy.
 
-use super::amp::{Amp, AmpSpec};
-use super::map_and_plan::{MapAndPlan, MapAndPlanSpec};
-use super::open_loop::{OpenLoop, OpenLoopSpec};
-use super::subregions::{Subregions, SubregionsSpec};
-use super::subsumption::{Subsumption, SubsumptionSpec};
+use super::wishes::Wishes;
 use crate::error::RobotError;
 use crate::handoff::{Decision, Observation, Setting, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::area::Area;
+use world::cost::{Cost, Times};
 use world::ranges::{NonNegative, Positive};
+use world::registry::Spec;
 use world::seeds::Stream;
 
 /// A strategy: sees an observation a tick and decides what to ask of the guidance.
@@ -18,73 +17,60 @@ pub trait Strategy: std::fmt::Debug + Send + Sync {
     fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
 }
 
-/// The strategies a scenario can ask for.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum StrategySpec {
-    /// Pang's adaptive mission planner: find, track in, track out, reacquire, declare.
-    Amp(AmpSpec),
-    /// A map of the source, and planned paths to its likeliest cell.
-    MapAndPlan(MapAndPlanSpec),
-    /// Tian's subsumption planner: the same behaviours as layers that suppress and inhibit each other.
-    Subsumption(SubsumptionSpec),
-    /// Actuators from a time table.
-    OpenLoop(OpenLoopSpec),
-    /// One subregion after the other, each searched by another strategy.
-    Subregions(SubregionsSpec),
-}
-
-impl StrategySpec {
-    /// It needs a forward ranging on board.
-    #[must_use]
-    pub fn needs_ranging(&self) -> bool {
-        match self {
-            StrategySpec::Subsumption(spec) => spec.needs_ranging(),
-            StrategySpec::Subregions(spec) => spec.search.needs_ranging(),
-            StrategySpec::Amp(_) | StrategySpec::MapAndPlan(_) | StrategySpec::OpenLoop(_) => false,
-        }
-    }
-
-    /// Whether it flies passes for sidescan and camera after a declaration.
-    #[must_use]
-    pub fn flies_for(&self) -> [bool; 2] {
-        match self {
-            StrategySpec::Amp(spec) => spec.after_declaration.flies_for(),
-            StrategySpec::Subsumption(spec) => {
-                let [sidescan, camera] = spec.survey.as_ref().map_or([false; 2], |s| s.flies_for());
-                [sidescan, camera || spec.eyes.is_some()]
-            }
-            StrategySpec::Subregions(spec) => spec.search.flies_for(),
-            StrategySpec::MapAndPlan(_) | StrategySpec::OpenLoop(_) => [false; 2],
-        }
-    }
+/// Parameters of a strategy, and what they say of it before it is built.
+pub trait StrategyParams: Spec {
+    /// The strategy, ready for its first tick.
+    ///
+    /// # Errors
+    /// [`RobotError::Invalid`] when fields contradict each other.
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError>;
 
     /// That what it plans in is no more than a planner can have, without making any of it.
     ///
     /// # Errors
     /// [`RobotError::Invalid`] when it is.
-    pub fn check(&self, setting: &Setting) -> Result<(), RobotError> {
-        match self {
-            StrategySpec::MapAndPlan(spec) => spec.check(setting),
-            StrategySpec::Subregions(spec) => spec.search.check(setting),
-            StrategySpec::Amp(_) | StrategySpec::Subsumption(_) | StrategySpec::OpenLoop(_) => {
-                Ok(())
-            }
-        }
+    fn check(&self, _setting: &Setting) -> Result<(), RobotError> {
+        Ok(())
     }
 
-    /// The strategy, ready for its first tick.
-    ///
-    /// # Errors
-    /// [`RobotError::Invalid`] when fields contradict each other.
-    pub fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
-        Ok(match self {
-            StrategySpec::Amp(spec) => Box::new(Amp::new(spec)?),
-            StrategySpec::MapAndPlan(spec) => Box::new(MapAndPlan::new(spec, setting)?),
-            StrategySpec::Subsumption(spec) => Box::new(Subsumption::new(spec, setting)?),
-            StrategySpec::OpenLoop(spec) => Box::new(OpenLoop::new(spec)?),
-            StrategySpec::Subregions(spec) => Box::new(Subregions::new(spec, setting)?),
-        })
+    /// It looks for a source: it wants a chemical sensor and a flow, and something to find.
+    fn searches(&self) -> bool {
+        true
+    }
+
+    /// It needs a forward ranging on board.
+    fn needs_ranging(&self) -> bool {
+        false
+    }
+
+    /// Whether it flies passes for sidescan and camera after a declaration.
+    fn flies_for(&self) -> [bool; 2] {
+        [false; 2]
+    }
+
+    /// The heights and speeds that it will ask for.
+    fn wishes(&self) -> Wishes {
+        Wishes::default()
+    }
+
+    /// Most declarations of it that can stand at the end: what it rejects itself does not.
+    fn declares_at_most(&self) -> usize {
+        usize::from(self.searches())
+    }
+
+    /// Its decisions name subregions.
+    fn has_regions(&self) -> bool {
+        false
+    }
+
+    /// Its decisions name layers.
+    fn has_layers(&self) -> bool {
+        false
+    }
+
+    /// What it takes; paths below `strategy`.
+    fn cost(&self, _area: &Area, _depth_m: f64, _obstacles: usize, _times: &Times) -> Cost {
+        Cost::default()
     }
 }
 

@@ -1,20 +1,6 @@
-//! The searchers of a gantry and the units of the tracker by name.
+//! The units of the tracker by name.
 
 use world::catalogue::Entry;
-
-/// Searchers.
-pub const STRATEGIES: &[Entry] = &[
-    Entry {
-        name: "Crab",
-        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike frequency",
-        source: "Webster et al. 2012, section 4, Fig. 7",
-    },
-    Entry {
-        name: "Chemotaxis",
-        what: "baseline: climbs the gradient of averaged concentration, along and across the stream",
-        source: "Webster et al. 2012, sections 2.1 and 6.2; Russell et al. 2003",
-    },
-];
 
 /// Units of the tracker that can be chosen, named as in RON; those without a choice follow from them.
 pub const UNITS: &[Entry] = &[

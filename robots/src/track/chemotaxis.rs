@@ -12,6 +12,7 @@
 
 use super::acquire::Acquisition;
 use super::command::MotionCommand;
+use super::spec::{GantryStrategy, GantryStrategyParams};
 use crate::error::RobotError;
 use crate::handoff::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, TrackerState,
@@ -20,7 +21,9 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Parameters of the searcher.
@@ -45,6 +48,20 @@ impl Default for ChemotaxisSpec {
             average_s: Positive::new(1.86),
             turns: NonZeroUsize::new(3).expect("3 is not zero"),
         }
+    }
+}
+
+impl Listed for ChemotaxisSpec {
+    const ENTRY: Entry = Entry {
+        name: "Chemotaxis",
+        what: "baseline: climbs the gradient of averaged concentration, along and across the stream",
+        source: "Webster et al. 2012, sections 2.1 and 6.2; Russell et al. 2003",
+    };
+}
+
+impl GantryStrategyParams for ChemotaxisSpec {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+        Ok(Box::new(Chemotaxis::new(self, layout)?))
     }
 }
 
@@ -136,7 +153,7 @@ impl Chemotaxis {
     }
 }
 
-impl super::spec::GantryStrategy for Chemotaxis {
+impl GantryStrategy for Chemotaxis {
     fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> GantryDecision {
         let (t, joints) = (seen.t_s, &seen.readings.joints);
         if self.stopped.is_none() {
@@ -174,7 +191,7 @@ mod tests {
 
     #[test]
     fn climbs_a_smooth_hill_and_stops_on_it() {
-        let spec = GantryStrategySpec::Chemotaxis(ChemotaxisSpec::default());
+        let spec = GantryStrategySpec::new(ChemotaxisSpec::default());
         let mut rig = Rig::new(
             spec.build(&layout()).expect("legal"),
             Vector2::new(0.2, -0.2),

@@ -10,7 +10,7 @@ use world::seeds::Stream;
 const LIMIT_S: f64 = 300.0;
 
 fn rig(spec: &CrabSpec, seed: u64) -> Rig {
-    let strategy = GantryStrategySpec::Crab(spec.clone()).build(&layout());
+    let strategy = GantryStrategySpec::new(spec.clone()).build(&layout());
     Rig::seeded(strategy.expect("legal"), Vector2::new(0.2, 0.3), seed)
 }
 

@@ -13,7 +13,7 @@ use super::crab_spec::CrabSpec;
 use super::decide::{Ask, DecisionUnit, Memory};
 use super::history::History;
 use super::predictor::Predictor;
-use super::spec::GantryStrategy;
+use super::spec::{GantryStrategy, GantryStrategyParams};
 use super::spikes::SpikeAnalyser;
 use super::stop::StopRule;
 use super::threshold::ThresholdAnalyser;
@@ -22,7 +22,23 @@ use crate::handoff::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, JointReadings, ProbeScan,
     TrackerState,
 };
+use world::catalogue::Entry;
+use world::registry::Listed;
 use world::seeds::Stream;
+
+impl Listed for CrabSpec {
+    const ENTRY: Entry = Entry {
+        name: "Crab",
+        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike frequency",
+        source: "Webster et al. 2012, section 4, Fig. 7",
+    };
+}
+
+impl GantryStrategyParams for CrabSpec {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+        Ok(Box::new(CrabTracker::new(self, layout)?))
+    }
+}
 
 /// The tracker.
 #[derive(Debug)]

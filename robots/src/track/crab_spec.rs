@@ -176,7 +176,7 @@ mod tests {
     fn refused(change: impl FnOnce(&mut CrabSpec)) -> String {
         let mut spec = CrabSpec::adaptive();
         change(&mut spec);
-        let e = GantryStrategySpec::Crab(spec).build(&layout());
+        let e = GantryStrategySpec::new(spec).build(&layout());
         e.expect_err("impossible").to_string()
     }
 

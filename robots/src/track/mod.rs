@@ -26,7 +26,7 @@ pub mod threshold;
 
 pub use advance::{AdvanceSpec, Gated, StepRule};
 pub use builder::{Best, SweepSpec};
-pub use catalogue::{STRATEGIES, UNITS};
+pub use catalogue::UNITS;
 pub use chemotaxis::{Chemotaxis, ChemotaxisSpec};
 pub use crab::CrabTracker;
 pub use crab_spec::CrabSpec;
@@ -34,7 +34,7 @@ pub use history::{HistorySpec, Since};
 pub use pace::{Adaptive as AdaptivePace, Fixed as FixedPace, PaceSpec};
 pub use predictor::{Mean, PredictorSpec, Trend};
 pub use rate::Count;
-pub use spec::{GantryStrategy, GantryStrategySpec};
+pub use spec::{GantryStrategies, GantryStrategy, GantryStrategyParams, GantryStrategySpec};
 pub use steer::{Adaptive as AdaptiveContrast, ContrastSpec, Fixed as FixedContrast, Peak};
 pub use stop::{Experience, SpikeRate, StopSpec};
 pub use threshold::{Averaged, HalfMean, Level, ThresholdSpec};

@@ -1,12 +1,11 @@
 //! What a scenario says about a gantry's searcher.
 
-use super::chemotaxis::{Chemotaxis, ChemotaxisSpec};
-use super::crab::CrabTracker;
+use super::chemotaxis::ChemotaxisSpec;
 use super::crab_spec::CrabSpec;
 use crate::error::RobotError;
 use crate::handoff::{GantryDecision, GantryLayout, GantryObservation};
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use world::kind;
+use world::registry::Spec;
 use world::seeds::Stream;
 
 /// A gantry's searcher: sees an observation a tick and decides where the head is to go.
@@ -15,38 +14,19 @@ pub trait GantryStrategy: std::fmt::Debug + Send + Sync {
     fn step(&mut self, seen: &GantryObservation, rng: &mut Stream) -> GantryDecision;
 }
 
-/// The searchers a scenario can ask for.
-#[allow(
-    clippy::large_enum_variant,
-    reason = "one a run, and a box would only cost the reader"
-)]
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub enum GantryStrategySpec {
-    /// The blue-crab tracker.
-    Crab(CrabSpec),
-    /// Bilateral gradient climbing on averaged concentrations.
-    Chemotaxis(ChemotaxisSpec),
-}
-
-impl GantryStrategySpec {
+/// Parameters of a gantry's searcher.
+pub trait GantryStrategyParams: Spec {
     /// The searcher on a machine, ready for its first tick.
     ///
     /// # Errors
     /// [`RobotError::Invalid`] when the machine cannot do what the searcher asks of it.
-    pub fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
-        Ok(match self {
-            Self::Crab(spec) => Box::new(CrabTracker::new(spec, layout)?),
-            Self::Chemotaxis(spec) => Box::new(Chemotaxis::new(spec, layout)?),
-        })
-    }
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError>;
+}
 
-    /// Name, as in the catalogue.
-    #[must_use]
-    pub fn name(&self) -> &'static str {
-        match self {
-            Self::Crab(_) => "Crab",
-            Self::Chemotaxis(_) => "Chemotaxis",
-        }
+kind! {
+    /// The searchers of a gantry that a scenario can ask for.
+    pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
+        heading: "Searchers of a gantry (gantries: tracker)",
+        rows: [CrabSpec, ChemotaxisSpec],
     }
 }

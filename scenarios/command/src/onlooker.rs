@@ -14,7 +14,6 @@ use output::results::{
     BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables,
     RobotInfo, RunEnd, RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
 };
-use plumes::flow::CurrentSpec;
 use rheotaxis::abnormal::Abnormals;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -22,7 +21,6 @@ use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::GantryBlock;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial, Watch};
-use robots::strategy::StrategySpec;
 use robots::vehicles::Gantry;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -92,8 +90,8 @@ impl<'a> Onlooker<'a> {
                 id: spec.id.as_str().to_string(),
                 full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
                 threshold: dye.map(|f| f.threshold.get()),
-                regions: matches!(spec.strategy, StrategySpec::Subregions(_)),
-                layered: matches!(spec.strategy, StrategySpec::Subsumption(_)),
+                regions: spec.strategy.has_regions(),
+                layered: spec.strategy.has_layers(),
             }
         });
         let path = out.file("track.csv").map_err(ReportError::from)?;
@@ -126,12 +124,8 @@ impl<'a> Onlooker<'a> {
             linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
             permeable: scenario.permeable.clone(),
             interfaces: (scenario.water.currents.iter())
-                .filter_map(|c| match c {
-                    CurrentSpec::Layered(l) => Some(&l.interfaces),
-                    _ => None,
-                })
-                .flatten()
-                .map(|i| -i.depth_m.get())
+                .flat_map(|c| c.interfaces_m())
+                .map(|depth_m| -depth_m)
                 .collect(),
         })
     }

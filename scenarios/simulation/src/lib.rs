@@ -9,6 +9,7 @@ pub mod frame;
 pub mod gantry;
 pub mod ocean;
 pub mod outcome;
+pub mod registry;
 pub mod scenario;
 pub mod score;
 pub mod searchers;

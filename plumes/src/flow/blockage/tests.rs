@@ -52,7 +52,7 @@ pub(crate) fn eastward(speed_m_s: f64, blockage: BlockageSpec) -> WaterSpec {
         heading_deg: HeadingDeg::new(90.0),
     };
     WaterSpec {
-        currents: vec![CurrentSpec::Uniform(uniform)],
+        currents: vec![CurrentSpec::new(uniform)],
         blockage: Some(blockage),
         ..WaterSpec::default()
     }
@@ -125,7 +125,7 @@ fn everything() -> (Area, Terrain, Obstacles, WaterSpec) {
         diffusivity_m2_s: None,
     };
     let water = WaterSpec {
-        currents: vec![CurrentSpec::Layered(layers), CurrentSpec::Meander(meander)],
+        currents: vec![CurrentSpec::new(layers), CurrentSpec::new(meander)],
         bed: Some(BedSpec {
             roughness_m: Positive::new(0.001),
             thickness_m: Positive::new(2.0),

@@ -83,7 +83,7 @@ fn meandering() -> Water {
         diffusivity_m2_s: None,
     };
     let mut water: WaterSpec = eastward(0.2, spec(2.0, 6, 10.0));
-    water.currents.push(CurrentSpec::Meander(meander));
+    water.currents.push(CurrentSpec::new(meander));
     water
         .build_round(&area(60.0, 40.0, 90.0), &bed, &solids, 9)
         .unwrap()

@@ -36,7 +36,7 @@ pub(crate) const BED: Terrain = Terrain::Level { depth_m: 0.2 };
 
 pub(crate) fn water(length_m: f64, seed: u64) -> Water {
     let spec = WaterSpec {
-        currents: vec![CurrentSpec::OpenChannel(channel_spec(0.05, 0.0))],
+        currents: vec![CurrentSpec::new(channel_spec(0.05, 0.0))],
         ..WaterSpec::default()
     };
     spec.build(&flume(length_m), &BED, seed).unwrap()
@@ -244,7 +244,7 @@ fn places_are_carried_with_the_velocity_there() {
 fn what_cannot_be_is_refused() {
     let said = |spec: OpenChannelSpec, area: Area, bed: Terrain| {
         let spec = WaterSpec {
-            currents: vec![CurrentSpec::OpenChannel(spec)],
+            currents: vec![CurrentSpec::new(spec)],
             ..WaterSpec::default()
         };
         spec.build(&area, &bed, 1).unwrap_err().to_string()

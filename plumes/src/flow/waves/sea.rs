@@ -29,14 +29,18 @@ use nalgebra::{Rotation2, Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::TAU;
+use world::catalogue::Entry;
 use world::fields::WaterSample;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 use super::airy::{Airy, wave_number};
 use super::spectrum::SpectrumSpec;
 use crate::error::PlumeError;
+use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::water::Water;
 
 /// Waves on the surface.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -82,6 +86,31 @@ const fn yes() -> bool {
 
 const fn ichiye() -> NonNegative {
     NonNegative::new(0.028)
+}
+
+impl Listed for WavesSpec {
+    const ENTRY: Entry = Entry {
+        name: "Waves",
+        what: "Surface waves by linear theory, trains or a JONSWAP sea: orbits for hull and instruments, Stokes' drift and mixing for the plume",
+        source: "Dean & Dalrymple 1991, Water Wave Mechanics; Hasselmann et al. 1973; Andrews & McIntyre 1978, J. Fluid Mech. 89, 609",
+    };
+}
+
+impl CurrentParams for WavesSpec {
+    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
+        if water.waves.is_some() {
+            return place.wrong(
+                "only one Waves can move the surface; add the second one's trains to the first",
+            );
+        }
+        let depth_m = -water.ground.floor(place.area.centre).z;
+        water.waves = Some(self.build(place.field, depth_m, place.seed)?);
+        Ok(())
+    }
+
+    fn waves(&self) -> f64 {
+        self.count()
+    }
 }
 
 /// The waves, ready to be evaluated.

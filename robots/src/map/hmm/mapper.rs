@@ -17,7 +17,7 @@
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
-use crate::map::catalogue::Mapper;
+use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
 use crate::map::releases::Gatherer;
@@ -29,8 +29,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 use std::sync::Arc;
+use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
 use world::limits::shown;
 use world::ranges::{Fraction, Positive};
+use world::registry::Listed;
+use world::seeds::Stream;
 
 /// Most steps of the path most likely to detect.
 const MOST_WALK: u32 = 500;
@@ -88,6 +93,30 @@ fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) 
     }
     let left = (most * most - sigma * sigma) / lasts;
     (("flow_error_m_s", way.flow_error_m_s.get()), left.sqrt())
+}
+
+impl Listed for HmmSpec {
+    const ENTRY: Entry = Entry {
+        name: "Hmm",
+        what: "hidden Markov model of odour from cell to cell: source map, detection map, likely paths (reconstructed)",
+        source: "Farrell, Pang & Li 2003, IEEE SMC-B 33(6)",
+    };
+}
+
+impl MapParams for HmmSpec {
+    fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
+        Ok(Box::new(Hmm::new(self, self.grid.build(area)?)?))
+    }
+
+    fn check(&self, area: &Area) -> Result<(), RobotError> {
+        self.trajectory.holds("step_s", self.step_s.get())?;
+        self.grid.build(area)?;
+        self.trajectory.check()
+    }
+
+    fn cost(&self, times: &Times) -> Cost {
+        self.work(times)
+    }
 }
 
 /// The mapper at work.

@@ -1,14 +1,19 @@
 //! What a scenario says about the adaptive mission planner.
 
-use super::super::spec::VerticalSpec;
+use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
+use super::super::wishes::Wishes;
+use super::machine::Amp;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
-use crate::handoff::{FixMove, LCDPS};
+use crate::error::RobotError;
+use crate::handoff::{FixMove, LCDPS, Setting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::{Finite, Positive};
+use world::registry::Listed;
 
 /// Composition and parameters; every default is the paper's.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -56,6 +61,28 @@ impl Default for AmpSpec {
             fixes: FixMove::default(),
             after_declaration: AfterDeclaration::default(),
         }
+    }
+}
+
+impl Listed for AmpSpec {
+    const ENTRY: Entry = Entry {
+        name: "Amp",
+        what: "adaptive mission planner: find, track in, track out, reacquire, declare, go home",
+        source: "Pang 2009, section 5, Fig. 5",
+    };
+}
+
+impl StrategyParams for AmpSpec {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Amp::new(self)?))
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        self.after_declaration.flies_for()
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
     }
 }
 

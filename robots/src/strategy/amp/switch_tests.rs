@@ -253,7 +253,7 @@ fn detections_on_the_way_to_the_start_as_told() {
 #[test]
 fn a_rule_on_more_points_than_are_remembered_is_refused() {
     let spec = |points| AmpSpec {
-        declare: DeclareSpec::AlongFlow(AlongFlow {
+        declare: DeclareSpec::new(AlongFlow {
             points: NonZeroUsize::new(points).expect("not zero"),
             ..AlongFlow::default()
         }),

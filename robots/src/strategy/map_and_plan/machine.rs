@@ -39,7 +39,8 @@ pub struct MapAndPlan {
     at_target: AtTarget,
     after: AfterDeclaration,
     find: Box<dyn Behave>,
-    rule: BeliefRule,
+    rule: Box<dyn BeliefRule>,
+    rule_name: &'static str,
     pilot: Pilot,
     memory: PlumeMemory,
     now: Behaviour,
@@ -82,7 +83,8 @@ impl MapAndPlan {
             at_target: spec.at_target,
             after: spec.after_declaration.clone(),
             find: spec.find.build()?,
-            rule: BeliefRule::new(&spec.declare),
+            rule: spec.declare.build(),
+            rule_name: spec.declare.name(),
             pilot: Pilot::new(spec, setting)?,
             memory: PlumeMemory::default(),
             now: Behaviour::Idle,
@@ -274,11 +276,7 @@ impl MapAndPlan {
         if self.visit_first && self.visited != Some(belief.best) {
             return None;
         }
-        Some(Declaration::first(
-            seen.t_s,
-            position.xy(),
-            self.rule.name(),
-        ))
+        Some(Declaration::first(seen.t_s, position.xy(), self.rule_name))
     }
 }
 

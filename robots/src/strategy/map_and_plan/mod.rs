@@ -1,5 +1,6 @@
 //! Map and plan: a map of the source, a planner that leads to its likeliest cell, a rule that declares.
 
+mod cost;
 mod evade;
 mod machine;
 mod pilot;

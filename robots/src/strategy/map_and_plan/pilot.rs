@@ -13,6 +13,7 @@ use super::spec::MapAndPlanSpec;
 use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
 use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Room};
+use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 use world::terrain::Terrain;
@@ -73,7 +74,7 @@ impl Pilot {
         spec.check(setting)?;
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
-        let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach_m());
+        let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach().1);
         room.chart(&setting.chart, &setting.bed, |x, y| {
             level(vertical, &setting.bed, x, y)
         });

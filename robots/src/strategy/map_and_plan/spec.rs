@@ -1,8 +1,10 @@
 //! What a scenario says about map and plan.
 
-use super::super::spec::VerticalSpec;
+use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
+use super::super::wishes::Wishes;
 use super::evade::EvadeSpec;
+use super::machine::MapAndPlan;
 use crate::behave::FindSpec;
 use crate::declare::BeliefRuleSpec;
 use crate::error::RobotError;
@@ -11,8 +13,11 @@ use crate::plan::PlannerSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
+use world::catalogue::Entry;
+use world::cost::{Cost, Times};
 use world::limits::shown;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 
 /// Most cells of a planner's room.
 const MOST_CELLS: f64 = 4e6;
@@ -79,14 +84,30 @@ impl Default for MapAndPlanSpec {
     }
 }
 
-impl MapAndPlanSpec {
-    /// That room and planner fit each other, without making any of it.
-    ///
-    /// # Errors
-    /// When the cells would be too many, or the planner's steps too small for them.
-    pub(in super::super) fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+impl Listed for MapAndPlanSpec {
+    const ENTRY: Entry = Entry {
+        name: "MapAndPlan",
+        what: "zig-zag to the first detection, then planned paths to the map's likeliest cell, until a rule declares",
+        source: "Wang & Pang, section II",
+    };
+}
+
+impl StrategyParams for MapAndPlanSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(MapAndPlan::new(self, setting)?))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
         let cells = self.room.cells(setting)?;
         self.planner.check(&cells, self.room.plane())
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
+        self.work(area, depth_m, obstacles, times)
     }
 }
 
@@ -178,7 +199,7 @@ impl RoomSpec {
     }
 
     /// Cells along, across and upwards, and their sides as they are wanted, m.
-    pub(in super::super) fn counts(&self, area: &Area, depth_m: f64) -> ([f64; 3], [f64; 3]) {
+    pub(super) fn counts(&self, area: &Area, depth_m: f64) -> ([f64; 3], [f64; 3]) {
         let (sides_m, depth_m) = match self {
             RoomSpec::Plane(p) => ([p.cell_m.0, p.cell_m.1, Positive::new(1.0)], 1.0),
             RoomSpec::Space(s) => ([s.cell_m.0, s.cell_m.1, s.cell_m.2], depth_m),

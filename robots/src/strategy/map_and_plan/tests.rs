@@ -246,7 +246,7 @@ fn the_potential_field_stays_in_the_dead_end_that_a_star_leaves() {
         ]
     };
     let field = MapAndPlanSpec {
-        planner: PlannerSpec::PotentialField(PotentialFieldParams::default()),
+        planner: PlannerSpec::new(PotentialFieldParams::default()),
         ..spec()
     };
     for (spec, comes) in [(spec(), true), (field, false)] {

@@ -19,7 +19,6 @@ use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState,
     Regions, Setting, UP_FLOW_EDGE, Verdict, Vertical, detects, inside,
 };
-use crate::strategy::StrategySpec;
 use nalgebra::Vector2;
 use std::sync::Arc;
 use world::area::Area;
@@ -73,7 +72,7 @@ impl Subregions {
     /// [`RobotError::Invalid`] when a region makes no sense, or what searches it cannot be built.
     pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
         let areas = areas(&spec.regions, &setting.area)?;
-        if matches!(*spec.search, StrategySpec::Subregions(_)) {
+        if spec.search.has_regions() {
             return Err(RobotError::Invalid {
                 field: "search".into(),
                 problem: "subregions cannot have subregions".into(),

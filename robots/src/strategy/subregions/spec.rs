@@ -1,10 +1,19 @@
 //! What a scenario says about a mission over subregions.
 
-use super::super::spec::{StrategySpec, VerticalSpec};
+use super::super::catalogue::StrategySpec;
+use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::super::wishes::Wishes;
+use super::machine::Subregions;
+use crate::error::RobotError;
+use crate::handoff::Setting;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroU32;
+use world::area::Area;
+use world::catalogue;
+use world::cost::{Cost, Times};
 use world::ranges::{Finite, NonNegative, Positive};
+use world::registry::Listed;
 
 /// The subregions, what searches them, and when the search of one is over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -13,7 +22,7 @@ pub struct SubregionsSpec {
     /// Where they are, in the order in which they are searched.
     pub regions: RegionsSpec,
     /// What searches each of them, begun afresh in each.
-    pub search: Box<StrategySpec>,
+    pub search: StrategySpec,
     /// A search that has declared nothing for so long is given up, s.
     pub timeout_s: Positive,
     /// Where a search begins.
@@ -36,6 +45,56 @@ fn speed() -> Positive {
 
 fn vertical() -> VerticalSpec {
     VerticalSpec::Altitude(Positive::new(1.5))
+}
+
+impl Listed for SubregionsSpec {
+    const ENTRY: catalogue::Entry = catalogue::Entry {
+        name: "Subregions",
+        what: "one subregion after the other, searched until declared in, traced to its up-flow edge or timed out",
+        source: "Pang 2009, section 6",
+    };
+}
+
+impl StrategyParams for SubregionsSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Subregions::new(self, setting)?))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        self.search.check(setting)
+    }
+
+    fn needs_ranging(&self) -> bool {
+        self.search.needs_ranging()
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        self.search.flies_for()
+    }
+
+    fn wishes(&self) -> Wishes {
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        let search = self.search.wishes().within("search");
+        wishes.verticals.extend(search.verticals);
+        wishes.speeds_m_s.extend(search.speeds_m_s);
+        wishes
+    }
+
+    fn declares_at_most(&self) -> usize {
+        let regions = match &self.regions {
+            RegionsSpec::Grid(grid) => grid.order.len(),
+            RegionsSpec::Rectangles(rectangles) => rectangles.list.len(),
+        };
+        regions * self.search.declares_at_most()
+    }
+
+    fn has_regions(&self) -> bool {
+        true
+    }
+
+    fn cost(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
+        (self.search.cost(area, depth_m, obstacles, times)).under("search")
+    }
 }
 
 /// Where the subregions are.

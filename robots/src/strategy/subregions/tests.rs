@@ -30,7 +30,7 @@ fn spec(entry: Entry) -> SubregionsSpec {
             across: NonZeroU32::MIN,
             order: vec![(0, 0), (1, 0)],
         }),
-        search: Box::new(StrategySpec::Amp(AmpSpec::default())),
+        search: StrategySpec::new(AmpSpec::default()),
         timeout_s: Positive::new(TIMEOUT_S),
         entry,
         edge: EdgeSpec::default(),
@@ -287,18 +287,18 @@ fn a_cage_abort_ends_the_mission_wherever_it_is() {
 #[test]
 fn faults_of_the_searching_strategy_name_their_field() {
     let with = |search| SubregionsSpec {
-        search: Box::new(search),
+        search,
         ..spec(Entry::Centre)
     };
     let said = |spec: &SubregionsSpec| {
         let built = Subregions::new(spec, &setting());
         built.map(drop).expect_err("illegal").to_string()
     };
-    let table = StrategySpec::OpenLoop(OpenLoopSpec {
+    let table = StrategySpec::new(OpenLoopSpec {
         table: Vec::new(),
         end_s: Positive::new(1.0),
     });
     assert!(said(&with(table)).contains("search."));
-    let nested = StrategySpec::Subregions(spec(Entry::Centre));
+    let nested = StrategySpec::new(spec(Entry::Centre));
     assert!(said(&with(nested)).contains("search"));
 }

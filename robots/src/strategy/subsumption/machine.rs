@@ -25,7 +25,7 @@ use super::compose::Layers;
 use super::eyes::Eyes;
 use super::plume::Asked;
 use super::spec::SubsumptionSpec;
-use crate::declare::DeclareSpec;
+use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
     Behave, Behaviour, Decision, Declaration, FixMove, Goal, Layer, LayerState, Lcdp, Manoeuvre,
@@ -336,10 +336,8 @@ impl Strategy for Subsumption {
                 declared = self.run(seen, rng);
             }
         }
-        let points = match &self.layers.declare {
-            Some(DeclareSpec::SizT(_) | DeclareSpec::SizF(_)) => self.memory.lcdps.all(),
-            _ => self.memory.lost.all(),
-        };
+        let rule = self.layers.declare.as_ref();
+        let points = rule.map_or(Points::Lost, |r| r.points()).of(&self.memory);
         Decision {
             behaviour: self.behaviour,
             goal: self.goal,

@@ -1,16 +1,21 @@
 //! What a scenario says about the subsumption planner.
 
-use super::super::spec::VerticalSpec;
+use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::SurveySpec;
+use super::super::wishes::Wishes;
 use super::eyes::EyesSpec;
+use super::machine::Subsumption;
 use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
-use crate::handoff::{FixMove, LCDPS};
+use crate::error::RobotError;
+use crate::handoff::{FixMove, LCDPS, Setting};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
+use world::catalogue::Entry;
 use world::ranges::Positive;
+use world::registry::Listed;
 
 /// Composition and parameters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -72,11 +77,40 @@ impl SubsumptionSpec {
             fixes: FixMove::default(),
         }
     }
+}
 
-    /// It turns away from what a forward ranging shows.
-    #[must_use]
-    pub fn needs_ranging(&self) -> bool {
+impl Listed for SubsumptionSpec {
+    const ENTRY: Entry = Entry {
+        name: "Subsumption",
+        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest that asks holds the vehicle",
+        source: "Tian et al. 2013, section 2, Fig. 3; Brooks 1986, IEEE J. Robotics and Automation RA-2, 14",
+    };
+}
+
+impl StrategyParams for SubsumptionSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Subsumption::new(self, setting)?))
+    }
+
+    fn needs_ranging(&self) -> bool {
         self.layers.iter().any(|l| matches!(l, LayerSpec::Avoid(_)))
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        let [sidescan, camera] = self.survey.as_ref().map_or([false; 2], |s| s.flies_for());
+        [sidescan, camera || self.eyes.is_some()]
+    }
+
+    fn wishes(&self) -> Wishes {
+        let wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        match &self.survey {
+            Some(survey) => wishes.survey("survey", survey),
+            None => wishes,
+        }
+    }
+
+    fn has_layers(&self) -> bool {
+        true
     }
 }
 

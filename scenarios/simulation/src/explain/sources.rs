@@ -4,18 +4,8 @@ use super::schema::{Object, SOURCE, WHAT};
 use serde_json::Value;
 use world::catalogue::Entry;
 
-/// Catalogues of what a scenario names as a variant.
-const VARIANTS: &[&[Entry]] = &[
-    plumes::flow::CATALOGUE,
-    robots::strategy::CATALOGUE,
-    robots::behave::CATALOGUE,
-    robots::map::CATALOGUE,
-    robots::plan::CATALOGUE,
-    robots::declare::CATALOGUE,
-    robots::estimate::CATALOGUE,
-    robots::track::STRATEGIES,
-    robots::vehicles::CATALOGUE,
-];
+/// Catalogues of what a scenario names as a variant; kinds of the registry say it themselves.
+const VARIANTS: &[&[Entry]] = &[robots::estimate::CATALOGUE, robots::vehicles::CATALOGUE];
 
 /// Catalogues of what it names as a field, and the type that has the field.
 const FIELDS: &[(&str, &[Entry])] = &[

@@ -5,7 +5,6 @@ use super::schema::{RobotSpec, Scenario};
 use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
-use robots::strategy::StrategySpec;
 use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::fields::Flow;
@@ -113,7 +112,7 @@ pub(super) fn plume(
     water: &Water,
     found: &mut Vec<Found>,
 ) {
-    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
+    let seeks = |r: &RobotSpec| r.strategy.searches();
     if !scenario.robots.iter().any(seeks) && scenario.gantries.is_empty() {
         return;
     }
@@ -147,7 +146,7 @@ pub(super) fn plume(
 
 /// Whether anything can come of it.
 pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
-    let seeks = |r: &RobotSpec| !matches!(r.strategy, StrategySpec::OpenLoop(_));
+    let seeks = |r: &RobotSpec| r.strategy.searches();
     let declares = scenario.success.declared_within_m().is_some();
     if scenario.sources.is_empty() {
         if let Some(i) = scenario.robots.iter().position(seeks) {

@@ -2,7 +2,6 @@
 
 use super::fault::Found;
 use super::schema::RobotSpec;
-use robots::strategy::StrategySpec;
 
 /// Instruments that are asked for and missing.
 pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
@@ -26,7 +25,7 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
 
 /// What a search cannot do without: with it missing the vehicle goes on blindly.
 pub(super) fn blind(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
-    if matches!(robot.strategy, StrategySpec::OpenLoop(_)) {
+    if !robot.strategy.searches() {
         return;
     }
     let s = &robot.sensors;

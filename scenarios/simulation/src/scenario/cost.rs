@@ -2,7 +2,6 @@
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
-use robots::strategy::StrategySpec;
 use std::sync::atomic::{AtomicU64, Ordering};
 use world::cost::{Cost, Part, Times, duration, memory};
 use world::limits::shown;
@@ -99,12 +98,9 @@ fn robot_cost(
     if let Some(map) = &robot.map {
         cost.add(map.cost(times).under("map"));
     }
-    if !matches!(robot.strategy, StrategySpec::OpenLoop(_)) {
-        let own = robot
-            .strategy
-            .cost(&area, depth_m, robot.chart.len(), times);
-        cost.add(own.under("strategy"));
-    }
+    let charted = robot.chart.len();
+    let own = robot.strategy.cost(&area, depth_m, charted, times);
+    cost.add(own.under("strategy"));
     cost
 }
 

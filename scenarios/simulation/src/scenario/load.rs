@@ -11,6 +11,7 @@ use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
 use world::files;
+use world::registry::Registry;
 
 /// Longest file read, bytes: a scenario is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
@@ -104,6 +105,22 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
         hash: digest.hex(),
         text,
     })
+}
+
+/// The same, of a scenario that may ask for what a registry adds.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_with(registry: &Registry, path: &Path) -> Result<Loaded, ScenarioError> {
+    registry.scope(|| load(path))
+}
+
+/// The same as [`parse`], of a scenario that may ask for what a registry adds.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with(registry: &Registry, name: &str, text: &str) -> Result<Scenario, ScenarioError> {
+    registry.scope(|| parse(name, text))
 }
 
 /// Reads a scenario from its text; errors call it `name`.

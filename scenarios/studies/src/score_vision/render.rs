@@ -138,7 +138,7 @@ fn plume(seed: u64, d: &Drawn, terrain: &Terrain) -> Result<Plume, String> {
         eddies: Some(EddiesSpec::default()),
     };
     let water = WaterSpec {
-        currents: vec![CurrentSpec::OpenChannel(stream)],
+        currents: vec![CurrentSpec::new(stream)],
         ..WaterSpec::default()
     };
     let seed = world::seeds::key(seed, &format!("scene-{}", d.n), "plume");

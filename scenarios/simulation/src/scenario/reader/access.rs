@@ -26,7 +26,7 @@ impl MapAccess<'static> for Fields<'_, '_> {
         };
         let name = item.key.as_deref().unwrap_or_default();
         let key = seed.deserialize(StrDeserializer::<Fail>::new(name));
-        key.map(Some).map_err(|e| e.at(self.of.id))
+        key.map(Some).map_err(|e| self.of.about(e))
     }
 
     fn next_value_seed<V: DeserializeSeed<'static>>(&mut self, seed: V) -> Result<V::Value, Fail> {
@@ -35,7 +35,8 @@ impl MapAccess<'static> for Fields<'_, '_> {
             .as_ref()
             .expect("its name was asked for before")
             .node;
-        seed.deserialize(self.of.kid(id)).map_err(|e| e.at(id))
+        seed.deserialize(self.of.kid(id))
+            .map_err(|e| self.of.reading.about(id, e))
     }
 }
 
@@ -53,8 +54,11 @@ impl SeqAccess<'static> for Elements<'_, '_> {
         seed: T,
     ) -> Result<Option<T::Value>, Fail> {
         let next = self.elements.next();
-        next.map(|id| seed.deserialize(self.of.kid(id)).map_err(|e| e.at(id)))
-            .transpose()
+        next.map(|id| {
+            seed.deserialize(self.of.kid(id))
+                .map_err(|e| self.of.reading.about(id, e))
+        })
+        .transpose()
     }
 }
 
@@ -70,7 +74,7 @@ impl<'b, 'a> EnumAccess<'static> for Choice<'a, 'b> {
 
     fn variant_seed<V: DeserializeSeed<'static>>(self, seed: V) -> Result<(V::Value, Self), Fail> {
         let variant = seed.deserialize(StrDeserializer::<Fail>::new(&self.name));
-        Ok((variant.map_err(|e| e.at(self.of.id))?, self))
+        Ok((variant.map_err(|e| self.of.about(e))?, self))
     }
 }
 
@@ -100,8 +104,9 @@ impl VariantAccess<'static> for Choice<'_, '_> {
 
     fn newtype_variant_seed<T: DeserializeSeed<'static>>(self, seed: T) -> Result<T::Value, Fail> {
         let content = self.content()?;
-        let at = content.inner().map_or(content.id, |v| v.id);
-        seed.deserialize(content).map_err(|e| e.at(at))
+        let at = content.only().unwrap_or(content).id;
+        seed.deserialize(content)
+            .map_err(|e| content.reading.about(at, e))
     }
 
     fn tuple_variant<V: Visitor<'static>>(self, len: usize, visitor: V) -> Result<V::Value, Fail> {

@@ -12,7 +12,7 @@ macro_rules! whole_numbers {
         fn $method<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
             let value = self.inner()?;
             let v = value.whole(<$of>::MIN.into(), <$of>::MAX.into())?;
-            visitor.$visit(<$of>::try_from(v).expect("within its bounds")).map_err(|e: Fail| e.at(value.id))
+            visitor.$visit(<$of>::try_from(v).expect("within its bounds")).map_err(|e: Fail| value.about(e))
         }
     )*};
 }
@@ -38,7 +38,7 @@ impl Deserializer<'static> for Value<'_, '_> {
             }
             (None, None) => visitor.visit_unit(),
         }
-        .map_err(|e: Fail| e.at(value.id))
+        .map_err(|e: Fail| value.about(e))
     }
 
     fn deserialize_bool<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -72,7 +72,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         let value = self.inner()?;
         visitor
             .visit_f64(value.float()?)
-            .map_err(|e: Fail| e.at(value.id))
+            .map_err(|e: Fail| value.about(e))
     }
 
     fn deserialize_char<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -87,7 +87,7 @@ impl Deserializer<'static> for Value<'_, '_> {
             Some(c) => visitor.visit_str(c),
             None => value.wanted("expected a character in quotes"),
         }
-        .map_err(|e: Fail| e.at(value.id))
+        .map_err(|e: Fail| value.about(e))
     }
 
     fn deserialize_str<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -99,10 +99,10 @@ impl Deserializer<'static> for Value<'_, '_> {
         if value.asks(Wanted::Plain("a text in quotes")) {
             return visitor
                 .visit_string("a".repeat(value.refused() + self.reading.filling))
-                .map_err(|e: Fail| e.at(value.id));
+                .map_err(|e: Fail| value.about(e));
         }
         match value.word().map(scalar::text) {
-            Some(Some(Ok(text))) => visitor.visit_string(text).map_err(|e: Fail| e.at(value.id)),
+            Some(Some(Ok(text))) => visitor.visit_string(text).map_err(|e: Fail| value.about(e)),
             Some(Some(Err(escape))) => {
                 value.wanted(format!("the text has the unknown escape `\\{escape}`"))
             }
@@ -134,7 +134,7 @@ impl Deserializer<'static> for Value<'_, '_> {
             }
             _ => visitor.visit_some(value),
         }
-        .map_err(|e: Fail| e.at(value.id))
+        .map_err(|e: Fail| value.about(e))
     }
 
     fn deserialize_unit<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -170,7 +170,7 @@ impl Deserializer<'static> for Value<'_, '_> {
                 unwrapped: wrapped,
                 ..self.inner()?
             })
-            .map_err(|e: Fail| e.at(self.id))
+            .map_err(|e: Fail| self.about(e))
     }
 
     fn deserialize_seq<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
@@ -251,7 +251,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         };
         visitor
             .visit_enum(Choice { of: value, name })
-            .map_err(|e| e.at(value.id))
+            .map_err(|e| value.about(e))
     }
 
     fn deserialize_identifier<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {

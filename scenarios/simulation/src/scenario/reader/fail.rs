@@ -3,7 +3,7 @@
 use std::fmt::Display;
 
 /// A value could not be read.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Fail {
     /// Which; known from the innermost on.
     pub at: Option<usize>,

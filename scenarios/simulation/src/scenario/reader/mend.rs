@@ -33,6 +33,7 @@ impl<'a> Mender<'a> {
             text,
             tree,
             filling: 0,
+            first: RefCell::default(),
         };
         Self {
             reading,
@@ -58,10 +59,12 @@ impl<'a> Mender<'a> {
                 id,
                 unwrapped: false,
             };
+            self.reading.first.take();
             match T::deserialize(root) {
                 Ok(value) if self.settled() => return Some(value),
                 Ok(_) => {}
                 Err(fail) => {
+                    let fail = self.reading.first.take().unwrap_or(fail);
                     if self.told.len() > MOST || !self.mend(fail) {
                         return None;
                     }

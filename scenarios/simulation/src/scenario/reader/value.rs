@@ -15,6 +15,18 @@ pub(super) struct Reading<'a> {
     pub tree: RefCell<Tree>,
     /// Which set of stand-ins.
     pub filling: usize,
+    /// The first failure whose place is known. It ends the reading; what comes of it on the way out, through types that
+    /// are chosen by name, may have lost its place.
+    pub first: RefCell<Option<Fail>>,
+}
+
+impl Reading<'_> {
+    /// A failure about this value, if it is not about one within it.
+    pub(super) fn about(&self, id: usize, fail: Fail) -> Fail {
+        let fail = fail.at(id);
+        self.first.borrow_mut().get_or_insert_with(|| fail.clone());
+        fail
+    }
 }
 
 /// A value that is read.
@@ -42,10 +54,12 @@ impl<'a, 'b> Value<'a, 'b> {
     }
 
     pub(super) fn fail<T>(&self, what: What) -> Result<T, Fail> {
-        Err(Fail {
-            at: Some(self.id),
-            what,
-        })
+        Err(self.about(Fail { at: None, what }))
+    }
+
+    /// A failure about this value, if it is not about one within it.
+    pub(super) fn about(&self, fail: Fail) -> Fail {
+        self.reading.about(self.id, fail)
     }
 
     pub(super) fn wanted<T>(&self, words: impl Into<String>) -> Result<T, Fail> {
@@ -90,18 +104,26 @@ impl<'a, 'b> Value<'a, 'b> {
         self.kid(self.reading.tree.borrow_mut().hole_kid(self.id, name))
     }
 
-    /// The one value in the parentheses of a choice.
+    /// The one value in the parentheses of a choice, if there is one; of any other value itself.
+    pub(super) fn only(&self) -> Option<Self> {
+        match self.group().filter(|_| self.unwrapped) {
+            None => Some(*self),
+            Some(group) => match group.items.as_slice() {
+                [
+                    Item {
+                        key: None, node, ..
+                    },
+                ] => Some(self.kid(*node)),
+                _ => None,
+            },
+        }
+    }
+
+    /// The same, told where there is none.
     pub(super) fn inner(&self) -> Result<Self, Fail> {
-        let Some(group) = self.group().filter(|_| self.unwrapped) else {
-            return Ok(*self);
-        };
-        match group.items.as_slice() {
-            [
-                Item {
-                    key: None, node, ..
-                },
-            ] => Ok(self.kid(*node)),
-            [] => self.fail(What::Missing("0")),
+        match (self.only(), self.group()) {
+            (Some(value), _) => Ok(value),
+            (None, Some(group)) if group.items.is_empty() => self.fail(What::Missing("0")),
             _ => self.wanted("expected one value in the parentheses"),
         }
     }
@@ -134,7 +156,7 @@ impl<'a, 'b> Value<'a, 'b> {
                 items: items.into_iter(),
                 value: None,
             })
-            .map_err(|e| e.at(self.id))
+            .map_err(|e| self.about(e))
     }
 
     pub(super) fn visit_elements<V: Visitor<'static>>(
@@ -147,7 +169,7 @@ impl<'a, 'b> Value<'a, 'b> {
                 of: self,
                 elements: elements.into_iter(),
             })
-            .map_err(|e| e.at(self.id))
+            .map_err(|e| self.about(e))
     }
 
     pub(super) fn fields<V: Visitor<'static>>(
@@ -172,7 +194,7 @@ impl<'a, 'b> Value<'a, 'b> {
                     items: items.into_iter(),
                     value: None,
                 })
-                .map_err(|e| e.at(self.id));
+                .map_err(|e| self.about(e));
         }
         let Some(group) = self.group().filter(|g| g.bracket == '(') else {
             return self.wanted("expected fields in parentheses");

@@ -1,0 +1,261 @@
+//! All that a scenario can ask for by name, as lists show it; and how a crate of one's own adds to it.
+//!
+//! ```ignore
+//! let registry = Registry::default().with::<Reacquires, Spiral>()?;
+//! let loaded = rheotaxis::scenario::load_with(&registry, path)?;
+//! ```
+
+use world::catalogue::Entry;
+use world::registry::Kind;
+pub use world::registry::{Choice, Listed, Registry, Spec};
+
+/// Which part of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Group {
+    /// What decides.
+    Algorithms,
+    /// What moves the water.
+    Flows,
+    /// What a robot senses with.
+    Sensors,
+    /// What it moves with.
+    Vehicles,
+}
+
+/// How a scenario names the things of a section.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Named {
+    /// As a choice: `Name(...)`.
+    Choice,
+    /// As a field: `name: (...)`.
+    Field,
+    /// By the name of another thing that they are part of, or by one of its fields.
+    Within,
+}
+
+/// What a list shows under one heading.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Which part of a list it belongs to.
+    pub group: Group,
+    /// Its heading.
+    pub heading: &'static str,
+    /// How a scenario names its things.
+    pub named: Named,
+    /// Its things.
+    pub entries: Vec<Entry>,
+}
+
+/// Everything, in the order of lists; things of one heading that are named alike stand together.
+#[must_use]
+pub fn sections(registry: &Registry) -> Vec<Section> {
+    use Group::{Algorithms, Flows, Sensors, Vehicles};
+    let chosen = Of(registry);
+    let all = [
+        chosen.kind::<robots::strategy::Strategies>(Algorithms),
+        chosen.kind::<robots::behave::Finds>(Algorithms),
+        chosen.kind::<robots::behave::TracksIn>(Algorithms),
+        chosen.kind::<robots::behave::TracksOut>(Algorithms),
+        chosen.kind::<robots::behave::Reacquires>(Algorithms),
+        within(
+            Algorithms,
+            "Behaviours of the strategies' own",
+            robots::behave::PARTS,
+        ),
+        chosen.kind::<robots::map::Maps>(Algorithms),
+        chosen.kind::<robots::plan::Planners>(Algorithms),
+        chosen.kind::<robots::declare::Declares>(Algorithms),
+        chosen.kind::<robots::declare::BeliefRules>(Algorithms),
+        within(
+            Algorithms,
+            "Eyes (rheotaxis segment, and a verifier's fields)",
+            robots::vision::CATALOGUE,
+        ),
+        within(Algorithms, "Guidance", robots::guide::CATALOGUE),
+        fixed(
+            Algorithms,
+            "Estimators",
+            Named::Choice,
+            robots::estimate::CATALOGUE,
+        ),
+        within(Algorithms, "Autopilots", robots::actuate::CATALOGUE),
+        chosen.kind::<robots::track::GantryStrategies>(Algorithms),
+        within(
+            Algorithms,
+            "Units of the Crab tracker, by their fields",
+            robots::track::UNITS,
+        ),
+        within(
+            Algorithms,
+            "Objects in a sidescan's picture",
+            robots::survey::CATALOGUE,
+        ),
+        chosen.kind::<plumes::flow::Currents>(Flows),
+        within(
+            Flows,
+            "What turns the flows (water: …)",
+            plumes::flow::OPTIONS,
+        ),
+        fixed(Sensors, "Sensors", Named::Field, robots::sense::CATALOGUE),
+        fixed(
+            Vehicles,
+            "Vehicles and gantries",
+            Named::Choice,
+            robots::vehicles::CATALOGUE,
+        ),
+    ];
+    let mut sections: Vec<Section> = Vec::new();
+    for next in all {
+        match sections.last_mut() {
+            Some(last) if last.heading == next.heading => last.entries.extend(next.entries),
+            _ => sections.push(next),
+        }
+    }
+    sections
+}
+
+/// What is known under a registry.
+struct Of<'r>(&'r Registry);
+
+impl Of<'_> {
+    fn kind<K: Kind>(&self, group: Group) -> Section {
+        Section {
+            group,
+            heading: K::HEADING,
+            named: Named::Choice,
+            entries: self.0.entries::<K>(),
+        }
+    }
+}
+
+fn fixed(group: Group, heading: &'static str, named: Named, entries: &[Entry]) -> Section {
+    Section {
+        group,
+        heading,
+        named,
+        entries: entries.to_vec(),
+    }
+}
+
+fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
+    fixed(group, heading, Named::Within, entries)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::{CATALOG, parse_with};
+    use robots::behave::{BehaviourParams, ReacquireSpec, Reacquires};
+    use robots::error::RobotError;
+    use robots::handoff::Behave;
+    use robots::strategy::AmpSpec;
+    use serde::{Deserialize, Serialize};
+    use std::path::Path;
+    use world::ranges::Positive;
+
+    #[test]
+    fn every_entry_has_a_name_a_sentence_and_a_source() {
+        for section in sections(&Registry::default()) {
+            assert!(!section.entries.is_empty(), "{} is empty", section.heading);
+            for (i, e) in section.entries.iter().enumerate() {
+                let said = [e.name, e.what, e.source];
+                assert!(said.iter().all(|s| s.trim().len() > 2), "{e:?}");
+                let twice = section.entries[..i].iter().any(|o| o.name == e.name);
+                assert!(!twice, "{} is there twice", e.name);
+            }
+        }
+    }
+
+    /// An arm of the reproduction table is a use, too.
+    #[test]
+    fn every_entry_that_is_named_is_used_by_a_scenario() {
+        let rows = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/reference/rows");
+        let rows = std::fs::read_dir(rows)
+            .expect("the rows")
+            .map(|e| std::fs::read_to_string(e.expect("a row").path()).expect("text"));
+        let own = CATALOG.iter().map(|t| t.text.to_string());
+        let text: String = rows.chain(own).collect();
+        for section in sections(&Registry::default()) {
+            for e in &section.entries {
+                let use_of = match section.named {
+                    Named::Choice => format!("{}(", e.name),
+                    Named::Field => format!("{}: (", e.name),
+                    Named::Within => continue,
+                };
+                assert!(text.contains(&use_of), "no scenario uses {}", e.name);
+            }
+        }
+    }
+
+    /// A behaviour of somebody else.
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[serde(deny_unknown_fields, default)]
+    struct Spiral {
+        turn_m: Positive,
+    }
+
+    impl Default for Spiral {
+        fn default() -> Self {
+            Self {
+                turn_m: Positive::new(8.0),
+            }
+        }
+    }
+
+    impl Listed for Spiral {
+        const ENTRY: Entry = Entry {
+            name: "Spiral",
+            what: "reacquire: in a spiral",
+            source: "ours",
+        };
+    }
+
+    impl BehaviourParams for Spiral {
+        fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
+            (ReacquireSpec::default()).build()
+        }
+    }
+
+    #[test]
+    fn a_scenario_may_ask_for_what_another_crate_adds() {
+        let registry = Registry::default().with::<Reacquires, Spiral>();
+        let registry = registry.expect("a new name");
+        let duck = CATALOG.iter().find(|t| t.name == "duck_st").expect("there");
+        let with = |what: &str| {
+            let all = &duck.text;
+            let at = all.find("reacquire: Bowtie(").expect("duck_st has bowties");
+            let end = at + all[at..].find(')').expect("closed") + 1;
+            format!("{}reacquire: {what}{}", &all[..at], &all[end..])
+        };
+        let text = with("Spiral(turn_m: 5)");
+        let scenario = parse_with(&registry, "own", &text).expect("legal");
+        let amp = scenario.robots[0].strategy.get::<AmpSpec>().expect("Amp");
+        assert_eq!(
+            amp.reacquire,
+            ReacquireSpec::new(Spiral {
+                turn_m: Positive::new(5.0)
+            })
+        );
+        let lines = |text: &str, registry: &Registry| -> Vec<String> {
+            let refused = parse_with(registry, "own", text)
+                .expect_err("not legal")
+                .lines();
+            refused
+                .into_iter()
+                .map(|l| l.split_once(": ").expect("a place").1.to_string())
+                .collect()
+        };
+        assert_eq!(
+            lines(&text, &Registry::default()),
+            ["robots[0].strategy.reacquire: there is no choice `Spiral`"]
+        );
+        assert_eq!(
+            lines(&with("Spiral(turn_m: -5)"), &registry),
+            ["robots[0].strategy.reacquire.turn_m: must be a finite number greater than 0, got -5"]
+        );
+        assert_eq!(
+            lines(&with("Spiral(turns_m: 5)"), &registry),
+            ["robots[0].strategy.reacquire: there is no field `turns_m`"]
+        );
+    }
+}

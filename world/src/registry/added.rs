@@ -1,0 +1,86 @@
+//! The rows that are known: those that come with the program and those that a crate of somebody else adds.
+
+use super::{Kind, Listed, Row, Takes};
+use crate::catalogue::Entry;
+use crate::error::WorldError;
+use schemars::JsonSchema;
+use serde::de::DeserializeOwned;
+use std::any::{Any, TypeId};
+use std::cell::RefCell;
+use std::sync::Arc;
+
+/// A row of any kind.
+#[derive(Clone, Debug)]
+struct Added {
+    kind: TypeId,
+    row: Arc<dyn Any + Send + Sync>,
+}
+
+/// Rows beside those that come with the program; by default none.
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    added: Vec<Added>,
+}
+
+thread_local! {
+    /// What files are read under on this thread.
+    static NOW: RefCell<Registry> = RefCell::default();
+}
+
+impl Registry {
+    /// These and parameters `S` as a thing of a kind.
+    ///
+    /// # Errors
+    /// [`WorldError::Invalid`] when the kind has a thing of that name.
+    pub fn with<K, S>(mut self) -> Result<Self, WorldError>
+    where
+        K: Takes<S>,
+        S: Listed + DeserializeOwned + JsonSchema,
+    {
+        let name = S::ENTRY.name;
+        if self.rows::<K>().iter().any(|r| r.entry.name == name) {
+            return Err(WorldError::Invalid {
+                field: K::NAME.to_string(),
+                problem: format!("there is a `{name}` already; give yours another name"),
+            });
+        }
+        self.added.push(Added {
+            kind: TypeId::of::<K>(),
+            row: Arc::new(Row::<K>::of::<S>()),
+        });
+        Ok(self)
+    }
+
+    /// All things of a kind: those that come with the program first.
+    #[must_use]
+    pub fn rows<K: Kind>(&self) -> Vec<Row<K>> {
+        let mine = self.added.iter().filter(|a| a.kind == TypeId::of::<K>());
+        let mine = mine.filter_map(|a| a.row.downcast_ref::<Row<K>>().copied());
+        K::built_in().into_iter().chain(mine).collect()
+    }
+
+    /// The same for lists.
+    #[must_use]
+    pub fn entries<K: Kind>(&self) -> Vec<Entry> {
+        self.rows::<K>().iter().map(|r| r.entry).collect()
+    }
+
+    /// Does something on this thread, such as reading a file, with these rows known.
+    pub fn scope<R>(&self, work: impl FnOnce() -> R) -> R {
+        /// Puts back what was known before, also if the work panics.
+        struct Before(Registry);
+        impl Drop for Before {
+            fn drop(&mut self) {
+                NOW.set(std::mem::take(&mut self.0));
+            }
+        }
+        let _before = Before(NOW.replace(self.clone()));
+        work()
+    }
+
+    /// The rows known on this thread now.
+    #[must_use]
+    pub fn now() -> Self {
+        NOW.with_borrow(Clone::clone)
+    }
+}
