@@ -1,6 +1,8 @@
-//! What a scenario file may say: every field with its unit, range, default, meaning and source, from the types that read it.
+//! What a scenario file may say: every field with its unit, range, default, meaning and source, from the types that
+//! read it.
 //!
-//! `schema` is made from the types; `read` takes it apart; `path` finds a place in it; `terminal` and `markdown` show it.
+//! `schema` is made from the types; `read` takes it apart; `path` finds a place in it; `terminal` and `markdown` show
+//! it.
 
 mod markdown;
 mod path;
@@ -17,7 +19,8 @@ pub use path::Unknown;
 
 use read::Reference;
 
-/// What stands at a path such as `robots[0].strategy.reacquire`, for a terminal; of the empty path the top of a scenario.
+/// What stands at a path such as `robots[0].strategy.reacquire`, for a terminal; of the empty path the top of a
+/// scenario.
 /// Numbers of elements and names of variants may be left out.
 ///
 /// # Errors

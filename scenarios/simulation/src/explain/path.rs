@@ -1,6 +1,7 @@
 //! Paths: `robots[0].strategy.reacquire` to what is there.
 //!
-//! Names of variants may be left out, as they are in the paths of error messages: then every variant that has the field is found.
+//! Names of variants may be left out, as they are in the paths of error messages: then every variant that has the
+//! field is found.
 //! Numbers of elements may be left out, too.
 
 use super::read::{Field, Reference, Shape, Variant};

@@ -1,6 +1,7 @@
 //! From the schema's JSON to what is explained: fields, choices, numbers.
 //!
-//! It knows the forms of JSON Schema only, and nothing of how the types are written: a choice is a `oneOf` of names (`const`, `enum`)
+//! It knows the forms of JSON Schema only, and nothing of how the types are written: a choice is a `oneOf` of names
+//! (`const`, `enum`)
 //! and of objects with one property, the variant's name.
 
 use super::schema::{ORDER, Object, SOURCE, WHAT};

@@ -1,7 +1,9 @@
-//! The schema of a scenario file, made from the types that read it: what is derived, and the units, sources and order that
+//! The schema of a scenario file, made from the types that read it: what is derived, and the units, sources and order
+//! that
 //! deriving cannot know.
 //!
-//! Beside JSON Schema's own words it says `x-unit` of numbers, `x-source` of algorithms and `x-order` of fields, as they stand in
+//! Beside JSON Schema's own words it says `x-unit` of numbers, `x-source` of algorithms and `x-order` of fields, as
+//! they stand in
 //! the types; JSON objects have no order of their own.
 
 use super::sources;
