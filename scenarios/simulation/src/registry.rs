@@ -251,7 +251,7 @@ mod tests {
         );
         assert_eq!(
             lines(&with("Spiral(turn_m: -5)"), &registry),
-            ["robots[0].strategy.reacquire.turn_m: must be a finite number greater than 0, got -5"]
+            ["robots[0].strategy.reacquire.turn_m: must be > 0, got -5"]
         );
         assert_eq!(
             lines(&with("Spiral(turns_m: 5)"), &registry),
