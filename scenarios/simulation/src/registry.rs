@@ -188,7 +188,7 @@ mod tests {
     }
 
     /// A behaviour of somebody else.
-    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+    #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
     #[serde(deny_unknown_fields, default)]
     struct Spiral {
         turn_m: Positive,

@@ -2,6 +2,7 @@
 
 use super::{Choice, Listed, Registry, Spec};
 use crate::catalogue::Entry;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What the kind's things can do.
@@ -11,7 +12,7 @@ trait Shape: Spec {
 
 macro_rules! shape {
     ($name:ident, $side:ident, $factor:expr) => {
-        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+        #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields, default)]
         struct $name {
             $side: f64,
