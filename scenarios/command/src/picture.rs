@@ -9,7 +9,7 @@ use output::files::{ReportError, write_whole};
 use rheotaxis::scenario::load;
 use rheotaxis::system::Dye;
 use rheotaxis::trial::{Trial, Unwatched};
-use robots::sense::camera::{CameraModel, Optics, Rendered, Scene, looking, render};
+use robots::sense::camera::{CameraModel, CameraSpec, Optics, Rendered, Scene, looking, render};
 use std::io::Cursor;
 use std::path::Path;
 use world::obstacles::Obstacles;
@@ -85,7 +85,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         dye: &world.resource::<Dye>().plume,
         optics: world.resource::<Optics>(),
     };
-    let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.camera.clone());
+    let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.get::<CameraSpec>().cloned());
     let camera = CameraModel::new(&spec.unwrap_or_default());
     let [heading, down] = args.look.0;
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());

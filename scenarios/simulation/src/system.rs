@@ -10,8 +10,8 @@ use robots::handoff::{
     ActuatorCommand, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
 };
 use robots::map::{MapObservation, Mapper};
-use robots::sense::camera::{Optics, Scene};
-use robots::sense::{Asked, SensorSuite};
+use robots::sense::camera::Optics;
+use robots::sense::{Around, Asked, SensorSuite};
 use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
 use world::area::Area;
@@ -146,14 +146,16 @@ pub(crate) fn read_instruments(
     for (truth, decision, mut suite, mut readings) in &mut robots {
         let asked = Asked::from(decision);
         let plume = Displaced::new(&dye.plume, &*water, clock.t_s());
-        *readings = (suite.0).read(&clock, truth, &*water, &plume, &terrain, &obstacles, asked);
-        let scene = Scene {
+        *readings = (suite.0).read(&Around {
+            clock: &clock,
+            truth,
+            flow: &*water,
+            dye: &plume,
             terrain: &terrain,
             obstacles: &obstacles,
-            dye: &plume,
             optics: &optics,
-        };
-        readings.picture = (suite.0).look(&clock, truth, &scene, asked);
+            asked,
+        });
     }
 }
 
@@ -207,6 +209,7 @@ pub(crate) fn decide(clock: Res<Clock>, area: Res<Area>, mut robots: Query<Decid
             ranging: readings.ranging.clone(),
             sidescan: readings.sidescan.clone(),
             picture: readings.picture.clone(),
+            other: readings.other.clone(),
         };
         let mind = &mut *mind;
         *decision = mind.strategy.step(&seen, &mut mind.rng);
@@ -296,7 +299,7 @@ pub(crate) fn digest_state(
         digest.f64s(estimate.position.as_slice());
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
         digest.f64s(&[set.rudder_rad, set.stern_rad, set.rpm]);
-        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour as u8 as f64]);
+        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour.number()]);
         // Only when it is new: a map is large and changes seldom.
         if let Some(belief) = belief.filter(|b| b.is_changed()) {
             digest.f64s(&belief.p);
