@@ -12,20 +12,18 @@
 //! e h′/h, as continuity requires to first order in h′/h; so the layer's volume is conserved to second order. An
 //! interface stays at least 2 % of the depth from bed, surface and the next interface, and follows the bed there.
 
+mod row;
+
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use world::catalogue::Entry;
 use world::limits::shown;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
-use world::registry::Listed;
 use world::seeds::Stream;
 
 use crate::error::PlumeError;
-use crate::flow::catalogue::{CurrentParams, Place};
 use crate::flow::ground::Floor;
-use crate::flow::water::Water;
 
 /// Fastest wave of an interface, m/s.
 const FASTEST_M_S: f64 = 15.0;
@@ -44,42 +42,6 @@ pub struct LayeredSpec {
     /// One fewer than there are layers, top first.
     #[serde(default)]
     pub interfaces: Vec<InterfaceSpec>,
-}
-
-impl Listed for LayeredSpec {
-    const ENTRY: Entry = Entry {
-        name: "Layered",
-        what: "Layers of different density and velocity with interfaces that rise and sink",
-        source: "Pang 2009, section 6 (Duck); Hazel 1972, J. Fluid Mech. 51, 39; Gill 1982, section 6.2",
-    };
-}
-
-impl CurrentParams for LayeredSpec {
-    fn join(&self, water: &mut Water, place: &Place) -> Result<(), PlumeError> {
-        if water.layered.is_some() {
-            return place.wrong(
-                "only one Layered current can fix the water's layers; add the second one's layers to the first",
-            );
-        }
-        water.layered = Some(self.build(place.field, place.seed)?);
-        Ok(())
-    }
-
-    fn is_steady(&self) -> bool {
-        self.interfaces.iter().all(|f| f.waves.is_empty())
-    }
-
-    /// The slowest layer holds filaments longest.
-    fn carries_m_s(&self) -> Vector2<f64> {
-        (self.layers.iter())
-            .map(|l| l.heading_deg.heading().unit() * l.speed_m_s.get())
-            .min_by(|a, b| a.norm().total_cmp(&b.norm()))
-            .unwrap_or_default()
-    }
-
-    fn interfaces_m(&self) -> Vec<f64> {
-        self.interfaces.iter().map(|i| i.depth_m.get()).collect()
-    }
 }
 
 /// One layer.

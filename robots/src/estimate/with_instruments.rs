@@ -4,8 +4,10 @@
 mod tests {
     use super::super::{DeadReckoning, DeadReckoningSpec, LayerAwareSpec, Start};
     use crate::handoff::Estimate;
+    use crate::sense::camera::{Optics, OpticsSpec};
     use crate::sense::{
-        AdcpSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, SensorSuite, SensorsSpec,
+        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, SensorSuite,
+        SensorsSpec,
     };
     use nalgebra::{Vector2, Vector3};
     use world::clock::Clock;
@@ -15,6 +17,13 @@ mod tests {
     use world::units::Heading;
 
     const START: Vector2<f64> = Vector2::new(150.0, -500.0);
+
+    fn instruments() -> SensorsSpec {
+        SensorsSpec::default()
+            .with(DvlSpec::default())
+            .with(AdcpSpec::default())
+            .with(CompassSpec::default())
+    }
 
     /// Southward below an interface 3 m down, northward above it.
     struct TwoLayers;
@@ -37,14 +46,9 @@ mod tests {
 
     #[test]
     fn with_a_ctd_it_takes_no_flow_from_the_other_layer() {
-        let spec = SensorsSpec {
-            dvl: Some(DvlSpec::default()),
-            adcp: Some(AdcpSpec::default()),
-            compass: Some(CompassSpec::default()),
-            depth: Some(DepthSpec::default()),
-            ctd: Some(CtdSpec::default()),
-            ..Default::default()
-        };
+        let spec = instruments()
+            .with(DepthSpec::default())
+            .with(CtdSpec::default());
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
@@ -60,6 +64,7 @@ mod tests {
         };
         let mut e = DeadReckoning::new(&aware, start, dt_s);
         let mut clock = Clock::new(dt_s);
+        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         // A dive to 3.6 m in 31 s, where the cell lies in the layer above; at 100 s on to 5 m.
         let mut believed = Vec::new();
         for _ in 0..5000 {
@@ -72,15 +77,16 @@ mod tests {
             };
             let bed = Terrain::Level { depth_m: 8.0 };
             let obstacles = Default::default();
-            let said = suite.read(
-                &clock,
-                &truth,
-                &Stratified,
-                &Clean,
-                &bed,
-                &obstacles,
-                Default::default(),
-            );
+            let said = suite.read(&Around {
+                clock: &clock,
+                truth: &truth,
+                flow: &Stratified,
+                dye: &Clean,
+                terrain: &bed,
+                obstacles: &obstacles,
+                optics: &optics,
+                asked: Default::default(),
+            });
             believed.push(e.step(&clock, &said).flow.map(|f| f.velocity.y));
             clock.advance();
         }
@@ -94,12 +100,9 @@ mod tests {
 
     /// An hour eastward at 2 m/s and 5 m depth or another, seen through real instruments.
     fn an_hour(lbl: Option<LblSpec>, depth_m: f64) -> Vec<(Vector2<f64>, Estimate)> {
-        let spec = SensorsSpec {
-            dvl: Some(DvlSpec::default()),
-            adcp: Some(AdcpSpec::default()),
-            compass: Some(CompassSpec::default()),
-            lbl,
-            ..Default::default()
+        let spec = match lbl {
+            Some(lbl) => instruments().with(lbl),
+            None => instruments(),
         };
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
@@ -112,6 +115,7 @@ mod tests {
         };
         let mut e = DeadReckoning::new(&DeadReckoningSpec::default(), start, dt_s);
         let mut clock = Clock::new(dt_s);
+        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         let mut all = Vec::new();
         for _ in 0..90_000 {
             let p = START + Vector2::new(2.0 * clock.t_s(), 0.0);
@@ -120,15 +124,16 @@ mod tests {
                 ..Truth::at_rest(Pose::level(Vector3::new(p.x, p.y, -depth_m), east))
             };
             let bed = Terrain::Level { depth_m: 8.0 };
-            let readings = suite.read(
-                &clock,
-                &truth,
-                &TwoLayers,
-                &Clean,
-                &bed,
-                &Default::default(),
-                Default::default(),
-            );
+            let readings = suite.read(&Around {
+                clock: &clock,
+                truth: &truth,
+                flow: &TwoLayers,
+                dye: &Clean,
+                terrain: &bed,
+                obstacles: &Default::default(),
+                optics: &optics,
+                asked: Default::default(),
+            });
             all.push((p, e.step(&clock, &readings)));
             clock.advance();
         }

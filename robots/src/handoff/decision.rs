@@ -5,10 +5,10 @@ use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
 use std::sync::Arc;
+use world::seeds;
 
 /// What the vehicle is doing, in the field's words.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Hash, PartialOrd, Ord)]
-#[serde(rename_all = "snake_case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Behaviour {
     /// Before the first decision.
     #[default]
@@ -35,10 +35,18 @@ pub enum Behaviour {
     Avoid,
     /// Passing over a declared place with sidescan and camera.
     Survey,
+    /// What a strategy of somebody else calls it, in the form of the names above: a-z, 0-9 and _.
+    Other(&'static str),
+}
+
+impl Serialize for Behaviour {
+    fn serialize<S: serde::Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.name())
+    }
 }
 
 impl Behaviour {
-    /// All behaviours, for tables and legends.
+    /// All behaviours of our own, for tables and legends.
     pub const ALL: [Behaviour; 12] = [
         Behaviour::Idle,
         Behaviour::OpenLoop,
@@ -70,7 +78,36 @@ impl Behaviour {
             Behaviour::FollowPath => "follow_path",
             Behaviour::Avoid => "avoid",
             Behaviour::Survey => "survey",
+            Behaviour::Other(name) => name,
         }
+    }
+
+    /// Those that occur: our own in the order of tables, then others in the order in which they come.
+    #[must_use]
+    pub fn seen(all: impl Iterator<Item = Behaviour>) -> Vec<Behaviour> {
+        let mut seen: Vec<Behaviour> = Vec::new();
+        for b in all {
+            if !seen.contains(&b) {
+                seen.push(b);
+            }
+        }
+        seen.sort_by_key(|b| {
+            Self::ALL
+                .iter()
+                .position(|o| o == b)
+                .unwrap_or(Self::ALL.len())
+        });
+        seen
+    }
+
+    /// Its number in digests: its place in [`Self::ALL`], of others a hash of the name.
+    #[must_use]
+    pub fn number(self) -> f64 {
+        let own = Self::ALL.iter().position(|b| *b == self);
+        own.map_or_else(
+            || f64::from((seeds::key(0, self.name(), "behaviour") >> 32) as u32),
+            |place| place as f64,
+        )
     }
 }
 
@@ -238,5 +275,20 @@ mod tests {
         second.join(&mut list);
         looked_at.join(&mut list);
         assert_eq!(list, [looked_at, second]);
+    }
+
+    #[test]
+    fn digests_number_behaviours_by_their_place_and_others_by_their_name() {
+        for (place, b) in Behaviour::ALL.into_iter().enumerate() {
+            assert_eq!(b.number(), place as f64, "{b:?}");
+        }
+        let spiral = Behaviour::Other("spiral");
+        assert_eq!(
+            (spiral.name(), spiral.number()),
+            ("spiral", Behaviour::Other("spiral").number())
+        );
+        assert!(spiral.number() > 255.0 && spiral.number() != Behaviour::Other("ladder").number());
+        let seen = Behaviour::seen([spiral, Behaviour::Find, spiral, Behaviour::GoTo].into_iter());
+        assert_eq!(seen, [Behaviour::GoTo, Behaviour::Find, spiral]);
     }
 }

@@ -121,4 +121,6 @@ pub struct Observation {
     pub sidescan: Option<SidescanPing>,
     /// Camera, if it gave a picture in this tick.
     pub picture: Option<Picture>,
+    /// Numbers of other instruments in this tick, by name.
+    pub other: Vec<(&'static str, f64)>,
 }

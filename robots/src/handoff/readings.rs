@@ -127,4 +127,6 @@ pub struct Readings {
     pub sidescan: Option<SidescanPing>,
     /// Camera.
     pub picture: Option<Picture>,
+    /// Numbers of instruments that none of the above is for, by name.
+    pub other: Vec<(&'static str, f64)>,
 }

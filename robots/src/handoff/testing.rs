@@ -57,6 +57,7 @@ pub(crate) fn seen(
         ranging: None,
         sidescan: None,
         picture: None,
+        other: Vec::new(),
     }
 }
 

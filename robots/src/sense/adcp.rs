@@ -11,17 +11,21 @@
 //! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
 //! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AdcpReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{Finite, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// Which way the instrument looks along the body's z axis.
@@ -64,6 +68,38 @@ impl Default for AdcpSpec {
             noise_m_s: NonNegative::new(0.02),
             beam_angle_deg: Finite::new(20.0),
         }
+    }
+}
+
+impl Listed for AdcpSpec {
+    const ENTRY: Entry = Entry {
+        name: "adcp",
+        what: "Water relative to the vehicle in the first cell beyond the dead zone, looking up or down.",
+        source: "Pang 2009, section 6; RD Instruments, ADCP Principles of Operation (1996)",
+    };
+}
+
+impl SensorParams for AdcpSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Adcp::new(
+            self,
+            on.place("adcp")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Adcp {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.adcp = self.read(around.clock, around.truth, around.flow, &around.below());
     }
 }
 

@@ -9,15 +9,19 @@
 //! *Deviations:* a beam without width, which meets the bed or an obstacle before it. The slant range is turned
 //! into height with the vehicle's tilt, here without the tilt's small noise.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::AltimeterReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the altimeter.
@@ -46,6 +50,38 @@ impl Default for AltimeterSpec {
             min_range_m: NonNegative::new(0.3),
             max_range_m: Positive::new(30.0),
         }
+    }
+}
+
+impl Listed for AltimeterSpec {
+    const ENTRY: Entry = Entry {
+        name: "altimeter",
+        what: "Height above the bed by an echo along the body's down axis.",
+        source: "500 kHz echo sounder class; Pang 2009, section 6",
+    };
+}
+
+impl SensorParams for AltimeterSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Altimeter::new(
+            self,
+            on.place("altimeter")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Altimeter {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.altimeter = self.read(around.clock, around.truth, &around.below());
     }
 }
 

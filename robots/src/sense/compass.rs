@@ -8,13 +8,17 @@
 //!
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::AttitudeReading;
+use crate::handoff::Readings;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the compass.
@@ -42,6 +46,32 @@ impl Default for CompassSpec {
             tilt_noise_deg: NonNegative::new(0.2),
             gyro_noise_deg_s: NonNegative::new(0.1),
         }
+    }
+}
+
+impl Listed for CompassSpec {
+    const ENTRY: Entry = Entry {
+        name: "compass",
+        what: "Heading with noise and bias, roll, pitch and rates.",
+        source: "Electronic compasses of the class of PNI's TCM2",
+    };
+}
+
+impl SensorParams for CompassSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Compass::new(self, robot_id, seed, dt_s)?))
+    }
+}
+
+impl Sensor for Compass {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.attitude = self.read(around.clock, around.truth);
     }
 }
 

@@ -10,16 +10,20 @@
 //! *Deviations:* the density itself is given, not conductivity and temperature: the water has no salt and heat of its
 //! own. The depth sensor's reading goes with it; this one measures none.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::CtdReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the CTD.
@@ -41,6 +45,38 @@ impl Default for CtdSpec {
             response_s: NonNegative::new(0.1),
             noise_kg_m3: NonNegative::new(0.01),
         }
+    }
+}
+
+impl Listed for CtdSpec {
+    const ENTRY: Entry = Entry {
+        name: "ctd",
+        what: "Density of the water at the vehicle: response, noise, rate.",
+        source: "Sea-Bird SBE 49 FastCAT data sheet; Pang 2009, section 7",
+    };
+}
+
+impl SensorParams for CtdSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Ctd::new(
+            self,
+            on.place("ctd")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Ctd {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.ctd = self.read(around.clock, around.truth, around.flow);
     }
 }
 

@@ -6,15 +6,19 @@
 //!
 //! *Deviations:* the density profile is not turned into depth errors; the pressure of the vehicle's own motion is left out.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::DepthReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Flow;
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the depth sensor.
@@ -35,6 +39,38 @@ impl Default for DepthSpec {
             rate_hz: Positive::new(25.0),
             noise_m: NonNegative::new(0.01),
         }
+    }
+}
+
+impl Listed for DepthSpec {
+    const ENTRY: Entry = Entry {
+        name: "depth",
+        what: "Depth below the still surface from pressure.",
+        source: "Strain-gauge pressure sensors, 0.01 % of full scale",
+    };
+}
+
+impl SensorParams for DepthSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Depth::new(
+            self,
+            on.place("depth")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Depth {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.depth = self.read(around.clock, around.truth, around.flow);
     }
 }
 

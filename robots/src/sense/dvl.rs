@@ -12,15 +12,19 @@
 //! beyond 60° of tilt). The velocity is that of the body's origin: the instrument's own turns with the
 //! vehicle are taken out with the gyros, as vehicles do, here without the gyros' small noise.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
 use crate::handoff::DvlReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the Doppler log.
@@ -52,6 +56,38 @@ impl Default for DvlSpec {
             min_altitude_m: NonNegative::new(0.5),
             max_altitude_m: Positive::new(30.0),
         }
+    }
+}
+
+impl Listed for DvlSpec {
+    const ENTRY: Entry = Entry {
+        name: "dvl",
+        what: "Velocity over ground by bottom track: noise, scale error, bottom lock by range.",
+        source: "Teledyne RD Instruments, Workhorse Navigator 1200 kHz data sheet",
+    };
+}
+
+impl SensorParams for DvlSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Dvl::new(
+            self,
+            on.place("dvl")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Dvl {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.dvl = self.read(around.clock, around.truth, &around.below());
     }
 }
 

@@ -11,16 +11,20 @@
 //! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ solved exactly with the
 //! concentration running straight between two samples. Power-up time and blank drift are left out.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::ChemicalReading;
+use crate::handoff::Readings;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::fields::Concentration;
 use world::frames::Truth;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
@@ -55,6 +59,38 @@ impl Default for FluorometerSpec {
             noise_v: NonNegative::new(0.02),
             adc_bits: 12,
         }
+    }
+}
+
+impl Listed for FluorometerSpec {
+    const ENTRY: Entry = Entry {
+        name: "fluorometer",
+        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection threshold.",
+        source: "Turner Designs Cyclops-7 (Sea-Bird application note 74); Pang 2009, section 6",
+    };
+}
+
+impl SensorParams for FluorometerSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Fluorometer::new(
+            self,
+            on.place("fluorometer")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+}
+
+impl Sensor for Fluorometer {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.chemical = self.read(around.clock, around.truth, around.dye);
     }
 }
 

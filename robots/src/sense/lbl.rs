@@ -9,14 +9,18 @@
 //!
 //! *Deviations:* errors are independent and round, travel time and the geometry of the buoys are left out.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::LblFix;
+use crate::handoff::Readings;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
 use world::frames::Truth;
 use world::ranges::{Fraction, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 
 /// What a scenario may say of the long baseline.
@@ -40,6 +44,32 @@ impl Default for LblSpec {
             noise_m: NonNegative::new(5.0),
             dropout: Fraction::new(0.3),
         }
+    }
+}
+
+impl Listed for LblSpec {
+    const ENTRY: Entry = Entry {
+        name: "lbl",
+        what: "Position fixes from a long acoustic baseline: period, noise, drop-outs.",
+        source: "Pang 2009, sections 4 and 5.6",
+    };
+}
+
+impl SensorParams for LblSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Lbl::new(self, robot_id, seed, dt_s)?))
+    }
+}
+
+impl Sensor for Lbl {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.lbl = self.read(around.clock, around.truth);
     }
 }
 

@@ -5,7 +5,6 @@ mod altimeter;
 pub mod camera;
 mod catalogue;
 mod compass;
-mod cost;
 mod ctd;
 mod depth;
 mod dvl;
@@ -22,7 +21,7 @@ mod tools;
 
 pub use adcp::{Adcp, AdcpSpec, Look};
 pub use altimeter::{Altimeter, AltimeterSpec};
-pub use catalogue::CATALOGUE;
+pub use catalogue::PARTS;
 pub use compass::{Compass, CompassSpec};
 pub use ctd::{Ctd, CtdSpec};
 pub use depth::{Depth, DepthSpec};
@@ -32,4 +31,7 @@ pub use lbl::{Lbl, LblSpec};
 pub use probe::{Probes, ProbesSpec};
 pub use ranging::{Ranging, RangingSpec};
 pub use sidescan::{Sidescan, SidescanSpec};
-pub use suite::{Asked, SensorSuite, SensorsSpec};
+pub use suite::{
+    Around, Asked, Fitting, Sensor, SensorParams, SensorSuite, Sensors, SensorsSpec, cost,
+};
+pub use tools::Below;

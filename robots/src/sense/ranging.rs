@@ -10,16 +10,21 @@
 //! *Deviations:* beams without width, told apart in both directions; no side lobes and no echoes by way of the surface, which
 //! itself throws none back. A beam that drops out says nothing; one without echo says that the way is free.
 
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
+use crate::handoff::Readings;
 use crate::handoff::{Beam, RangeScan};
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
+use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
 use world::obstacles::Obstacles;
 use world::ranges::{Fraction, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
@@ -27,6 +32,9 @@ use world::terrain::Terrain;
 const MOST: u32 = 1024;
 /// Step along a beam in looking for the bed, m, and halvings of the step that met it.
 const BED_STEP: (f64, u32) = (0.5, 20);
+
+/// Time of a beam, of an obstacle on its way and of a metre that the bed is looked for, s (see `world::cost`).
+const BEAM_S: [f64; 3] = [0.5e-6, 0.15e-6, 30e-9];
 
 /// What a scenario may say of the ranging.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -69,6 +77,50 @@ impl Default for RangingSpec {
             noise_m: NonNegative::new(0.1),
             dropout: Fraction::new(0.02),
         }
+    }
+}
+
+impl Listed for RangingSpec {
+    const ENTRY: Entry = Entry {
+        name: "ranging",
+        what: "Ranges ahead in a fan of beams against solids and bed: noise, range, drop-outs.",
+        source: "Petillot, Tena Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240",
+    };
+}
+
+impl SensorParams for RangingSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Ranging::new(
+            self,
+            on.place("ranging")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+
+    fn cost(&self, obstacles: f64, _: f64, times: &Times) -> Cost {
+        let beams = f64::from(self.beams) * f64::from(self.rows);
+        let each_s = BEAM_S[0] + obstacles * BEAM_S[1] + self.max_range_m.get() * BEAM_S[2];
+        let rate_hz = self.rate_hz.get();
+        let what = format!("{:.0} beams a second", beams * rate_hz);
+        Cost::of(
+            Part::new("rate_hz", what)
+                .takes(times.mission_s * rate_hz * beams * each_s)
+                .by(rate_hz, 1.0),
+        )
+    }
+}
+
+impl Sensor for Ranging {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.ranging = self.read(around.clock, around.truth, around.obstacles, around.terrain);
     }
 }
 

@@ -18,18 +18,23 @@
 //! instant: in the 27 ms to 20 m and back a vehicle at 2 m/s moves 5 cm.
 
 use super::sidescan_fan::Fan;
+use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
+use crate::handoff::Readings;
 use crate::handoff::SidescanPing;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::LN_10;
 use std::sync::Arc;
+use world::catalogue::Entry;
 use world::clock::{Clock, Every};
+use world::cost::{Cost, Part, Times};
 use world::frames::Truth;
 use world::math;
 use world::obstacles::Obstacles;
 use world::ranges::{Finite, NonNegative, Positive};
+use world::registry::Listed;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
@@ -37,6 +42,11 @@ use world::terrain::Terrain;
 const MOST: u32 = 4096;
 /// Speed of sound that limits the rate, m/s.
 const SOUND_M_S: f64 = 1500.0;
+
+/// Time of a sample, and of an obstacle on its way, s (see `world::cost`).
+const SAMPLE_S: [f64; 2] = [0.2e-6, 0.1e-6];
+/// Shares of a picture of a pass that are kept, bytes: at most so many lines, see `survey::waterfall`.
+const PASSES_BYTES: f64 = 5e6;
 
 /// What a scenario may say of the sidescan sonar.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -84,6 +94,56 @@ impl Default for SidescanSpec {
             absorption_db_m: NonNegative::new(0.17),
             always: false,
         }
+    }
+}
+
+impl Listed for SidescanSpec {
+    const ENTRY: Entry = Entry {
+        name: "sidescan",
+        what: "Echo strength to either side by slant range: Lambert's law, shadows, water column, speckle, noise.",
+        source: "Urick 1983, sections 8.2 and 8.11; Blondel 2009, The Handbook of Sidescan Sonar",
+    };
+}
+
+impl SensorParams for SidescanSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        Ok(Box::new(Sidescan::new(
+            self,
+            on.place("sidescan")?,
+            robot_id,
+            seed,
+            dt_s,
+        )?))
+    }
+
+    fn cost(&self, obstacles: f64, used: f64, times: &Times) -> Cost {
+        let rate_hz = self.rate_hz.get();
+        let samples = 2.0 * f64::from(self.samples) * rate_hz;
+        let each_s = SAMPLE_S[0] + obstacles * SAMPLE_S[1];
+        let used = if self.always { 1.0 } else { used };
+        let part = Part::new("rate_hz", format!("{samples:.0} samples a second"))
+            .holds(PASSES_BYTES)
+            .takes(times.mission_s * used * samples * each_s)
+            .by(rate_hz, 1.0);
+        Cost::of(part)
+    }
+}
+
+impl Sensor for Sidescan {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        readings.sidescan = self.read(
+            around.clock,
+            around.truth,
+            around.obstacles,
+            around.terrain,
+            around.asked.survey,
+        );
     }
 }
 

@@ -1,50 +1,157 @@
 //! All instruments of a robot, read in one go.
 
-use super::camera::{Camera, CameraSpec, Scene};
+use super::camera::{CameraSpec, Optics};
 use super::tools::Below;
 use super::{
-    Adcp, AdcpSpec, Altimeter, AltimeterSpec, Compass, CompassSpec, Ctd, CtdSpec, Depth, DepthSpec,
-    Dvl, DvlSpec, Fluorometer, FluorometerSpec, Lbl, LblSpec, Ranging, RangingSpec, Sidescan,
-    SidescanSpec,
+    AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
+    RangingSpec, SidescanSpec,
 };
 use crate::error::RobotError;
-use crate::handoff::{Behaviour, Decision, Picture, Readings};
+use crate::handoff::{Behaviour, Decision, Readings};
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
-use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
 use world::clock::Clock;
+use world::cost::{Cost, Times};
 use world::fields::{Concentration, Flow};
 use world::frames::{Pose, Truth};
 use world::obstacles::Obstacles;
+use world::registry::{Kind, Row, Set, Spec, Takes};
 use world::terrain::Terrain;
 
-/// The instruments a scenario fits to a robot; one left out is not on board.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(default, deny_unknown_fields)]
-pub struct SensorsSpec {
-    /// Chemical sensor.
-    pub fluorometer: Option<FluorometerSpec>,
-    /// Bottom track.
-    pub dvl: Option<DvlSpec>,
-    /// Water track.
-    pub adcp: Option<AdcpSpec>,
-    /// Compass and inertial unit.
-    pub compass: Option<CompassSpec>,
-    /// Depth.
-    pub depth: Option<DepthSpec>,
-    /// Density of the water.
-    pub ctd: Option<CtdSpec>,
-    /// Altitude.
-    pub altimeter: Option<AltimeterSpec>,
-    /// Position fixes.
-    pub lbl: Option<LblSpec>,
-    /// Forward ranging.
-    pub ranging: Option<RangingSpec>,
-    /// Sidescan sonar.
-    pub sidescan: Option<SidescanSpec>,
-    /// Camera; it takes a picture when the strategy asks for one.
-    pub camera: Option<CameraSpec>,
+/// Share of a mission in which a vehicle surveys or looks with its camera, of one that does so at all.
+const SURVEYS: f64 = 0.05;
+
+/// Where an instrument is fitted.
+#[derive(Clone, Copy)]
+pub struct Fitting<'a> {
+    /// The pose in body axes of the vehicle's mount of a name.
+    pub mounts: &'a dyn Fn(&str) -> Option<Pose>,
+    /// Its name.
+    pub robot_id: &'a str,
+    /// Seed of the run.
+    pub seed: u64,
+    /// Step, s.
+    pub dt_s: f64,
+}
+
+impl Fitting<'_> {
+    /// The mount of a name.
+    ///
+    /// # Errors
+    /// When the vehicle has none.
+    pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
+        (self.mounts)(name).ok_or_else(|| RobotError::Invalid {
+            field: format!("sensors.{name}"),
+            problem: format!("the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"),
+        })
+    }
+
+    /// Its place in body axes, m.
+    ///
+    /// # Errors
+    /// When the vehicle has none.
+    pub fn place(&self, name: &str) -> Result<Vector3<f64>, RobotError> {
+        self.mount(name).map(|pose| pose.p_WB)
+    }
+}
+
+/// All that is there to be sensed in a step.
+#[derive(Clone, Copy)]
+pub struct Around<'a> {
+    /// Time.
+    pub clock: &'a Clock,
+    /// The vehicle's motion.
+    pub truth: &'a Truth,
+    /// The water.
+    pub flow: &'a dyn Flow,
+    /// Dye in it.
+    pub dye: &'a dyn Concentration,
+    /// The bed.
+    pub terrain: &'a Terrain,
+    /// What stands on it.
+    pub obstacles: &'a Obstacles,
+    /// Light in the water.
+    pub optics: &'a Optics,
+    /// What the strategy asked for.
+    pub asked: Asked,
+}
+
+impl Around<'_> {
+    /// What an echo sounder may hear.
+    #[must_use]
+    pub fn below(&self) -> Below<'_> {
+        Below {
+            terrain: self.terrain,
+            obstacles: self.obstacles,
+        }
+    }
+}
+
+/// An instrument at work. It draws from a stream of its own: `Stream::new(seed, robot_id, name)`.
+pub trait Sensor: std::fmt::Debug + Send + Sync {
+    /// Reads what is around it, and writes what it says in this step.
+    fn sense(&mut self, around: &Around, readings: &mut Readings);
+}
+
+/// Parameters of an instrument; named as the field of `sensors`.
+pub trait SensorParams: Spec {
+    /// The instrument on a vehicle.
+    ///
+    /// # Errors
+    /// When a mount is missing or the instrument cannot be as described.
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
+
+    /// What it takes among so many obstacles, asked for a share `used` of the mission; paths below its field.
+    fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
+        Cost::default()
+    }
+}
+
+/// The instruments a scenario can fit to a robot.
+#[derive(Clone, Copy, Debug)]
+pub enum Sensors {}
+
+/// The instruments on board; one left out is not there.
+pub type SensorsSpec = Set<Sensors>;
+
+impl Kind for Sensors {
+    type Spec = dyn SensorParams;
+    const NAME: &'static str = "SensorsSpec";
+    const HEADING: &'static str = "Sensors";
+
+    fn built_in() -> Vec<Row<Self>> {
+        vec![
+            Row::of::<FluorometerSpec>(),
+            Row::of::<DvlSpec>(),
+            Row::of::<AdcpSpec>(),
+            Row::of::<CompassSpec>(),
+            Row::of::<DepthSpec>(),
+            Row::of::<CtdSpec>(),
+            Row::of::<AltimeterSpec>(),
+            Row::of::<LblSpec>(),
+            Row::of::<RangingSpec>(),
+            Row::of::<SidescanSpec>(),
+            Row::of::<CameraSpec>(),
+        ]
+    }
+}
+
+impl<S: SensorParams + 'static> Takes<S> for Sensors {
+    fn boxed(spec: S) -> Box<dyn SensorParams> {
+        Box::new(spec)
+    }
+}
+
+/// What instruments take among so many obstacles; paths below `sensors`. `looks`: whether the strategy asks for sidescan or pictures.
+#[must_use]
+pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times) -> Cost {
+    let mut cost = Cost::default();
+    let used = if looks { SURVEYS } else { 0.0 };
+    for sensor in sensors.iter() {
+        let own = sensor.cost(obstacles as f64, used, times);
+        cost.add(own.under(sensor.name()));
+    }
+    cost
 }
 
 /// What the strategy asked of the instruments in the step before.
@@ -66,25 +173,12 @@ impl From<&Decision> for Asked {
 }
 
 /// The instruments of a robot.
-#[derive(Component, Clone, Debug)]
-pub struct SensorSuite {
-    fluorometer: Option<Fluorometer>,
-    dvl: Option<Dvl>,
-    adcp: Option<Adcp>,
-    compass: Option<Compass>,
-    depth: Option<Depth>,
-    ctd: Option<Ctd>,
-    altimeter: Option<Altimeter>,
-    lbl: Option<Lbl>,
-    ranging: Option<Ranging>,
-    sidescan: Option<Sidescan>,
-    camera: Option<Camera>,
-}
+#[derive(Component, Debug)]
+pub struct SensorSuite(Vec<Box<dyn Sensor>>);
 
 impl SensorSuite {
     /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (`fluorometer`, `dvl`, `adcp`, `depth`, `ctd`, `altimeter`, `ranging`, `sidescan`, `camera`; compass and
-    /// baseline need none).
+    /// name (that of the instrument; compass and baseline need none).
     ///
     /// # Errors
     /// When a mount is missing or an instrument cannot be as described.
@@ -95,93 +189,23 @@ impl SensorSuite {
         seed: u64,
         dt_s: f64,
     ) -> Result<Self, RobotError> {
-        let mount = |name: &str| -> Result<Pose, RobotError> {
-            mounts(name)
-                .ok_or_else(|| RobotError::Invalid {
-                    field: format!("sensors.{name}"),
-                    problem: format!("the vehicle has no mount \"{name}\": add a link of that name to its URDF, or leave the sensor out"),
-                })
+        let on = Fitting {
+            mounts,
+            robot_id,
+            seed,
+            dt_s,
         };
-        let place =
-            |name: &str| -> Result<Vector3<f64>, RobotError> { mount(name).map(|pose| pose.p_WB) };
-        Ok(Self {
-            fluorometer: (spec.fluorometer.as_ref())
-                .map(|s| Fluorometer::new(s, place("fluorometer")?, robot_id, seed, dt_s))
-                .transpose()?,
-            dvl: (spec.dvl.as_ref())
-                .map(|s| Dvl::new(s, place("dvl")?, robot_id, seed, dt_s))
-                .transpose()?,
-            adcp: (spec.adcp.as_ref())
-                .map(|s| Adcp::new(s, place("adcp")?, robot_id, seed, dt_s))
-                .transpose()?,
-            compass: (spec.compass.as_ref())
-                .map(|s| Compass::new(s, robot_id, seed, dt_s))
-                .transpose()?,
-            depth: (spec.depth.as_ref())
-                .map(|s| Depth::new(s, place("depth")?, robot_id, seed, dt_s))
-                .transpose()?,
-            ctd: (spec.ctd.as_ref())
-                .map(|s| Ctd::new(s, place("ctd")?, robot_id, seed, dt_s))
-                .transpose()?,
-            altimeter: (spec.altimeter.as_ref())
-                .map(|s| Altimeter::new(s, place("altimeter")?, robot_id, seed, dt_s))
-                .transpose()?,
-            lbl: (spec.lbl.as_ref())
-                .map(|s| Lbl::new(s, robot_id, seed, dt_s))
-                .transpose()?,
-            ranging: (spec.ranging.as_ref())
-                .map(|s| Ranging::new(s, place("ranging")?, robot_id, seed, dt_s))
-                .transpose()?,
-            sidescan: (spec.sidescan.as_ref())
-                .map(|s| Sidescan::new(s, place("sidescan")?, robot_id, seed, dt_s))
-                .transpose()?,
-            camera: (spec.camera.as_ref())
-                .map(|s| Camera::new(s, &mount("camera")?, robot_id, seed, dt_s))
-                .transpose()?,
-        })
+        let all = spec.iter().map(|s| s.build(&on));
+        all.collect::<Result<_, _>>().map(Self)
     }
 
-    /// The picture of this step, if there is a camera, one was asked for and its time has come.
-    pub fn look(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        scene: &Scene<'_>,
-        asked: Asked,
-    ) -> Option<Picture> {
-        (self.camera.as_mut()).and_then(|s| s.read(clock, truth, scene, asked.picture))
-    }
-
-    /// What the instruments but the camera ([`Self::look`]) say in this step, after what was asked of them.
-    #[allow(
-        clippy::too_many_arguments,
-        reason = "the instruments see the whole world"
-    )]
-    pub fn read(
-        &mut self,
-        clock: &Clock,
-        truth: &Truth,
-        flow: &dyn Flow,
-        dye: &dyn Concentration,
-        terrain: &Terrain,
-        obstacles: &Obstacles,
-        asked: Asked,
-    ) -> Readings {
-        let below = &Below { terrain, obstacles };
-        Readings {
-            chemical: (self.fluorometer.as_mut()).and_then(|s| s.read(clock, truth, dye)),
-            dvl: (self.dvl.as_mut()).and_then(|s| s.read(clock, truth, below)),
-            adcp: (self.adcp.as_mut()).and_then(|s| s.read(clock, truth, flow, below)),
-            attitude: (self.compass.as_mut()).and_then(|s| s.read(clock, truth)),
-            depth: (self.depth.as_mut()).and_then(|s| s.read(clock, truth, flow)),
-            ctd: (self.ctd.as_mut()).and_then(|s| s.read(clock, truth, flow)),
-            altimeter: (self.altimeter.as_mut()).and_then(|s| s.read(clock, truth, below)),
-            lbl: (self.lbl.as_mut()).and_then(|s| s.read(clock, truth)),
-            ranging: (self.ranging.as_mut()).and_then(|s| s.read(clock, truth, obstacles, terrain)),
-            sidescan: (self.sidescan.as_mut())
-                .and_then(|s| s.read(clock, truth, obstacles, terrain, asked.survey)),
-            picture: None,
+    /// What the instruments say in this step.
+    pub fn read(&mut self, around: &Around) -> Readings {
+        let mut readings = Readings::default();
+        for sensor in &mut self.0 {
+            sensor.sense(around, &mut readings);
         }
+        readings
     }
 }
 
@@ -189,26 +213,25 @@ impl SensorSuite {
 mod tests {
     use super::super::testing::{BED, at, run};
     use super::*;
+    use crate::sense::camera::OpticsSpec;
     use world::fields::{Clean, Still};
 
     fn all() -> SensorsSpec {
-        SensorsSpec {
-            fluorometer: Some(FluorometerSpec::default()),
-            dvl: Some(DvlSpec::default()),
-            adcp: Some(AdcpSpec::default()),
-            compass: Some(CompassSpec::default()),
-            depth: Some(DepthSpec::default()),
-            ctd: Some(CtdSpec::default()),
-            altimeter: Some(AltimeterSpec::default()),
-            lbl: Some(LblSpec::default()),
-            ranging: Some(RangingSpec::default()),
-            sidescan: Some(SidescanSpec {
+        SensorsSpec::default()
+            .with(FluorometerSpec::default())
+            .with(DvlSpec::default())
+            .with(AdcpSpec::default())
+            .with(CompassSpec::default())
+            .with(DepthSpec::default())
+            .with(CtdSpec::default())
+            .with(AltimeterSpec::default())
+            .with(LblSpec::default())
+            .with(RangingSpec::default())
+            .with(SidescanSpec {
                 rate_hz: world::ranges::Positive::new(1.0),
                 always: true,
                 ..SidescanSpec::default()
-            }),
-            camera: None,
-        }
+            })
     }
 
     fn readings(spec: &SensorsSpec, robot_id: &str) -> Vec<Readings> {
@@ -220,9 +243,18 @@ mod tests {
         };
         let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
         let t = at(0.0, 0.0, -5.0);
+        let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
-            let asked = Asked::default();
-            Some(suite.read(c, &t, &Still, &Clean, &BED, &Obstacles::default(), asked))
+            Some(suite.read(&Around {
+                clock: c,
+                truth: &t,
+                flow: &Still,
+                dye: &Clean,
+                terrain: &BED,
+                obstacles: &Obstacles::default(),
+                optics: &optics,
+                asked: Asked::default(),
+            }))
         })
     }
 
@@ -242,19 +274,7 @@ mod tests {
             "ranging",
             "sidescan",
         ] {
-            let (mut spec, mut want) = (all(), whole.clone());
-            match name {
-                "fluorometer" => spec.fluorometer = None,
-                "dvl" => spec.dvl = None,
-                "adcp" => spec.adcp = None,
-                "compass" => spec.compass = None,
-                "depth" => spec.depth = None,
-                "ctd" => spec.ctd = None,
-                "altimeter" => spec.altimeter = None,
-                "lbl" => spec.lbl = None,
-                "ranging" => spec.ranging = None,
-                _ => spec.sidescan = None,
-            }
+            let (spec, mut want) = (all().without(name), whole.clone());
             for r in &mut want {
                 let before = r.clone();
                 match name {

@@ -21,6 +21,7 @@ use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::GantryBlock;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial, Watch};
+use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -85,7 +86,7 @@ impl<'a> Onlooker<'a> {
             progress.say(&removed);
         }
         let robots = scenario.robots.iter().map(|spec| {
-            let dye = spec.sensors.fluorometer.as_ref();
+            let dye = spec.sensors.get::<FluorometerSpec>();
             RobotInfo {
                 id: spec.id.as_str().to_string(),
                 full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),

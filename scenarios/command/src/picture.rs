@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use output::files::{ReportError, write_whole};
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
-use robots::sense::camera::{CameraModel, Optics, Rendered, Scene, looking, render};
+use robots::sense::camera::{CameraModel, CameraSpec, Optics, Rendered, Scene, looking, render};
 use std::io::Cursor;
 use std::path::Path;
 use world::ranges::Positive;
@@ -81,7 +81,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         dye: ocean.plume(),
         optics: world.resource::<Optics>(),
     };
-    let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.camera.clone());
+    let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.get::<CameraSpec>().cloned());
     let camera = CameraModel::new(&spec.unwrap_or_default());
     let [heading, down] = args.look.0;
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());

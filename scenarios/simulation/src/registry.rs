@@ -96,7 +96,16 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
             "What turns the flows (water: …)",
             plumes::flow::OPTIONS,
         ),
-        fixed(Sensors, "Sensors", Named::Field, robots::sense::CATALOGUE),
+        Section {
+            named: Named::Field,
+            ..chosen.kind::<robots::sense::Sensors>(Sensors)
+        },
+        fixed(
+            Sensors,
+            "Sensors of a gantry",
+            Named::Field,
+            robots::sense::PARTS,
+        ),
         fixed(
             Vehicles,
             "Vehicles and gantries",

@@ -25,6 +25,11 @@ impl<K: Kind> Choice<K> {
         self.0.entry().name
     }
 
+    /// Its parameters without the name, to be written.
+    pub(super) fn parameters(&self) -> Parameters<'_, K::Spec> {
+        Parameters(&self.0)
+    }
+
     /// Its parameters, if they are `S`.
     #[must_use]
     pub fn get<S: 'static>(&self) -> Option<&S> {
@@ -76,7 +81,7 @@ impl<K: Kind> fmt::Debug for Choice<K> {
 }
 
 /// The parameters without the name.
-struct Parameters<'s, T: ?Sized>(&'s T);
+pub(super) struct Parameters<'s, T: ?Sized>(&'s T);
 
 impl<T: ?Sized + Spec> Serialize for Parameters<'_, T> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
@@ -87,7 +92,7 @@ impl<T: ?Sized + Spec> Serialize for Parameters<'_, T> {
 impl<K: Kind> Serialize for Choice<K> {
     fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
         // Names alone are read again: the number says nothing.
-        to.serialize_newtype_variant(K::NAME, 0, self.name(), &Parameters(&*self.0))
+        to.serialize_newtype_variant(K::NAME, 0, self.name(), &self.parameters())
     }
 }
 

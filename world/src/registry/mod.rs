@@ -2,7 +2,7 @@
 //!
 //! A *kind* is a place in a scenario where one of several things stands by its name: a strategy, a current, a rule. Each thing
 //! is a struct of parameters with its [`Entry`](crate::catalogue::Entry) (name, sentence, source) beside it. A row of the kind
-//! makes it known: readable, writable, listed. A [`Choice`] is what stands in the scenario's struct. A [`Registry`] holds rows
+//! makes it known: readable, writable, listed. A [`Choice`] is what stands in the scenario's struct, or a [`Set`] where several may. A [`Registry`] holds rows
 //! that another crate adds; files are read under it by [`Registry::scope`]. What was read needs no registry any more.
 
 mod added;
@@ -11,6 +11,7 @@ mod kind;
 mod names;
 mod row;
 mod schema;
+mod set;
 #[cfg(test)]
 mod tests;
 
@@ -18,3 +19,4 @@ pub use added::Registry;
 pub use choice::Choice;
 pub use kind::{Kind, Listed, Spec, Standard, Takes};
 pub use row::Row;
+pub use set::Set;

@@ -1,8 +1,8 @@
 //! What stands in the schema of scenario files where something is chosen by name.
 
-use super::{Choice, Kind, Registry};
+use super::{Choice, Kind, Registry, Set};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde_json::Value;
+use serde_json::{Map, Value};
 use std::borrow::Cow;
 
 impl<K: Kind> JsonSchema for Choice<K> {
@@ -27,5 +27,33 @@ impl<K: Kind> JsonSchema for Choice<K> {
             })
             .collect();
         json_schema!({ "description": K::HEADING, "oneOf": variants })
+    }
+}
+
+impl<K: Kind> JsonSchema for Set<K> {
+    fn schema_name() -> Cow<'static, str> {
+        K::NAME.into()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let rows = Registry::now().rows::<K>();
+        let fields: Map<String, Value> = (rows.iter())
+            .map(|row| {
+                let parameters = (row.schema)(generator);
+                let field = json_schema!({
+                    "description": row.entry.what,
+                    "x-source": row.entry.source,
+                    "anyOf": [parameters, { "type": "null" }],
+                    "default": null,
+                });
+                (row.entry.name.to_string(), field.to_value())
+            })
+            .collect();
+        json_schema!({
+            "description": K::HEADING,
+            "type": "object",
+            "properties": fields,
+            "additionalProperties": false,
+        })
     }
 }

@@ -7,19 +7,71 @@
 //!
 //! *Deviations:* a picture asked for before the last one's time is up is taken when it is.
 
+use super::super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::model::{CameraModel, CameraSpec, turned};
 use super::render::render;
 use super::scene::Scene;
 use crate::error::RobotError;
 use crate::handoff::Picture;
+use crate::handoff::Readings;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
+use world::catalogue::Entry;
 use world::clock::Clock;
+use world::cost::{Cost, Part, Times};
 use world::frames::{Pose, Truth};
+use world::registry::Listed;
 use world::seeds;
 
 /// Most pixels along a side.
 const MOST: u32 = 4096;
+
+/// Time of a picture's pixel, s, and memory while it is made and judged, bytes (see `world::cost`).
+const PIXEL: (f64, f64) = (0.5e-6, 200.0);
+
+impl Listed for CameraSpec {
+    const ENTRY: Entry = Entry {
+        name: "camera",
+        what: "Pictures through the water when asked for: attenuation, veil, dye, daylight or lamp, sensor noise.",
+        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Williamson & Hollins 2022, Appl. Opt. 61, 9951; Zaneveld & Pegau 2003, Opt. Express 11, 2997",
+    };
+}
+
+impl SensorParams for CameraSpec {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        let Fitting {
+            robot_id,
+            seed,
+            dt_s,
+            ..
+        } = *on;
+        let mount = on.mount("camera")?;
+        Ok(Box::new(Camera::new(self, &mount, robot_id, seed, dt_s)?))
+    }
+
+    fn cost(&self, _: f64, used: f64, times: &Times) -> Cost {
+        let pixels = f64::from(self.width) * f64::from(self.height);
+        let pictures = times.mission_s * used * self.rate_hz.get().min(1.0);
+        let what = format!("about {pictures:.0} pictures of {pixels:.1e} pixels");
+        let part = Part::new("width", what)
+            .holds(pixels * PIXEL.1)
+            .takes(pictures * pixels * PIXEL.0)
+            .by(f64::from(self.width), 1.0);
+        Cost::of(part)
+    }
+}
+
+impl Sensor for Camera {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        let scene = Scene {
+            terrain: around.terrain,
+            obstacles: around.obstacles,
+            dye: around.dye,
+            optics: around.optics,
+        };
+        readings.picture = self.read(around.clock, around.truth, &scene, around.asked.picture);
+    }
+}
 
 /// A camera on a vehicle.
 #[derive(Clone, Debug)]

@@ -47,7 +47,8 @@ impl Behaviours {
             | Behaviour::FollowPath
             | Behaviour::Avoid
             | Behaviour::Survey
-            | Behaviour::Done => None,
+            | Behaviour::Done
+            | Behaviour::Other(_) => None,
         }
     }
 }

@@ -238,7 +238,8 @@ impl Subregions {
             | Behaviour::TrackOut
             | Behaviour::Reacquire
             | Behaviour::FollowPath
-            | Behaviour::Avoid => true,
+            | Behaviour::Avoid
+            | Behaviour::Other(_) => true,
             Behaviour::Idle
             | Behaviour::OpenLoop
             | Behaviour::GoTo

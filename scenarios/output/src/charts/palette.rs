@@ -34,6 +34,7 @@ pub fn behaviour(b: Behaviour) -> &'static str {
         Behaviour::FollowPath => "#009e73",
         Behaviour::Avoid => "#f0e442",
         Behaviour::Survey => "#6a3d9a",
+        Behaviour::Other(_) => "#a6761d",
     }
 }
 
@@ -52,6 +53,7 @@ pub fn words(b: Behaviour) -> &'static str {
         Behaviour::FollowPath => "Follow path",
         Behaviour::Avoid => "Avoid",
         Behaviour::Survey => "Survey",
+        Behaviour::Other(name) => name,
     }
 }
 

@@ -25,10 +25,7 @@ pub(super) fn keys<'a>(
     plume: Option<&'a PlumeLoad>,
 ) -> Vec<Block<'a>> {
     let rows = run.track.robots.iter().flat_map(|t| &t.rows);
-    let seen: Vec<Behaviour> = Behaviour::ALL
-        .into_iter()
-        .filter(|b| rows.clone().any(|r| r.behaviour == *b))
-        .collect();
+    let seen = Behaviour::seen(rows.map(|r| r.behaviour));
     let mut blocks: Vec<Block<'a>> = Vec::new();
     if !seen.is_empty() {
         blocks.push(Box::new(move |c, at| tracks(c, &seen, at)));

@@ -214,10 +214,7 @@ pub(super) fn reading(c: &mut Canvas, mut panel: Panel, t: &RobotTrack) {
 
 /// Behaviour as bands, one row for each.
 pub(super) fn behaviour(c: &mut Canvas, panel: Panel, t: &RobotTrack) {
-    let seen: Vec<Behaviour> = Behaviour::ALL
-        .into_iter()
-        .filter(|b| t.rows.iter().any(|r| r.behaviour == *b))
-        .collect();
+    let seen = Behaviour::seen(t.rows.iter().map(|r| r.behaviour));
     let kinds: Vec<Band> = (seen.iter())
         .map(|b| (palette::words(*b), palette::behaviour(*b)))
         .collect();

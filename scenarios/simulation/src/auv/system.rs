@@ -11,8 +11,8 @@ use robots::handoff::{
     ActuatorCommand, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
 };
 use robots::map::MapObservation;
-use robots::sense::Asked;
-use robots::sense::camera::{Optics, Scene};
+use robots::sense::camera::Optics;
+use robots::sense::{Around, Asked};
 use world::clock::Clock;
 use world::digest::Digest;
 use world::fields::Flow;
@@ -26,17 +26,16 @@ pub(crate) fn read_instruments(
     mut robots: Query<(&Truth, &Decision, &mut Instruments, &mut Readings)>,
 ) {
     for (truth, decision, mut suite, mut readings) in &mut robots {
-        let asked = Asked::from(decision);
-        let plume = ocean.dye(clock.t_s());
-        let (terrain, obstacles) = (&ocean.terrain, &ocean.obstacles);
-        *readings = (suite.0).read(&clock, truth, &*ocean, &plume, terrain, obstacles, asked);
-        let scene = Scene {
-            terrain,
-            obstacles,
-            dye: &plume,
+        *readings = (suite.0).read(&Around {
+            clock: &clock,
+            truth,
+            flow: &*ocean,
+            dye: &ocean.dye(clock.t_s()),
+            terrain: &ocean.terrain,
+            obstacles: &ocean.obstacles,
             optics: &optics,
-        };
-        readings.picture = (suite.0).look(&clock, truth, &scene, asked);
+            asked: Asked::from(decision),
+        });
     }
 }
 
@@ -90,6 +89,7 @@ pub(crate) fn decide(clock: Res<Clock>, ocean: Res<Ocean>, mut robots: Query<Dec
             ranging: readings.ranging.clone(),
             sidescan: readings.sidescan.clone(),
             picture: readings.picture.clone(),
+            other: readings.other.clone(),
         };
         let searching = &mut *searching;
         *decision = searching.strategy.step(&seen, &mut searching.rng);
@@ -169,7 +169,7 @@ pub(crate) fn digest_robots(
         digest.f64s(estimate.position.as_slice());
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
         digest.f64s(&[set.rudder_rad, set.stern_rad, set.rpm]);
-        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour as u8 as f64]);
+        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour.number()]);
         // Only when it is new: a map is large and changes seldom.
         if let Some(belief) = belief.filter(|b| b.is_changed()) {
             digest.f64s(&belief.p);

@@ -10,8 +10,7 @@ const VARIANTS: &[&[Entry]] = &[robots::estimate::CATALOGUE, robots::vehicles::C
 /// Catalogues of what it names as a field, and the type that has the field.
 const FIELDS: &[(&str, &[Entry])] = &[
     ("WaterSpec", plumes::flow::OPTIONS),
-    ("SensorsSpec", robots::sense::CATALOGUE),
-    ("GantryBlock", robots::sense::CATALOGUE),
+    ("GantryBlock", robots::sense::PARTS),
     ("RobotSpec", robots::actuate::CATALOGUE),
     ("CrabSpec", robots::track::UNITS),
     ("ColourSpec", robots::vision::CATALOGUE),

@@ -263,8 +263,8 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) 
     }
     let [sidescan, camera] = robot.strategy.flies_for();
     let lacks = [
-        ("sidescan", sidescan && robot.sensors.sidescan.is_none()),
-        ("camera", camera && robot.sensors.camera.is_none()),
+        ("sidescan", sidescan && !robot.sensors.has("sidescan")),
+        ("camera", camera && !robot.sensors.has("camera")),
     ];
     for (name, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
         let problem = format!(

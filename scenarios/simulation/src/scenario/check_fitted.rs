@@ -6,14 +6,14 @@ use super::schema::RobotSpec;
 /// Instruments that are asked for and missing.
 pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     let path = format!("robots[{i}]");
-    if robot.estimator.needs_ctd() && robot.sensors.ctd.is_none() {
+    if robot.estimator.needs_ctd() && !robot.sensors.has("ctd") {
         let problem = "it tells water layers apart by their density, and the robot measures none";
         found.push(
             Found::error(format!("{path}.estimator.layer_aware"), problem)
                 .hint("fit a CTD, as in `sensors: (ctd: ())`, or leave layer_aware out"),
         );
     }
-    if robot.strategy.needs_ranging() && robot.sensors.ranging.is_none() {
+    if robot.strategy.needs_ranging() && !robot.sensors.has("ranging") {
         let problem =
             "its Avoid layer turns away from what a forward ranging shows, and the robot has none";
         found.push(
@@ -28,15 +28,14 @@ pub(super) fn blind(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     if !robot.strategy.searches() {
         return;
     }
-    let s = &robot.sensors;
-    for (name, lacks, so) in [
-        ("fluorometer", s.fluorometer.is_none(), "smells nothing"),
-        ("compass", s.compass.is_none(), "never knows its heading"),
-        ("dvl", s.dvl.is_none(), "never knows how it moves"),
-        ("adcp", s.adcp.is_none(), "never knows the flow"),
-        ("depth", s.depth.is_none(), "never knows its depth"),
+    for (name, so) in [
+        ("fluorometer", "smells nothing"),
+        ("compass", "never knows its heading"),
+        ("dvl", "never knows how it moves"),
+        ("adcp", "never knows the flow"),
+        ("depth", "never knows its depth"),
     ] {
-        if lacks {
+        if !robot.sensors.has(name) {
             let problem = format!(
                 "robot \"{}\" searches without {name}: it {so}",
                 robot.id.as_str()

@@ -4,7 +4,7 @@ use super::fault::Found;
 use super::schema::RobotSpec;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::Vertical;
-use robots::sense::{Look, SensorsSpec};
+use robots::sense::{AdcpSpec, AltimeterSpec, DvlSpec, Look, RangingSpec, SensorsSpec};
 use robots::vehicles::Vehicle;
 use world::area::Area;
 use world::math;
@@ -71,7 +71,7 @@ impl Sounder {
 fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
     let above_m = |name: &str| vehicle.mount(name).map_or(0.0, |pose| pose.p_WB.z);
     let mut all = Vec::new();
-    all.extend(sensors.altimeter.as_ref().map(|s| Sounder {
+    all.extend(sensors.get::<AltimeterSpec>().map(|s| Sounder {
         name: "altimeter",
         up: false,
         above_m: above_m("altimeter"),
@@ -80,7 +80,7 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
         lacks: "without an altitude it keeps none",
         fields: ["min_range_m", "max_range_m"],
     }));
-    all.extend(sensors.dvl.as_ref().map(|s| Sounder {
+    all.extend(sensors.get::<DvlSpec>().map(|s| Sounder {
         name: "dvl",
         up: false,
         above_m: above_m("dvl"),
@@ -89,7 +89,7 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
         lacks: "without bottom lock it does not know how it moves",
         fields: ["min_altitude_m", "max_altitude_m"],
     }));
-    all.extend(sensors.adcp.as_ref().map(|s| Sounder {
+    all.extend(sensors.get::<AdcpSpec>().map(|s| Sounder {
         name: "adcp",
         up: s.look == Look::Up,
         above_m: above_m("adcp"),
@@ -190,7 +190,7 @@ fn start(
             found.push(Found::warning(&path, problem).hint(hint));
         }
     }
-    if let Some(ranging) = &robot.sensors.ranging {
+    if let Some(ranging) = robot.sensors.get::<RangingSpec>() {
         let ahead = robot.start.heading_deg.heading().unit();
         let least_m = ranging.min_range_m.get();
         let mount_m = robot.start.p_W(place.terrain);

@@ -94,7 +94,7 @@ fn robot_cost(
     let mut cost = Cost::of(hull.takes(steps * (VEHICLE_S[0] + waves * VEHICLE_S[1])));
     let looks = robot.strategy.flies_for().contains(&true);
     let obstacles = scenario.obstacles.len();
-    cost.add((robot.sensors.cost(obstacles, looks, times)).under("sensors"));
+    cost.add(robots::sense::cost(&robot.sensors, obstacles, looks, times).under("sensors"));
     if let Some(map) = &robot.map {
         cost.add(map.cost(times).under("map"));
     }

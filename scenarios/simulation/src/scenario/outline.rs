@@ -6,6 +6,9 @@
 
 use std::ops::Range;
 
+/// Most brackets within each other.
+pub(super) const DEEPEST: usize = 128;
+
 /// A field, an element of a list, or a positional value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Node {
@@ -105,38 +108,46 @@ impl Frame {
 impl Outline {
     /// Scans a text.
     pub fn of(text: &str) -> Self {
-        let mut nodes = Vec::new();
+        // Nothing deeper is read: its paths, each longer than the one around it, would fill the memory.
+        let (mut nodes, mut deeper) = (Vec::new(), Vec::new());
         let mut stack = vec![Frame::new(String::new(), None, false)];
         let mut at = 0;
         while at < text.len() {
             let rest = &text[at..];
             let token = at..at + token_len(rest);
+            let deep = stack.len() > DEEPEST;
+            let nodes = if deep { &mut deeper } else { &mut nodes };
             let top = stack.last_mut().expect("the root frame is never popped");
             match rest.as_bytes()[0] {
                 open @ (b'(' | b'[' | b'{') => {
                     let variant = top.start.is_some();
                     top.take(token.clone());
-                    let path = top.item_path(text);
+                    let path = if deep {
+                        String::new()
+                    } else {
+                        top.item_path(text)
+                    };
                     stack.push(Frame::new(path, Some((open as char, at)), variant));
                 }
                 b')' | b']' | b'}' => {
-                    top.finish(text, &mut nodes);
+                    top.finish(text, nodes);
                     if stack.len() > 1 {
                         stack.pop();
                         stack.last_mut().expect("checked").end = token.end;
                     }
                 }
-                b',' => top.finish(text, &mut nodes),
-                b':' => top.name(text, &mut nodes),
+                b',' => top.finish(text, nodes),
+                b':' => top.name(text, nodes),
                 _ if is_blank(rest) => {}
                 _ => top.take(token.clone()),
             }
             at = token.end;
         }
         let open = stack.iter().filter_map(|f| f.bracket).collect();
-        for frame in stack.iter_mut().rev() {
+        for (n, frame) in stack.iter_mut().enumerate().rev() {
             frame.end = text.trim_end().len().max(frame.end);
-            frame.finish(text, &mut nodes);
+            let nodes = if n < DEEPEST { &mut nodes } else { &mut deeper };
+            frame.finish(text, nodes);
         }
         Self { nodes, open }
     }
@@ -281,5 +292,15 @@ mod tests {
         let cut = TEXT.find("east_m").unwrap();
         let open: String = Outline::of(&TEXT[..cut]).open.iter().map(|o| o.0).collect();
         assert_eq!(open, "([(((".to_string());
+    }
+
+    #[test]
+    fn paths_of_brackets_without_end_stay_short() {
+        let n = 100_000;
+        let text = format!("({}1{})", "a: (".repeat(n), ")".repeat(n));
+        for text in [&text, &text[..text.len() - n]] {
+            let all: usize = Outline::of(text).nodes.iter().map(|n| n.path.len()).sum();
+            assert!(all < 1 << 16, "{all} bytes");
+        }
     }
 }

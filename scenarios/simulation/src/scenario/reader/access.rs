@@ -3,8 +3,30 @@
 use super::fail::{Fail, What};
 use super::tree::{Item, Kind};
 use super::value::Value;
-use serde::de::value::StrDeserializer;
-use serde::de::{DeserializeSeed, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor};
+use serde::de::{
+    DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
+};
+
+/// A name; what a type says to it is about the value that it stands in.
+struct Name<'n, 'a, 'b> {
+    of: Value<'a, 'b>,
+    name: &'n str,
+}
+
+impl Deserializer<'static> for Name<'_, '_, '_> {
+    type Error = Fail;
+
+    fn deserialize_any<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
+        let read = visitor.visit_str(self.name);
+        read.map_err(|e: Fail| self.of.about(e))
+    }
+
+    serde::forward_to_deserialize_any! {
+        <W: Visitor<'static>>
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct enum identifier ignored_any
+    }
+}
 
 /// Fields, by their names.
 pub(super) struct Fields<'a, 'b> {
@@ -25,7 +47,7 @@ impl MapAccess<'static> for Fields<'_, '_> {
             return Ok(None);
         };
         let name = item.key.as_deref().unwrap_or_default();
-        let key = seed.deserialize(StrDeserializer::<Fail>::new(name));
+        let key = seed.deserialize(Name { of: self.of, name });
         key.map(Some).map_err(|e| self.of.about(e))
     }
 
@@ -73,7 +95,10 @@ impl<'b, 'a> EnumAccess<'static> for Choice<'a, 'b> {
     type Variant = Self;
 
     fn variant_seed<V: DeserializeSeed<'static>>(self, seed: V) -> Result<(V::Value, Self), Fail> {
-        let variant = seed.deserialize(StrDeserializer::<Fail>::new(&self.name));
+        let variant = seed.deserialize(Name {
+            of: self.of,
+            name: &self.name,
+        });
         Ok((variant.map_err(|e| self.of.about(e))?, self))
     }
 }

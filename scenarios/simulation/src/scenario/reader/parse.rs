@@ -3,11 +3,9 @@
 use super::token::{Token, Tokens};
 use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name};
 use crate::scenario::fault::Found;
+use crate::scenario::outline::DEEPEST;
 use crate::scenario::outline::joined;
 use std::ops::Range;
-
-/// Deepest nesting of brackets.
-const DEEPEST: usize = 128;
 
 impl Tree {
     /// Reads a text. `None` where brackets are nested too deep.

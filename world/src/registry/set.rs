@@ -1,0 +1,186 @@
+//! What stands in a scenario where several things of a kind are named, each once: a struct with a field for each.
+
+use super::{Choice, Kind, Registry, Row, Takes, names};
+use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
+use serde::ser::SerializeStruct;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use std::fmt;
+
+/// Things of a kind, each at most once, in the order of the kind's rows. In files it is a struct; a field that is left out, or
+/// `None`, is a thing that is not there.
+pub struct Set<K: Kind>(Vec<Choice<K>>);
+
+impl<K: Kind> Set<K> {
+    /// This thing among the others, in the place of one of its name.
+    #[must_use]
+    pub fn with<S>(mut self, spec: S) -> Self
+    where
+        K: Takes<S>,
+    {
+        let new = Choice::<K>::new(spec);
+        self = self.without(new.name());
+        self.0.push(new);
+        self.sorted(&Registry::now().rows())
+    }
+
+    /// The others without the one of that name.
+    #[must_use]
+    pub fn without(mut self, name: &str) -> Self {
+        self.0.retain(|c| c.name() != name);
+        self
+    }
+
+    /// Whether there is one of that name.
+    #[must_use]
+    pub fn has(&self, name: &str) -> bool {
+        self.0.iter().any(|c| c.name() == name)
+    }
+
+    /// The one with parameters `S`.
+    #[must_use]
+    pub fn get<S: 'static>(&self) -> Option<&S> {
+        self.0.iter().find_map(Choice::get)
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> impl Iterator<Item = &Choice<K>> {
+        self.0.iter()
+    }
+
+    fn sorted(mut self, rows: &[Row<K>]) -> Self {
+        let place = |c: &Choice<K>| rows.iter().position(|r| r.entry.name == c.name());
+        self.0.sort_by_key(|c| place(c).unwrap_or(rows.len()));
+        self
+    }
+}
+
+impl<K: Kind> Default for Set<K> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<K: Kind> Clone for Set<K> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone())
+    }
+}
+
+impl<K: Kind> PartialEq for Set<K> {
+    fn eq(&self, other: &Self) -> bool {
+        self.0 == other.0
+    }
+}
+
+impl<K: Kind> fmt::Debug for Set<K> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple(K::NAME).field(&self.0).finish()
+    }
+}
+
+impl<K: Kind> Serialize for Set<K> {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        let mut all = to.serialize_struct(K::NAME, self.0.len())?;
+        for one in &self.0 {
+            all.serialize_field(one.name(), &one.parameters())?;
+        }
+        all.end()
+    }
+}
+
+impl<'de, K: Kind> Deserialize<'de> for Set<K> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let rows = Registry::now().rows::<K>();
+        let legal: Vec<&'static str> = rows.iter().map(|r| r.entry.name).collect();
+        let legal = names::kept(&legal);
+        from.deserialize_struct(K::NAME, legal, Fields { rows, legal })
+    }
+}
+
+/// Reads the fields.
+struct Fields<K: Kind> {
+    rows: Vec<Row<K>>,
+    legal: &'static [&'static str],
+}
+
+impl<'de, K: Kind> Visitor<'de> for Fields<K> {
+    type Value = Set<K>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "struct {}", K::NAME)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Set<K>, A::Error> {
+        let mut seen: Vec<&'static str> = Vec::new();
+        let mut set = Set::default();
+        while let Some(row) = map.next_key_seed(Name(&self))? {
+            let name = row.entry.name;
+            if seen.contains(&name) {
+                return Err(Error::duplicate_field(name));
+            }
+            seen.push(name);
+            set.0.extend(map.next_value_seed(Perhaps(row))?);
+        }
+        Ok(set.sorted(&self.rows))
+    }
+}
+
+/// Reads a field's name.
+struct Name<'r, K: Kind>(&'r Fields<K>);
+
+impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
+        from.deserialize_identifier(self)
+    }
+}
+
+impl<K: Kind> Visitor<'_> for Name<'_, K> {
+    type Value = Row<K>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("field identifier")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<Row<K>, E> {
+        let row = self.0.rows.iter().find(|r| r.entry.name == name);
+        row.copied()
+            .ok_or_else(|| E::unknown_field(name, self.0.legal))
+    }
+
+    fn visit_bytes<E: Error>(self, name: &[u8]) -> Result<Row<K>, E> {
+        self.visit_str(&String::from_utf8_lossy(name))
+    }
+}
+
+/// Reads a thing that may be left out.
+struct Perhaps<K: Kind>(Row<K>);
+
+impl<'de, K: Kind> DeserializeSeed<'de> for Perhaps<K> {
+    type Value = Option<Choice<K>>;
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
+        from.deserialize_option(self)
+    }
+}
+
+impl<'de, K: Kind> Visitor<'de> for Perhaps<K> {
+    type Value = Option<Choice<K>>;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("option")
+    }
+
+    fn visit_none<E: Error>(self) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_unit<E: Error>(self) -> Result<Self::Value, E> {
+        Ok(None)
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, from: D) -> Result<Self::Value, D::Error> {
+        self.0.deserialize(from).map(Some)
+    }
+}
