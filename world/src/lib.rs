@@ -2,6 +2,7 @@
 //!
 //! Knows no plume and no robot. World frame: ENU (x east, y north, z up), z = 0 at the still
 //! surface; in a flume x runs down-stream, y left, z up. Body frame: FLU (REP 103). SI units, radians.
+#![forbid(unsafe_code)]
 
 pub mod area;
 pub mod catalogue;

@@ -258,6 +258,24 @@ pub struct Decision {
     pub outcome: Option<Outcome>,
 }
 
+impl Decision {
+    /// Going for a goal, and nothing else.
+    #[must_use]
+    pub fn new(behaviour: Behaviour, goal: Goal) -> Self {
+        Self {
+            behaviour,
+            goal,
+            declared: None,
+            lost_points: Vec::new(),
+            planned: Arc::default(),
+            regions: Regions::default(),
+            layers: Arc::default(),
+            picture: false,
+            outcome: None,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -13,7 +13,6 @@ use crate::handoff::{
     Behave, Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, PlumeMemory, Setting,
     Stride, Vertical,
 };
-use std::sync::Arc;
 use world::catalogue::Entry;
 use world::registry::Listed;
 use world::seeds::Stream;
@@ -84,20 +83,15 @@ impl Strategy for OpenLoop {
             stern_rad: 0.0,
             rpm: 0.0,
         };
+        let behaviour = if self.over {
+            Behaviour::Done
+        } else {
+            Behaviour::OpenLoop
+        };
+        let goal = self.goal.unwrap_or_else(|| direct(0, still, seen));
         Decision {
-            behaviour: if self.over {
-                Behaviour::Done
-            } else {
-                Behaviour::OpenLoop
-            },
-            goal: self.goal.unwrap_or_else(|| direct(0, still, seen)),
-            declared: None,
-            lost_points: Vec::new(),
-            planned: Arc::default(),
-            regions: Default::default(),
-            layers: Default::default(),
-            picture: false,
             outcome: self.over.then_some(Outcome::Completed),
+            ..Decision::new(behaviour, goal)
         }
     }
 }

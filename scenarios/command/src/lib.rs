@@ -1,4 +1,5 @@
 //! The command `rheotaxis`: what it is asked, and what it answers.
+#![forbid(unsafe_code)]
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
@@ -50,16 +51,24 @@ use clap::Parser;
 use rheotaxis::scenario::cost;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
+use world::registry::Registry;
 
 /// The whole command, from its arguments to its exit code.
 #[must_use]
 pub fn main() -> ExitCode {
+    main_with(&Registry::default())
+}
+
+/// The same for a crate that adds strategies, currents or sensors of its own: `run`, `check`, `list`, `explain` and
+/// campaigns then know them.
+#[must_use]
+pub fn main_with(registry: &Registry) -> ExitCode {
     say::set_up();
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
     let Args { command, memory } = Args::parse();
     cost::set_limit(memory);
     // A broken assumption has said so by now, with its cure: an error like any other to the shell.
-    guarded(|| dispatch(command)).into()
+    guarded(|| registry.scope(|| dispatch(command))).into()
 }
 
 fn guarded(work: impl FnOnce() -> Exit) -> Exit {

@@ -4,6 +4,7 @@
 //! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`record`]
 //! records them, [`figures`] draws them, and [`report`] puts them into a folder. [`live`] is the only place that uses
 //! zenoh.
+#![forbid(unsafe_code)]
 
 pub mod charts;
 pub mod figures;

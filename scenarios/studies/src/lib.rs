@@ -1,4 +1,5 @@
 //! Many runs: campaigns, the papers' figures reproduced, statistics of plumes, scores of pictures.
+#![forbid(unsafe_code)]
 
 pub mod campaign;
 pub mod reproduce;

@@ -4,10 +4,12 @@ use super::error::CampaignError;
 use super::overrides::put;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use rayon::prelude::*;
-use rheotaxis::scenario::{Fault, Loaded, Outline, ScenarioError, parse};
+use rheotaxis::scenario::{Fault, Loaded, Outline, ScenarioError, parse_with};
+use std::collections::BTreeSet;
 use std::path::PathBuf;
 use world::digest::Digest;
 use world::math;
+use world::registry::Registry;
 use world::seeds::Stream;
 
 /// A campaign, read and laid out.
@@ -25,6 +27,8 @@ pub struct Campaign {
     pub hash: String,
     /// The scenario that arms and conditions change.
     pub base: Loaded,
+    /// What its scenarios may ask for beside what comes with the program.
+    registry: Registry,
 }
 
 /// The position of a run in its campaign.
@@ -55,6 +59,7 @@ impl Campaign {
             text: text.to_string(),
             hash: hash(text),
             base,
+            registry: Registry::now(),
         })
     }
 
@@ -150,6 +155,19 @@ impl Campaign {
     /// # Errors
     /// If a path leads nowhere, or the scenario does not allow a value; both name the arm.
     pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
+        let (shown, text) = self.text_of(condition, arm)?;
+        Ok(Loaded {
+            scenario: parse_with(&self.registry, &shown, &text)?,
+            path: PathBuf::from(shown),
+            name: self.base.name.clone(),
+            base_dir: self.base.base_dir.clone(),
+            hash: hash(&text),
+            text,
+        })
+    }
+
+    /// What errors call the scenario of an arm under a condition, and its text.
+    fn text_of(&self, condition: u64, arm: usize) -> Result<(String, String), CampaignError> {
         let named = self.condition_name(condition);
         let mut shown = format!("{} (arm {}", self.base.name, self.arm(arm).name);
         if !named.is_empty() {
@@ -165,14 +183,7 @@ impl Campaign {
                 problem,
             })?;
         }
-        Ok(Loaded {
-            scenario: parse(&shown, &text)?,
-            path: PathBuf::from(shown),
-            name: self.base.name.clone(),
-            base_dir: self.base.base_dir.clone(),
-            hash: hash(&text),
-            text,
-        })
+        Ok((shown, text))
     }
 
     /// The time limit of its missions, s; the shortest, if arms or conditions set it.
@@ -206,13 +217,28 @@ impl Campaign {
     pub fn check(&self) -> Result<(), CampaignError> {
         let arms = self.spec.arms.len();
         let variants = self.spec.n_conditions() * arms as u64;
+        let place = |i: u64| (i / arms as u64, (i % arms as u64) as usize);
+        // Draws from a few values make the same scenario again and again: each is checked once.
+        let hash_of = |(condition, arm)| Ok(hash(&self.text_of(condition, arm)?.1));
+        let hashes: Vec<(u64, Result<String, CampaignError>)> = (0..variants)
+            .into_par_iter()
+            .map(|i| (i, hash_of(place(i))))
+            .collect();
+        let mut known = BTreeSet::new();
+        let new = |(_, hash): &(u64, Result<String, CampaignError>)| {
+            hash.as_ref()
+                .map_or(true, |hash| known.insert(hash.clone()))
+        };
+        let new: Vec<_> = hashes.into_iter().filter(new).collect();
         let one = |i: u64| -> Result<(), CampaignError> {
-            let loaded = self.loaded(i / arms as u64, (i % arms as u64) as usize)?;
+            let loaded = self.loaded(place(i).0, place(i).1)?;
             loaded.check().map(drop).map_err(ScenarioError::into)
         };
-        let first = (0..variants)
-            .into_par_iter()
-            .filter_map(|i| one(i).err().map(|e| (i, e)))
+        let first = (new.into_par_iter())
+            .filter_map(|(i, hash)| {
+                let found = hash.and_then(|_| one(i));
+                found.err().map(|e| (i, e))
+            })
             .min_by_key(|(i, _)| *i);
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
