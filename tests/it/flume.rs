@@ -2,6 +2,7 @@
 
 use crate::common;
 use std::path::Path;
+use world::registry::Registry;
 
 /// The crab's flume, cut short: the plume is on its way, the head in its first sweep.
 pub(crate) fn short_flume(dir: &Path) -> std::path::PathBuf {
@@ -67,7 +68,8 @@ fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
 fn list_explains_the_tracker_and_the_gantry() {
     let algorithms = common::rheotaxis(&["list", "algorithms"]).stdout;
     let algorithms = String::from_utf8(algorithms).unwrap();
-    for unit in robots::track::UNITS.iter().chain(robots::track::STRATEGIES) {
+    let searchers = Registry::default().entries::<robots::track::GantryStrategies>();
+    for unit in robots::track::UNITS.iter().chain(&searchers) {
         assert!(algorithms.contains(unit.what), "{}", unit.name);
         assert!(algorithms.contains(unit.source), "{}", unit.name);
     }

@@ -12,6 +12,7 @@ mod golden;
 mod interrupt;
 mod live;
 mod memory;
+mod ocean;
 mod outputs;
 mod planning;
 mod rejection;
