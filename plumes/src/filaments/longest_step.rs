@@ -80,7 +80,7 @@ impl SharpestMixing {
             // Steady water is the same at all times.
             columns.extend(sharpest.filter(|s| columns.iter().all(|c| c.profile != s.profile)));
         }
-        let across_m = area.length_m.hypot(area.width_m);
+        let across_m = Vector2::new(area.length_m, area.width_m).norm();
         Self {
             columns,
             stay_s: across_m / slowest_m_s,

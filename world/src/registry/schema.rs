@@ -18,6 +18,7 @@ impl<K: Kind> JsonSchema for Choice<K> {
                 json_schema!({
                     "type": "object",
                     "description": row.entry.what,
+                    "x-what": row.entry.what,
                     "x-source": row.entry.source,
                     "properties": { name: parameters },
                     "required": [name],
@@ -42,6 +43,7 @@ impl<K: Kind> JsonSchema for Set<K> {
                 let parameters = (row.schema)(generator);
                 let field = json_schema!({
                     "description": row.entry.what,
+                    "x-what": row.entry.what,
                     "x-source": row.entry.source,
                     "anyOf": [parameters, { "type": "null" }],
                     "default": null,
