@@ -20,7 +20,7 @@ const RUNS: [(&str, u64, f64, f64, &str); 13] = [
     (
         "uniform_channel",
         1,
-        1e4,
+        300.0,
         60.0,
         "the adaptive mission planner",
     ),

@@ -1,6 +1,6 @@
 //! The ocean of a run: place, water and plume. It goes its way whoever searches in it.
 //!
-//! Searchers read it and never write to it: only [`system::drift`] and the spin-up do. So runs whose oceans have the
+//! Searchers read it and never write to it: only `system::drift` and the spin-up do. So runs whose oceans have the
 //! same [`Origin`] have the same ocean, bit for bit.
 
 mod origin;
