@@ -1,18 +1,18 @@
-//! The behaviours by name: each place in a strategy is a kind of its own, with a row for each that can fill it.
+//! The behaviours by name. Each place for a behaviour in a strategy has its own list of behaviours that can fill it.
 
+use super::Behave;
 use super::{cloverleaf, find, reacquire, track_in, track_out};
 use crate::error::RobotError;
-use crate::handoff::Behave;
 use world::catalogue::Entry;
 use world::kind;
 use world::registry::Spec;
 
 /// Parameters of a behaviour.
 pub trait BehaviourParams: Spec {
-    /// The behaviour, ready to be entered.
+    /// Builds the behaviour.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when a parameter makes no sense.
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
     fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
 }
 
@@ -28,7 +28,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to go on in the plume.
+    /// Ways to follow the plume.
     pub TrackInSpec = TracksIn of BehaviourParams {
         heading: HEADING,
         rows: [track_in::Params],
@@ -37,7 +37,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to act just after losing it.
+    /// Ways to act just after losing the plume.
     pub TrackOutSpec = TracksOut of BehaviourParams {
         heading: HEADING,
         rows: [track_out::Params],
@@ -46,7 +46,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to look round where it was lost.
+    /// Ways to search around the places where the plume was lost.
     pub ReacquireSpec = Reacquires of BehaviourParams {
         heading: HEADING,
         rows: [reacquire::Params, cloverleaf::Params],
@@ -54,7 +54,7 @@ kind! {
     }
 }
 
-/// Behaviours that strategies have by themselves: no scenario chooses them by name.
+/// Behaviours that belong to strategies; no scenario chooses them by name.
 pub const PARTS: &[Entry] = &[
     Entry {
         name: "GoTo",

@@ -4,9 +4,11 @@
 //!
 //! *Parameters*: the place.
 //!
-//! *Deviations*: none. Whether detections count on the way is the strategy's matter.
+//! *Deviations*: none. The strategy decides whether detections count on the way.
 
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use super::{Behave, Stride};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 

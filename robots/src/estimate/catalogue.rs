@@ -1,4 +1,4 @@
-//! The estimators a scenario can choose.
+//! The estimators that a scenario can choose.
 
 use world::catalogue::Entry;
 

@@ -4,17 +4,17 @@
 //!
 //! *Parameters*: width of the cage's edge, `cage_m`, m, 5; abort distance, `abort_outside_m`, m, 30.
 //!
-//! *Deviations*: eq. 12 takes out the component along N whatever its sign, which would also hold back a
-//! vehicle heading inward: here only an outward one (V·N > 0) is touched. Eq. 11 and 13 order north and
-//! east differently: here (east, north) throughout. In a corner both edges act. When nothing is left of
-//! the command (straight outward at the edge) the inward normal is taken.
+//! *Deviations*: eq. 12 removes the component along N whatever its sign, which would also hold back a vehicle heading
+//! inward: here only an outward component (V·N > 0) is changed. Eq. 11 and 13 order north and east differently: here
+//! the order is (east, north) throughout. In a corner both edges act. If nothing is left of the command (straight
+//! outward at the edge), the course is the inward normal.
 
-use crate::handoff::edges;
+use crate::places::edges;
 use nalgebra::Vector2;
 use world::area::Area;
 use world::units::Heading;
 
-/// What the cage says to a commanded course at `position`: the course to take.
+/// The course to take instead of a commanded course at `position`.
 pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m: f64) -> Heading {
     let (nearest_m, normal) = area.edge_distance(position);
     if nearest_m < 0.0 {

@@ -13,7 +13,7 @@ use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
 
-/// A mapper: takes in an observation a tick, and believes.
+/// A mapper: takes in one observation per tick and holds a belief.
 pub trait Mapper: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &MapObservation);
@@ -23,13 +23,13 @@ pub trait Mapper: std::fmt::Debug + Send + Sync {
 
 /// Parameters of a mapper.
 pub trait MapParams: Spec {
-    /// The mapper, ready for its first tick; `rng` is the robot's own stream for its map.
+    /// Builds the mapper; `rng` is the robot's own stream for its map.
     ///
     /// # Errors
     /// [`RobotError::Invalid`], with the field below `map`.
     fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError>;
 
-    /// That its cells and its look-back are as many as a mapper can have, without making any.
+    /// Checks that the mapper can hold so many cells and such a look-back, without building anything.
     ///
     /// # Errors
     /// [`RobotError::Invalid`], with the field below `map`.

@@ -1,4 +1,4 @@
-//! The parts by name.
+//! The parameters of the survey's parts, by name.
 
 use world::catalogue::Entry;
 

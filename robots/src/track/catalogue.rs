@@ -2,7 +2,7 @@
 
 use world::catalogue::Entry;
 
-/// Units of the tracker that can be chosen, named as in RON; those without a choice follow from them.
+/// Units of the tracker that can be chosen, with their names in RON; the other units follow from them.
 pub const UNITS: &[Entry] = &[
     Entry {
         name: "sweep",

@@ -1,4 +1,4 @@
-//! What the tracker's units pass to each other.
+//! What the tracker's units hand to each other.
 
 use crate::handoff::MAX_PROBES;
 use nalgebra::Vector2;
@@ -75,7 +75,7 @@ impl Tally {
     }
 }
 
-/// What the short-term history says of the period since the previous decision.
+/// What the short-term history knows of the period since the previous decision.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepRecord {
     /// Its length, s.
@@ -84,7 +84,7 @@ pub struct StepRecord {
     pub spikes: usize,
     /// Weighted mean magnitude of the spikes, V; zero without spikes.
     pub mean_v: f64,
-    /// The same in the period before; `None` in the first.
+    /// The same in the period before; `None` in the first one.
     pub previous_v: Option<f64>,
     /// What the predictor expected of this period, V.
     pub predicted_v: Option<f64>,

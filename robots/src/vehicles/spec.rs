@@ -1,4 +1,4 @@
-//! What a scenario says of a vehicle.
+//! Parameters of a vehicle.
 
 use super::coefficients::ParameterSet;
 use schemars::JsonSchema;
@@ -25,7 +25,7 @@ impl Default for VehicleSpec {
 pub struct RemusSpec {
     /// Hull parameters: `remus100` or `reference`.
     pub parameters: ParameterSet,
-    /// URDF file, relative to the scenario file; `None`: the one built in.
+    /// URDF file, relative to the scenario file; `None`: the built-in one.
     pub urdf: Option<String>,
 }
 

@@ -18,8 +18,7 @@ use rheotaxis::abnormal::Abnormals;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::GantryBlock;
-use rheotaxis::scenario::Loaded;
+use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
@@ -283,7 +282,7 @@ fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
         .max_by(f64::total_cmp);
     let info = |block: &GantryBlock| {
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &loaded.base_dir).map_err(|source| {
+        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).map_err(|source| {
             AssembleError::Robot {
                 id: id.clone(),
                 source,

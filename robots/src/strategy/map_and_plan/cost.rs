@@ -1,18 +1,19 @@
-//! What map and plan will hold and do; the unit costs are measured as `world::cost` says.
+//! Predicts the memory and time of map and plan; the unit costs are measured as `world::cost` says.
 
 use super::spec::MapAndPlanSpec;
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
 
-/// Memory of a cell of a planner's room with the planner's own, bytes; time to chart it, and for each obstacle, s.
+/// Memory of a cell of a planner's room, with the planner's own, bytes; time to chart a cell, and for each obstacle,
+/// s.
 const CELL_BYTES: f64 = 60.0;
 /// See above.
 const CHART_S: [f64; 2] = [50e-9, 100e-9];
 /// Memory of a cell's distance from a solid one, bytes.
 const NEAR_BYTES: f64 = 16.0;
-/// Time of a plan for each cell of the room, s: most plans open a small part of it.
+/// Time of a plan per cell of the room, s: most plans open a small part of it.
 const PLAN_S: f64 = 8e-9;
-/// Time of a step looking ahead on a few courses, s.
+/// Time for a step of looking ahead on a few courses, s.
 const LOOK_S: f64 = 120e-9;
 
 impl MapAndPlanSpec {

@@ -1,4 +1,5 @@
-//! From the layers of a scenario to layers that can work together: which may be missing, and which order makes sense.
+//! Turns the layers of a scenario into layers that work together: checks which ones are missing, and that their order
+//! makes sense.
 
 use super::ask::Kind;
 use super::maintain::Maintain;
@@ -33,7 +34,7 @@ pub(super) struct Layers {
     pub(super) go_home: Option<GoHome>,
 }
 
-/// Which layer must stand above which, and why.
+/// Which layer must be above which other, and why.
 const ABOVE: &[(Kind, Kind, &str)] = &[
     (
         Kind::Maintain,
@@ -201,11 +202,11 @@ impl Layers {
     }
 }
 
-/// A part's error with the layer it is in: `reacquire.Bowtie.angle_deg` becomes `layers[2].angle_deg`.
+/// The error of a part, named with its layer: `reacquire.Bowtie.angle_deg` becomes `layers[2].angle_deg`.
 fn within(layer: usize, error: RobotError) -> RobotError {
     match error {
         RobotError::Invalid { field, problem } => {
-            // What a layer consists of one part only is not named in its path; Maintain's two parts are.
+            // A layer that has a single part does not name the part in its path; Maintain's two parts are named.
             let inner = ["find.", "reacquire.", "declare.", "avoid."]
                 .iter()
                 .find_map(|part| field.strip_prefix(part))

@@ -1,4 +1,4 @@
-//! Which compositions are refused, and how the map comes in.
+//! Which compositions are refused, and how the map takes part.
 
 use super::testing::{
     Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said, setting,
@@ -25,7 +25,7 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
         (point - Vector2::new(50.0, 70.0)).norm() < 10.0,
         "{point:?}"
     );
-    // The obstacle comes before the map, although the layer stands below it.
+    // The obstacle has priority over the map, although its layer is lower.
     d.obstacle = true;
     assert_eq!(said(&d.quiet(0.0)), "s...Hs.");
     d.obstacle = false;
@@ -36,7 +36,7 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
         (said(&there).as_str(), there.behaviour),
         ("H......", Behaviour::Find)
     );
-    // The same place again is no news, another one is, and so is the same after a detection.
+    // The same place again is nothing new; another place is, and so is the same place after a detection.
     assert_eq!(said(&d.quiet(71.0)), "H......");
     d.map = Some(Vector2::new(50.0, 200.0));
     assert_eq!(said(&d.quiet(72.0)), "s....H.");

@@ -3,7 +3,7 @@
 use super::frame::Log;
 use super::{Guiding, Hull, Instruments, Mapping, Navigation, Searching, Steering};
 use crate::abnormal::Lookout;
-use crate::scenario::RobotSpec;
+use crate::scenario::{Beside, RobotSpec};
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{Entity, World};
 use nalgebra::Vector2;
@@ -38,7 +38,7 @@ pub(crate) fn spawn(
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
-    let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
+    let vehicle = Vehicle::load(&spec.vehicle, &Beside(base_dir))?;
     let body = physics.add_body(vehicle.body_spec(id, truth));
     let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
     let fix_noise_m = spec.start.fix_noise_m.get();

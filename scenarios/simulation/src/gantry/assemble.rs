@@ -1,7 +1,7 @@
 //! Puts a gantry into the world.
 
 use super::system::{Head, Rig, Searcher};
-use crate::scenario::GantryBlock;
+use crate::scenario::{Beside, GantryBlock};
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{Entity, World};
 use nalgebra::Vector2;
@@ -25,7 +25,7 @@ pub(crate) fn spawn(
 ) -> Result<Entity, RobotError> {
     let id = block.id.as_str();
     let dt_s = physics.dt_s();
-    let gantry = Gantry::load(&block.gantry, base_dir)?;
+    let gantry = Gantry::load(&block.gantry, &Beside(base_dir))?;
     gantry.check_step(dt_s)?;
     let layout = block.layout(&gantry);
     let base = block.base(terrain);

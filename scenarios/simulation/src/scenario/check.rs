@@ -1,5 +1,6 @@
 //! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
 
+use super::beside::Beside;
 use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
@@ -286,7 +287,7 @@ fn parts(
     found: &mut Vec<Found>,
 ) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
-    match Vehicle::load(&robot.vehicle, base_dir) {
+    match Vehicle::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
                 found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));

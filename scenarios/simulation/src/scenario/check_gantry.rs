@@ -1,5 +1,6 @@
 //! What can be wrong with a gantry before a run, each with the field's path.
 
+use super::beside::Beside;
 use super::fault::Found;
 use super::gantry::GantryBlock;
 use robots::error::RobotError;
@@ -20,7 +21,7 @@ pub(crate) fn check(
     found: &mut Vec<Found>,
 ) {
     let path = format!("gantries[{i}]");
-    let gantry = match Gantry::load(&block.gantry, base_dir) {
+    let gantry = match Gantry::load(&block.gantry, &Beside(base_dir)) {
         Ok(gantry) => gantry,
         Err(e) => return found.push(fault(&path, "gantry", e)),
     };

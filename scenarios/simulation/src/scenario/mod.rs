@@ -1,5 +1,6 @@
 //! Scenario files: schema, reading, checking; errors that point at the place.
 
+mod beside;
 mod catalog;
 mod check;
 mod check_able;
@@ -22,6 +23,7 @@ mod success;
 mod told;
 mod unread;
 
+pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
 pub use check::within;
 pub use check::{check, check_within};
