@@ -16,11 +16,11 @@
 //! rpm = n_ff U_d + K_n ∫(U_d − U)
 //! ```
 //!
-//! *Deviations:* integrals stand still while their output is at its limit, and the heading's also while the
-//! heading is more than 10° off, so that a turn winds nothing up. A heading asked for that itself turns, as in a
-//! circle, leaves a small error standing for minutes; the heading's integral is therefore also bounded to what
-//! it is there for, a rudder's trim, or it ends as the rudder of the circle and holds the next turn back. Without a flow estimate the speed is fed
-//! forward only. Without an altitude the vehicle stays level.
+//! *Deviations:* integrals are frozen while their output is at its limit. The heading's integral is also frozen while the
+//! heading is more than 10° off, so that it does not wind up in a turn. A commanded heading that turns steadily, as in a
+//! circle, leaves a small error for minutes. The heading's integral is therefore also limited to its purpose, the trim of a
+//! rudder; otherwise it would take over the rudder angle of the circle and delay the next turn. Without a flow estimate the
+//! speed is only fed forward. Without an altitude the vehicle stays level.
 
 use super::spec::AutopilotSpec;
 use crate::handoff::{ActuatorCommand, Command, Estimate, Setpoint, Vertical};

@@ -301,7 +301,7 @@ mod tests {
         // A wall that goes on to the left: to the right, though most of it is straight ahead or left.
         let wall: Vec<_> = (-12..3).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
         assert!(turn_deg(avoid(Params::default()).step(&ping(0.0, &wall), &north())) > 0.0);
-        // All round: right about.
+        // Echoes all round: turn back.
         let ring: Vec<_> = (0..72).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
         let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &ring), &north()));
         assert!((t.abs() - 180.0).abs() < 1e-9, "{t}");

@@ -85,7 +85,7 @@ pub struct Cloverleaf {
     leaves: u32,
     leaf_m: f64,
     arrive_m: f64,
-    /// Corners begun since it was entered.
+    /// Corners started since it was entered.
     begun: u32,
     /// Direction of the first line: down-flow turned by half a leaf; and the sense of the turns.
     first: Heading,
@@ -326,7 +326,7 @@ mod tests {
             b.step(&o, true, &mut m, &mut rng),
             Stride::Start(_)
         ));
-        // Entered again it begins again.
+        // When it is entered again, it starts again.
         b.enter(&o, &m);
         assert!(matches!(
             b.step(&o, false, &mut m, &mut rng),

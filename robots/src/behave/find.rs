@@ -38,7 +38,7 @@ const OUTWARD: f64 = 0.01;
 /// Where the search begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum From {
-    /// Where the vehicle is.
+    /// At the vehicle's place.
     #[default]
     Here,
     /// At the most down-flow corner of the area, whenever the search begins.
@@ -70,7 +70,7 @@ impl Default for Params {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
-    /// Nothing asked yet.
+    /// No goal given yet.
     Begin,
     /// On the way to the corner.
     ToCorner,
@@ -257,7 +257,7 @@ impl Behave for ZigZag {
     }
 }
 
-/// Mirrored at every edge it runs against.
+/// Reflected at every edge that it runs against.
 fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
     near.iter().fold(course, |c, n| {
         let out = c.dot(n);
@@ -265,7 +265,7 @@ fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
     })
 }
 
-/// How far a course runs before an edge, m.
+/// How far a course runs before it meets an edge, m.
 fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
     let c = course.unit();
     edges(area, p)

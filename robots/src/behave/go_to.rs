@@ -12,7 +12,7 @@ use crate::memory::PlumeMemory;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 
-/// State of a run to a place.
+/// State of going to a place.
 #[derive(Clone, Copy, Debug)]
 pub struct GoTo {
     point: Vector2<f64>,

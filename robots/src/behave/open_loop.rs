@@ -50,7 +50,7 @@ pub struct TimeTableParams {
     pub end_s: Positive,
 }
 
-/// State of a run through the table.
+/// State of a pass through the table.
 #[derive(Clone, Debug)]
 pub struct TimeTable {
     params: TimeTableParams,

@@ -36,9 +36,9 @@ use world::units::Heading;
 #[schemars(rename = "UpAcrossParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
-    /// L_u: up-flow of the point, m.
+    /// L_u: distance up-flow of the point, m.
     pub up_m: NonNegative,
-    /// L_c: across the flow from it, m.
+    /// L_c: distance across the flow from the point, m.
     pub across_m: NonNegative,
     /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,

@@ -127,7 +127,7 @@ mod tests {
             found(&rule, &[at(0.0, 0.0), at(0.0, 2.0), at(0.0, 4.0)], north),
             None
         );
-        // Two are not three.
+        // Two points where three are needed.
         assert_eq!(found(&rule, &near[1..3], north), None);
         assert_eq!(found(&rule, &[], north), None);
     }
@@ -149,7 +149,7 @@ mod tests {
         );
         // From the south the first three are 50, 98, 99: 49 m apart.
         assert_eq!(found(&rule, &points, Heading::from_deg(180.0)), None);
-        // From the side all lie abreast.
+        // Seen from the side, all lie side by side.
         assert!(found(&rule, &points, Heading::from_deg(90.0)).is_some());
     }
 

@@ -23,7 +23,7 @@ pub enum Points {
 }
 
 impl Points {
-    /// Those of a searcher.
+    /// Those points of a searcher.
     #[must_use]
     pub fn of(self, memory: &PlumeMemory) -> &[Lcdp] {
         match self {
@@ -40,7 +40,7 @@ pub trait DeclareParams: Spec {
         Points::Lcdps
     }
 
-    /// So many of them there must be.
+    /// The least number of points that it needs.
     fn needs(&self) -> NonZeroUsize;
 
     /// The source's place (east, north), m, and its evidence, if the points show it.
@@ -86,7 +86,7 @@ pub trait DeclareParams: Spec {
     }
 }
 
-/// A rule on a map at work.
+/// State of a rule on a map.
 pub trait BeliefRule: std::fmt::Debug + Send + Sync {
     /// The source's place (ENU, m), if the map shows it at `t_s`.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>>;
@@ -94,7 +94,7 @@ pub trait BeliefRule: std::fmt::Debug + Send + Sync {
 
 /// Parameters of a rule on a map.
 pub trait BeliefRuleParams: Spec {
-    /// The rule, nothing seen yet.
+    /// Builds the rule before its first tick.
     fn build(&self) -> Box<dyn BeliefRule>;
 }
 

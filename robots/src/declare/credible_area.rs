@@ -25,7 +25,7 @@ use world::registry::Listed;
 pub struct Params {
     /// Greatest size of the 95 % region, m² (m³ in a map of space).
     pub below: Positive,
-    /// For this long, s.
+    /// How long it must have been so, s.
     pub for_s: NonNegative,
 }
 
@@ -60,7 +60,7 @@ pub struct CredibleArea {
 }
 
 impl CredibleArea {
-    /// Nothing seen yet.
+    /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
         Self {

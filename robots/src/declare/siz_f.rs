@@ -31,7 +31,7 @@ use world::units::Heading;
 pub struct SizF {
     /// Greatest distance from the mean, m.
     pub size: ZoneSize,
-    /// N_min: so many must be left.
+    /// N_min: the number of points that must be left.
     pub points: NonZeroUsize,
     /// N_ini: the number of points that there must be before anything is declared.
     pub initial: NonZeroUsize,
@@ -137,14 +137,14 @@ mod tests {
             found(&rule(1.5, 3), 0.0, &places),
             Some(Vector2::new(0.0, 101.0))
         );
-        // Four are not left within 1.5 m.
+        // Fewer than four points are left within 1.5 m.
         assert_eq!(found(&rule(1.5, 4), 0.0, &places), None);
         // 60, 99, 100, 101 within 30 m of their mean, 90: found with four.
         assert_eq!(
             found(&rule(30.0, 4), 0.0, &places),
             Some(Vector2::new(0.0, 101.0))
         );
-        // Just as far as the size will do.
+        // A distance equal to the size is enough.
         assert_eq!(
             found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]),
             Some(Vector2::new(0.0, 4.0))

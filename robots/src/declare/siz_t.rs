@@ -32,7 +32,7 @@ use world::units::Heading;
 pub struct SizT {
     /// Greatest diagonal of the points' bounding box (axes east and north), m.
     pub size: ZoneSize,
-    /// N_dec: how many points are looked at.
+    /// N_dec: number of points considered.
     pub points: NonZeroUsize,
     /// Which ones.
     pub order: Order,
@@ -149,7 +149,7 @@ mod tests {
         );
         // 3 by 5 m: sqrt(34) = 5.83.
         assert_eq!(found(&rule(5.8, 3), &places), None);
-        // The fourth is 80 m off.
+        // The fourth is 80 m away.
         assert_eq!(found(&rule(5.9, 4), &places), None);
         // A diagonal exactly as long as the size is enough: 3, 4, 5.
         let just = [(0.0, 0.0), (3.0, 4.0)];
@@ -160,7 +160,7 @@ mod tests {
     fn degenerate_clusters() {
         assert_eq!(found(&rule(4.0, 3), &[]), None);
         assert_eq!(found(&rule(4.0, 3), &[(1.0, 1.0), (1.0, 1.0)]), None);
-        // All in one place; all in a line.
+        // All in one place; all on a line.
         assert_eq!(
             found(&rule(1e-9, 3), &[(1.0, 1.0); 3]),
             Some(Vector2::new(1.0, 1.0))

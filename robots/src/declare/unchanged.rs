@@ -54,7 +54,7 @@ pub struct Unchanged {
 }
 
 impl Unchanged {
-    /// Nothing seen yet.
+    /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
         Self {

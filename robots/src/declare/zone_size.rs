@@ -31,7 +31,7 @@ const MAD_TO_SCALE: f64 = 1.482_602_218_505_602;
 pub enum ZoneSize {
     /// ε, m, in the meaning of the rule: a diagonal for `SizT`, a radius for `SizF`.
     Fixed(Positive),
-    /// By the scatter of the points.
+    /// Follows the scatter of the points.
     Adaptive(AdaptiveSize),
 }
 
@@ -160,7 +160,7 @@ mod tests {
         // Median 2, deviations 2 1 0 1 98: median 1, so sigma = 1.4826; times sqrt(-2 ln 0.05) = 2.4477.
         let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 0.0);
         assert!((r - 1.482_602_2 * 2.447_746_8).abs() < 1e-6, "{r}");
-        // A fix that errs by 5 m is the greater.
+        // The error of a fix, 5 m, is the greater one.
         let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 5.0);
         assert!((r - 5.0 * 2.447_746_8).abs() < 1e-6, "{r}");
         // Bounds: nothing scattered, everything scattered; no point at all.

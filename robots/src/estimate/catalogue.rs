@@ -2,7 +2,7 @@
 
 use world::catalogue::Entry;
 
-/// One row an estimator.
+/// One row per estimator.
 pub const CATALOGUE: &[Entry] = &[Entry {
     name: "DeadReckoning",
     what: "Compass and Doppler log integrated, long-baseline fixes as jumps; flow as ground velocity plus relative water velocity, low-passed.",

@@ -28,7 +28,7 @@ use world::ranges::{Fraction, NonNegative};
 pub struct DeadReckoningSpec {
     /// Share of the distance to a fix by which the position jumps.
     pub fix_gain: Fraction,
-    /// Time constant of the flow's low-pass, s.
+    /// Time constant of the flow's low-pass filter, s.
     pub flow_filter_s: NonNegative,
     /// Take the flow only from the vehicle's own water layer, which a CTD tells.
     pub layer_aware: Option<LayerAwareSpec>,
@@ -44,7 +44,7 @@ impl Default for DeadReckoningSpec {
     }
 }
 
-/// Dead reckoning at work.
+/// State of dead reckoning.
 #[derive(Clone, Debug)]
 pub struct DeadReckoning {
     fix_gain: f64,

@@ -23,7 +23,7 @@ impl Default for EstimatorSpec {
 }
 
 impl EstimatorSpec {
-    /// It needs a CTD on board.
+    /// Whether it needs a CTD on board.
     #[must_use]
     pub fn needs_ctd(&self) -> bool {
         match self {
@@ -32,7 +32,7 @@ impl EstimatorSpec {
     }
 }
 
-/// What the vehicle is told of its state at launch.
+/// What the vehicle knows of its state at launch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Position (east, north), m.
@@ -43,7 +43,7 @@ pub struct Start {
     pub depth_m: f64,
 }
 
-/// An estimator at work.
+/// State of an estimator.
 #[derive(Component, Clone, Debug)]
 pub enum Estimator {
     /// Compass, Doppler log and long-baseline jumps.

@@ -25,7 +25,7 @@ use world::ranges::Positive;
 /// bin.
 const SMOOTH_S: f64 = 1.0;
 
-/// Parameters of telling layers apart.
+/// Parameters of the layer test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerAwareSpec {
@@ -77,7 +77,7 @@ impl LayerWatch {
         }
     }
 
-    /// Takes in a reading made at a depth.
+    /// Takes in a reading at a depth.
     pub(super) fn take_in(&mut self, t_s: f64, depth_m: f64, density_kg_m3: f64) {
         self.here = Some(density_kg_m3);
         let k = (depth_m / self.bin_m).floor() as i64;
@@ -112,7 +112,7 @@ impl LayerWatch {
         }
     }
 
-    /// The flow was measured now.
+    /// Records that the flow has just been measured.
     pub(super) fn measured(&mut self) {
         self.measured_in = self.here;
     }
@@ -184,7 +184,7 @@ mod tests {
         // Ten minutes at 3 m.
         (0..6100).for_each(|k| w.take_in(t_s + 0.1 * f64::from(k), 3.0, 1024.0));
         assert!(!w.is_other(1.0));
-        // The interface has gone up meanwhile.
+        // Meanwhile the interface has risen.
         let t_s = dive(&mut w, t_s + 610.0, 3.0, 0.3, 0.8);
         dive(&mut w, t_s, 0.3, 3.0, 0.8);
         assert!(w.is_other(0.4) && !w.is_other(1.6));

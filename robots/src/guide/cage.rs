@@ -34,7 +34,7 @@ pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m
     Heading::of(left)
 }
 
-/// Farther outside than allowed.
+/// Whether a position is farther outside than allowed.
 pub(super) fn lost(position: Vector2<f64>, area: &Area, abort_outside_m: f64) -> bool {
     area.edge_distance(position).0 < -abort_outside_m
 }
@@ -64,7 +64,7 @@ mod tests {
         let p = Vector2::new(0.0, 547.0 - 2.5);
         let c = cage(Heading::from_deg(45.0), p, &area, 5.0);
         assert!((c.deg() - 63.434_949).abs() < 1e-5, "{}", c.deg());
-        // Heading inward is left alone.
+        // A course heading inward is not changed.
         let c = cage(Heading::from_deg(135.0), p, &area, 5.0);
         assert!((c.deg() - 135.0).abs() < 1e-9);
     }

@@ -13,7 +13,7 @@
 use nalgebra::Vector2;
 use world::units::Heading;
 
-/// The limits of the mode.
+/// Parameters of the mode.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineLimits {
     pub(super) gain_rad_m: f64,
@@ -34,7 +34,7 @@ pub(super) struct FollowLine {
 }
 
 impl FollowLine {
-    /// A line; its ends must be apart.
+    /// A line; its ends must differ.
     pub(super) fn new(from: Vector2<f64>, to: Vector2<f64>, limits: LineLimits) -> Self {
         Self {
             from,
@@ -68,7 +68,7 @@ impl FollowLine {
         self.alpha.turned(turn)
     }
 
-    /// At the end (eq. 6) or past it (eq. 10).
+    /// Whether its end has been reached (eq. 6) or passed (eq. 10).
     pub(super) fn finished(&self, position: Vector2<f64>) -> bool {
         let v = position - self.to;
         v.norm() < self.limits.end_m || v.dot(&self.alpha.unit()) > self.limits.overshoot_m

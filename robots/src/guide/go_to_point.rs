@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use world::units::Heading;
 
-/// State of a run to a point.
+/// State of going to a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GoToPoint {
     point: Vector2<f64>,

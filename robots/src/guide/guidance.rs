@@ -47,7 +47,7 @@ pub struct Guidance {
 }
 
 impl Guidance {
-    /// Guidance without a goal yet.
+    /// A guidance without a goal.
     #[must_use]
     pub fn new(spec: &GuidanceSpec) -> Self {
         Self {

@@ -51,7 +51,7 @@ impl MapParams for BayesianSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Bayesian {
     with: Workings,

@@ -17,7 +17,7 @@ use world::seeds::Stream;
 pub trait Mapper: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &MapObservation);
-    /// What is believed now.
+    /// The present belief.
     fn belief(&self) -> &Belief;
 }
 
@@ -35,14 +35,14 @@ pub trait MapParams: Spec {
     /// [`RobotError::Invalid`], with the field below `map`.
     fn check(&self, area: &Area) -> Result<(), RobotError>;
 
-    /// What it takes; paths below `map`.
+    /// Its memory and time; paths below `map`.
     fn cost(&self, _times: &Times) -> Cost {
         Cost::default()
     }
 }
 
 kind! {
-    /// The mappers a scenario can ask for.
+    /// The mappers that a scenario can choose.
     pub MapSpec = Maps of MapParams {
         heading: "Source maps",
         rows: [PomdpSpec, BayesianSpec, HmmSpec, ParticleFilterSpec],

@@ -29,7 +29,7 @@ const HOP_S: f64 = 0.5e-9;
 const HOPS: f64 = 9.0;
 
 impl GridSpec {
-    /// How many cells it asks for.
+    /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> f64 {
         f64::from(self.along) * f64::from(self.across) * f64::from(self.vertical)
@@ -47,7 +47,7 @@ impl TrajectorySpec {
         let all = self.lookback_s.get() / period_s;
         let grows = math::ln(1.0 + 0.8 * self.merge.get());
         let sets = 5.0 + 1.3 * math::ln(all.max(1.0)) / grows;
-        // Nothing taken together: no number.
+        // Nothing is merged: no number of sets.
         [all, if sets < all { sets } else { all }]
     }
 }

@@ -37,13 +37,13 @@ impl Default for DoubtSpec {
     }
 }
 
-/// The same at work.
+/// The same, ready for updates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Evidence {
-    /// Chance of a detection where no dye is, ε.
+    /// Chance ε of a detection where there is no dye.
     pub epsilon: f64,
     missed: f64,
-    /// Share of an update that is news.
+    /// Share of an update that counts as new.
     pub share: f64,
 }
 

@@ -25,13 +25,13 @@ pub(super) struct Mark {
     pub s_m: [f64; 2],
 }
 
-/// Ring of marks, one a release.
+/// Ring of marks, one per release.
 #[derive(Clone, Debug)]
 pub(super) struct FlowHistory {
     period_s: f64,
     lookback_s: f64,
     steady_before: bool,
-    /// When and what was first measured.
+    /// Time and value of the first measurement.
     first: Option<(f64, [f64; 2])>,
     marks: VecDeque<Mark>,
     now: Option<(Mark, [f64; 2])>,
@@ -106,12 +106,12 @@ impl FlowHistory {
         self.pushed += 1;
     }
 
-    /// Marks ever made.
+    /// Number of all marks so far.
     pub(super) fn pushed(&self) -> u64 {
         self.pushed
     }
 
-    /// How many are remembered.
+    /// Number of remembered marks.
     #[cfg(test)]
     pub(super) fn len(&self) -> usize {
         self.marks.len()
@@ -226,7 +226,7 @@ mod tests {
         let mut h = FlowHistory::new(1.0, 50.0, true);
         for n in 0..=100 {
             let t = f64::from(n);
-            // 0 to 4 m/s in turn: 2 on the mean.
+            // 0 and 4 m/s in turn: 2 in the mean.
             h.record(t, Some([2.0 + 2.0 * world::math::sin(t / 2.0), 0.0]));
             let releases: Vec<_> = h.releases().collect();
             assert_eq!(releases.len(), 50);
@@ -236,7 +236,7 @@ mod tests {
                     .all(|w| (w[1].0 - w[0].0 - 1.0).abs() < 1e-9)
             );
             if n == 0 {
-                // The first measurement alone is known.
+                // Only the first measurement is known.
                 assert!(
                     releases
                         .iter()

@@ -35,7 +35,7 @@ pub(super) struct Kernel {
 }
 
 impl Kernel {
-    /// A kernel that is not aimed yet.
+    /// A kernel before its first use.
     pub(super) fn new(grid: &Arc<BeliefGrid>, spec: &TrajectorySpec) -> Self {
         let horizontal = [grid.cell_m[0], grid.cell_m[1]];
         Self {

@@ -26,7 +26,7 @@ pub(super) struct LogBelief {
 }
 
 impl LogBelief {
-    /// All cells alike.
+    /// All cells with the same probability.
     pub(super) fn uniform(grid: &Arc<BeliefGrid>) -> Self {
         let n = grid.len();
         let mut new = Self {

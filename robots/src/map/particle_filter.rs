@@ -43,15 +43,15 @@ const PARTICLES: (u32, u32) = (10, 100_000);
 pub struct ParticleFilterSpec {
     /// The cells of the belief that the particles give.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
     pub update_period_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
-    /// How many particles.
+    /// Number of particles.
     pub particles: u32,
     /// Resample when the effective number is below this share of all.
     pub resample_below: Fraction,
@@ -112,7 +112,7 @@ impl MapParams for ParticleFilterSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct ParticleFilter {
     with: Workings,

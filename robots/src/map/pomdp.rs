@@ -51,7 +51,7 @@ impl MapParams for PomdpSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Pomdp {
     with: Workings,

@@ -19,7 +19,7 @@ const MERGE_PEAK: f64 = 0.25;
 /// Largest set, as a power of two.
 const MOST_LOG2: u32 = 6;
 
-/// Releases that are treated as one.
+/// Releases that count as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Set {
     /// Their number is two to this power.
@@ -181,7 +181,7 @@ mod tests {
         let strayed = |age: f64| g.sets[age as usize - 1].var_m2[0] - 0.25 * age;
         assert!((strayed(2.0) / 0.0036 - 1.0).abs() < 0.02);
         assert!((strayed(3000.0) - 0.09 * 2950.0).abs() < 1e-6);
-        // Up and down there is none.
+        // In the vertical there is none.
         assert!((g.sets[2999].var_m2[2] - 7.5).abs() < 1e-9);
     }
 

@@ -15,14 +15,14 @@ const MOST_CELLS: f64 = 1e6;
 /// Most releases a look-back may hold.
 const MOST_RELEASES: f64 = 100_000.0;
 
-/// The cells, over the operating area.
+/// The cells over the operating area.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "MapGridSpec")]
 #[serde(deny_unknown_fields, default)]
 pub struct GridSpec {
     /// Cells along the area's axis.
     pub along: u32,
-    /// Cells across it.
+    /// Cells across the area's axis.
     pub across: u32,
     /// Cells from bottom to top; 1 for a map of the plane.
     pub vertical: u32,
@@ -102,7 +102,7 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_x_m_rts: Positive,
-    /// The same across it, σy, m/√s.
+    /// The same across the axis, σy, m/√s.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_y_m_rts: Positive,
@@ -115,7 +115,7 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     #[schemars(transform = world::limits::schema::stream_m_s)]
     pub flow_error_m_s: NonNegative,
-    /// How long it lasts along a way, T, s.
+    /// Time for which a deviation lasts along a way, T, s.
     #[serde(deserialize_with = "world::limits::lasting_s")]
     #[schemars(transform = world::limits::schema::lasting_s)]
     pub flow_error_s: Positive,

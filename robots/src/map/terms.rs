@@ -8,7 +8,7 @@
 //! *Deviations*: p of eq. 1 is a density times a cell's area and exceeds 1 for young releases in narrow plumes; it is
 //! limited to 1. A product is held at 1e-280 at least. Factors below 1e-13 are left out.
 
-/// A product goes no lower.
+/// Least value of a product.
 pub(super) const LEAST: f64 = 1e-280;
 /// Chances below this are taken as zero.
 const NEGLIGIBLE: f64 = 1e-13;
@@ -21,7 +21,7 @@ struct Term {
     reach: [(usize, usize); 3],
     /// Largest factor along the first axis.
     peak: f64,
-    /// Its chance may exceed 1.
+    /// Whether its chance may exceed 1.
     clamp: bool,
 }
 
@@ -43,7 +43,7 @@ impl Terms {
         }
     }
 
-    /// Forgets all terms, keeps the memory.
+    /// Forgets all terms, but keeps the memory.
     pub(super) fn clear(&mut self) {
         self.terms.clear();
         for table in &mut self.tables {

@@ -39,7 +39,7 @@ pub(super) struct Sighting {
 /// Gathers observations, and returns a sighting each time an update is due.
 #[derive(Clone, Debug)]
 pub(super) struct Watch {
-    /// The flow as measured.
+    /// The measured flow.
     pub history: FlowHistory,
     grid: Arc<BeliefGrid>,
     period_s: f64,
@@ -85,7 +85,7 @@ impl Watch {
         self.take(seen.t_s)
     }
 
-    /// What was gathered, handed out once.
+    /// The gathered sighting, given out once.
     pub(super) fn take(&mut self, t_s: f64) -> Option<Sighting> {
         let (detected, p_W) = self.pending.take()?;
         self.history.releases().next()?;

@@ -24,13 +24,13 @@ use world::ranges::{Fraction, Positive};
 pub struct CellsSpec {
     /// The cells.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
     pub update_period_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct Workings {
     pub watch: Watch,
     pub belief: LogBelief,
     pub evidence: Evidence,
-    /// A number of each cell, for an update.
+    /// One number per cell, for an update.
     pub likelihood: Vec<f64>,
 }
 

@@ -89,7 +89,7 @@ impl PlannerParams for Params {
     }
 }
 
-/// The planner with the arrays it keeps.
+/// The planner with its arrays.
 #[derive(Clone, Debug)]
 pub struct AStar {
     costs: Costs,

@@ -23,7 +23,7 @@ pub trait PlannerParams: Spec {
         Ok(())
     }
 
-    /// It plans in the plane only.
+    /// Whether it plans in the plane only.
     fn plane_only(&self) -> bool {
         false
     }
@@ -38,7 +38,7 @@ pub trait PlannerParams: Spec {
 }
 
 kind! {
-    /// The planners a scenario can ask for.
+    /// The planners that a scenario can choose.
     pub PlannerSpec = Planners of PlannerParams {
         heading: "Planners",
         rows: [a_star::Params, potential_field::Params],

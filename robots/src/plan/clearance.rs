@@ -25,7 +25,7 @@ pub(super) fn wider(b: CellBox, span: [usize; 3], n: [usize; 3]) -> CellBox {
     [0, 1, 2].map(|a| (b[a].0.saturating_sub(span[a]), (b[a].1 + span[a]).min(n[a])))
 }
 
-/// How many cells a box has.
+/// Number of cells in a box.
 pub(super) fn count(b: CellBox) -> usize {
     b.iter().map(|(lo, hi)| hi - lo).product()
 }

@@ -21,13 +21,13 @@ pub(super) struct Ends {
 /// Resolved ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Resolved {
-    /// Free cell to begin in.
+    /// Free cell where the path begins.
     pub(super) start: usize,
     /// The start itself was not free.
     pub(super) leaves_solid: bool,
-    /// Free cell to end in, joined to the start.
+    /// Free cell where the path ends, joined to the start.
     pub(super) goal: usize,
-    /// The goal's own cell is that cell.
+    /// Whether that is the goal's own cell.
     pub(super) at_goal: bool,
 }
 

@@ -15,7 +15,7 @@ use world::units::Heading;
 /// How far ahead progress is searched, m: a path that returns to itself must not be cut short.
 const WINDOW_M: f64 = 15.0;
 
-/// State of a run along a path.
+/// State of following a path.
 #[derive(Clone, Debug)]
 pub struct Follow {
     points: Arc<Vec<Vector3<f64>>>,
@@ -24,12 +24,12 @@ pub struct Follow {
     s_m: f64,
 }
 
-/// What to steer.
+/// What the vehicle must steer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steer {
     /// Course over ground.
     pub course: Heading,
-    /// Height to be at (z, m).
+    /// Height at which to move (z, m).
     pub z_m: f64,
     /// Horizontal distance off the path, m.
     pub off_m: f64,
@@ -38,7 +38,7 @@ pub struct Steer {
 }
 
 impl Follow {
-    /// At the beginning of a path.
+    /// At the start of a path.
     #[must_use]
     pub fn new(path: &Path, ahead_m: f64) -> Self {
         let mut upto_m = vec![0.0];

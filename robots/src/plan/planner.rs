@@ -56,7 +56,7 @@ impl Path {
 /// Why there is no path at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoPath {
-    /// Not one cell is free.
+    /// No cell is free.
     #[error(
         "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the margin smaller"
     )]

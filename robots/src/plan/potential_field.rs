@@ -30,7 +30,7 @@ use world::registry::Listed;
 const JUDGED: (usize, f64) = (30, 3.0);
 /// The repulsion grows no further when a solid is nearer than this, m.
 const NEAREST_M: f64 = 0.1;
-/// Most steps to the room's narrowest cell.
+/// Most steps per narrowest side of a cell.
 const STEPS_A_CELL: f64 = 20.0;
 /// Most steps for each cell side of the room's circumference.
 const STEPS: f64 = 8.0;

@@ -26,7 +26,7 @@ const ECHO: i8 = 2;
 const SOLID: i8 = 2;
 /// Evidence at which a solid cell counts as free again: noise at a wall must not make it flicker.
 const FREE: i8 = -2;
-/// Most evidence kept, either way.
+/// Greatest evidence kept, for or against.
 const MOST: i8 = 6;
 
 /// A grid of cells with clearances.
@@ -205,7 +205,7 @@ impl Room {
         }
     }
 
-    /// A map of the plane.
+    /// Whether it is a map of the plane.
     #[must_use]
     pub fn plane(&self) -> bool {
         self.lattice.n[2] == 1
@@ -224,7 +224,7 @@ impl Room {
         &self.revision
     }
 
-    /// How many cells were sensed to be solid.
+    /// Number of cells sensed to be solid.
     #[must_use]
     pub fn sensed(&self) -> usize {
         self.sensed.len()
@@ -255,7 +255,7 @@ impl Room {
         self.clearance_m(cell) >= self.needed_m()
     }
 
-    /// The middle of the cell lies in a solid.
+    /// Whether the middle of the cell lies in a solid.
     #[must_use]
     pub fn solid(&self, cell: usize) -> bool {
         self.clearance_m(cell) < 0.0

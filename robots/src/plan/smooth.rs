@@ -20,7 +20,7 @@ use world::units::{Heading, wrap_tau};
 
 /// Greatest angle between two chords of an arc, rad.
 const CHORD_RAD: f64 = 0.2;
-/// A turn smaller than this is none, rad.
+/// A turn smaller than this counts as none, rad.
 const STRAIGHT_RAD: f64 = 0.02;
 /// How much more a pulled string may cost than what it replaces: the costs of cells are not exactly those of a line.
 const SLACK: f64 = 1.005;

@@ -9,7 +9,7 @@ use super::subsumption::SubsumptionSpec;
 use world::kind;
 
 kind! {
-    /// The strategies a scenario can ask for.
+    /// The strategies that a scenario can choose.
     pub StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
         rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec],

@@ -18,7 +18,7 @@ use world::catalogue::Entry;
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// The time table.
+/// Parameters: the time table.
 pub type OpenLoopSpec = crate::behave::TimeTableParams;
 
 impl Listed for OpenLoopSpec {

@@ -38,7 +38,7 @@ pub trait StrategyParams: Spec {
         true
     }
 
-    /// It needs a forward ranging on board.
+    /// Whether it needs a forward ranging on board.
     fn needs_ranging(&self) -> bool {
         false
     }
@@ -58,17 +58,17 @@ pub trait StrategyParams: Spec {
         usize::from(self.searches())
     }
 
-    /// Its decisions name subregions.
+    /// Whether its decisions name subregions.
     fn has_regions(&self) -> bool {
         false
     }
 
-    /// Its decisions name layers.
+    /// Whether its decisions name layers.
     fn has_layers(&self) -> bool {
         false
     }
 
-    /// What it takes; paths below `strategy`.
+    /// Its memory and time; paths below `strategy`.
     fn cost(&self, _area: &Area, _depth_m: f64, _obstacles: usize, _times: &Times) -> Cost {
         Cost::default()
     }

@@ -24,7 +24,7 @@ impl Wishes {
         }
     }
 
-    /// And those of a survey, by its field.
+    /// With those of a survey, by its field.
     pub(super) fn survey(mut self, path: &str, survey: &SurveySpec) -> Self {
         let passes = [
             ("sidescan", survey.sidescan.as_ref().map(|s| s.altitude_m)),
@@ -39,7 +39,7 @@ impl Wishes {
         self
     }
 
-    /// And those of what follows a declaration.
+    /// With those of what follows a declaration.
     pub(super) fn after(self, after: &AfterDeclaration) -> Self {
         match after {
             AfterDeclaration::Survey(survey) => self.survey("after_declaration", survey),

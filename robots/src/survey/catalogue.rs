@@ -2,7 +2,7 @@
 
 use world::catalogue::Entry;
 
-/// What is made of a sidescan's pings.
+/// The uses of a sidescan's pings.
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Waterfall",

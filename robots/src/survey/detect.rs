@@ -34,15 +34,15 @@ pub struct Object {
     pub place: Vector2<f64>,
     /// Highlight over shadow, standard errors of the background.
     pub contrast: f64,
-    /// Heard to port.
+    /// Whether it was heard to port.
     pub port: bool,
-    /// Way along the track, m.
+    /// Distance along the track, m.
     pub along_m: f64,
     /// Distance from the track, m.
     pub ground_m: f64,
     /// Size along the track, m.
     pub length_m: f64,
-    /// Size across it, m.
+    /// Size across the track, m.
     pub width_m: f64,
     /// Height above the bed from the length of its shadow, m; a lower bound if the shadow reaches beyond the range.
     pub height_m: f64,

@@ -9,14 +9,14 @@
 use super::Object;
 use nalgebra::Vector2;
 
-/// An object with all that was seen of it.
+/// An object with all its sightings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// Believed place (east, north), m.
     pub place: Vector2<f64>,
     /// Contrast of all sightings together, standard errors.
     pub contrast: f64,
-    /// How many sightings.
+    /// Number of sightings.
     pub sightings: u32,
     /// Height above the bed from the strongest sighting's shadow, m.
     pub height_m: f64,

@@ -30,7 +30,7 @@ const BLIND: f64 = 0.3;
 pub struct Row {
     /// Time, s.
     pub t_s: f64,
-    /// Way along the track, m.
+    /// Distance along the track, m.
     pub along_m: f64,
     /// Believed place of the sonar (east, north), m.
     pub place: Vector2<f64>,
@@ -188,7 +188,7 @@ mod tests {
     fn lines_lie_a_cell_apart_and_the_bed_is_even() {
         let w = fly(&Bed::bare(1), 40.0);
         let rows = w.rows();
-        // A ping each 0.2 m makes a line.
+        // One ping every 0.2 m makes a line.
         assert!((rows.len() as f64 - 200.0).abs() < 2.0, "{}", rows.len());
         assert!((w.line_m() - 0.2).abs() < 1e-9);
         for pair in rows.windows(2) {

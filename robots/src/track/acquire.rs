@@ -67,7 +67,7 @@ impl Acquisition {
         })
     }
 
-    /// How many probes there are.
+    /// Number of probes.
     #[must_use]
     pub fn count(&self) -> usize {
         self.offsets_m.len()

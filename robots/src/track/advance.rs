@@ -25,7 +25,7 @@ use world::ranges::{NonNegative, Positive};
 pub enum AdvanceSpec {
     /// More than before, or as predicted.
     StepRule(StepRule),
-    /// Any spikes at all: odour-gated rheotaxis.
+    /// Any spike: odour-gated rheotaxis.
     Gated(Gated),
 }
 
@@ -43,7 +43,7 @@ pub struct StepRule {
     pub ratio: Positive,
     /// Otherwise the prediction error must be below this share of the prediction.
     pub prediction_error: NonNegative,
-    /// More than predicted counts as no error.
+    /// Whether more than predicted counts as no error.
     pub signed: bool,
 }
 

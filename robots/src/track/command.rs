@@ -14,7 +14,7 @@ use nalgebra::Vector2;
 /// Time before the drives answer to a new command, s.
 const ANSWER_S: f64 = 0.1;
 
-/// How far the present command has come.
+/// Progress of the present command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
     /// Time since the head came to rest, s; `None` while it moves.
@@ -43,7 +43,7 @@ pub struct MotionCommand {
 }
 
 impl MotionCommand {
-    /// No command yet.
+    /// Before the first command.
     #[must_use]
     pub fn new(layout: &GantryLayout) -> Self {
         let max_speed_m_s = Vector2::from(layout.max_speed_m_s);
@@ -88,7 +88,7 @@ impl MotionCommand {
         self.blocked = false;
     }
 
-    /// How far the present command has come.
+    /// Progress of the present command.
     pub fn progress(&mut self, t_s: f64, joints: &JointReadings) -> Progress {
         if t_s - self.since_s >= ANSWER_S - 1e-9 {
             self.blocked |= joints.blocked;

@@ -10,11 +10,11 @@ pub struct Sample {
     pub t_s: f64,
     /// Where the head's reference point was (forward, left), m.
     pub head_m: Vector2<f64>,
-    /// How fast it moved (forward, left), m/s.
+    /// Its speed (forward, left), m/s.
     pub speed_m_s: Vector2<f64>,
     /// Signal of each probe above the bottom of its range, V.
     pub above_v: [f64; MAX_PROBES],
-    /// How many probes there are.
+    /// Number of probes.
     pub count: usize,
 }
 
@@ -53,7 +53,7 @@ impl Tally {
         self.greatest_v = self.greatest_v.max(magnitude_v);
     }
 
-    /// This and another one together.
+    /// The sum of this tally and another one.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {

@@ -22,10 +22,10 @@ use crate::handoff::GantryBehaviour;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 
-/// Less than this is no motion, m.
+/// A shorter motion than this counts as none, m.
 const STILL_M: f64 = 1e-3;
 
-/// What the unit works with.
+/// The rules and limits of the unit.
 #[derive(Clone, Debug)]
 pub struct Rules {
     /// Step (forward, left), m.
@@ -98,7 +98,7 @@ pub struct DecisionUnit {
     empty: usize,
     blocked: usize,
     dodge: Option<f64>,
-    /// The plume was followed at least one step.
+    /// Whether the plume was followed for at least one step.
     followed: bool,
     /// Spikes on the sides (left, right) since the head last moved aside, and its place across at that time, m.
     gathered: [Tally; 2],
@@ -184,7 +184,7 @@ impl DecisionUnit {
         (Ask::Stop(found), Memory::Keep)
     }
 
-    /// To the leftmost place, for a full sweep.
+    /// Moves to the leftmost place, for a full sweep.
     fn sweep(&mut self, at: &Progress) -> (Ask, Memory) {
         self.phase = TrackPhase::ToLeftmost;
         self.cast = None;

@@ -44,7 +44,7 @@ impl Default for PaceSpec {
 pub struct Fixed {
     /// Speed along the stream, m/s.
     pub forward_m_s: Positive,
-    /// Speed across it, m/s.
+    /// Speed across the stream, m/s.
     pub left_m_s: Positive,
     /// Time at rest before a decision, s.
     pub dwell_s: NonNegative,
@@ -67,7 +67,7 @@ impl Default for Fixed {
 pub struct Adaptive {
     /// Forward speed without spikes, m/s.
     pub least_m_s: Positive,
-    /// Forward speed with enough of them, m/s.
+    /// Forward speed with enough spikes, m/s.
     pub most_m_s: Positive,
     /// Speed across the stream, m/s.
     pub left_m_s: Positive,

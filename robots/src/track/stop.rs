@@ -51,7 +51,7 @@ impl Default for StopSpec {
 pub struct SpikeRate {
     /// Threshold frequency, Hz.
     pub hz: Positive,
-    /// Over this time, s.
+    /// Length of the window, s.
     pub window_s: Positive,
     /// Whose spikes.
     pub count: Count,
@@ -71,7 +71,7 @@ impl Default for SpikeRate {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Experience {
-    /// Threshold over the frequency met first.
+    /// Threshold divided by the frequency of the first steps.
     pub factor: Positive,
     /// Number of steps over which that frequency is averaged.
     pub reference_steps: NonZeroUsize,
@@ -81,7 +81,7 @@ pub struct Experience {
     pub most_hz: Positive,
     /// Assumed speed of the water when spikes met in motion are counted as at rest, m/s.
     pub drift_m_s: Positive,
-    /// Over this time, s.
+    /// Length of the window, s.
     pub window_s: Positive,
     /// Whose spikes.
     pub count: Count,
@@ -126,7 +126,7 @@ pub struct StopRule {
 }
 
 impl StopRule {
-    /// The unit with nothing met yet.
+    /// The unit before the first scan.
     #[must_use]
     pub fn new(spec: &StopSpec) -> Self {
         let window = match spec {

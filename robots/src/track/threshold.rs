@@ -44,7 +44,7 @@ pub struct HalfMean {
     pub floor_v: Finite,
     /// Threshold as a share of the average.
     pub share: Fraction,
-    /// Time in which the average forgets, s.
+    /// Time constant with which the average decays, s.
     pub memory_s: Positive,
     /// Which local maxima are averaged.
     pub over: Averaged,

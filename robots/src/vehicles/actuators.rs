@@ -44,7 +44,7 @@ impl Actuators {
         }
     }
 
-    /// Moved by a rate for `h` seconds.
+    /// The state after `h` seconds at a rate.
     pub(super) fn moved(&self, rate: &Self, h: f64) -> Self {
         Self {
             rudder_rad: self.rudder_rad + rate.rudder_rad * h,

@@ -41,7 +41,7 @@ pub enum ParameterSet {
     Reference,
 }
 
-/// Where the propeller's inflow comes from.
+/// The speed that the propeller's inflow is taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inflow {
     /// Speed over ground (as first published).
@@ -93,7 +93,7 @@ pub struct Coefficients {
     pub cross_flow_both: bool,
     /// Area of a pair of fins, m².
     pub fin_area_m2: f64,
-    /// Where the fins are, x, m.
+    /// Place of the fins along the hull, x, m.
     pub fin_x_m: f64,
     /// Lift slopes of rudder and stern plane, 1/rad.
     pub fin_slope: [f64; 2],
@@ -111,7 +111,7 @@ pub struct Coefficients {
     pub thrust: [f64; 2],
     /// Torque coefficient at rest and its slope by advance ratio.
     pub torque: [f64; 2],
-    /// Where the propeller's inflow comes from.
+    /// The speed that the propeller's inflow is taken from.
     pub inflow: Inflow,
     /// Current turned by yaw only (quirk) or by the whole attitude.
     pub current_by_yaw_only: bool,

@@ -13,10 +13,10 @@
 //!
 //! *Parameters:* [`Coefficients`].
 //!
-//! *Deviations:* of the shipped set from the published one: the table in `coefficients.rs`. In both
-//! the entries of C_A that make the Munk moment are zero, as published: with it the hull is
-//! unstable, and the published drag and lift were fitted without it. Hull lift of the shipped set is
-//! slope · sin α cos α (slender bodies: Munk 1924) instead of slope · α, which pushes a hull lying
+//! *Deviations:* the table in `coefficients.rs` compares the default set with the published one. In both,
+//! the entries of C_A that make the Munk moment are zero, as published: with that moment the hull is
+//! unstable, and the published drag and lift were fitted without it. Hull lift of the default set is
+//! slope · sin α cos α (slender bodies: Munk 1924) instead of slope · α, which pushes a hull that lies
 //! across the current forwards. A hull partly out of the water keeps its added mass; every other
 //! water force falls with the share under water.
 
@@ -25,7 +25,7 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use world::math;
 use world::units::GRAVITY_M_S2;
 
-/// Actuators as they stand.
+/// State of the actuators.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actuators {
     /// Rudder, positive turns to starboard, rad.
@@ -36,7 +36,7 @@ pub struct Actuators {
     pub rpm: f64,
 }
 
-/// Water round the hull, ENU.
+/// Water around the hull, ENU.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HullWater {
     /// Velocity at CO, m/s.
@@ -306,7 +306,7 @@ impl Hydrodynamics {
         };
         let D = c.propeller_m;
         let D4 = D * D * D * D;
-        // Astern the curves are taken at rest.
+        // Astern, the curves' values at rest are used.
         let advance = if n > 0.0 {
             c.wake_share * inflow / D
         } else {

@@ -36,7 +36,7 @@ impl State {
 }
 
 impl Hydrodynamics {
-    /// State and actuators one step on.
+    /// State and actuators after one step.
     pub(super) fn advance(
         &self,
         truth: &Truth,

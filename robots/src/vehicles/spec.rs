@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
-/// Which vehicle.
+/// The vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum VehicleSpec {
@@ -29,7 +29,7 @@ pub struct RemusSpec {
     pub urdf: Option<String>,
 }
 
-/// Vehicles that a scenario can ask for.
+/// Vehicles and gantries that a scenario can choose.
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Remus100",

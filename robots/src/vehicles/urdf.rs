@@ -15,7 +15,7 @@ use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// What a URDF says of a vehicle.
+/// Contents of a vehicle's URDF.
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
     /// Collision shapes in body axes.

@@ -106,7 +106,7 @@ pub(super) fn parse(text: &str) -> Result<Robot, String> {
     Ok(robot)
 }
 
-/// The first link that hangs on no other.
+/// The first link that is no joint's child.
 pub(super) fn root(robot: &Robot) -> Result<&Link, String> {
     let is_child = |l: &Link| robot.joints.iter().any(|j| j.child.link == l.name);
     robot
@@ -161,7 +161,7 @@ pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     }
 }
 
-/// That an `<origin>` is made of numbers.
+/// Checks that an `<origin>` consists of finite numbers.
 pub(super) fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> {
     let all = origin.xyz.iter().chain(origin.rpy.iter());
     match all.into_iter().find(|v| !v.is_finite()) {

@@ -14,7 +14,7 @@ use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
 
-/// The REMUS's URDF as built in.
+/// The built-in URDF of the REMUS.
 const REMUS100: &str = include_str!("../../urdf/remus100.urdf");
 
 /// A vehicle and the state of its actuators; pose and velocity belong to the physics.
@@ -61,7 +61,7 @@ impl Vehicle {
         self.hull.links.get(name).copied()
     }
 
-    /// Fins and propeller as they stand.
+    /// Present state of fins and propeller.
     #[must_use]
     pub fn actuators(&self) -> Actuators {
         self.actuators

@@ -1,4 +1,4 @@
-//! What `rheotaxis list` says of the eyes.
+//! The entries of `rheotaxis list` about looking at pictures.
 
 use world::catalogue::Entry;
 

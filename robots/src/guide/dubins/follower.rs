@@ -21,7 +21,7 @@ const GRACE_S: f64 = 60.0;
 /// The vehicle takes the path's tangent this far ahead, s, to compensate its own lag.
 const LOOK_AHEAD_S: f64 = 0.5;
 
-/// The limits of the mode.
+/// Parameters of the mode.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::guide) struct FollowerLimits {
     /// Turning radius, m.
@@ -34,7 +34,7 @@ pub(in crate::guide) struct FollowerLimits {
     pub(in crate::guide) replan_m: f64,
 }
 
-/// State of a run along a path.
+/// State of following a path.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::guide) struct Follower {
     end: Pose,

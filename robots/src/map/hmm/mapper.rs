@@ -47,13 +47,13 @@ const MOST_WALK: u32 = 500;
 pub struct HmmSpec {
     /// The cells.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Step of the chain, s.
     pub step_s: Positive,
     /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
     /// How often, s, the map also shows where odour is likely to be met, which way it came, and the path that most
     /// likely meets it; not given: never.
@@ -121,7 +121,7 @@ impl MapParams for HmmSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Hmm {
     pub(super) with: Workings,
@@ -185,7 +185,7 @@ impl Hmm {
         )?;
         let grid = with.grid.clone();
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
-        // A single layer keeps all.
+        // A single layer keeps everything.
         let axes = if grid.n[2] == 1 { 2 } else { 3 };
         for (a, aside) in aside.iter_mut().enumerate().take(axes) {
             let s = sigmas[a] * step_s.sqrt();

@@ -90,7 +90,7 @@ pub(super) fn best_walk(n: [usize; 3], p: &[f64], start: usize, steps: usize) ->
     path
 }
 
-/// The cell itself and all that touch it.
+/// The cell itself and all cells that touch it.
 pub(super) fn neighbours(n: [usize; 3], cell: usize) -> impl Iterator<Item = usize> {
     let place = [cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1])];
     let span = [0, 1, 2].map(|a| (place[a].saturating_sub(1), (place[a] + 1).min(n[a] - 1)));

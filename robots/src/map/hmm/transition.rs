@@ -34,7 +34,7 @@ pub(super) fn widest(h: f64) -> f64 {
 pub(super) fn spread(s: f64, h: f64) -> Option<Arc<[f64]>> {
     let aside = 0.5 * s * s / (h * h);
     let parts = (aside / MOST_ASIDE).ceil().max(1.0);
-    // Nor what is not a number.
+    // A number that is not finite is refused as well.
     if !(parts <= MOST_PARTS) {
         return None;
     }
@@ -77,9 +77,9 @@ impl Drift {
 pub(super) struct Hops {
     /// Least number of cells.
     pub first: isize,
-    /// Chance of each.
+    /// Chance of each number of cells.
     pub p: Arc<[f64]>,
-    /// Turned back at the edges; else lost.
+    /// Whether odour is reflected at the edges; otherwise it is lost.
     pub mirrors: bool,
 }
 
@@ -93,7 +93,7 @@ impl Hops {
         }
     }
 
-    /// Stays where it is.
+    /// No move.
     pub(super) fn still() -> Self {
         Self {
             first: 0,
@@ -131,7 +131,7 @@ impl Hops {
     ) -> (usize, usize) {
         let n = g.len();
         if n == 1 && self.mirrors {
-            // A single layer keeps all.
+            // A single layer keeps everything.
             out[0] = g[0];
             return (0, 1);
         }
@@ -181,7 +181,7 @@ impl Transition {
         &self.levels[k.min(self.levels.len() - 1)][axis]
     }
 
-    /// The flow differs from level to level.
+    /// Whether the flow differs between levels.
     pub(super) fn sheared(&self) -> bool {
         self.levels.len() > 1
     }

@@ -26,15 +26,15 @@ pub struct AmpSpec {
     pub vertical: VerticalSpec,
     /// Destination before the search; without it the search begins at once.
     pub start_at: Option<StartAt>,
-    /// Looking for the plume.
+    /// Search for the plume.
     pub find: FindSpec,
     /// In the plume.
     pub track_in: TrackInSpec,
-    /// Just out of it.
+    /// Just out of the plume.
     pub track_out: TrackOutSpec,
-    /// Round the points where it was lost.
+    /// Search around the points where the plume was lost.
     pub reacquire: ReacquireSpec,
-    /// When to declare.
+    /// The declaration rule.
     pub declare: DeclareSpec,
     /// Length of the lost-points list (section 5.3: 6).
     pub lost_points: NonZeroUsize,
@@ -89,7 +89,7 @@ impl StrategyParams for AmpSpec {
     }
 }
 
-/// A place to go to before the search.
+/// A destination before the search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartAt {
@@ -97,7 +97,7 @@ pub struct StartAt {
     pub east_m: Finite,
     /// North, m.
     pub north_m: Finite,
-    /// What detections on the way count.
+    /// Meaning of detections on the way.
     #[serde(default)]
     pub detections: Detections,
 }

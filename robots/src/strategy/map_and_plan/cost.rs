@@ -17,7 +17,7 @@ const PLAN_S: f64 = 8e-9;
 const LOOK_S: f64 = 120e-9;
 
 impl MapAndPlanSpec {
-    /// What it takes; paths below `strategy`.
+    /// Its memory and time; paths below `strategy`.
     pub(super) fn work(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
         let (counts, sides_m) = self.room.counts(area, depth_m);
         let cells: f64 = counts.iter().product();

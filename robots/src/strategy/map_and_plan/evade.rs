@@ -35,9 +35,9 @@ pub struct EvadeSpec {
     #[serde(deserialize_with = "world::limits::look_m")]
     #[schemars(transform = world::limits::schema::look_m)]
     pub look_m: Positive,
-    /// How long it backs off when held fast, s.
+    /// How long it backs off when it is held, s.
     pub back_s: NonNegative,
-    /// Speed of the propeller then, astern, rpm.
+    /// Propeller speed while backing off, astern, rpm.
     #[serde(deserialize_with = "world::limits::rpm_limit")]
     #[schemars(transform = world::limits::schema::rpm_limit)]
     pub back_rpm: Positive,
@@ -140,7 +140,7 @@ impl Evade {
         far_m
     }
 
-    /// Backing off, where it is held fast.
+    /// Backs off if the vehicle is held.
     pub(super) fn back(&mut self, seen: &Observation) -> Option<Manoeuvre> {
         let (slowest_m_s, for_s) = HELD;
         let t_s = seen.t_s;

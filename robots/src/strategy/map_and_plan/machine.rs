@@ -32,7 +32,7 @@ use world::units::Heading;
 const LOOK_M: f64 = 30.0;
 /// Step of the search for the place where a leg is free again, m, and for how far it must then be free, m.
 const BEYOND: (f64, f64) = (1.0, 6.0);
-/// Home is reached within this distance, m.
+/// Home counts as reached within this distance, m.
 const HOME_M: f64 = 10.0;
 
 /// State of the strategy.
@@ -52,7 +52,7 @@ pub struct MapAndPlan {
     goal: Goal,
     /// The leg that the search asks for.
     leg: Option<Manoeuvre>,
-    /// Where a leg round an obstacle leads.
+    /// Where a leg around an obstacle leads.
     detour: Option<Vector3<f64>>,
     /// The target cell, and which of the places near it (0: the cell itself).
     aim: Option<(usize, u32)>,

@@ -30,7 +30,7 @@ const END_M: f64 = 0.5;
 /// A destination that moved by less than this is the same, m.
 const SAME_M: f64 = 1e-3;
 
-/// What to steer now.
+/// What the vehicle must steer now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Steering {
     pub(super) course: Heading,
@@ -102,7 +102,7 @@ impl Pilot {
         })
     }
 
-    /// Takes a ping into the map of obstacles.
+    /// Adds a ping to the map of obstacles.
     pub(super) fn sense(&mut self, seen: &Observation) {
         let Some(scan) = &seen.ranging else { return };
         let at = seen.estimate.p_WB();
@@ -179,7 +179,7 @@ impl Pilot {
         level(self.vertical, &self.bed, x, y)
     }
 
-    /// What to steer to come to `wish` (ENU, m).
+    /// What to steer to reach `wish` (ENU, m).
     pub(super) fn steer(&mut self, seen: &Observation, wish: Vector3<f64>) -> Steering {
         let at = seen.estimate.p_WB();
         let mut steer = self.follow.as_mut().map(|f| f.step(&at));

@@ -34,11 +34,11 @@ pub struct MapAndPlanSpec {
     pub vertical: VerticalSpec,
     /// Search for the plume until the first detection (section II-A: zig-zag).
     pub find: FindSpec,
-    /// Cells the planner plans over.
+    /// Cells of the planner.
     pub room: RoomSpec,
     /// The planner.
     pub planner: PlannerSpec,
-    /// When to declare.
+    /// The declaration rule.
     pub declare: BeliefRuleSpec,
     /// Declare a cell only after the vehicle has been there, or as near as it can get. The paper does not ask for
     /// this, but its vehicle is always on its way for longer than the map must stay unchanged.
@@ -49,7 +49,7 @@ pub struct MapAndPlanSpec {
     pub after_declaration: AfterDeclaration,
     /// Hull radius with a margin for navigation and for wide turns, m.
     pub hull_m: NonNegative,
-    /// The path is steered to this far ahead, m.
+    /// The vehicle steers to a point of the path this far ahead, m.
     pub look_ahead_m: Positive,
     /// A place counts as reached within this distance, m.
     pub arrive_m: Positive,
@@ -171,7 +171,7 @@ impl RoomSpec {
             setting.bed.deepest_m()
         };
         let all: f64 = counts.iter().product();
-        // What is not a number is too much.
+        // Written so that it also refuses a number that is not finite.
         if !(all <= MOST_CELLS) {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room".into(),

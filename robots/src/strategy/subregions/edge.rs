@@ -96,16 +96,16 @@ mod tests {
             (c - at(100.0 - 22.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
             "{c}"
         );
-        // Beyond the edge: carried back to it.
+        // Beyond the edge: moved back to it.
         let c = crossing(&r, up, at(90.0, 160.0), at(90.0, 155.0), 20.0).expect("beyond");
         assert!(
             (c - at(90.0 + 5.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
             "{c}"
         );
-        // Past the edge's end: its end.
+        // Beyond the edge's end: its end.
         let c = crossing(&r, up, at(61.0, 140.0), at(61.0, 140.0), 20.0).expect("10 m off");
         assert!((c - at(60.0, 150.0)).norm() < 1e-9, "{c}");
-        // The side edges are no up-flow edges.
+        // The side edges are not up-flow edges.
         assert_eq!(crossing(&r, up, at(50.0, 50.0), at(50.0, 50.0), 20.0), None);
     }
 

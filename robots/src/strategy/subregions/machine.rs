@@ -64,7 +64,7 @@ pub struct Subregions {
     goals_from: u32,
     /// Declarations of the present search are numbered from here.
     numbers_from: u32,
-    /// What the search in hand has declared.
+    /// Declarations of the present search.
     declared: Vec<Declaration>,
     outcome: Option<Outcome>,
 }

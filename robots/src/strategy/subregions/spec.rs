@@ -114,7 +114,7 @@ pub enum RegionsSpec {
 pub struct GridSpec {
     /// Parts along the area's axis.
     pub along: NonZeroU32,
-    /// Parts across it.
+    /// Parts across the axis.
     pub across: NonZeroU32,
     /// (along, across) of each part to be searched, in this order, counted from 0 at the area's rear left corner,
     /// looking along its axis. Other parts are not searched.

@@ -46,7 +46,7 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ask {
     pub(super) kind: Kind,
-    /// What it does, in the field's words.
+    /// What it does, in the terms of the field.
     pub(super) behaviour: Behaviour,
     pub(super) manoeuvre: Manoeuvre,
     /// It is a new goal, not a change of the last one.

@@ -23,7 +23,7 @@ fn kind(layer: &LayerSpec) -> Kind {
     }
 }
 
-/// The layers at work.
+/// The states of the layers.
 #[derive(Debug)]
 pub(super) struct Layers {
     /// Their order, lowest first.
@@ -110,7 +110,7 @@ fn wrong(field: &str, problem: String) -> RobotError {
     }
 }
 
-/// The order, if it makes sense.
+/// The order of the layers, after checking it.
 fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     let order: Vec<Kind> = spec.layers.iter().map(kind).collect();
     let place = |kind: Kind| order.iter().position(|k| *k == kind);

@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
-/// Looking at last detection points.
+/// Parameters of looking at last detection points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EyesSpec {
@@ -24,7 +24,7 @@ pub struct EyesSpec {
     pub within_m: Positive,
     /// Time between two pictures, s.
     pub period_s: Positive,
-    /// What verifies.
+    /// The test that a picture must pass.
     pub verifier: VerifierSpec,
 }
 
@@ -38,7 +38,7 @@ impl Default for EyesSpec {
     }
 }
 
-/// State of the looking.
+/// State of looking at last detection points.
 #[derive(Debug)]
 pub(super) struct Eyes {
     within_m: f64,
@@ -59,12 +59,12 @@ impl Eyes {
         }
     }
 
-    /// A picture is wanted in this tick.
+    /// Whether a picture is wanted in this tick.
     pub(super) fn asks(&self) -> bool {
         self.asks
     }
 
-    /// Not looking in this tick.
+    /// Does not look in this tick.
     pub(super) fn rest(&mut self) {
         self.asks = false;
     }

@@ -46,7 +46,7 @@ pub struct Subsumption {
     fixes: FixMove,
     layers: Layers,
     memory: PlumeMemory,
-    /// What the rule says: Declare asks.
+    /// The rule's declaration, while Declare asks.
     declaring: Option<Declaration>,
     /// What follows a declaration; whether the survey has begun, and what it asks for.
     post: PostDeclaration,
@@ -58,7 +58,7 @@ pub struct Subsumption {
     homing: bool,
     home: Option<Manoeuvre>,
     holder: Option<Kind>,
-    /// Whose command Avoid turns away.
+    /// The layer whose command Avoid turns away.
     under_avoid: Option<Kind>,
     states: Arc<[Layer]>,
     behaviour: Behaviour,
@@ -120,7 +120,7 @@ impl Subsumption {
         detected
     }
 
-    /// What the rule says now.
+    /// The rule's present answer.
     fn test(&self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
         let rule = self.layers.declare.as_ref()?;

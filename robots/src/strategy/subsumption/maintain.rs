@@ -28,7 +28,7 @@ enum Phase {
 pub(super) struct Contact {
     /// Track-Out has ended, with or without a detection: the declaration rule must be tested.
     pub(super) out_ended: bool,
-    /// Contact is lost.
+    /// The contact has been lost.
     pub(super) lost: bool,
 }
 
@@ -57,12 +57,12 @@ impl Maintain {
         self.phase = Phase::Off;
     }
 
-    /// It asks for the vehicle.
+    /// Whether it asks for the vehicle.
     pub(super) fn active(&self) -> bool {
         self.phase != Phase::Off
     }
 
-    /// What it does, in the field's words.
+    /// What it does, in the terms of the field.
     pub(super) fn behaviour(&self) -> Behaviour {
         let silent = self.track_out.is_none() && !self.smells;
         match self.phase {

@@ -19,18 +19,18 @@ pub(super) struct Asked {
     pub(super) out_ended: bool,
 }
 
-/// The layers at work.
+/// The states of the layers.
 #[derive(Debug)]
 pub(super) struct PlumeLayers {
     find: Box<dyn Behave>,
     maintain: Maintain,
     reacquire: Option<Box<dyn Behave>>,
     plume_map: Option<PlumeMap>,
-    /// What each last asked for.
+    /// What each layer asked for last.
     found: Option<Manoeuvre>,
     maintained: Option<Manoeuvre>,
     reacquired: Option<Manoeuvre>,
-    /// Reacquire asks; Find has the search.
+    /// Whether Reacquire asks; otherwise Find has the search.
     reacquiring: bool,
     searching: bool,
 }

@@ -125,7 +125,7 @@ pub enum LayerSpec {
     Find(FindSpec),
     /// Keeps in contact with the plume from a detection on.
     Maintain(MaintainSpec),
-    /// Looks round where contact was lost.
+    /// Searches around the places where contact was lost.
     Reacquire(ReacquireSpec),
     /// Declares the source when the places where contact was lost show it.
     Declare(DeclareSpec),

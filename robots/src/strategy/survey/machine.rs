@@ -26,16 +26,16 @@ use world::units::Heading;
 /// Cell of the sidescan's picture, m.
 const CELL_M: f64 = 0.25;
 
-/// What a step after a declaration comes to.
+/// Result of a step after a declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
-    /// Go on: this is asked of the guidance.
+    /// Continue with this answer for the guidance.
     Go(Stride),
     /// The survey is over: the declaration again, with its verdict.
     Over(Declaration),
 }
 
-/// Which passes are flown.
+/// The passes being flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum SurveyPhase {
     None,
@@ -153,7 +153,7 @@ impl PostDeclaration {
         }
         let mut arrived = arrived;
         loop {
-            // What was seen is enough.
+            // The camera has seen enough.
             let enough = self.phase == SurveyPhase::Camera && self.by_camera == Some(true);
             let stride = if enough {
                 Stride::Over
@@ -206,7 +206,7 @@ impl PostDeclaration {
         Some(Vertical::Altitude(altitude.get()))
     }
 
-    /// A picture is wanted in this tick.
+    /// Whether a picture is wanted in this tick.
     #[must_use]
     pub fn picture(&self) -> bool {
         self.picture

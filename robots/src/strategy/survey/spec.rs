@@ -14,10 +14,10 @@ const MOST_LINES: usize = 32;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AfterDeclaration {
-    /// Home, and the mission is completed there.
+    /// Go home; the mission is completed there.
     #[default]
     GoHome,
-    /// The mission is completed on the spot.
+    /// Complete the mission on the spot.
     Stop,
     /// Passes over the declared place. If it is verified (or nothing on board could look), the vehicle goes home; if
     /// it is rejected, the vehicle continues the search.
@@ -43,7 +43,7 @@ pub struct SurveySpec {
     pub sidescan: Option<SidescanPasses>,
     /// Passes for the camera, after the sidescan's.
     pub camera: Option<CameraPasses>,
-    /// What a source must have been seen by.
+    /// What must have seen a source.
     pub verify: Verify,
     /// Points where the plume was lost are forgotten within this distance of a rejected place, m.
     pub forget_m: Positive,
@@ -80,7 +80,7 @@ pub struct SidescanPasses {
     pub altitude_m: Positive,
     /// An object counts only within this distance of the declared place, m.
     pub within_m: Positive,
-    /// When a bright return is an object.
+    /// When a bright return counts as an object.
     pub detect: DetectSpec,
 }
 
@@ -128,12 +128,12 @@ impl Default for CameraPasses {
 /// instrument that never reported is ignored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Verify {
-    /// An object by the sidescan.
+    /// An object seen by the sidescan.
     #[default]
     Sidescan,
-    /// A source giving off dye by the camera.
+    /// A source giving off dye, seen by the camera.
     Camera,
-    /// One of the two.
+    /// Either of the two.
     Either,
     /// The two.
     Both,

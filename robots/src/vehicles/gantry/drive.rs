@@ -19,7 +19,7 @@ use world::seeds::Stream;
 /// Draws of the position error are cut off at so many standard deviations.
 const CUT: f64 = 3.0;
 
-/// What the URDF allows an axis.
+/// Limits of an axis in the URDF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AxisLimits {
     pub(super) travel_m: [f64; 2],
@@ -162,7 +162,7 @@ impl Drive {
         let way = self.target_m - self.at_m;
         let d = way.abs();
         let change = a * dt_s;
-        // The last step ends on the target.
+        // The last step ends at the target.
         let stop = if d <= change * dt_s {
             d / dt_s
         } else {

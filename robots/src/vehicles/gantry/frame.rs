@@ -21,7 +21,7 @@ use urdf_rs::{Joint, JointLimit, JointType, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// Names of links that are probes begin so.
+/// Beginning of the names of links that are probes.
 const PROBE: &str = "probe_";
 /// How far an axis may deviate from x or y of the base: rounding of angles in a file.
 const SKEW: f64 = 1e-4;
