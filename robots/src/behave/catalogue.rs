@@ -63,7 +63,7 @@ pub const PARTS: &[Entry] = &[
     },
     Entry {
         name: "SoftAvoid",
-        what: "avoid: turns off the course asked for, the more the nearer the ranging's echoes in the way are",
+        what: "avoid: turns away from echoes ahead; the nearer they are, the sharper the turn",
         source: "Tian et al. 2013, section 2; Khatib 1986, Int. J. Robotics Research 5(1), 90",
     },
     Entry {

@@ -67,7 +67,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "Cloverleaf",
-        what: "reacquire: leaves round the newest last detection point, one of them down-flow",
+        what: "reacquire: loops like a cloverleaf around the newest last detection point, one of them down-flow",
         source: "Tian et al. 2013, section 3, Fig. 4b",
     };
 }
@@ -110,7 +110,7 @@ impl Cloverleaf {
             return Err(invalid(
                 "leaf_m",
                 format!(
-                    "{leaves} leaves must be {least_m:.1} m or longer to close in turns of {} m, got {}",
+                    "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
                     params.turn_radius_m.get(),
                     params.leaf_m.get()
                 ),

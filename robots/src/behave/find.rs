@@ -86,7 +86,7 @@ enum Phase {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "ZigZag",
-        what: "find: crosses the flow at 70 or 110 degrees to it, reflected at the area's edges",
+        what: "find: crosses the flow at 70 or 110 degrees to it, and turns back at the area's edges",
         source: "Pang 2009, section 5.2",
     };
 }

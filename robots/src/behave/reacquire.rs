@@ -63,7 +63,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "Bowtie",
-        what: "reacquire: two crossing lines round the lost points, one point after the other",
+        what: "reacquire: bowties of two crossing lines around the lost points, one point after the other",
         source: "Pang 2009, section 5.5, Table 3, Fig. 6",
     };
 }

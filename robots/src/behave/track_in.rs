@@ -46,7 +46,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "CounterTurn",
-        what: "track in: beta off up-flow, to the other side at each detection",
+        what: "track in: up-flow turned by beta, to the other side at each detection",
         source: "Pang 2009, section 5.3, Table 1",
     };
 }

@@ -50,7 +50,7 @@ impl Default for SizF {
 impl Listed for SizF {
     const ENTRY: Entry = Entry {
         name: "SizF",
-        what: "the most up-flow of six or more last detection points within 6 m of their mean, the others left aside",
+        what: "the most up-flow of six or more last detection points within 6 m of their mean; others are left out",
         source: "Tian et al. 2013, section 3, algorithm 2",
     };
 }

@@ -67,7 +67,7 @@ pub(super) fn by_kernel(
     let update = Part::new("update_period_s", what)
         .takes(updates * (sets * each_s + all * RELEASE.0))
         .by(period_s, -1.0);
-    let what = format!("{all:.1e} releases looked back at");
+    let what = format!("{all:.1e} releases in the look-back");
     let kept = Part::new("trajectory.release_period_s", what)
         .holds(all * RELEASE.1)
         .by(way.release_period_s.get(), -1.0);

@@ -81,7 +81,7 @@ impl Default for ParticleFilterSpec {
 impl Listed for ParticleFilterSpec {
     const ENTRY: Entry = Entry {
         name: "ParticleFilter",
-        what: "particles of source positions, weighted by the chance of what was and was not smelt (reconstructed)",
+        what: "possible source positions as particles, weighted by detections and non-detections (reconstructed)",
         source: "Li, Meng, Wang & Zeng 2011, Autonomous Robots 30(3)",
     };
 }

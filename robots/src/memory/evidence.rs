@@ -13,7 +13,7 @@ impl Evidence {
         let all: Vec<&Lcdp> = points.into_iter().collect();
         assert!(
             !all.is_empty(),
-            "a declaration that rests on no point: its rule must ask for one at least"
+            "a declaration rests on no point: its rule must need at least one"
         );
         let middle = all.iter().map(|p| p.position).sum::<Vector2<f64>>() / all.len() as f64;
         let reach = |m: f64, p: &&Lcdp| m.max((p.position - middle).norm());

@@ -95,7 +95,7 @@ impl Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "PotentialField",
-        what: "downhill between the goal's pull and the solids' push; caught in local minima",
+        what: "moves downhill under the goal's attraction and the solids' repulsion; can be caught in local minima",
         source: "Khatib 1986; Pang & Zhu 2009 (reconstructed)",
     };
 }

@@ -40,7 +40,7 @@ impl Acquisition {
         let n = layout.probes.len();
         if !(2..=MAX_PROBES).contains(&n) {
             return Err(invalid(format!(
-                "bilateral steering needs 2 to {MAX_PROBES} probes, the head has {n}"
+                "bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}"
             )));
         }
         let offsets_m: Vec<_> = layout.probes.iter().map(|p| p.offset_m.xy()).collect();
@@ -55,7 +55,7 @@ impl Acquisition {
         }
         if offsets_m[left].y - offsets_m[right].y < APART_M {
             return Err(invalid(
-                "no two probes lie apart across the stream: bilateral steering needs a left and a right one"
+                "no two probes are apart across the stream: bilateral steering needs a left and a right one"
                     .into(),
             ));
         }
@@ -141,7 +141,7 @@ mod tests {
         let e = Acquisition::new(&one).expect_err("one").to_string();
         assert_eq!(
             e,
-            "tracker.probes: bilateral steering needs 2 to 8 probes, the head has 1"
+            "tracker.probes: bilateral steering needs 2 to 8 probes; the head has 1"
         );
         let mut line = layout();
         for p in &mut line.probes {

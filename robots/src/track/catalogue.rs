@@ -6,7 +6,7 @@ use world::catalogue::Entry;
 pub const UNITS: &[Entry] = &[
     Entry {
         name: "sweep",
-        what: "relative position/data builder: where a full sweep smelled most, Peak or Centroid",
+        what: "relative position/data builder: the place of the strongest smell in a full sweep, Peak or Centroid",
         source: "Webster et al. 2012, sections 4 and 5",
     },
     Entry {

@@ -77,7 +77,7 @@ impl MotionCommand {
     ) {
         assert!(
             target_m.x.is_finite() && target_m.y.is_finite(),
-            "the decision unit asks for {target_m:?}: not a place"
+            "the decision unit asks for {target_m:?}, which is not a place"
         );
         self.behaviour = behaviour;
         self.id += 1;

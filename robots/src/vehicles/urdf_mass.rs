@@ -105,7 +105,7 @@ impl Ballast {
             let have = inertia[(row, column)];
             if !near(want.x + have, want.x) {
                 return Err(format!(
-                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull without"
+                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull with zero"
                 ));
             }
         }
@@ -171,7 +171,7 @@ impl Ballast {
         ] {
             if have.abs() > ROUNDING * scale {
                 told.push(format!(
-                    "{what} is {have} {unit} by its URDF: left out, the equation of motion has none"
+                    "{what} is {have} {unit} by its URDF: ignored, because the equation of motion has none"
                 ));
             }
         }

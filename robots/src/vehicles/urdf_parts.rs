@@ -113,7 +113,7 @@ pub(super) fn root(robot: &Robot) -> Result<&Link, String> {
         .links
         .iter()
         .find(|l| !is_child(l))
-        .ok_or_else(|| "every link is the child of a joint: there is no body".into())
+        .ok_or_else(|| "every link is the child of a joint, so there is no body".into())
 }
 
 /// Pose of every link connected to `body`, with joints at zero.
@@ -137,7 +137,7 @@ pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>,
 pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     for (i, link) in robot.links.iter().enumerate() {
         if robot.links[..i].iter().any(|l| l.name == link.name) {
-            return Err(format!("link \"{}\" is there twice", link.name));
+            return Err(format!("link \"{}\" occurs twice", link.name));
         }
     }
     let base = &root(robot)?.name;

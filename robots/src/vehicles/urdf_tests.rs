@@ -96,11 +96,11 @@ fn what_is_no_tree_is_told() {
     };
     assert_eq!(
         with("<link name=\"rudder\"/>"),
-        "link \"rudder\" is there twice"
+        "link \"rudder\" occurs twice"
     );
     assert_eq!(
         with(&joint("round", "rudder", "base_link")),
-        "every link is the child of a joint: there is no body"
+        "every link is the child of a joint, so there is no body"
     );
     let ring = format!(
         "<link name=\"a\"/><link name=\"b\"/>{}{}",
@@ -150,7 +150,7 @@ fn wrong_masses_are_told() {
     );
     assert_eq!(
         fails("ixz=\"0\"", "ixz=\"1\""),
-        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull without"
+        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull with zero"
     );
 }
 
@@ -189,8 +189,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
         [
             "iyy is 4.05 kg m2 by its URDF, 4.02777 kg m2 by the hydrodynamic parameters: the URDF's is used",
             "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is used",
-            "x of the centre of gravity is 0.0001 m by its URDF: left out, the equation of motion has none",
-            "ixy is 0.0005 kg m2 by its URDF: left out, the equation of motion has none",
+            "x of the centre of gravity is 0.0001 m by its URDF: ignored, because the equation of motion has none",
+            "ixy is 0.0005 kg m2 by its URDF: ignored, because the equation of motion has none",
         ]
     );
 }

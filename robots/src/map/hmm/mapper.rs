@@ -100,7 +100,7 @@ fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) 
 impl Listed for HmmSpec {
     const ENTRY: Entry = Entry {
         name: "Hmm",
-        what: "hidden Markov model of odour from cell to cell: source map, detection map, likely paths (reconstructed)",
+        what: "hidden Markov model of odour moving from cell to cell: source map, detection map, likely paths (reconstructed)",
         source: "Farrell, Pang & Li 2003, IEEE SMC-B 33(6)",
     };
 }

@@ -37,7 +37,7 @@ impl MapAndPlanSpec {
         let round: f64 = (0..3).map(near).product();
         let kept = Part::new(
             format!("planner.{field}"),
-            format!("{round:.1e} cells that a solid one is near to"),
+            format!("{round:.1e} cells within reach of a solid one"),
         );
         cost.parts.push(kept.holds(round * NEAR_BYTES));
         let narrowest_m = sides_m.iter().copied().fold(f64::INFINITY, f64::min);
@@ -45,9 +45,12 @@ impl MapAndPlanSpec {
         cost.add(self.planner.cost(way_m, plans).under("planner"));
         if let Some(evade) = &self.evade {
             let steps = 2.0 * evade.look_m.get().min(area.length_m + area.width_m) / narrowest_m;
-            let part = Part::new("evade.look_m", format!("{steps:.1e} steps looked ahead"))
-                .takes(times.mission_s / times.step_s * steps * LOOK_S)
-                .by(evade.look_m.get(), 1.0);
+            let part = Part::new(
+                "evade.look_m",
+                format!("{steps:.1e} steps of looking ahead"),
+            )
+            .takes(times.mission_s / times.step_s * steps * LOOK_S)
+            .by(evade.look_m.get(), 1.0);
             cost.parts.push(part);
         }
         cost

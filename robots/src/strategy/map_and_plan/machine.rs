@@ -71,13 +71,13 @@ impl MapAndPlan {
         if !setting.maps {
             return Err(RobotError::Invalid {
                 field: "strategy".into(),
-                problem: "MapAndPlan goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Pomdp()".into(),
+                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: Pomdp()".into(),
             });
         }
         if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
             return Err(RobotError::Invalid {
                 field: "strategy.after_declaration".into(),
-                problem: "MapAndPlan flies no survey: GoHome or Stop".into(),
+                problem: "MapAndPlan flies no survey; use GoHome or Stop".into(),
             });
         }
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());

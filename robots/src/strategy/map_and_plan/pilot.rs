@@ -67,7 +67,7 @@ impl Pilot {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.planner.AStar.cost".into(),
                 problem:
-                    "the paper's costs are for a room of the plane; take Metric, or room: Plane()"
+                    "the paper's costs are for a room of the plane; use Metric, or room: Plane()"
                         .into(),
             });
         }
@@ -214,7 +214,7 @@ impl Pilot {
             self.planned_s = seen.t_s;
             self.revision = self.room.revision().clone();
         }
-        let steer = steer.expect("a path was just made where there was none");
+        let steer = steer.expect("there is a path: it was just planned if there was none");
         let course = self.clear(&seen.estimate, steer.course);
         // A destination within the turning circle that cannot be approached without a collision will not be reached
         // any better.

@@ -176,7 +176,7 @@ impl RoomSpec {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room".into(),
                 problem: format!(
-                    "its cells would be {all:.0}, at most {MOST_CELLS:.0} are possible; make them larger"
+                    "would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"
                 ),
             });
         }

@@ -17,7 +17,7 @@ pub(super) fn areas(spec: &RegionsSpec, whole: &Area) -> Result<Vec<Area>, Robot
             .collect::<Result<Vec<_>, _>>()?,
     };
     if areas.is_empty() {
-        return Err(invalid("regions", "must name one at least".into()));
+        return Err(invalid("regions", "must name at least one".into()));
     }
     Ok(areas)
 }
@@ -32,7 +32,7 @@ fn parts(grid: &GridSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
             return Err(invalid(&field, format!("must be {legal}, got ({i}, {j})")));
         }
         if grid.order[..k].contains(&(i, j)) {
-            return Err(invalid(&field, format!("({i}, {j}) is there twice")));
+            return Err(invalid(&field, format!("({i}, {j}) occurs twice")));
         }
         let at = Vector2::new(
             (f64::from(i) + 0.5) * length_m - whole.length_m / 2.0,
@@ -54,7 +54,7 @@ fn rectangle(k: usize, r: &RectangleSpec, whole: &Area) -> Result<Area, RobotErr
         if from >= to {
             return Err(invalid(
                 &field,
-                format!("must run from less to more, got ({from}, {to})"),
+                format!("must begin with the smaller number, got ({from}, {to})"),
             ));
         }
         if from < -half - ROUNDING_M || to > half + ROUNDING_M {

@@ -51,7 +51,7 @@ fn vertical() -> VerticalSpec {
 impl Listed for SubregionsSpec {
     const ENTRY: catalogue::Entry = catalogue::Entry {
         name: "Subregions",
-        what: "one subregion after the other, searched until declared in, traced to its up-flow edge or timed out",
+        what: "searches one subregion after the other, until a declaration, a plume traced to the up-flow edge, or a time-out",
         source: "Pang 2009, section 6",
     };
 }

@@ -39,27 +39,27 @@ const ABOVE: &[(Kind, Kind, &str)] = &[
     (
         Kind::Maintain,
         Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never hold it",
+        "Find always asks for the vehicle: a layer below it would never control it",
     ),
     (
         Kind::Reacquire,
         Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never hold it",
+        "Find always asks for the vehicle: a layer below it would never control it",
     ),
     (
         Kind::PlumeMap,
         Kind::Find,
-        "PlumeMap takes the place of Find's command",
+        "PlumeMap's command replaces Find's",
     ),
     (
         Kind::Avoid,
         Kind::Find,
-        "Avoid turns the commands of the layers below it, and there is none below it",
+        "Avoid changes the commands of the layers below it, and there is none below it",
     ),
     (
         Kind::Reacquire,
         Kind::Maintain,
-        "Reacquire looks for what Maintain has lost",
+        "Reacquire looks for the plume that Maintain has lost",
     ),
     (
         Kind::Declare,
@@ -74,32 +74,32 @@ const ABOVE: &[(Kind, Kind, &str)] = &[
     (
         Kind::Declare,
         Kind::Reacquire,
-        "a declaration must not wait for the end of the search round a lost point",
+        "a declaration must not wait for the end of the search around a lost point",
     ),
     (
         Kind::GoHome,
         Kind::Find,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Maintain,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Reacquire,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Declare,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::PlumeMap,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
 ];
 
@@ -119,7 +119,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         if first < i {
             let name = kind.variant();
             let problem =
-                format!("{name} is there already, as layers[{first}]; each layer stands once");
+                format!("there already is a {name}, layers[{first}]; each layer may occur once");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -128,7 +128,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
             Kind::Find,
             "nothing would move the vehicle before the first detection",
         ),
-        (Kind::Maintain, "detections would count for nothing"),
+        (Kind::Maintain, "detections would have no effect"),
     ] {
         if place(kind).is_none() {
             let name = kind.variant();
@@ -140,11 +140,11 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
         let problem =
-            "GoHome waits for a declaration, and there is no Declare; add one, or leave GoHome out";
+            "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";
         return Err(wrong(&format!("layers[{i}]"), problem.into()));
     }
     if spec.eyes.is_some() && place(Kind::Declare).is_none() {
-        let problem = "a source that the camera sees is declared, and there is no Declare; add one, or leave eyes out";
+        let problem = "a source seen by the camera is declared, and there is no Declare; add one, or remove eyes";
         return Err(wrong("eyes", problem.into()));
     }
     for (upper, lower, why) in ABOVE {
@@ -152,7 +152,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
             && i < j
         {
             let (u, l) = (upper.variant(), lower.variant());
-            let problem = format!("{u} must stand above (after) {l}, layers[{j}]: {why}");
+            let problem = format!("{u} must be above (after) {l}, layers[{j}]: {why}");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -181,7 +181,7 @@ impl Layers {
                 }
                 LayerSpec::PlumeMap(p) if setting.maps => plume_map = Some(PlumeMap::new(p)),
                 LayerSpec::PlumeMap(_) => {
-                    let problem = "goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Hmm()";
+                    let problem = "needs a source map, and the robot has none; add one, for example map: Hmm()";
                     return Err(wrong(&format!("layers[{i}]"), problem.into()));
                 }
                 LayerSpec::GoHome(_) => go_home = Some(GoHome::default()),

@@ -62,19 +62,19 @@ fn compositions_that_make_no_sense_are_refused() {
         (vec![find()], "layers: there is no Maintain"),
         (
             vec![find(), maintain(), find()],
-            "layers[2]: Find is there already, as layers[0]",
+            "layers[2]: there already is a Find, layers[0]",
         ),
         (
             vec![maintain(), find()],
-            "layers[0]: Maintain must stand above (after) Find, layers[1]",
+            "layers[0]: Maintain must be above (after) Find, layers[1]",
         ),
         (
             vec![find(), reacquire(), maintain()],
-            "layers[1]: Reacquire must stand above",
+            "layers[1]: Reacquire must be above",
         ),
         (
             vec![find(), maintain(), declare(), reacquire()],
-            "layers[2]: Declare must stand above",
+            "layers[2]: Declare must be above",
         ),
         (
             vec![find(), maintain(), go_home()],
@@ -82,7 +82,7 @@ fn compositions_that_make_no_sense_are_refused() {
         ),
         (
             vec![find(), maintain(), go_home(), declare()],
-            "layers[2]: GoHome must stand above",
+            "layers[2]: GoHome must be above",
         ),
     ] {
         let got = refused(layers, true);

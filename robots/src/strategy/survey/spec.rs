@@ -170,7 +170,7 @@ impl SurveySpec {
         };
         if !flown {
             let problem = format!(
-                "{:?} asks for passes that are not flown: give them, or verify otherwise",
+                "{:?} needs passes that are not flown: add them, or choose another `verify`",
                 self.verify
             );
             return wrong("verify", problem);

@@ -272,7 +272,7 @@ fn parts_that_do_not_go_together_are_named() {
         verify: Verify::Both,
         ..SurveySpec::default()
     };
-    assert!(says(blind).starts_with("strategy.after_declaration.verify: Both asks for passes"));
+    assert!(says(blind).starts_with("strategy.after_declaration.verify: Both needs passes"));
     let none = SurveySpec {
         sidescan: Some(SidescanPasses {
             offsets_m: Vec::new(),

@@ -62,7 +62,7 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
     let part = |link: &str| part_of(&robot, &moving, link);
     if part(&moving[1].parent.link) != 1 {
         return Err(format!(
-            "joint \"{}\" is not carried by joint \"{}\": the base carries a slide, that one the other",
+            "joint \"{}\" is not carried by joint \"{}\": the base must carry one slide, and that slide the other",
             moving[1].name, moving[0].name
         ));
     }
@@ -81,7 +81,7 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
     let mut slides = [slide(0)?, slide(1)?];
     if slides[0].axis == slides[1].axis {
         return Err(format!(
-            "joints \"{}\" and \"{}\" are parallel: one has to lie along x of \"{base}\", the other along y",
+            "joints \"{}\" and \"{}\" are parallel: one must lie along x of \"{base}\", the other along y",
             moving[0].name, moving[1].name
         ));
     }
@@ -130,7 +130,10 @@ fn frame(urdf: &UrdfText) -> Result<Frame, String> {
         ));
     }
     if probes.len() > MAX_PROBES {
-        return Err(format!("{} probes, but {MAX_PROBES} at most", probes.len()));
+        return Err(format!(
+            "{} probes, but at most {MAX_PROBES} are possible",
+            probes.len()
+        ));
     }
     if slides[1].shapes.is_empty() {
         return Err(format!(
@@ -182,7 +185,7 @@ fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
             n => format!("{n} are: {}", names.join(", ")),
         };
         return Err(format!(
-            "two joints have to be prismatic, an axis on the base and one on that; {found}"
+            "two joints must be prismatic, one on the base and one on the first; {found}"
         ));
     };
     // If `b` lies between the base and `a`, it comes first.

@@ -53,7 +53,7 @@ impl Gantry {
             return Err(invalid(
                 "settle_m",
                 format!(
-                    "must be at least encoder_m, {} m, got {}: the encoder cannot tell",
+                    "must be at least encoder_m, {} m, got {}: the encoder cannot resolve less",
                     spec.encoder_m.get(),
                     spec.settle_m.get()
                 ),
@@ -190,7 +190,7 @@ impl Gantry {
         assert!(
             target.iter().all(|v| v.is_finite())
                 && speed.iter().all(|v| v.is_finite() && *v >= 0.0),
-            "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher has to decide on finite places and speeds >= 0"
+            "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher must give finite places and speeds >= 0"
         );
         if decision.stopped.is_some() {
             if !self.halted {

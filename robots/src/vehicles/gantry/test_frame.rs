@@ -150,7 +150,7 @@ fn broken_trees_are_told() {
     fails(
         "<link name=\"base\"/>",
         "<link name=\"base\"/><link name=\"beam\"/>",
-        "link \"beam\" is there twice",
+        "link \"beam\" occurs twice",
     );
     fails(
         "<origin xyz=\"0 0 0.6\"/>",
@@ -166,7 +166,7 @@ fn broken_axes_are_told() {
     fails(
         across,
         &to("fixed"),
-        "two joints have to be prismatic, an axis on the base and one on that; 1 are: \"along_stream\"",
+        "two joints must be prismatic, one on the base and one on the first; 1 are: \"along_stream\"",
     );
     fails(
         across,
@@ -181,17 +181,17 @@ fn broken_axes_are_told() {
     fails(
         "name=\"left_mount\" type=\"fixed\"",
         "name=\"left_mount\" type=\"prismatic\"",
-        "two joints have to be prismatic, an axis on the base and one on that; 3 are: \"along_stream\", \"across_stream\", \"left_mount\"",
+        "two joints must be prismatic, one on the base and one on the first; 3 are: \"along_stream\", \"across_stream\", \"left_mount\"",
     );
     fails(
         "<parent link=\"beam\"/>",
         "<parent link=\"base\"/>",
-        "joint \"across_stream\" is not carried by joint \"along_stream\": the base carries a slide, that one the other",
+        "joint \"across_stream\" is not carried by joint \"along_stream\": the base must carry one slide, and that slide the other",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
         "<axis xyz=\"1 0 0\"/>",
-        "joints \"along_stream\" and \"across_stream\" are parallel: one has to lie along x of \"base\", the other along y",
+        "joints \"along_stream\" and \"across_stream\" are parallel: one must lie along x of \"base\", the other along y",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
@@ -278,7 +278,7 @@ fn missing_and_too_many_probes_are_told() {
     fails(
         "</robot>",
         &format!("{more}</robot>"),
-        "9 probes, but 8 at most",
+        "9 probes, but at most 8 are possible",
     );
 }
 
@@ -302,7 +302,7 @@ fn drives_that_cannot_do_it_are_told() {
             encoder_m: Positive::new(0.001),
             ..base()
         }),
-        "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot tell"
+        "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot resolve less"
     );
     let gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     gantry.check_step(0.02).expect("a usual step");
