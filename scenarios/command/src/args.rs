@@ -2,6 +2,7 @@
 
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
+use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
@@ -115,6 +116,9 @@ pub struct RunArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Folder for the results; with several files, one folder in it for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -248,6 +252,9 @@ pub struct StatisticsArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// How long to watch; without it 1200 s in an open channel, elsewhere the scenario's `time.limit_s`.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,
