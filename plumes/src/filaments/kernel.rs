@@ -111,6 +111,22 @@ impl Path {
         }
         Path::Portable
     }
+
+    fn name(self) -> &'static str {
+        match self {
+            Path::Portable if cfg!(target_arch = "x86_64") => "SSE2",
+            Path::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => "AVX2",
+        }
+    }
+}
+
+/// Names the vector instructions that the filaments' step uses on this machine. The results have the same bits with
+/// all of them.
+#[must_use]
+pub fn instructions() -> &'static str {
+    Path::detect().name()
 }
 
 /// Moves all filaments of the block, each by its `dt`.

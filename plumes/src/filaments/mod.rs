@@ -53,5 +53,6 @@ mod walls;
 pub use cut_off::cut_off;
 pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
+pub use kernel::instructions;
 pub use longest_step::{EVEN, SharpestMixing, Uneven};
 pub use plume::{Plume, PlumeSettings};

@@ -105,7 +105,7 @@ pub trait CurrentParams: Spec {
 }
 
 kind! {
-    /// One current; a scenario lists those that add up.
+    /// Currents, waves and turbulence. A scenario lists one or more, and their velocities add up.
     pub CurrentSpec = Currents of CurrentParams {
         heading: "Flows",
         rows: [UniformSpec, LayeredSpec, MeanderSpec, OpenChannelSpec, TideSpec, WavesSpec],

@@ -115,6 +115,7 @@ impl Kind for Sensors {
     type Spec = dyn SensorParams;
     const NAME: &'static str = "SensorsSpec";
     const HEADING: &'static str = "Sensors";
+    const WHAT: &'static str = "Instruments of a robot, each under its name. A robot has those that are given, and no others.";
 
     fn built_in() -> Vec<Row<Self>> {
         vec![

@@ -6,6 +6,7 @@ use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
+use super::version;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -15,6 +16,7 @@ use std::str::FromStr;
 #[command(
     name = "rheotaxis",
     version,
+    long_version = version::long(),
     about = "Simulates underwater vehicles that trace a chemical plume to its source",
     long_about = "Simulates underwater vehicles that trace a chemical plume to its source.\n\n\
         A scenario file (RON) says where, in which water, what is released, who searches and when it \

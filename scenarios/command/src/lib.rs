@@ -33,6 +33,7 @@ mod shown;
 mod statistics;
 mod stop;
 mod topics;
+mod version;
 
 pub use args::{
     Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
