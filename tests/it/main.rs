@@ -15,6 +15,7 @@ mod memory;
 mod ocean;
 mod outputs;
 mod planning;
+mod readme;
 mod rejection;
 mod reproduce;
 mod scenarios;

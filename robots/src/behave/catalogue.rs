@@ -19,7 +19,7 @@ pub trait BehaviourParams: Spec {
 const HEADING: &str = "Behaviours";
 
 kind! {
-    /// Ways to look for the plume.
+    /// Behaviours that search the area for the plume while nothing has been detected yet (Find).
     pub FindSpec = Finds of BehaviourParams {
         heading: HEADING,
         rows: [find::Params],
@@ -28,7 +28,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to follow the plume.
+    /// Behaviours that follow the plume towards its source while the vehicle detects it (Track-In).
     pub TrackInSpec = TracksIn of BehaviourParams {
         heading: HEADING,
         rows: [track_in::Params],
@@ -37,7 +37,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to act just after losing the plume.
+    /// Behaviours for the first moments after the plume was lost (Track-Out): they try to return into it at once.
     pub TrackOutSpec = TracksOut of BehaviourParams {
         heading: HEADING,
         rows: [track_out::Params],
@@ -46,7 +46,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to search around the places where the plume was lost.
+    /// Behaviours that search around the last detections when Track-Out has not met the plume again (Reacquire).
     pub ReacquireSpec = Reacquires of BehaviourParams {
         heading: HEADING,
         rows: [reacquire::Params, cloverleaf::Params],

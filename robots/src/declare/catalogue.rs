@@ -101,7 +101,7 @@ pub trait BeliefRuleParams: Spec {
 const HEADING: &str = "Declaration rules";
 
 kind! {
-    /// The rules that look at the points where the plume was lost.
+    /// Rules that declare where the source is, from the points where the vehicle last detected the plume.
     pub DeclareSpec = Declares of DeclareParams {
         heading: HEADING,
         rows: [AlongFlow, SizT, SizF],
@@ -110,7 +110,7 @@ kind! {
 }
 
 kind! {
-    /// The rules on a map of the source.
+    /// Rules that declare where the source is, from the robot's map of where it may be.
     pub BeliefRuleSpec = BeliefRules of BeliefRuleParams {
         heading: HEADING,
         rows: [unchanged::Params, credible_area::Params],

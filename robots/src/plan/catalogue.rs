@@ -38,7 +38,7 @@ pub trait PlannerParams: Spec {
 }
 
 kind! {
-    /// The planners that a scenario can choose.
+    /// Planners, which turn the map of the source and the charted obstacles into a path for the vehicle.
     pub PlannerSpec = Planners of PlannerParams {
         heading: "Planners",
         rows: [a_star::Params, potential_field::Params],

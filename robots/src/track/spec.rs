@@ -24,7 +24,7 @@ pub trait GantryStrategyParams: Spec {
 }
 
 kind! {
-    /// The searchers of a gantry that a scenario can ask for.
+    /// Searchers that move a gantry's head by what its probes read.
     pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
         heading: "Searchers of a gantry (gantries: tracker)",
         rows: [CrabSpec, ChemotaxisSpec],

@@ -2,9 +2,11 @@
 
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
+use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
+use super::version;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -14,6 +16,7 @@ use std::str::FromStr;
 #[command(
     name = "rheotaxis",
     version,
+    long_version = version::long(),
     about = "Simulates underwater vehicles that trace a chemical plume to its source",
     long_about = "Simulates underwater vehicles that trace a chemical plume to its source.\n\n\
         A scenario file (RON) says where, in which water, what is released, who searches and when it \
@@ -115,6 +118,9 @@ pub struct RunArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Folder for the results; with several files, one folder in it for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -248,6 +254,9 @@ pub struct StatisticsArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// How long to watch; without it 1200 s in an open channel, elsewhere the scenario's `time.limit_s`.
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,

@@ -1,5 +1,6 @@
 //! What `rheotaxis campaign` can be asked.
 
+use super::args_key::KeyArgs;
 use clap::Subcommand;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -76,6 +77,9 @@ pub struct CampaignRunArgs {
     /// Folder for the blocks; may be shared by many machines.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Do the I-th of N shares, counted from 1; without it, as the cluster's scheduler says.
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -145,6 +149,9 @@ pub struct RerunArgs {
     /// Which run, as in the column `run`.
     #[arg(long, value_name = "K")]
     pub run: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Record it (run.mcap).
     #[arg(long)]
     pub record: bool,

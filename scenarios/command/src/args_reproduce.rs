@@ -1,5 +1,6 @@
 //! What `rheotaxis reproduce` can be asked.
 
+use super::args_key::KeyArgs;
 use std::path::PathBuf;
 
 /// Arguments of `reproduce`.
@@ -30,6 +31,9 @@ pub struct ReproduceArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1,
         value_parser = clap::value_parser!(u64).range(..=1 << 62))]
     pub first_seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// 20 seeds for each row: a first look.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,

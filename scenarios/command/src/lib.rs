@@ -9,6 +9,7 @@
 mod args;
 mod args_campaign;
 mod args_explain;
+mod args_key;
 mod args_picture;
 mod args_reproduce;
 mod args_vision;
@@ -32,6 +33,7 @@ mod shown;
 mod statistics;
 mod stop;
 mod topics;
+mod version;
 
 pub use args::{
     Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,

@@ -39,7 +39,7 @@ fn kind(group: Group) -> ListKind {
 pub(super) fn scenarios() {
     for template in CATALOG {
         match parse(template.name, template.text) {
-            Ok(scenario) => print(template.name, &scenario.title, &scenario.source),
+            Ok(scenario) => print(template.name, &scenario.title, &scenario.citation),
             // Tests keep this from happening.
             Err(error) => print(template.name, &error.to_string(), "-"),
         }

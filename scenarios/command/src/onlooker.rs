@@ -73,7 +73,7 @@ impl<'a> Onlooker<'a> {
             title: scenario.title.clone(),
             success: scenario.success.words(),
             scenario_text: loaded.text.clone(),
-            seed: args.seed,
+            seed: args.key.seed(args.seed),
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
         let gantries = gantries(loaded)?;
@@ -258,7 +258,7 @@ fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Liv
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),
-        seed: run.seed,
+        seed: run.seed.number(),
         version: run.version.clone(),
     };
     let live = Live::start(&options, meta)?;

@@ -95,6 +95,7 @@ fn one(
     let plan = Plan {
         n,
         first_seed: args.first_seed,
+        key: args.key.get(),
         until_half_width: args.until_width,
         jobs: args.jobs,
     };

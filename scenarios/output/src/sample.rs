@@ -40,7 +40,7 @@ pub(crate) fn info() -> RunInfo {
         title: "A sample <&>".into(),
         success: "a source is declared within 20 m of a true one".into(),
         scenario_text: "(version: 1, title: \"a < b\")\n".into(),
-        seed: 7,
+        seed: 7.into(),
         version: "0.1.0".into(),
     }
 }

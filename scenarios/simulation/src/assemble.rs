@@ -20,6 +20,7 @@ use world::clock::{Clock, Every};
 use world::digest::Digest;
 use world::fields::Flow;
 use world::physics::Physics;
+use world::seeds::Seed;
 
 /// A scenario brought to life: the ECS world and the tick that moves it.
 pub struct Simulation {
@@ -37,8 +38,9 @@ impl Simulation {
     pub fn assemble(
         scenario: &Scenario,
         base_dir: &Path,
-        seed: u64,
+        seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
+        let seed = seed.into();
         let dt_s = scenario.time.step_s.get();
         let origin = Origin::of(scenario, base_dir, seed);
         let ocean = origin.build(base_dir)?;

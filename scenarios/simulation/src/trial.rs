@@ -16,6 +16,7 @@ use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use world::clock::Clock;
 use world::digest::Digest;
+use world::seeds::Seed;
 
 /// Somebody who looks on: records, publishes, paces, draws progress. Nothing it does reaches the run
 /// but the wish to stop.
@@ -89,7 +90,7 @@ impl Trial {
     ///
     /// # Errors
     /// See [`Simulation::assemble`].
-    pub fn assemble(loaded: &Loaded, seed: u64) -> Result<Self, AssembleError> {
+    pub fn assemble(loaded: &Loaded, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
         let simulation = Simulation::assemble(scenario, &loaded.base_dir, seed)?;
         let sources = simulation.ocean().plume().sources();

@@ -4,7 +4,7 @@ use super::*;
 use crate::behave::Stride;
 use crate::handoff::testing::{self, area, seen};
 use crate::handoff::{Behaviour, Declaration, Manoeuvre, Observation, Picture, Verdict, Vertical};
-use crate::sense::{Sidescan, SidescanSpec};
+use crate::sense::{OnBoard, Sidescan, SidescanSpec};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use std::sync::Arc;
@@ -57,8 +57,12 @@ struct Flown {
 fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> Flown {
     let after = AfterDeclaration::Survey(Box::new(spec.clone()));
     let mut post = PostDeclaration::new(&after).unwrap();
-    let mut sonar =
-        Sidescan::new(&SidescanSpec::default(), Vector3::zeros(), "a", 3, PERIOD_S).unwrap();
+    let mut sonar = Sidescan::new(
+        &SidescanSpec::default(),
+        Vector3::zeros(),
+        &OnBoard::new("a", 3, PERIOD_S),
+    )
+    .unwrap();
     let mut clock = Clock::new(PERIOD_S);
     let mut o = seen(0.0, declared, 0.0, None);
     let first = Declaration::first(0.0, declared, "test");

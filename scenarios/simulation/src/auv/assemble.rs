@@ -15,13 +15,13 @@ use robots::handoff::{
     ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
     Setting, Vertical,
 };
-use robots::sense::SensorSuite;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
 use world::physics::Physics;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 /// Spawns it; its body goes into `physics`.
 pub(crate) fn spawn(
@@ -30,7 +30,7 @@ pub(crate) fn spawn(
     spec: &RobotSpec,
     setting: &Setting,
     base_dir: &Path,
-    seed: u64,
+    seed: Seed,
     dt_s: f64,
 ) -> Result<Entity, RobotError> {
     let id = spec.id.as_str();
@@ -40,7 +40,11 @@ pub(crate) fn spawn(
     truth.v_WB_B.x = spec.start.speed_m_s.get();
     let vehicle = Vehicle::load(&spec.vehicle, &Beside(base_dir))?;
     let body = physics.add_body(vehicle.body_spec(id, truth));
-    let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
+    let suite = SensorSuite::new(
+        &spec.sensors,
+        &|name| vehicle.mount(name),
+        OnBoard::new(id, seed, dt_s),
+    )?;
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;

@@ -14,6 +14,7 @@ mod terminal;
 mod tests;
 mod units;
 mod words;
+mod wrap;
 
 pub use path::Unknown;
 

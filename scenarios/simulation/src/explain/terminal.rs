@@ -3,6 +3,7 @@
 use super::path::{At, Place, below, joined};
 use super::read::{Field, Named, Reference, Shape, Variant};
 use super::words;
+use super::wrap::wrap;
 use std::fmt::Write;
 
 /// Longest line, characters.
@@ -169,19 +170,7 @@ fn variant(r: &Reference, out: &mut String, v: &Variant) {
 
 /// A paragraph, indented.
 fn wrapped(out: &mut String, indent: usize, text: &str) {
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        let long = indent + line.chars().count() + 1 + word.chars().count() > WIDTH;
-        if long && !line.is_empty() {
-            let _ = writeln!(out, "{:indent$}{line}", "");
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    if !line.is_empty() {
+    for line in wrap(text, WIDTH - indent) {
         let _ = writeln!(out, "{:indent$}{line}", "");
     }
 }

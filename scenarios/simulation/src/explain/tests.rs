@@ -34,6 +34,19 @@ fn the_reference_in_docs_is_up_to_date() {
 }
 
 #[test]
+fn prose_of_the_reference_fits_on_its_lines() {
+    for line in markdown().lines().filter(|l| !l.starts_with('|')) {
+        assert!(line.chars().count() <= 120, "{line}");
+    }
+}
+
+#[test]
+fn a_kind_says_what_it_is_for() {
+    let text = explain("robots.strategy.Amp.reacquire").unwrap();
+    assert!(text.contains("search around the last detections"), "{text}");
+}
+
+#[test]
 fn the_schema_in_docs_is_up_to_date() {
     let how = "rheotaxis explain --json-schema > docs/scenario.schema.json";
     is_up_to_date("scenario.schema.json", &json_schema(), how);

@@ -7,11 +7,11 @@ use bevy_ecs::prelude::{Entity, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
 use robots::handoff::{GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use std::path::Path;
 use world::physics::Physics;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 use world::terrain::Terrain;
 
 /// Spawns it; its joints go into `physics`.
@@ -21,7 +21,7 @@ pub(crate) fn spawn(
     block: &GantryBlock,
     terrain: &Terrain,
     base_dir: &Path,
-    seed: u64,
+    seed: Seed,
 ) -> Result<Entity, RobotError> {
     let id = block.id.as_str();
     let dt_s = physics.dt_s();
@@ -31,7 +31,7 @@ pub(crate) fn spawn(
     let base = block.base(terrain);
     let joints = physics.add_gantry(gantry.body_spec(id, &base, block.start_m())?);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    let probes = Probes::new(&block.probes, &names, id, seed, dt_s)?;
+    let probes = Probes::new(&block.probes, &names, &OnBoard::new(id, seed, dt_s))?;
     let strategy = block.tracker.build(&layout)?;
     let gantry = world.spawn((
         SearcherId(id.to_string()),

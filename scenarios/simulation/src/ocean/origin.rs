@@ -15,12 +15,13 @@ use std::path::Path;
 use world::digest::Digest;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{NonNegative, Positive};
+use world::seeds::Seed;
 
 /// All that a run's water and plume follow from, up to the start of the mission.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
-    seed: u64,
+    seed: Seed,
     area: AreaSpec,
     terrain: TerrainSpec,
     water: WaterSpec,
@@ -39,11 +40,11 @@ pub struct Origin {
 
 impl Origin {
     /// The origin of a scenario's run; files are looked for under `base_dir`.
-    pub fn of(scenario: &Scenario, base_dir: &Path, seed: u64) -> Self {
+    pub fn of(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Self {
         let files = scenario.obstacles.iter().filter_map(ObstacleSpec::file);
         let time = &scenario.time;
         Self {
-            seed,
+            seed: seed.into(),
             area: scenario.area.clone(),
             terrain: scenario.terrain.clone(),
             water: scenario.water.clone(),
@@ -95,7 +96,7 @@ impl Origin {
 
     /// The run's seed.
     #[must_use]
-    pub fn seed(&self) -> u64 {
+    pub fn seed(&self) -> Seed {
         self.seed
     }
 

@@ -138,7 +138,7 @@ mod tests {
                 t.name
             );
             assert!(
-                !scenario.title.is_empty() && !scenario.source.is_empty(),
+                !scenario.title.is_empty() && !scenario.citation.is_empty(),
                 "{}",
                 t.name
             );

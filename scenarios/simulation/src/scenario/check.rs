@@ -12,8 +12,8 @@ use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
-use robots::sense::SensorSuite;
 use robots::sense::camera::Optics;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
@@ -294,7 +294,7 @@ fn parts(
             }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();
-            match SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+            match SensorSuite::new(&robot.sensors, &mounts, OnBoard::new(id, 0, step_s)) {
                 Ok(_) => return Some(vehicle),
                 Err(e) => found.push(robot_error(&path, "sensors", e)),
             }

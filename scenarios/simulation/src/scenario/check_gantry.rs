@@ -4,7 +4,7 @@ use super::beside::Beside;
 use super::fault::Found;
 use super::gantry::GantryBlock;
 use robots::error::RobotError;
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use std::path::Path;
 use world::area::Area;
@@ -51,7 +51,11 @@ pub(crate) fn check(
     }
     let layout = block.layout(&gantry);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    if let Err(e) = Probes::new(&block.probes, &names, block.id.as_str(), 0, step_s) {
+    if let Err(e) = Probes::new(
+        &block.probes,
+        &names,
+        &OnBoard::new(block.id.as_str(), 0, step_s),
+    ) {
         found.push(fault(&path, "probes", e));
     }
     if let Err(e) = block.tracker.build(&layout) {

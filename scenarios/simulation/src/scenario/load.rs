@@ -6,7 +6,8 @@ use super::fault::Severity;
 use super::fault::{Fault, Found, ScenarioError};
 use super::outline::Outline;
 use super::reader;
-use super::schema::{Scenario, VERSION};
+use super::schema::Scenario;
+use super::version::version_first;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
@@ -147,39 +148,8 @@ fn read_whole(
             ),
         });
     }
-    if outline.open.is_empty() {
-        version_first(name, text, &outline)?;
-    }
-    reader::read(name, text, meaning)
-}
-
-/// A file of another version may differ in everything else: say that first.
-fn version_first(name: &str, text: &str, outline: &Outline) -> Result<(), ScenarioError> {
-    let first = outline
-        .nodes
-        .iter()
-        .filter(|n| !n.path.is_empty() && !n.path.contains(['.', '[']))
-        .min_by_key(|n| n.whole.start);
-    let Some(first) = first else {
-        return Ok(());
-    };
-    let value = &text[first.value.clone()];
-    let found = if first.path != "version" {
-        Found::error(
-            "version",
-            format!("the first field must be `version: {VERSION}`"),
-        )
-        .hint(format!("the file begins with `{}`", first.path))
-    } else if value.parse() == Ok(VERSION) {
-        return Ok(());
-    } else {
-        Found::error(
-            "version",
-            format!("this program reads version {VERSION}, got {value}"),
-        )
-        .hint("take the program that wrote the file, or start anew from `rheotaxis init`")
-    };
-    Err(Box::new(Fault::new(name, text, first.whole.clone(), found)).into())
+    let citation = version_first(name, text, &outline)?;
+    reader::read_renamed(name, text, Some(citation), meaning)
 }
 
 enum Unread {

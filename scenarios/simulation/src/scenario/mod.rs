@@ -22,6 +22,7 @@ mod success;
 #[cfg(test)]
 mod told;
 mod unread;
+mod version;
 
 pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
@@ -35,6 +36,7 @@ pub(crate) use reader::distance;
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,
-    TimeSpec, VERSION, Version,
+    TimeSpec,
 };
 pub use success::{DeclaredSpec, ReachedSpec, SuccessSpec};
+pub use version::{OLDEST, VERSION, Version};

@@ -2,6 +2,7 @@
 
 use super::gantry::GantryBlock;
 use super::success::SuccessSpec;
+use super::version::Version;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
@@ -21,19 +22,17 @@ use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
-/// Version of the schema this program reads.
-pub const VERSION: u32 = 1;
-
 /// An experiment: a place, its water, what is released, who searches, and when it is over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// Version of the schema; the first field of every file.
+    /// Version of scenario files; the first field of every file.
     pub version: Version,
     /// One line for lists and reports.
     pub title: String,
-    /// Where the experiment comes from: paper, section, figure, table.
-    pub source: String,
+    /// Where the experiment comes from: paper, section, figure, table. Files of version 1 call it `source`.
+    #[serde(alias = "source")]
+    pub citation: String,
     /// The operating area.
     pub area: AreaSpec,
     /// The bed.
@@ -67,29 +66,6 @@ pub struct Scenario {
     /// What is written down, and how often.
     #[serde(default)]
     pub record: RecordSpec,
-}
-
-/// Version of the schema.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "u32", into = "u32")]
-#[schemars(extend("const" = VERSION))]
-pub struct Version(u32);
-
-impl TryFrom<u32> for Version {
-    type Error = String;
-    fn try_from(v: u32) -> Result<Self, String> {
-        if v == VERSION {
-            Ok(Self(v))
-        } else {
-            Err(format!("this program reads version {VERSION}, got {v}"))
-        }
-    }
-}
-
-impl From<Version> for u32 {
-    fn from(v: Version) -> u32 {
-        v.0
-    }
 }
 
 /// A name that fits into keys and file names.

@@ -32,6 +32,9 @@ pub struct Manifest {
     /// The runs' seeds, for people; the campaign's text is what counts.
     #[serde(default)]
     pub seeds: String,
+    /// The mark of the key that the runs have beside their seeds; `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// Whether every block has a seal; those of older programs have none.
     #[serde(default)]
     pub(super) sealed: bool,
@@ -58,6 +61,7 @@ impl Manifest {
             block,
             runs: campaign.n_runs(),
             seeds: campaign.spec.seeds.words(),
+            key: campaign.key.mark(),
             sealed: true,
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
@@ -164,9 +168,28 @@ impl Manifest {
         Ok(campaign)
     }
 
+    /// Refuses to make a run again under another key than that of the folder.
+    ///
+    /// # Errors
+    /// Names the mark of the folder's key.
+    pub fn same_key(&self, campaign: &Campaign) -> Result<(), CampaignError> {
+        if self.key == campaign.key.mark() {
+            return Ok(());
+        }
+        let problem = match &self.key {
+            Some(mark) => format!("its runs have the key with the mark {mark}: give it with --key"),
+            None => "its runs have no key: leave out --key and RHEOTAXIS_KEY".to_string(),
+        };
+        Err(CampaignError::Read {
+            path: PathBuf::from(FILE),
+            problem,
+        })
+    }
+
     /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
     #[must_use]
     pub fn differences(&self, ours: &Self) -> Vec<String> {
+        let key = |m: &Self| m.key.clone().unwrap_or_else(|| "none".to_string());
         let pairs = [
             ("scenario", &self.scenario_hash, &ours.scenario_hash),
             ("campaign", &self.campaign_hash, &ours.campaign_hash),
@@ -176,6 +199,7 @@ impl Manifest {
                 &self.block.to_string(),
                 &ours.block.to_string(),
             ),
+            ("mark of the key", &key(self), &key(ours)),
         ];
         (pairs.iter())
             .filter(|(_, there, here)| there != here)

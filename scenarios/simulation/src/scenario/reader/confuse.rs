@@ -12,7 +12,7 @@ impl Mender<'_> {
         id: usize,
         node: &Node,
         place: usize,
-        legal: &'static [&'static str],
+        legal: &[&'static str],
     ) -> bool {
         let Kind::Group(group) = &node.kind else {
             return false;
@@ -51,19 +51,21 @@ impl Mender<'_> {
             };
             let found = Found::error(&node.path, "the fields here have names").hint(hint);
             self.tell(at, found, Form::Whole);
+            let own: Vec<String> = legal.iter().map(|l| self.own(id, l).to_string()).collect();
             let items = &mut self.group(id).expect("it is one").items;
-            for (item, name) in items.iter_mut().zip(legal) {
-                item.key = Some((*name).to_string());
+            for (item, name) in items.iter_mut().zip(own) {
+                item.key = Some(name);
             }
             return true;
         }
+        let own = self.own(id, &written).to_string();
         let items = &mut self.group(id).expect("it is one").items;
         if let Some(name) = legal.iter().find(|l| **l == written) {
-            items[place].key = Some(written.clone());
+            items[place].key = Some(own);
             let hole = items[place].node;
             self.dig(hole);
             let found = Found::error(&node.path, format!("the field `{name}` has no value"));
-            self.tell(at, found, Form::Missing(name, hole));
+            self.tell(at, found, Form::Missing((*name).to_string(), hole));
         } else {
             items.remove(place);
             let found = self.got(&inner, "expected `name: value`".to_string());

@@ -16,7 +16,7 @@ pub(super) enum Form {
     /// It has it, or needs none.
     Whole,
     /// A field and the stand-in in its place.
-    Missing(&'static str, usize),
+    Missing(String, usize),
     /// The stand-in in place of something of another kind.
     Kind(usize),
     /// A choice and the parentheses it got.

@@ -2,6 +2,7 @@
 
 use super::fail::{Fail, What};
 use super::hint::{Form, Told, choose, nearest};
+use super::names::Renamed;
 use super::scalar;
 use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
 use super::value::{Reading, Value};
@@ -24,10 +25,12 @@ pub(super) const SHORT: usize = 40;
 pub(super) struct Mender<'a> {
     pub(super) reading: Reading<'a>,
     told: Vec<Told>,
+    /// The field that is called otherwise in some texts.
+    pub(super) renamed: Option<Renamed>,
 }
 
 impl<'a> Mender<'a> {
-    pub(super) fn new(text: &'a str, tree: Tree) -> Self {
+    pub(super) fn new(text: &'a str, tree: Tree, renamed: Option<Renamed>) -> Self {
         let tree = RefCell::new(tree);
         let reading = Reading {
             text,
@@ -38,6 +41,7 @@ impl<'a> Mender<'a> {
         Self {
             reading,
             told: Vec::new(),
+            renamed,
         }
     }
 
@@ -146,14 +150,12 @@ impl<'a> Mender<'a> {
             (Kind::Hole(_), what) => self.refill(id, what),
             (Kind::Group(_), What::Missing(field)) => self.missing(id, &node, field),
             (Kind::Group(group), What::Field(name, legal)) => {
-                let known: Vec<&str> = group
-                    .items
-                    .iter()
+                let legal = self.legal(id, legal);
+                let known: Vec<&str> = (group.items.iter())
                     .filter_map(|i| i.key.as_deref())
+                    .map(|key| self.shown(id, key))
                     .collect();
-                let free: Vec<&str> = legal
-                    .iter()
-                    .copied()
+                let free: Vec<&str> = (legal.iter().copied())
                     .filter(|l| !known.contains(l))
                     .collect();
                 let Some(i) = group
@@ -164,9 +166,9 @@ impl<'a> Mender<'a> {
                     return false;
                 };
                 let found = Found::error(&node.path, format!("there is no field `{name}`"))
-                    .hint(choose(&name, legal, "fields"));
+                    .hint(choose(&name, &legal, "fields"));
                 let at = group.items[i].key_at.clone();
-                let meant = nearest(&name, &free).map(str::to_string);
+                let meant = nearest(&name, &free).map(|meant| self.own(id, meant).to_string());
                 let group = self.group(id).expect("it is one");
                 match meant {
                     Some(meant) => group.items[i].key = Some(meant),
@@ -183,7 +185,8 @@ impl<'a> Mender<'a> {
                 else {
                     return false;
                 };
-                let found = Found::error(&node.path, format!("the field `{field}` is given twice"));
+                let shown = self.shown(id, field);
+                let found = Found::error(&node.path, format!("the field `{shown}` is given twice"));
                 self.group(id).expect("it is one").items.remove(i);
                 self.tell(group.items[i].key_at.clone(), found, Form::Whole);
                 true
@@ -240,7 +243,7 @@ impl<'a> Mender<'a> {
                 true
             }
             (Kind::Group(_), What::Nameless { place, legal }) => {
-                self.nameless(id, &node, place, legal)
+                self.nameless(id, &node, place, &self.legal(id, legal))
             }
             (_, What::Named(name)) => {
                 let groups = |n: &&mut Node| matches!(&n.kind, Kind::Group(g) if g.items.iter().any(|i| i.node == id));
@@ -327,11 +330,14 @@ impl<'a> Mender<'a> {
         });
         if !node.silent {
             let (problem, at, form) = match key {
-                Some(_) => (
-                    format!("the field `{field}` is missing"),
-                    node.whole.clone(),
-                    Form::Missing(field, hole),
-                ),
+                Some(_) => {
+                    let shown = self.shown(id, field).to_string();
+                    (
+                        format!("the field `{shown}` is missing"),
+                        node.whole.clone(),
+                        Form::Missing(shown, hole),
+                    )
+                }
                 None => (
                     "expected a value in the parentheses".to_string(),
                     node.value.clone(),

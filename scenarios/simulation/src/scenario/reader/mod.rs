@@ -12,6 +12,7 @@ mod deserialize;
 mod fail;
 mod hint;
 mod mend;
+mod names;
 mod parse;
 mod scalar;
 mod token;
@@ -23,6 +24,7 @@ use super::fault::{Fault, Found, ScenarioError};
 use super::unread::unread;
 pub(crate) use hint::distance;
 use mend::Mender;
+pub(super) use names::Renamed;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use tree::{Placed, Tree};
@@ -40,14 +42,26 @@ pub fn read<T: DeserializeOwned>(
     text: &str,
     meaning: &dyn Fn(&T) -> Vec<Found>,
 ) -> Result<T, ScenarioError> {
+    read_renamed(name, text, None, meaning)
+}
+
+/// The same for a type of which one field has another name in some texts.
+pub(super) fn read_renamed<T: DeserializeOwned>(
+    name: &str,
+    text: &str,
+    renamed: Option<Renamed>,
+    meaning: &dyn Fn(&T) -> Vec<Found>,
+) -> Result<T, ScenarioError> {
     let reader = ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
     let error = match reader.from_str(text) {
+        // The type reads both names; that the text has the right one remains to be seen.
+        Ok(_) if renamed.as_ref().is_some_and(|r| r.misused(text)) => None,
         Ok(value) => return Ok(value),
-        Err(error) => error,
+        Err(error) => Some(error),
     };
-    let mut found = mistakes(text, meaning);
-    if found.is_empty() {
+    let mut found = mistakes(text, renamed, meaning);
+    if let (true, Some(error)) = (found.is_empty(), error) {
         found.push(unread(text, &error));
     }
     let faults = found.into_iter();
@@ -55,12 +69,17 @@ pub fn read<T: DeserializeOwned>(
     Err(ScenarioError::of(name, faults.collect()))
 }
 
-fn mistakes<T: DeserializeOwned>(text: &str, meaning: &dyn Fn(&T) -> Vec<Found>) -> Vec<Placed> {
+fn mistakes<T: DeserializeOwned>(
+    text: &str,
+    renamed: Option<Renamed>,
+    meaning: &dyn Fn(&T) -> Vec<Found>,
+) -> Vec<Placed> {
     let Some(tree) = Tree::of(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, Found::error("", problem))];
     };
-    let mut mender = Mender::new(text, tree);
+    let mut mender = Mender::new(text, tree, renamed);
+    mender.rename();
     let first = mender.read(0);
     // What later readings would tell of comes from their stand-ins.
     let mut found = mender.told();

@@ -17,7 +17,7 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
             run,
             arm: campaign.arm(place.arm).name.clone(),
             condition: campaign.condition_name(place.condition),
-            seed: place.seed,
+            seed: place.seed.number(),
             error: (run == 3).then(|| "no water".to_string()),
             ..row(
                 place.seed_index,
@@ -177,19 +177,12 @@ fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
     broken
 }
 
+/// For more: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib damaged_blocks`.
 #[test]
 fn damaged_blocks_are_not_whole_whatever_the_library_does() {
-    assert!(survives(true, 1000, 1) >= 990);
-    // Without a seal, the library reads whatever bytes it gets, and its panics count as answers.
-    assert!(survives(false, 1000, 2) >= 900);
-}
-
-/// By hand: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib many_damaged -- --ignored`.
-#[test]
-#[ignore = "takes minutes"]
-fn many_damaged_blocks() {
     let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
-    let n = n.and_then(|n| n.parse().ok()).unwrap_or(20_000);
-    let broken = (survives(true, n, 11), survives(false, n, 12));
-    assert!(broken.0 > n / 2 && broken.1 > n / 2, "{broken:?}");
+    let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(1000);
+    assert!(survives(true, n, 1) >= n * 99 / 100);
+    // Without a seal, the library reads whatever bytes it gets, and its panics count as answers.
+    assert!(survives(false, n, 2) >= n * 9 / 10);
 }
