@@ -16,11 +16,11 @@
 //! rpm = n_ff U_d + K_n ∫(U_d − U)
 //! ```
 //!
-//! *Deviations:* integrals are frozen while their output is at its limit. The heading's integral is also frozen while the
-//! heading is more than 10° off, so that it does not wind up in a turn. A commanded heading that turns steadily, as in a
-//! circle, leaves a small error for minutes. The heading's integral is therefore also limited to its purpose, the trim of a
-//! rudder; otherwise it would take over the rudder angle of the circle and delay the next turn. Without a flow estimate the
-//! speed is only fed forward. Without an altitude the vehicle stays level.
+//! *Deviations:* integrals are frozen while their output is at its limit. The heading's integral is also frozen while
+//! the heading is more than 10° off, so that it does not wind up in a turn. A commanded heading that turns steadily,
+//! as in a circle, leaves a small error for minutes. The heading's integral is therefore also limited to its purpose,
+//! the trim of a rudder; otherwise it would take over the rudder angle of the circle and delay the next turn. Without
+//! a flow estimate the speed is only fed forward. Without an altitude the vehicle stays level.
 
 use super::spec::AutopilotSpec;
 use crate::handoff::{ActuatorCommand, Command, Estimate, Setpoint, Vertical};

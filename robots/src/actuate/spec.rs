@@ -79,6 +79,8 @@ impl Default for AutopilotSpec {
 /// Autopilots that a scenario can set up.
 pub const CATALOGUE: &[Entry] = &[Entry {
     name: "autopilot",
-    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by `autopilot: (...)`.",
-    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang 2009, section 6",
+    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by \
+        `autopilot: (...)`.",
+    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang \
+        2009, section 6",
 }];

@@ -60,8 +60,8 @@ fn five_errors(p: f64, trials: u32) -> f64 {
 
 #[test]
 fn two_points_are_declared_as_often_as_chance_has_it() {
-    // Two points off by sigma an axis differ by a Rayleigh-distributed way of scale sqrt(2) sigma, which is the diagonal; their
-    // distance from their mean is half of it.
+    // Two points off by sigma an axis differ by a Rayleigh-distributed way of scale sqrt(2) sigma, which is the
+    // diagonal; their distance from their mean is half of it.
     let mut rng = Stream::new(1, "two", "test");
     for (eps_m, scatter_m) in [(3.0, 1.0), (4.0, 2.0), (3.0, 5.0)] {
         let mut pair = || mission(0, 2, scatter_m, &mut rng);
@@ -102,8 +102,8 @@ fn the_paper_s_settings_find_a_narrow_cluster_at_the_end_of_the_way() {
 
 #[test]
 fn jumps_of_ten_metres_keep_a_small_box_from_ever_filling() {
-    // Points off by 5 m an axis, as if each had a fix of its own: six of them in 4 m are hopeless, an adaptive zone that
-    // knows of the fixes holds them.
+    // Points off by 5 m an axis, as if each had a fix of its own: six of them in 4 m are hopeless, an adaptive zone
+    // that knows of the fixes holds them.
     let mut rng = Stream::new(3, "wide", "test");
     let mut wide = || mission(5, 6, 5.0, &mut rng);
     let small = share(2000, || siz_t(4.0, 6).declare(&wide(), up(), 5.0).is_some());

@@ -231,7 +231,8 @@ mod tests {
             }),
             ..rule(4.0, 4)
         };
-        // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them too.
+        // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them
+        // too.
         assert!(
             adaptive
                 .declare(&points, Heading::from_deg(0.0), 0.0)

@@ -4,10 +4,10 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: eq. 1 turns the points by f_dir + 180° and calls the smallest x_flow the most up-flow one. The sign of its
-//! rotation leaves open whether that is so. Here x_flow grows down-flow and y_flow grows to the left of down-flow, so
-//! that the smallest x_flow is the most up-flow. The origin of the frame is that of the area: another origin would change no
-//! order.
+//! *Deviations*: eq. 1 turns the points by f_dir + 180° and calls the smallest x_flow the most up-flow one. The sign
+//! of its rotation leaves open whether that is so. Here x_flow grows down-flow and y_flow grows to the left of
+//! down-flow, so that the smallest x_flow is the most up-flow. The origin of the frame is that of the area: another
+//! origin would change no order.
 
 use super::Observation;
 use nalgebra::Vector2;

@@ -1,7 +1,7 @@
 //! Plain data that the stages hand to each other. A stage knows these types and no other stage.
 //!
-//! A type here has public fields, constructors and simple accessors. Algorithms and state that lasts from tick to tick belong
-//! to the stages, or to [`crate::memory`] and [`crate::places`] where several stages need them.
+//! A type here has public fields, constructors and simple accessors. Algorithms and state that lasts from tick to
+//! tick belong to the stages, or to [`crate::memory`] and [`crate::places`] where several stages need them.
 
 mod belief;
 mod command;

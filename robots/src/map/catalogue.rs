@@ -42,8 +42,8 @@ pub trait MapParams: Spec {
 }
 
 kind! {
-    /// Maps of where the source may be, which a robot updates from detections, silence and flow. Strategies that plan on a
-    /// map need one.
+    /// Maps of where the source may be, which a robot updates from detections, silence and flow. Strategies that plan
+    /// on a map need one.
     pub MapSpec = Maps of MapParams {
         heading: "Source maps",
         rows: [PomdpSpec, BayesianSpec, HmmSpec, ParticleFilterSpec],

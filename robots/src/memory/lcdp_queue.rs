@@ -4,8 +4,8 @@
 //!
 //! *Parameters*: most points held, `most`; none in the paper, where SIZ_F keeps all points of a mission.
 //!
-//! *Deviations*: the order along the flow is computed from the present flow whenever it is asked for; the flow at the time when
-//! a point was stored does not matter. A full queue forgets its oldest point.
+//! *Deviations*: the order along the flow is computed from the present flow whenever it is asked for; the flow at the
+//! time when a point was stored does not matter. A full queue forgets its oldest point.
 
 use super::{FixMove, NavigationFix};
 use crate::handoff::Lcdp;

@@ -70,7 +70,8 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "AStar",
-        what: "cheapest way by length and clearance, smoothed for the turning circle; on request with the paper's costs",
+        what: "cheapest way by length and clearance, smoothed for the turning circle; on request with the paper's \
+            costs",
         source: "Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968",
     };
 }
@@ -139,7 +140,8 @@ impl Planner for AStar {
             .ends
             .resolve(room, |c| room.free(c), &start.p_W, goal)?;
         let (cells, _) = (self.search.run(room, e.start, e.goal, false))
-            .expect("cells of one component are joined by moves through faces: the flood fill and the search disagree, which is an error in the planner");
+            .expect("cells of one component are joined by moves through faces: the flood fill and the search \
+                disagree, which is an error in the planner");
         let mut points: Vec<_> = cells.iter().map(|c| room.lattice().centre(*c)).collect();
         let plane_z = start.p_W.z;
         if room.plane() {

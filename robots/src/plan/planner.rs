@@ -58,7 +58,8 @@ impl Path {
 pub enum NoPath {
     /// No cell is free.
     #[error(
-        "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the margin smaller"
+        "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the \
+        margin smaller"
     )]
     Full,
 }

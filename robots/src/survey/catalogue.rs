@@ -12,7 +12,8 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "HighlightAndShadow",
         what: "objects: a bright return followed by its shadow, by a matched filter with a constant false-alarm rate",
-        source: "Dobeck, Hyland & Smedley 1997, Proc. SPIE 3079, 90; Reed, Petillot & Bell 2003, IEEE J. Oceanic Eng. 28, 90",
+        source: "Dobeck, Hyland & Smedley 1997, Proc. SPIE 3079, 90; Reed, Petillot & Bell 2003, IEEE J. Oceanic Eng. \
+            28, 90",
     },
     Entry {
         name: "Merge",

@@ -29,7 +29,8 @@ use world::seeds::Stream;
 impl Listed for CrabSpec {
     const ENTRY: Entry = Entry {
         name: "Crab",
-        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike frequency",
+        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike \
+            frequency",
         source: "Webster et al. 2012, section 4, Fig. 7",
     };
 }

@@ -216,8 +216,8 @@ pub(super) const SOURCE_M: Vector3<f64> = Vector3::new(1.34, 0.03, 0.038);
 
 /// A plume of puffs that drift down-stream, meander together and apart, and grow.
 ///
-/// Spread by the eddy diffusivities of an open channel of 20 cm at 5 cm/s, 8.3e-5 m²/s across and 3.7e-5 up; half of the
-/// variance is shared by neighbours (e-fold in a second); the release is that of a 4.2 mm nozzle, a puff for each
+/// Spread by the eddy diffusivities of an open channel of 20 cm at 5 cm/s, 8.3e-5 m²/s across and 3.7e-5 up; half of
+/// the variance is shared by neighbours (e-fold in a second); the release is that of a 4.2 mm nozzle, a puff for each
 /// 4.2 mm of water.
 pub(super) struct Puffs {
     /// Of each puff: normal numbers along, across, up.

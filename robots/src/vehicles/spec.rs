@@ -34,7 +34,8 @@ pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Remus100",
         what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
-        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI 2001",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI \
+            2001",
     },
     Entry {
         name: "CrabGantry",

@@ -112,7 +112,8 @@ impl Ballast {
         let [x, y, z] = [self.p_BG.x, self.p_BG.y, self.p_BG.z];
         if !near(c.z_g_m + x, c.z_g_m) || !near(c.z_g_m + y, c.z_g_m) {
             return Err(format!(
-                "link \"{body}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters have it under the middle"
+                "link \"{body}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters \
+                have it under the middle"
             ));
         }
         if !near(-z, c.z_g_m) {
@@ -150,14 +151,16 @@ impl Ballast {
             if differs(have, want) {
                 used.inertia_kg_m2[k] = have;
                 told.push(format!(
-                    "{axis} is {have} kg m2 by its URDF, {want:.5} kg m2 by the hydrodynamic parameters: the URDF's is used"
+                    "{axis} is {have} kg m2 by its URDF, {want:.5} kg m2 by the hydrodynamic parameters: the URDF's \
+                    is used"
                 ));
             }
         }
         if differs(-self.p_BG.z, c.z_g_m) {
             used.z_g_m = -self.p_BG.z;
             told.push(format!(
-                "the centre of gravity is {} m low by its URDF, {} m by the hydrodynamic parameters: the URDF's is used",
+                "the centre of gravity is {} m low by its URDF, {} m by the hydrodynamic parameters: the URDF's is \
+                used",
                 used.z_g_m, c.z_g_m
             ));
         }

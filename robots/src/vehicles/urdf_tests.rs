@@ -188,7 +188,8 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
         hull.told,
         [
             "iyy is 4.05 kg m2 by its URDF, 4.02777 kg m2 by the hydrodynamic parameters: the URDF's is used",
-            "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is used",
+            "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is \
+            used",
             "x of the centre of gravity is 0.0001 m by its URDF: ignored, because the equation of motion has none",
             "ixy is 0.0005 kg m2 by its URDF: ignored, because the equation of motion has none",
         ]

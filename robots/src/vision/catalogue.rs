@@ -6,7 +6,8 @@ use world::catalogue::Entry;
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "verifier",
-        what: "Whether a picture shows a source giving off dye: enough dye that is redder than the rest, and a darker body next to it",
+        what: "Whether a picture shows a source giving off dye: enough dye that is redder than the rest, and a darker \
+            body next to it",
         source: "ours, on the parts found by Tian et al. 2013, section 5",
     },
     Entry {
@@ -21,7 +22,8 @@ pub const CATALOGUE: &[Entry] = &[
     },
     Entry {
         name: "dehaze, give_back",
-        what: "Against haze: first removes slow changes and stretches each colour to the whole range; returns the pixels of dropped plume patterns",
+        what: "Against haze: first removes slow changes and stretches each colour to the whole range; returns the \
+            pixels of dropped plume patterns",
         source: "ours; histogram stretching as Iqbal et al. 2007",
     },
 ];

@@ -110,9 +110,9 @@ mod tests {
         near(papers().difference([0.0, 117.5, 0.0]), 127.5);
     }
 
-    /// 68 levels: w_m = 0.8, w_u = 0.2. A triangle of base ρ and height 1 cut at w has the area ρ(w − w²/2) and, about its
-    /// high end, the first moment ρ²(w(1 − w)²/2 + w²/2 − w³/3). Matched: 20·0.48 = 9.6 and
-    /// 400·(0.016 + 0.32 − 0.1706667) = 66.1333; Unmatched: 20·0.18 = 3.6 and 400·(0.064 + 0.02 − 0.0026667) = 32.5333 from 255.
+    /// 68 levels: w_m = 0.8, w_u = 0.2. A triangle of base ρ and height 1 cut at w has the area ρ(w − w²/2) and,
+    /// about its high end, the first moment ρ²(w(1 − w)²/2 + w²/2 − w³/3). Matched: 20·0.48 = 9.6 and 400·(0.016 +
+    /// 0.32 − 0.1706667) = 66.1333; Unmatched: 20·0.18 = 3.6 and 400·(0.064 + 0.02 − 0.0026667) = 32.5333 from 255.
     #[test]
     fn one_value_by_hand() {
         let want = (66.133_333_333 + 255.0 * 3.6 - 32.533_333_333) / 13.2;

@@ -49,7 +49,8 @@ impl DubinsPath {
                 }
             }
         }
-        best.expect("a path turning the same way twice exists between any two poses; a non-finite pose was given: check the estimate")
+        best.expect("a path turning the same way twice exists between any two poses; a non-finite pose was given: \
+            check the estimate")
     }
 
     fn candidate(start: Pose, end: Pose, radius_m: f64, turns: [f64; 2]) -> Option<Self> {

@@ -100,7 +100,8 @@ fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) 
 impl Listed for HmmSpec {
     const ENTRY: Entry = Entry {
         name: "Hmm",
-        what: "hidden Markov model of odour moving from cell to cell: source map, detection map, likely paths (reconstructed)",
+        what: "hidden Markov model of odour moving from cell to cell: source map, detection map, likely paths \
+            (reconstructed)",
         source: "Farrell, Pang & Li 2003, IEEE SMC-B 33(6)",
     };
 }
@@ -192,7 +193,8 @@ impl Hmm {
             *aside = spread(s, grid.cell_m[a]).ok_or_else(|| {
                 let (field, most) = wide(spec, a, grid.cell_m[a]);
                 let problem = format!(
-                    "must be at most {} in cells of {} m: odour would spread by {} of them in a step of {step_s} s, got {}",
+                    "must be at most {} in cells of {} m: odour would spread by {} of them in a step of {step_s} s, \
+                    got {}",
                     shown(most),
                     shown(grid.cell_m[a]),
                     shown((s / grid.cell_m[a]).round()),

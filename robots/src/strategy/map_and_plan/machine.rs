@@ -71,7 +71,8 @@ impl MapAndPlan {
         if !setting.maps {
             return Err(RobotError::Invalid {
                 field: "strategy".into(),
-                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: Pomdp()".into(),
+                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
+                    Pomdp()".into(),
             });
         }
         if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {

@@ -51,7 +51,8 @@ fn vertical() -> VerticalSpec {
 impl Listed for SubregionsSpec {
     const ENTRY: catalogue::Entry = catalogue::Entry {
         name: "Subregions",
-        what: "searches one subregion after the other, until a declaration, a plume traced to the up-flow edge, or a time-out",
+        what: "searches one subregion after the other, until a declaration, a plume traced to the up-flow edge, or a \
+            time-out",
         source: "Pang 2009, section 6",
     };
 }

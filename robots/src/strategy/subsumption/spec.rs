@@ -84,7 +84,8 @@ impl SubsumptionSpec {
 impl Listed for SubsumptionSpec {
     const ENTRY: Entry = Entry {
         name: "Subsumption",
-        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest that asks controls the vehicle",
+        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest \
+            that asks controls the vehicle",
         source: "Tian et al. 2013, section 2, Fig. 3; Brooks 1986, IEEE J. Robotics and Automation RA-2, 14",
     };
 }

@@ -181,17 +181,20 @@ fn broken_axes_are_told() {
     fails(
         "name=\"left_mount\" type=\"fixed\"",
         "name=\"left_mount\" type=\"prismatic\"",
-        "two joints must be prismatic, one on the base and one on the first; 3 are: \"along_stream\", \"across_stream\", \"left_mount\"",
+        "two joints must be prismatic, one on the base and one on the first; 3 are: \"along_stream\", \
+        \"across_stream\", \"left_mount\"",
     );
     fails(
         "<parent link=\"beam\"/>",
         "<parent link=\"base\"/>",
-        "joint \"across_stream\" is not carried by joint \"along_stream\": the base must carry one slide, and that slide the other",
+        "joint \"across_stream\" is not carried by joint \"along_stream\": the base must carry one slide, and that \
+        slide the other",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
         "<axis xyz=\"1 0 0\"/>",
-        "joints \"along_stream\" and \"across_stream\" are parallel: one must lie along x of \"base\", the other along y",
+        "joints \"along_stream\" and \"across_stream\" are parallel: one must lie along x of \"base\", the other \
+        along y",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
