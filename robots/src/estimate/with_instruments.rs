@@ -6,7 +6,7 @@ mod tests {
     use crate::handoff::Estimate;
     use crate::sense::camera::{Optics, OpticsSpec};
     use crate::sense::{
-        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, SensorSuite,
+        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite,
         SensorsSpec,
     };
     use nalgebra::{Vector2, Vector3};
@@ -52,7 +52,7 @@ mod tests {
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
-        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 11, dt_s)).unwrap();
         let start = Start {
             position: START,
             heading: east,
@@ -107,7 +107,7 @@ mod tests {
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
-        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 11, dt_s)).unwrap();
         let start = Start {
             position: START,
             heading: east,
