@@ -1,4 +1,4 @@
-//! Scenario files: schema, reading, checking; errors that point at the place.
+//! Scenario files: schema, reading and checks. Errors name the place in the file.
 
 mod catalog;
 mod check;
@@ -24,7 +24,6 @@ mod unread;
 mod version;
 
 pub use catalog::{CATALOG, Template, template};
-pub use check::within;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
