@@ -14,7 +14,6 @@ use output::results::{
     BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables,
     RobotInfo, RunEnd, RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
 };
-use rheotaxis::abnormal::Abnormals;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::outcome::RunOutcome;
@@ -156,7 +155,6 @@ impl<'a> Onlooker<'a> {
             let closed = recorder.finish(&ended.digest).map(drop);
             self.note(closed);
         }
-        let world = &trial.simulation.world;
         let ocean = trial.simulation.ocean();
         let plume = ocean.plume();
         let sources: Vec<SourceTruth> = (plume.sources().iter())
@@ -171,7 +169,8 @@ impl<'a> Onlooker<'a> {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
         };
-        (self.builder).went_wrong(&world.resource::<Abnormals>().0);
+        (self.builder).went_wrong(&trial.score().abnormal);
+        self.builder.added(trial);
         let summary = self.builder.finish(
             RunEnd {
                 outcome,

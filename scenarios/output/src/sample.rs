@@ -231,6 +231,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 robots: vec![robot],
                 gantries: Vec::new(),
                 abnormal: Vec::new(),
+                published: Vec::new(),
             }
         })
         .collect()

@@ -11,10 +11,12 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::abnormal::Abnormal;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::Trial;
 use robots::handoff::{
     Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
 };
-use std::collections::VecDeque;
+use serde_json::Value;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use world::units::Heading;
 
@@ -300,6 +302,8 @@ pub struct SummaryBuilder {
     robots: Vec<Robot>,
     gantries: Vec<GantryPath>,
     abnormal: Vec<Abnormal>,
+    apparatus: BTreeMap<String, Value>,
+    published: BTreeMap<String, Value>,
 }
 
 impl SummaryBuilder {
@@ -311,7 +315,16 @@ impl SummaryBuilder {
             robots: Vec::new(),
             gantries: Vec::new(),
             abnormal: Vec::new(),
+            apparatus: BTreeMap::new(),
+            published: BTreeMap::new(),
         }
+    }
+
+    /// What other crates add to the summary at the end: the parts of their machines and the last values of their topics.
+    pub fn added(&mut self, trial: &Trial) {
+        self.apparatus = trial.apparatus();
+        let last = trial.published().map(|p| (p.key.clone(), p.value.clone()));
+        self.published = last.collect();
     }
 
     /// Everything that went wrong up to the end, which may lie between two frames.
@@ -364,6 +377,8 @@ impl SummaryBuilder {
                 .collect(),
             robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
             gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
+            apparatus: self.apparatus.clone(),
+            published: self.published.clone(),
             abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
             run: RunSummary {
                 totals: t,

@@ -115,6 +115,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             found.push(Found::error(format!("gantries[{i}].id"), problem));
         }
     }
+    added(scenario, &robot_ids, &gantry_ids, &mut found);
     check_able::declarations(scenario, &mut found);
     times(scenario, &mut found);
     check_able::purpose(scenario, &mut found);
@@ -125,6 +126,21 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         check_steps::steps(scenario, water, &area, &terrain, &mut found);
     }
     found
+}
+
+/// The ids of machines of other crates.
+fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Vec<Found>) {
+    let ids: Vec<&str> = scenario.apparatus.iter().map(|a| a.id()).collect();
+    names("apparatus", &ids, found);
+    twins("apparatus", &ids, found);
+    for (i, id) in ids.iter().enumerate() {
+        for (list, others) in [("robots", robots), ("gantries", gantries)] {
+            if let Some(twin) = others.iter().position(|other| other == id) {
+                let problem = format!("\"{id}\" is already the name of {list}[{twin}]");
+                found.push(Found::error(format!("apparatus[{i}].id"), problem));
+            }
+        }
+    }
 }
 
 fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {

@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_new, write_on_disk};
+use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
@@ -151,6 +152,7 @@ impl Manifest {
             name: self.scenario_name.clone(),
             base_dir: self.base_dir.clone(),
             hash: self.scenario_hash.clone(),
+            registry: Registry::now(),
         };
         let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
         let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
