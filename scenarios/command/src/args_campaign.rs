@@ -44,7 +44,7 @@ pub enum CampaignCommand {
     Run(CampaignRunArgs),
     /// Say how far it has come.
     Status(StatusArgs),
-    /// Put all its rows into one file.
+    /// Put all its rows into one file, and their declarations into one beside it.
     Merge(MergeArgs),
     /// Compare its arms: tables, figures and a page.
     Report(ReportArgs),
@@ -122,10 +122,10 @@ pub struct MergeArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Parquet file to write.
+    /// Parquet file to write; the declarations go beside it (all.parquet: all-declarations.parquet).
     #[arg(long, short, value_name = "FILE")]
     pub out: PathBuf,
-    /// Write a CSV file too, beside it.
+    /// Write both as CSV files too, beside them.
     #[arg(long)]
     pub csv: bool,
 }

@@ -9,7 +9,7 @@ use std::path::PathBuf;
         its 95 % interval, the paper's, and whether the paper's lies inside. Shares have Wilson's interval, \
         medians and quantiles a bootstrap interval, means one on the scale of the logarithm; of fewer than 5 values there is \
         none.\n\nA row is run by its name, with all its arms or those of `--arm`; a name that no row has stands for all rows that begin with it \
-        and `_` (`wp`: wp_laminar, wp_turbulent, wp_dead_end). How many trials that makes is said first.\n\nLeaves REPRODUCTION.md, figures.csv (the table) and rows.csv \
+        and `_` (`wp`: wp_laminar, wp_turbulent, wp_dead_end). How many trials that makes is said first.\n\nLeaves REPRODUCTION.md, figures.csv (the table), rows.csv and declarations.csv \
         (every run), renewed every 50 seeds: an interrupted row leaves what it has done. Seeds are 1 to n, or as many from `--first-seed` on; the figures do not depend on the number of jobs.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\

@@ -31,7 +31,7 @@ mod off;
 
 pub use error::LiveError;
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
-pub use topics::{Field, Kind, Payload, Topic, topics};
+pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(not(feature = "live"))]
 pub use off::Live;
