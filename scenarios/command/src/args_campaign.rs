@@ -47,7 +47,7 @@ pub enum CampaignCommand {
     Run(CampaignRunArgs),
     /// Show how much of a campaign is done.
     Status(StatusArgs),
-    /// Write all rows of a campaign to one file.
+    /// Write all rows of a campaign to one file, and all declarations to one beside it.
     Merge(MergeArgs),
     /// Compare the arms: tables, figures and a page.
     Report(ReportArgs),
@@ -131,10 +131,10 @@ pub struct MergeArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Parquet file to write.
+    /// Parquet file to write; the declarations go beside it (all.parquet: all-declarations.parquet).
     #[arg(long, short, value_name = "FILE")]
     pub out: PathBuf,
-    /// Also write a CSV file beside it.
+    /// Also write both as CSV files beside them.
     #[arg(long)]
     pub csv: bool,
 }

@@ -202,9 +202,11 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
     let merged = merge(&args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
-        "{} in {}",
+        "{} in {}, {} in {}",
         count(merged.rows, "row"),
-        args.out.display()
+        args.out.display(),
+        count(merged.declarations, "declaration"),
+        merged.declarations_path.display()
     ));
     if merged.rows < merged.of {
         eprintln!(

@@ -46,7 +46,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         done.push(reproduced);
     }
     say::line(format_args!(
-        "results in {}: REPRODUCTION.md, figures.csv, rows.csv",
+        "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
         args.out.display()
     ));
     Ok(())

@@ -32,6 +32,7 @@ use serde_json::Value;
 use std::path::Path;
 use world::kind;
 use world::registry::Spec;
+use world::seeds::Seed;
 
 /// What a run tells its apparatus before it begins. What else there is stands in the world as a resource: ocean, physics,
 /// clock, score.
