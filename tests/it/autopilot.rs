@@ -33,7 +33,8 @@ impl Run {
             axis: Heading::from_deg(340.0),
         };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
+        let vehicle =
+            Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
         let pose = Pose::level(

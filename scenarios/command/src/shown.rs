@@ -1,12 +1,12 @@
-//! A fault of a scenario with the text round it, as miette draws it.
+//! Draws a fault of a scenario with the lines around it, by miette.
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rheotaxis::scenario::{Fault, Severity};
 use std::fmt::Display;
 
-/// A fault to be drawn.
+/// A fault that miette can draw.
 #[derive(Debug, thiserror::Error)]
-#[error("{fault}")]
+#[error("{}", headline(fault, text.is_some()))]
 pub(super) struct Shown {
     fault: Fault,
     text: Option<NamedSource<String>>,
@@ -18,6 +18,18 @@ impl From<Fault> for Shown {
         let text = text.map(|text| NamedSource::new(&fault.source_name, text));
         Self { fault, text }
     }
+}
+
+/// The message; with its place if the text around it is not drawn.
+fn headline(fault: &Fault, drawn: bool) -> String {
+    if drawn {
+        return fault.to_string();
+    }
+    let (line, column) = (fault.line, fault.column);
+    format!(
+        "{fault} ({}, line {line}, column {column})",
+        fault.source_name
+    )
 }
 
 impl Diagnostic for Shown {

@@ -1,4 +1,4 @@
-//! `rheotaxis statistics`: a plume's figures beside published ones.
+//! `rheotaxis statistics`: compares a plume's statistics with published ones.
 
 use super::args::StatisticsArgs;
 use super::exit::Exit;
@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use studies::statistics::{self, StatisticsError, table, write};
 
-/// Resolution of the progress.
+/// Steps of the progress bar.
 const PARTS: u64 = 1000;
 
-/// Watches the plume, prints the table and writes the CSV.
+/// Measures the plume, prints the table and writes it as CSV.
 pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
     let loaded = match checked {
@@ -57,7 +57,7 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     });
     match write(&folder, &measured) {
         Ok(path) => {
-            say::line(format_args!("as CSV in {}", path.display()));
+            say::line(format_args!("the table is in {}", path.display()));
             Exit::Success
         }
         Err(error) => {

@@ -1,4 +1,4 @@
-//! The whole reference as a Markdown document: a table for each type, in the order in which a scenario meets them.
+//! Writes the whole reference as Markdown: a table for each type, in the order in which a scenario uses them.
 
 use super::path::walk;
 use super::read::{Field, Reference, Shape, Variant};
@@ -21,7 +21,7 @@ Editors can use the [JSON Schema](scenario.schema.json).
 
 /// Longest line of prose, characters; rows of tables cannot be broken.
 const WIDTH: usize = 120;
-/// Most places of a type that are named.
+/// Most places of a type that are listed.
 const PLACES: usize = 4;
 
 /// The document.
@@ -61,7 +61,7 @@ fn paragraph(out: &mut String, text: &str) {
     out.push('\n');
 }
 
-/// Types in the order in which they are met, each with its places.
+/// The types in the order in which they appear, each with its places.
 fn types(r: &Reference) -> Vec<(&str, Vec<String>)> {
     let mut types: Vec<(&str, Vec<String>)> = Vec::new();
     walk(r, &r.root, "", &mut Vec::new(), &mut |path, _, shape| {
@@ -76,7 +76,7 @@ fn types(r: &Reference) -> Vec<(&str, Vec<String>)> {
     types
 }
 
-/// Name of a shape's type, or of its elements'.
+/// The name of a shape's type, or of the type of its elements.
 fn named(shape: &Shape) -> Option<&str> {
     match shape {
         Shape::Named(name) => Some(name),
@@ -87,7 +87,9 @@ fn named(shape: &Shape) -> Option<&str> {
 
 fn shape(r: &Reference, out: &mut String, shape: &Shape) {
     match shape {
-        Shape::Fields(fields) if fields.is_empty() => out.push_str("It has no fields: `()`.\n"),
+        Shape::Fields(fields) if fields.is_empty() => {
+            out.push_str("It has no fields; write `()`.\n")
+        }
         Shape::Fields(fields) => {
             out.push_str("| field | value | default | meaning |\n| --- | --- | --- | --- |\n");
             for f in fields {
@@ -136,7 +138,7 @@ fn with_source(what: &str, source: Option<&str>) -> String {
     }
 }
 
-/// A type's heading.
+/// A link to a type's heading.
 fn link(name: &str) -> String {
     format!("[{name}](#{})", name.to_lowercase())
 }

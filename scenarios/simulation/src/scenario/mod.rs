@@ -1,4 +1,4 @@
-//! Scenario files: schema, reading, checking; errors that point at the place.
+//! Scenario files: schema, reading and checks. Errors name the place in the file.
 
 mod beside;
 mod catalog;
@@ -26,11 +26,10 @@ mod version;
 
 pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
-pub use check::within;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
-pub use load::{Loaded, load, load_with, parse, parse_with};
+pub use load::{Loaded, load, load_text, load_with, parse, parse_with};
 pub use outline::{Node, Outline};
 pub(crate) use reader::distance;
 pub use reader::read;

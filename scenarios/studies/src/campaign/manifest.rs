@@ -8,15 +8,27 @@ use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_new, write_on_disk};
+use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
+/// Version of the format of a campaign's folder. Since 2, the declarations stand in a table of their own, in the files
+/// `declarations-<block>.parquet`, and every file of a block has a seal.
+pub const FORMAT: u32 = 2;
+
+fn first_format() -> u32 {
+    1
+}
+
 /// Longest one read, bytes: it holds two escaped texts of at most a megabyte each.
 const LONGEST: u64 = 16 << 20;
 
 /// The content of `campaign.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
+    /// Version of the folder's format: [`FORMAT`]. Folders of the first version do not say it.
+    #[serde(default = "first_format")]
+    pub(super) format: u32,
     /// Name of the campaign.
     pub name: String,
     /// Version of the program that runs it.
@@ -35,9 +47,6 @@ pub struct Manifest {
     /// The mark of the key that the runs have beside their seeds; `None` without one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
-    /// Whether every block has a seal; those of older programs have none.
-    #[serde(default)]
-    pub(super) sealed: bool,
     /// Name of the base scenario.
     pub scenario_name: String,
     /// Folder to which paths in the scenario are relative.
@@ -54,6 +63,7 @@ impl Manifest {
     pub fn new(campaign: &Campaign, block: u64) -> Self {
         let base = &campaign.base;
         Self {
+            format: FORMAT,
             name: campaign.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             campaign_hash: campaign.hash.clone(),
@@ -62,7 +72,6 @@ impl Manifest {
             runs: campaign.n_runs(),
             seeds: campaign.spec.seeds.words(),
             key: campaign.key.mark(),
-            sealed: true,
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
             campaign_text: campaign.text.clone(),
@@ -86,7 +95,7 @@ impl Manifest {
     /// Reads the manifest of a folder; `None` if there is none yet.
     ///
     /// # Errors
-    /// If it cannot be read, or contains a number that this program does not write.
+    /// If it cannot be read, has another format, or contains a number that this program does not write.
     pub fn find(dir: &Path) -> Result<Option<Self>, CampaignError> {
         let path = dir.join(FILE);
         let text = match files::read_text(&path, LONGEST) {
@@ -103,6 +112,14 @@ impl Manifest {
         };
         let read: Self = serde_json::from_str(&text)
             .map_err(|e| unlike(format!("it is not what this program writes: {e}")))?;
+        if read.format != FORMAT {
+            let problem = format!(
+                "the folder has format {}, this program reads and writes format {FORMAT}: \
+                 use version {} of the program, which made it, or another folder",
+                read.format, read.version
+            );
+            return Err(unlike(problem));
+        }
         for (field, value) in [("block", read.block), ("runs", read.runs)] {
             if !(1..=MOST).contains(&value) {
                 let problem = format!("{field}: must be from 1 to {MOST}, got {value}");
@@ -151,6 +168,7 @@ impl Manifest {
             name: self.scenario_name.clone(),
             base_dir: self.base_dir.clone(),
             hash: self.scenario_hash.clone(),
+            registry: Registry::now(),
         };
         let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
         let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
@@ -315,16 +333,19 @@ mod tests {
                 "campaign_text: its hash is",
             ),
             ("scenario_hash", "00".into(), "scenario_hash says 00"),
+            ("format", 3.into(), "the folder has format 3"),
         ] {
             let said = said(field, value);
             assert!(said.contains(says), "{field}: {said}");
         }
-        // From an older program: without the fields that it did not know.
+        // From an older program: without the field that it did not know.
         let mut old = good.clone();
-        for field in ["seeds", "sealed"] {
-            old.as_object_mut().unwrap().remove(field);
-        }
+        old.as_object_mut().unwrap().remove("format");
         fs::write(dir.path().join(FILE), old.to_string()).unwrap();
-        assert!(!Manifest::of(dir.path()).unwrap().sealed);
+        let said = Manifest::of(dir.path()).unwrap_err().to_string();
+        assert!(
+            said.contains("the folder has format 1, this program reads and writes format 2"),
+            "{said}"
+        );
     }
 }

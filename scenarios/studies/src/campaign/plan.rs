@@ -166,6 +166,7 @@ impl Campaign {
             base_dir: self.base.base_dir.clone(),
             hash: hash(&text),
             text,
+            registry: self.registry.clone(),
         })
     }
 

@@ -8,7 +8,7 @@
 //! where the water at the source goes at the end of the spin-up. Heights are parts of the water depth at the source.
 
 use super::expected::Expected;
-use super::figure::{Figure, Statistics};
+use super::figure::{PlumeFigure, Statistics};
 use super::series::Series;
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
@@ -258,7 +258,7 @@ impl Watch {
         water: &Water,
         plume: &Plume,
         watched_s: f64,
-    ) -> Result<Vec<Figure>, StatisticsError> {
+    ) -> Result<Vec<PlumeFigure>, StatisticsError> {
         let threshold = THRESHOLD * self.odour[0][0].mean();
         if threshold <= 0.0 {
             return Err(StatisticsError::Clean {
