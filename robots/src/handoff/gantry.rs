@@ -63,7 +63,7 @@ pub struct GantryLayout {
     pub probes: Vec<ProbeMount>,
     /// Output range of the probes, V.
     pub range_v: [f64; 2],
-    /// Scans a second, Hz.
+    /// Scans per second, Hz.
     pub scan_hz: f64,
 }
 

@@ -1,15 +1,16 @@
-//! Acoustic Doppler current profiler: water relative to the vehicle in the first cell beyond the dead zone.
+//! Acoustic Doppler current profiler: velocity of the water relative to the vehicle, in the first cell beyond the
+//! dead zone.
 //!
-//! *Source:* Pang 2009, section 6 (up- and down-looking ADCP on the REMUS, dead zone about 0.75 m, so
-//! that it may read another layer than the one the vehicle is in); triangular weight of a depth cell
-//! and the side-lobe limit: RD Instruments, ADCP Principles of Operation: A Practical Primer (1996).
+//! *Source:* Pang 2009, section 6 (up- and down-looking ADCP on the REMUS, dead zone about 0.75 m, so that it may
+//! measure another layer than the one that the vehicle is in); triangular weight of a depth cell and the side-lobe
+//! limit: RD Instruments, ADCP Principles of Operation: A Practical Primer (1996).
 //!
-//! *Parameters:* `look` Up; rate `rate_hz` 1 Hz; dead zone `dead_zone_m` 0.75 m; cell `cell_m` 0.5 m;
-//! noise per axis `noise_m_s` 0.02 m/s (typical of an ensemble of some pings in cells of half a
-//! metre at 1200 kHz); beams `beam_angle_deg` 20° from the axis.
+//! *Parameters:* `look` Up; rate `rate_hz` 1 Hz; dead zone `dead_zone_m` 0.75 m; cell `cell_m` 0.5 m; noise per axis
+//! `noise_m_s` 0.02 m/s (typical of an ensemble of some pings in cells of half a metre at 1200 kHz); beams
+//! `beam_angle_deg` 20° from the axis.
 //!
-//! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
-//! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
+//! *Deviations:* one cell; the spread of the four beams is not modelled, and the cell is sampled on the axis at three
+//! heights. As for the Doppler log, the velocity is relative to the body's origin.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -29,7 +30,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// Which way the instrument looks along the body's z axis.
+/// Direction in which the instrument looks along the body's z axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Look {
     /// To the surface.
@@ -39,17 +40,17 @@ pub enum Look {
     Down,
 }
 
-/// What a scenario may say of the current profiler.
+/// Parameters of the current profiler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AdcpSpec {
-    /// Where it looks.
+    /// Direction in which it looks.
     pub look: Look,
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Range without measurement, m.
     pub dead_zone_m: NonNegative,
-    /// Length of the cell behind it, m.
+    /// Length of the cell beyond it, m.
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
@@ -102,7 +103,7 @@ pub struct Adcp {
     dead_zone_m: f64,
     cell_m: f64,
     noise_m_s: f64,
-    /// Share of the way to a boundary that its side-lobe echo leaves usable.
+    /// Share of the distance to a boundary that the boundary's side-lobe echo leaves usable.
     usable: f64,
     rng: Stream,
 }
@@ -111,7 +112,7 @@ impl Adcp {
     /// A current profiler at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the beam angle is not that of an instrument.
+    /// If the rate does not fit the step, or if the beam angle is out of range.
     pub fn new(spec: &AdcpSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let angle = spec.beam_angle_deg.get();
         if !(0.0..60.0).contains(&angle) {
@@ -146,7 +147,7 @@ impl Adcp {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also when invalid, so that a lost cell does not shift the later ones.
+        // Drawn also if the cell is invalid, so that a lost cell does not change later numbers.
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let axis = truth.pose.R_WB * self.axis_B;
@@ -154,8 +155,8 @@ impl Adcp {
         let end_m = self.dead_zone_m + self.cell_m;
         let valid = water_along(below, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
         let v_body_m_s = if valid {
-            // The cell weighs ranges by a triangle a cell length to either side of its middle:
-            // 1 : 2 : 1 at the half cells has the same mean and all but the same spread.
+            // The cell weighs ranges by a triangle that extends one cell length to either side of its middle: 1 : 2 :
+            // 1 at the half cells has the same mean and nearly the same spread.
             let water: Vector3<f64> = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)]
                 .map(|(cells, weight)| {
                     let at = p + axis * (middle_m + cells * self.cell_m);
@@ -165,7 +166,8 @@ impl Adcp {
                 .sum();
             assert!(
                 water.iter().all(|v| v.is_finite()),
-                "the flow at {p:?} is not a finite number: the water model or the vehicle's position broke before the ADCP"
+                "the flow at {p:?} is not a finite number: the water model or the vehicle's position broke before the \
+                ADCP"
             );
             truth.pose.R_WB.inverse() * water - truth.v_WB_B + noise
         } else {
@@ -179,8 +181,8 @@ impl Adcp {
     }
 }
 
-/// Way through the water along a beam axis to the surface or the bed, m; `None` out of the water or
-/// when the vehicle lies on its side.
+/// Distance through the water along a beam axis to the surface or the bed, m; `None` out of the water or if the
+/// vehicle lies on its side.
 fn water_along(below: &Below, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
     const LEAST_COS: f64 = 0.5;
     if p.z >= 0.0 {
@@ -225,7 +227,7 @@ mod tests {
         run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &bare(&BED)))[0]
     }
 
-    /// The water it finds: relative velocity and own velocity, in world axes.
+    /// Velocity of the water as the instrument finds it: relative velocity plus own velocity, in world axes.
     fn water(truth: Truth, look: Look) -> Vector3<f64> {
         let r = read(truth, look);
         assert!(r.valid, "{truth:?}");
@@ -240,11 +242,11 @@ mod tests {
 
     #[test]
     fn looking_up_it_reads_the_layer_beyond_its_dead_zone() {
-        // The cell spans 0.75 to 1.25 m above: wholly over the interface from 3.75 m depth up.
+        // The cell spans 0.75 to 1.25 m above: it is wholly above the interface at depths of up to 3.75 m.
         assert!((water(sailing(-3.6), Look::Up) - UPPER).norm() < 1e-12);
         assert!((water(sailing(-4.5), Look::Up) - LOWER).norm() < 1e-12);
         assert!((water(sailing(-3.6), Look::Down) - LOWER).norm() < 1e-12);
-        // With the interface in its middle it reads something between.
+        // With the interface in its middle, it gives a value in between.
         let mixed = water(sailing(-3.99), Look::Up).y;
         assert!(mixed > LOWER.y && mixed < UPPER.y, "{mixed}");
     }
@@ -259,7 +261,7 @@ mod tests {
 
     #[test]
     fn cells_that_reach_surface_or_bed_are_invalid() {
-        // Side lobes leave cos 20° of the way: 1.25 m need 1.33 m.
+        // Side lobes leave cos 20° of the distance: 1.25 m need 1.33 m.
         let valid = |z, look| read(sailing(z), look).valid;
         assert!(valid(-1.34, Look::Up) && !valid(-1.32, Look::Up));
         assert!(valid(-6.66, Look::Down) && !valid(-6.68, Look::Down));

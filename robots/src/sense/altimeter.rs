@@ -1,13 +1,12 @@
 //! Altimeter: height above the bed by an echo along the body's down axis.
 //!
-//! *Source:* echo sounders of coastal AUVs (500 kHz class: some centimetres of noise, blind below
-//! half a metre, some tens of metres of range); Pang 2009, section 6, flies at 1.5–2 m altitude.
+//! *Source:* echo sounders of coastal AUVs (500 kHz class: some centimetres of noise, blind below half a metre, some
+//! tens of metres of range); Pang 2009, section 6, flies at 1.5–2 m altitude.
 //!
-//! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to
-//! `max_range_m` 30 m.
+//! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to `max_range_m` 30 m.
 //!
-//! *Deviations:* a beam without width, which meets the bed or an obstacle before it. The slant range is turned
-//! into height with the vehicle's tilt, here without the tilt's small noise.
+//! *Deviations:* the beam has no width; it meets the bed, or an obstacle before it. The slant range is converted to
+//! height with the vehicle's tilt, here without the small noise of the tilt.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -25,11 +24,11 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the altimeter.
+/// Parameters of the altimeter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AltimeterSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
@@ -92,7 +91,7 @@ impl Altimeter {
     /// An altimeter at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the range is empty.
+    /// If the rate does not fit the step, or if the range is empty.
     pub fn new(spec: &AltimeterSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let range_m = spec.min_range_m.get()..=spec.max_range_m.get();
         if range_m.is_empty() {
@@ -120,7 +119,7 @@ impl Altimeter {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also without echo, so that a lost ping does not shift the later ones.
+        // Drawn also without an echo, so that a lost ping does not change later numbers.
         let noise = self.noise_m * self.rng.normal();
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
@@ -184,7 +183,8 @@ mod tests {
         assert!(!read(nose_up(at(0.0, 0.0, -6.0), 70.0), &BED).valid);
     }
 
-    /// Nose up over a bed rising northward the beam, looking forward and down, hits where the bed is higher.
+    /// With the nose up over a bed that rises northward, the beam looks forward and down and hits the bed where it is
+    /// higher.
     #[test]
     fn on_a_slope_the_beam_ends_on_the_bed() {
         let slope = Terrain::Slope {
@@ -208,7 +208,7 @@ mod tests {
         use crate::plan::testing::block;
         use world::obstacles::Obstacles;
         let t = at(10.0, 10.0, -2.0);
-        // On a bed 8 m down, 4 m high: two metres of water less the hull's tenth.
+        // On a bed at 8 m depth, 4 m high: two metres of water less a tenth of a metre for the hull.
         let bed = Terrain::Level { depth_m: 8.0 };
         let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 4.0])]);
         let read = |obstacles: &Obstacles| {

@@ -1,10 +1,10 @@
 //! Compass and inertial unit: heading, roll, pitch and rates.
 //!
-//! *Source:* electronic compasses of the class of PNI's TCM2: heading within 1°, tilt within 0.2°;
-//! values typical of the class, the paper's vehicle being unspecified.
+//! *Source:* electronic compasses of the class of PNI's TCM2: heading within 1°, tilt within 0.2°; values typical of
+//! the class, because the paper does not specify its vehicle's compass.
 //!
-//! *Parameters:* rate `rate_hz` 25 Hz; heading noise `noise_deg` 0.3°; heading bias `bias_deg` 1.0°,
-//! the standard deviation of an angle drawn once a run; `tilt_noise_deg` 0.2°; `gyro_noise_deg_s` 0.1 °/s.
+//! *Parameters:* rate `rate_hz` 25 Hz; heading noise `noise_deg` 0.3°; heading bias `bias_deg` 1.0°, the standard
+//! deviation of an angle drawn once per run; `tilt_noise_deg` 0.2°; `gyro_noise_deg_s` 0.1 °/s.
 //!
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
@@ -22,15 +22,15 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the compass.
+/// Parameters of the compass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CompassSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the heading noise, degrees.
     pub noise_deg: NonNegative,
-    /// Standard deviation of the heading bias, drawn once a run, degrees.
+    /// Standard deviation of the heading bias, drawn once per run, degrees.
     pub bias_deg: NonNegative,
     /// Standard deviation of the noise of roll and pitch, degrees.
     pub tilt_noise_deg: NonNegative,
@@ -85,7 +85,7 @@ impl Compass {
     /// A compass of the robot `on`; its place does not matter.
     ///
     /// # Errors
-    /// When the rate does not fit the step.
+    /// If the rate does not fit the step.
     pub fn new(spec: &CompassSpec, on: &OnBoard) -> Result<Self, RobotError> {
         let mut rng = on.stream("compass");
         let bias_rad = spec.bias_deg.get().to_radians() * rng.normal();
@@ -109,7 +109,7 @@ impl Compass {
         Some(AttitudeReading {
             heading: truth.pose.heading().turned(turn),
             roll_rad: roll + self.tilt_noise_rad * self.rng.normal(),
-            // The world's FLU pitch is nose down positive, a vehicle's nose up.
+            // The pitch of the world's FLU axes is nose down positive, that of a vehicle nose up.
             pitch_rad: -pitch_down + self.tilt_noise_rad * self.rng.normal(),
             rates_rad_s: truth.w_WB_B + super::tools::normal3(&mut self.rng, self.gyro_noise_rad_s),
         })

@@ -1,10 +1,10 @@
-//! Depth: the pressure at its mount, as metres below the still surface; waves passing over are in it.
+//! Depth: the pressure at its mount, as metres below the still surface; it includes passing waves.
 //!
 //! *Source:* strain-gauge pressure sensors of coastal AUVs: 0.01 % of 100 m full scale.
 //!
 //! *Parameters:* rate `rate_hz` 25 Hz; noise `noise_m` 0.01 m.
 //!
-//! *Deviations:* the density profile is not turned into depth errors; the pressure of the vehicle's own motion is left out.
+//! *Deviations:* the density profile causes no depth errors; the pressure from the vehicle's own motion is left out.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -22,11 +22,11 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the depth sensor.
+/// Parameters of the depth sensor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DepthSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
@@ -76,7 +76,7 @@ impl Depth {
     /// A depth sensor at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step.
+    /// If the rate does not fit the step.
     pub fn new(spec: &DepthSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         Ok(Self {
             every: on.every("sensors.depth.rate_hz", spec.rate_hz.get())?,

@@ -1,16 +1,16 @@
 //! Doppler velocity log: velocity over ground by bottom track.
 //!
-//! *Source:* Teledyne RD Instruments, Workhorse Navigator data sheet, 1200 kHz: single-ping
-//! standard deviation 3–4 mm/s at 1–3 m/s, long-term accuracy 0.2 %, altitude 0.5–30 m; the REMUS
-//! dead-reckons on such acoustic Doppler data: Pang 2009, section 4.
+//! *Source:* Teledyne RD Instruments, Workhorse Navigator data sheet, 1200 kHz: single-ping standard deviation 3–4
+//! mm/s at 1–3 m/s, long-term accuracy 0.2 %, altitude 0.5–30 m; the REMUS dead-reckons on such acoustic Doppler
+//! data: Pang 2009, section 4.
 //!
-//! *Parameters:* rate `rate_hz` 5 Hz; noise per axis `noise_m_s` 0.004 m/s; scale error
-//! `scale_error` 0.002, the standard deviation of a factor drawn once a run; bottom lock between
-//! `min_altitude_m` 0.5 m and `max_altitude_m` 30 m of slant range.
+//! *Parameters:* rate `rate_hz` 5 Hz; noise per axis `noise_m_s` 0.004 m/s; scale error `scale_error` 0.002, the
+//! standard deviation of a factor drawn once per run; bottom lock between `min_altitude_m` 0.5 m and `max_altitude_m`
+//! 30 m of slant range.
 //!
-//! *Deviations:* the four beams are one along the body's down axis, which decides bottom lock (lost
-//! beyond 60° of tilt). The velocity is that of the body's origin: the instrument's own turns with the
-//! vehicle are taken out with the gyros, as vehicles do, here without the gyros' small noise.
+//! *Deviations:* the four beams are replaced by one along the body's down axis, which decides bottom lock (lost
+//! beyond 60° of tilt). The velocity is that of the body's origin: the part caused by the instrument's place and the
+//! vehicle's rotation is removed with the gyros, as vehicles do, here without the small noise of the gyros.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -28,17 +28,17 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the Doppler log.
+/// Parameters of the Doppler log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DvlSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     #[schemars(transform = world::limits::schema::stream_m_s)]
     pub noise_m_s: NonNegative,
-    /// Standard deviation of the relative scale error, drawn once a run.
+    /// Standard deviation of the relative scale error, drawn once per run.
     pub scale_error: NonNegative,
     /// Least range to the bed for bottom lock, m.
     pub min_altitude_m: NonNegative,
@@ -95,7 +95,7 @@ impl Dvl {
     /// A Doppler log at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the range is empty.
+    /// If the rate does not fit the step, or if the range is empty.
     pub fn new(spec: &DvlSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let lock_m = spec.min_altitude_m.get()..=spec.max_altitude_m.get();
         if lock_m.is_empty() {
@@ -121,7 +121,7 @@ impl Dvl {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also without lock, so that a lost ping does not shift the later ones.
+        // Drawn also without lock, so that a lost ping does not change later numbers.
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();

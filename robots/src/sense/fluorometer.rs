@@ -1,15 +1,15 @@
 //! Fluorometer: dye concentration at its mount as a voltage, with response time, noise, quantisation and saturation.
 //!
-//! *Source:* Turner Designs Cyclops-7: 0–5 V for 0–10 µg/L rhodamine WT at gain ×100 (Sea-Bird
-//! application note 74); read at 10 Hz and thresholded at 4 % of full scale: Pang 2009, section 6.
+//! *Source:* Turner Designs Cyclops-7: 0–5 V for 0–10 µg/L rhodamine WT at gain ×100 (Sea-Bird application note 74);
+//! read at 10 Hz with a threshold of 4 % of full scale: Pang 2009, section 6.
 //!
-//! *Parameters:* rate `rate_hz` 10 Hz; full scale `full_scale_ug_l` 10 µg/L ↔ `full_scale_v` 5 V;
-//! threshold `threshold` 0.04 of full scale (0.2 V); time constant `response_s`; output noise
-//! `noise_v`, one standard deviation; converter `adc_bits` over full scale. The last three are not
-//! published for the vehicle: 0.2 s, 0.02 V and 12 bits, values typical of the type.
+//! *Parameters:* rate `rate_hz` 10 Hz; full scale `full_scale_ug_l` 10 µg/L ↔ `full_scale_v` 5 V; threshold
+//! `threshold` 0.04 of full scale (0.2 V); time constant `response_s`; output noise `noise_v`, one standard
+//! deviation; converter `adc_bits` over full scale. The last three are not published for the vehicle: 0.2 s, 0.02 V
+//! and 12 bits, values typical of the type.
 //!
-//! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ solved exactly with the
-//! concentration running straight between two samples. Power-up time and blank drift are left out.
+//! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ is solved exactly for a concentration that is
+//! linear between two samples. Power-up time and blank drift are left out.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -29,11 +29,11 @@ use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
-/// What a scenario may say of the fluorometer.
+/// Parameters of the fluorometer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FluorometerSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Concentration at full scale, µg/L.
     pub full_scale_ug_l: Positive,
@@ -66,7 +66,8 @@ impl Default for FluorometerSpec {
 impl Listed for FluorometerSpec {
     const ENTRY: Entry = Entry {
         name: "fluorometer",
-        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection threshold.",
+        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection \
+            threshold.",
         source: "Turner Designs Cyclops-7 (Sea-Bird application note 74); Pang 2009, section 6",
     };
 }
@@ -102,7 +103,7 @@ pub struct Fluorometer {
     rng: Stream,
 }
 
-/// First-order response, exact for an input that runs straight between samples.
+/// First-order response, exact for an input that is linear between samples.
 #[derive(Clone, Debug)]
 struct Response {
     period_s: f64,
@@ -130,7 +131,7 @@ impl Fluorometer {
     /// A fluorometer at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the converter has no or too many bits.
+    /// If the rate does not fit the step, or if the converter has no or too many bits.
     pub fn new(
         spec: &FluorometerSpec,
         p_BS: Vector3<f64>,
@@ -175,7 +176,8 @@ impl Fluorometer {
         let c = dye.at(&p);
         assert!(
             c.is_finite(),
-            "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke before the fluorometer"
+            "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke \
+            before the fluorometer"
         );
         let clean = self.response.next(c / self.full_scale_kg_m3) * self.full_scale_v;
         let noisy = clean + self.noise_v * self.rng.normal();
@@ -256,7 +258,7 @@ mod tests {
         }
     }
 
-    /// Against the response's differential equation in steps ten thousand times finer.
+    /// Compared with the response's differential equation in steps that are ten thousand times finer.
     #[test]
     fn responds_with_its_time_constant() {
         let (period, tau) = (0.1, 0.2);
@@ -273,7 +275,7 @@ mod tests {
                 let c = inputs[k - 1] + (inputs[k] - inputs[k - 1]) * share;
                 y += (c - y) / tau * period / f64::from(fine);
             }
-            // Half a step of the converter, and the fine integration's own 1e-4.
+            // Half a step of the converter, and the 1e-4 of the fine integration.
             let want = y * 0.5;
             assert!(
                 (got[k].volts - want).abs() < 0.5 * 5.0 / 4095.0 + 1e-4,

@@ -1,13 +1,13 @@
-//! Long baseline: position fixes from acoustic transponders, seldom and coarse.
+//! Long baseline: position fixes from acoustic transponders, rare and coarse.
 //!
-//! *Source:* Pang 2009, section 4 (dead reckoning with periodic position updates from a long baseline
-//! of acoustic buoys, called navigation fixes) and section 5.6 (errors of about 10 m gather).
+//! *Source:* Pang 2009, section 4 (dead reckoning with periodic position updates from a long baseline of acoustic
+//! buoys, called navigation fixes) and section 5.6 (errors of about 10 m accumulate).
 //!
-//! *Parameters:* period `period_s` 30 s; noise of east and of north `noise_m` 5 m: two successive
-//! fixes are then off against each other by 2 · 5 m rms, the paper's 10 m; share of fixes that fail `dropout` 0.3.
-//! Period and drop-outs are not published.
+//! *Parameters:* period `period_s` 30 s; noise of east and of north `noise_m` 5 m: two successive fixes then differ
+//! by 2 · 5 m rms, the paper's 10 m; share of fixes that fail `dropout` 0.3. Period and drop-outs are not published.
 //!
-//! *Deviations:* errors are independent and round, travel time and the geometry of the buoys are left out.
+//! *Deviations:* errors are independent and the same in all directions; travel time and the geometry of the buoys are
+//! left out.
 
 use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
@@ -24,7 +24,7 @@ use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the long baseline.
+/// Parameters of the long baseline.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LblSpec {
@@ -78,10 +78,10 @@ pub struct Lbl {
 }
 
 impl Lbl {
-    /// A transceiver of the robot `on`; fixes are those of the body's origin.
+    /// A transceiver of the robot `on`; its fixes are those of the body's origin.
     ///
     /// # Errors
-    /// When the period is shorter than a step.
+    /// If the period is shorter than a step.
     pub fn new(spec: &LblSpec, on: &OnBoard) -> Result<Self, RobotError> {
         let rate_hz = 1.0 / spec.period_s.get();
         Ok(Self {
@@ -92,13 +92,13 @@ impl Lbl {
         })
     }
 
-    /// The fix of this step, if one is due and comes through. The first is due a period after the
-    /// start: the vehicle sets out from a position it was given.
+    /// The fix of this step, if one is due and succeeds. The first is due one period after the start: the vehicle
+    /// starts from a given position.
     pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<LblFix> {
         if clock.step == 0 || !self.every.due(clock) {
             return None;
         }
-        // All numbers are drawn for a failed fix too, so that the share of failures shifts nothing.
+        // All numbers are drawn for a failed fix too, so that the share of failures changes no later numbers.
         let heard = self.rng.uniform() >= self.dropout;
         let (east, north) = (self.rng.normal(), self.rng.normal());
         heard.then(|| LblFix {
@@ -126,12 +126,12 @@ mod tests {
         assert_normal(&axis(1), -40.0, 5.0);
     }
 
-    /// The paper's errors of about 10 m, as the move from one fix to the next.
+    /// The paper's errors of about 10 m, as the difference between successive fixes.
     #[test]
     fn successive_fixes_differ_by_ten_metres_rms() {
         let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 4, 0.5)).unwrap();
         let v = run(600_000, 0.5, |c| l.read(c, &at(0.0, 0.0, -5.0)));
-        // Pairs that share no fix: squares are independent, their spread as large as their mean.
+        // Pairs that share no fix: the squares are independent, and their spread is as large as their mean.
         let squares: Vec<f64> = (v.chunks_exact(2))
             .map(|f| (f[1].position - f[0].position).norm_squared())
             .collect();

@@ -1,10 +1,10 @@
-//! What every instrument is told of the robot that carries it: name, seed and step.
+//! What every instrument knows of the robot that carries it: name, seed and step.
 
 use crate::error::RobotError;
 use world::clock::Every;
 use world::seeds::{Seed, Stream, key};
 
-/// The robot that carries an instrument, and the step in which it can read.
+/// The robot that carries an instrument, and the step at which it can read.
 #[derive(Clone, Copy, Debug)]
 pub struct OnBoard<'a> {
     /// Name of the robot.
@@ -40,15 +40,15 @@ impl<'a> OnBoard<'a> {
     /// Steps between two readings at `rate_hz`, the value of `field`.
     ///
     /// # Errors
-    /// When the instrument would have to read more than once in a step.
+    /// If the instrument would have to read more than once per step.
     pub fn every(&self, field: &str, rate_hz: f64) -> Result<Every, RobotError> {
         let dt_s = self.dt_s;
-        // A thousandth of slack: 1 / 0.02 is not exactly 50.
+        // A tolerance of one thousandth: 1 / 0.02 is not exactly 50.
         if rate_hz * dt_s > 1.001 {
             return Err(RobotError::Invalid {
                 field: field.to_owned(),
                 problem: format!(
-                    "{rate_hz} Hz is more than one reading a step; at most {} Hz with steps of {dt_s} s",
+                    "{rate_hz} Hz is more than one reading per step; at most {} Hz with steps of {dt_s} s",
                     1.0 / dt_s
                 ),
             });

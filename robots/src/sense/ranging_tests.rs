@@ -55,7 +55,7 @@ fn the_beam_ahead_meets_the_pile_and_the_others_pass_it() {
     let ahead = scan.beams[20];
     assert!((ahead.dir_B - Vector3::x()).norm() < 1e-12);
     assert!((ahead.echo_m.unwrap() - 18.7).abs() < 1e-9);
-    // Three degrees aside the line passes 0.98 m from the axis.
+    // Three degrees to the side the line passes 0.98 m from the axis.
     assert!(scan.beams.iter().filter(|b| b.echo_m.is_some()).count() == 1);
     // To the left of the body is west: a pile there echoes in the beams on the left.
     let west = ping(quiet(), &at(0.0, 0.0, -4.0), &pile(-8.0, 8.0), &BED);

@@ -1,4 +1,4 @@
-//! All instruments of a robot, read in one go.
+//! All instruments of a robot, read together.
 
 use super::camera::{CameraSpec, Optics};
 use super::on_board::OnBoard;
@@ -19,13 +19,13 @@ use world::obstacles::Obstacles;
 use world::registry::{Kind, Row, Set, Spec, Takes};
 use world::terrain::Terrain;
 
-/// Share of a mission in which a vehicle surveys or looks with its camera, of one that does so at all.
+/// Share of a mission during which a vehicle surveys or uses its camera, if it does so at all.
 const SURVEYS: f64 = 0.05;
 
-/// Where an instrument is fitted.
+/// The place where an instrument is fitted.
 #[derive(Clone, Copy)]
 pub struct Fitting<'a> {
-    /// The pose in body axes of the vehicle's mount of a name.
+    /// The pose in body axes of a mount of the vehicle, by its name.
     pub mounts: &'a dyn Fn(&str) -> Option<Pose>,
     /// The robot.
     pub robot: OnBoard<'a>,
@@ -35,7 +35,7 @@ impl Fitting<'_> {
     /// The mount of a name.
     ///
     /// # Errors
-    /// When the vehicle has none.
+    /// If the vehicle has none.
     pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
         (self.mounts)(name).ok_or_else(|| RobotError::Invalid {
             field: format!("sensors.{name}"),
@@ -46,13 +46,13 @@ impl Fitting<'_> {
     /// Its place in body axes, m.
     ///
     /// # Errors
-    /// When the vehicle has none.
+    /// If the vehicle has none.
     pub fn place(&self, name: &str) -> Result<Vector3<f64>, RobotError> {
         self.mount(name).map(|pose| pose.p_WB)
     }
 }
 
-/// All that is there to be sensed in a step.
+/// Everything that can be sensed in a step.
 #[derive(Clone, Copy)]
 pub struct Around<'a> {
     /// Time.
@@ -65,11 +65,11 @@ pub struct Around<'a> {
     pub dye: &'a dyn Concentration,
     /// The bed.
     pub terrain: &'a Terrain,
-    /// What stands on it.
+    /// Solids in the water.
     pub obstacles: &'a Obstacles,
     /// Light in the water.
     pub optics: &'a Optics,
-    /// What the strategy asked for.
+    /// Requests of the strategy.
     pub asked: Asked,
 }
 
@@ -84,31 +84,32 @@ impl Around<'_> {
     }
 }
 
-/// An instrument at work. It draws from a stream of its own: [`OnBoard::stream`].
+/// An instrument. It draws from a stream of its own: [`OnBoard::stream`].
 pub trait Sensor: std::fmt::Debug + Send + Sync {
-    /// Reads what is around it, and writes what it says in this step.
+    /// Reads its surroundings, and writes its readings of this step.
     fn sense(&mut self, around: &Around, readings: &mut Readings);
 }
 
-/// Parameters of an instrument; named as the field of `sensors`.
+/// Parameters of an instrument; their name is the field of `sensors`.
 pub trait SensorParams: Spec {
-    /// The instrument on a vehicle.
+    /// Builds the instrument on a vehicle.
     ///
     /// # Errors
-    /// When a mount is missing or the instrument cannot be as described.
+    /// If a mount is missing, or if a parameter is out of range.
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
 
-    /// What it takes among so many obstacles, asked for a share `used` of the mission; paths below its field.
+    /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
+    /// field.
     fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
         Cost::default()
     }
 }
 
-/// The instruments a scenario can fit to a robot.
+/// The instruments that a scenario can fit to a robot.
 #[derive(Clone, Copy, Debug)]
 pub enum Sensors {}
 
-/// The instruments on board; one left out is not there.
+/// The instruments on board; those not named are missing.
 pub type SensorsSpec = Set<Sensors>;
 
 impl Kind for Sensors {
@@ -140,7 +141,8 @@ impl<S: SensorParams + 'static> Takes<S> for Sensors {
     }
 }
 
-/// What instruments take among so many obstacles; paths below `sensors`. `looks`: whether the strategy asks for sidescan or pictures.
+/// Memory and time of the instruments among so many obstacles; paths below `sensors`. `looks` says whether the
+/// strategy uses sidescan or camera.
 #[must_use]
 pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times) -> Cost {
     let mut cost = Cost::default();
@@ -152,7 +154,7 @@ pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times)
     cost
 }
 
-/// What the strategy asked of the instruments in the step before.
+/// Requests of the strategy to the instruments in the step before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asked {
     /// A picture.
@@ -175,11 +177,11 @@ impl From<&Decision> for Asked {
 pub struct SensorSuite(Vec<Box<dyn Sensor>>);
 
 impl SensorSuite {
-    /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (that of the instrument; compass and baseline need none).
+    /// The instruments of `spec`. `mounts` gives the pose in body axes of a mount of the vehicle by its name (that of
+    /// the instrument; compass and baseline need none).
     ///
     /// # Errors
-    /// When a mount is missing or an instrument cannot be as described.
+    /// If a mount is missing, or if an instrument's parameter is out of range.
     pub fn new(
         spec: &SensorsSpec,
         mounts: &dyn Fn(&str) -> Option<Pose>,
@@ -190,7 +192,7 @@ impl SensorSuite {
         all.collect::<Result<_, _>>().map(Self)
     }
 
-    /// What the instruments say in this step.
+    /// The readings of all instruments in this step.
     pub fn read(&mut self, around: &Around) -> Readings {
         let mut readings = Readings::default();
         for sensor in &mut self.0 {
@@ -284,7 +286,7 @@ mod tests {
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and what came through of 3 fixes.
+        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and the successful ones of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
         assert_eq!(
             lost,
@@ -309,7 +311,8 @@ mod tests {
             .expect_err("no adcp mount");
         assert_eq!(
             e.to_string(),
-            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the sensor out"
+            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the \
+            sensor out"
         );
     }
 }
