@@ -325,7 +325,7 @@ mod tests {
         let e = new(fast).expect_err("too fast").to_string();
         assert_eq!(
             e,
-            "sensors.fluorometer.rate_hz: 100 Hz is more than one reading a step; at most 50 Hz with steps of 0.02 s"
+            "sensors.fluorometer.rate_hz: 100 Hz is more than one reading per step; at most 50 Hz with steps of 0.02 s"
         );
     }
 }

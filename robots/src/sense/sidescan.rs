@@ -124,7 +124,7 @@ impl SensorParams for SidescanSpec {
         let samples = 2.0 * f64::from(self.samples) * rate_hz;
         let each_s = SAMPLE_S[0] + obstacles * SAMPLE_S[1];
         let used = if self.always { 1.0 } else { used };
-        let part = Part::new("rate_hz", format!("{samples:.0} samples a second"))
+        let part = Part::new("rate_hz", format!("{samples:.0} samples per second"))
             .holds(PASSES_BYTES)
             .takes(times.mission_s * used * samples * each_s)
             .by(rate_hz, 1.0);
