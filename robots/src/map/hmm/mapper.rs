@@ -10,10 +10,10 @@
 //!
 //! `odour_every_s`, never, and `walk_steps`, 30: how often the other products are shown, and the length of the path.
 //!
-//! *Deviations*: reconstructed (the paper's own equations were not available). With the vehicle in cell j and no
-//! detection: π_i ← π_i Π_l (1 − b Φ_ij(l, k)); with a detection: π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l,
-//! k)))], with Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see `adjoint`; chances from cell to cell: see
-//! `transition`. The shear is ours.
+//! *Deviations*: reconstructed (the paper's own equations were not available). With the vehicle in cell j, a step
+//! without a detection is π_i ← π_i Π_l (1 − b Φ_ij(l, k)), and one with a detection is
+//! π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l, k)))]. Here Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see
+//! `adjoint`; for the chances from cell to cell see `transition`. The shear is ours.
 
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
