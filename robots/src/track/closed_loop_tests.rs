@@ -142,9 +142,9 @@ fn each_adaptive_part_works_alone() {
     let with = |change: fn(&mut CrabSpec, CrabSpec)| {
         let mut spec = plain.clone();
         change(&mut spec, all.clone());
-        trial(&spec, 2)
+        trial(&spec, 3)
     };
-    let base = trial(&plain, 2);
+    let base = trial(&plain, 3);
     let fast = with(|s, a| s.speed = a.speed);
     let steered = with(|s, a| s.contrast = a.contrast);
     let stopping = with(|s, a| s.stop = a.stop);
