@@ -1,11 +1,11 @@
-//! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water and
-//! search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws nothing
-//! and writes no files; the crates `output`, `studies` and `command` do.
+//! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water
+//! and search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws
+//! nothing and writes no files; the crates `output`, `studies` and `command` do.
 //!
 //! # 1. The first run
 //!
-//! A [`scenario`] describes an experiment: the place, its water, what is released, who searches, and when the search is a
-//! success. A [`Trial`](trial::Trial) is one run of it for a seed. The same seed gives the same run, bit by bit.
+//! A [`scenario`] describes an experiment: the place, its water, what is released, who searches, and when the search
+//! is a success. A [`Trial`](trial::Trial) is one run of it for a seed. The same seed gives the same run, bit by bit.
 //!
 //! ```
 //! use rheotaxis::{scenario::load, trial::Trial};
@@ -24,9 +24,9 @@
 //!
 //! # 2. A scenario of your own
 //!
-//! `rheotaxis init uniform_channel` writes a scenario file to change, `rheotaxis explain robots.strategy` says what a field
-//! may hold, and `rheotaxis check FILE` names every mistake with line and column. [`load`](scenario::load) does the same
-//! in a program.
+//! `rheotaxis init uniform_channel` writes a scenario file to change, `rheotaxis explain robots.strategy` says what a
+//! field may hold, and `rheotaxis check FILE` names every mistake with line and column. [`load`](scenario::load) does
+//! the same in a program.
 //!
 //! # 3. A strategy of your own
 //!

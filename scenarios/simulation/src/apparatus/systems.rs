@@ -64,8 +64,8 @@ impl<'a> Systems<'a> {
         self
     }
 
-    /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the frame
-    /// is open in those steps in which one is taken.
+    /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the
+    /// frame is open in those steps in which one is taken.
     pub fn add_to_frame<M>(
         &mut self,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
