@@ -24,6 +24,7 @@ mod sea;
 mod segment;
 mod spin_up;
 mod structure;
+mod structure_robots;
 mod subregions;
 mod vehicle;
 mod vehicle_contacts;

@@ -1,10 +1,10 @@
 //! Filaments: store, drift, concentration.
 
 mod carried;
-mod cells;
 mod cut_off;
 mod displaced;
 mod evenness;
+mod fetch;
 mod image;
 mod index;
 mod kernel;

@@ -11,6 +11,7 @@
 //! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
 //! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -81,19 +82,7 @@ impl Listed for AdcpSpec {
 
 impl SensorParams for AdcpSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Adcp::new(
-            self,
-            on.place("adcp")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Adcp::new(self, on.place("adcp")?, &on.robot)?))
     }
 }
 
@@ -119,17 +108,11 @@ pub struct Adcp {
 }
 
 impl Adcp {
-    /// A current profiler at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A current profiler at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step or the beam angle is not that of an instrument.
-    pub fn new(
-        spec: &AdcpSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &AdcpSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let angle = spec.beam_angle_deg.get();
         if !(0.0..60.0).contains(&angle) {
             return Err(RobotError::Invalid {
@@ -138,7 +121,7 @@ impl Adcp {
             });
         }
         Ok(Self {
-            every: super::tools::every("sensors.adcp.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.adcp.rate_hz", spec.rate_hz.get())?,
             p_BS,
             axis_B: match spec.look {
                 Look::Up => Vector3::z(),
@@ -148,7 +131,7 @@ impl Adcp {
             cell_m: spec.cell_m.get(),
             noise_m_s: spec.noise_m_s.get(),
             usable: math::cos(angle.to_radians()),
-            rng: Stream::new(seed, robot_id, "adcp"),
+            rng: on.stream("adcp"),
         })
     }
 
@@ -233,7 +216,12 @@ mod tests {
     }
 
     fn read(truth: Truth, look: Look) -> AdcpReading {
-        let mut a = Adcp::new(&spec(look, 0.0), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let mut a = Adcp::new(
+            &spec(look, 0.0),
+            Vector3::zeros(),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap();
         run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &bare(&BED)))[0]
     }
 
@@ -283,7 +271,12 @@ mod tests {
 
     #[test]
     fn reads_once_a_second_with_its_noise() {
-        let mut a = Adcp::new(&spec(Look::Up, 0.02), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let mut a = Adcp::new(
+            &spec(Look::Up, 0.02),
+            Vector3::zeros(),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap();
         let t = sailing(-5.0);
         let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &bare(&BED)));
         assert_eq!(v.len(), 2000);
@@ -300,7 +293,8 @@ mod tests {
             beam_angle_deg: Finite::new(75.0),
             ..Default::default()
         };
-        let e = Adcp::new(&bad, Vector3::zeros(), "a", 1, 0.02).expect_err("75 degrees");
+        let e =
+            Adcp::new(&bad, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("75 degrees");
         assert_eq!(
             e.to_string(),
             "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75"

@@ -9,6 +9,7 @@
 //! *Deviations:* a beam without width, which meets the bed or an obstacle before it. The slant range is turned
 //! into height with the vehicle's tilt, here without the tilt's small noise.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -63,18 +64,10 @@ impl Listed for AltimeterSpec {
 
 impl SensorParams for AltimeterSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Altimeter::new(
             self,
             on.place("altimeter")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 }
@@ -96,17 +89,11 @@ pub struct Altimeter {
 }
 
 impl Altimeter {
-    /// An altimeter at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// An altimeter at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step or the range is empty.
-    pub fn new(
-        spec: &AltimeterSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &AltimeterSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let range_m = spec.min_range_m.get()..=spec.max_range_m.get();
         if range_m.is_empty() {
             return Err(RobotError::Invalid {
@@ -115,11 +102,11 @@ impl Altimeter {
             });
         }
         Ok(Self {
-            every: super::tools::every("sensors.altimeter.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.altimeter.rate_hz", spec.rate_hz.get())?,
             p_BS,
             noise_m: spec.noise_m.get(),
             range_m,
-            rng: Stream::new(seed, robot_id, "altimeter"),
+            rng: on.stream("altimeter"),
         })
     }
 
@@ -165,7 +152,12 @@ mod tests {
             noise_m: NonNegative::new(noise_m),
             ..Default::default()
         };
-        Altimeter::new(&spec, Vector3::new(0.0, 0.0, -0.1), "auv0", 1, 0.02).unwrap()
+        Altimeter::new(
+            &spec,
+            Vector3::new(0.0, 0.0, -0.1),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap()
     }
 
     fn read(t: Truth, bed: &Terrain) -> AltimeterReading {

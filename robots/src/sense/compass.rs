@@ -8,6 +8,7 @@
 //!
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::AttitudeReading;
@@ -59,13 +60,7 @@ impl Listed for CompassSpec {
 
 impl SensorParams for CompassSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Compass::new(self, robot_id, seed, dt_s)?))
+        Ok(Box::new(Compass::new(self, &on.robot)?))
     }
 }
 
@@ -87,20 +82,15 @@ pub struct Compass {
 }
 
 impl Compass {
-    /// A compass of the robot `robot_id`; its place does not matter.
+    /// A compass of the robot `on`; its place does not matter.
     ///
     /// # Errors
     /// When the rate does not fit the step.
-    pub fn new(
-        spec: &CompassSpec,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
-        let mut rng = Stream::new(seed, robot_id, "compass");
+    pub fn new(spec: &CompassSpec, on: &OnBoard) -> Result<Self, RobotError> {
+        let mut rng = on.stream("compass");
         let bias_rad = spec.bias_deg.get().to_radians() * rng.normal();
         Ok(Self {
-            every: super::tools::every("sensors.compass.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.compass.rate_hz", spec.rate_hz.get())?,
             noise_rad: spec.noise_deg.get().to_radians(),
             bias_rad,
             tilt_noise_rad: spec.tilt_noise_deg.get().to_radians(),
@@ -134,7 +124,7 @@ mod tests {
     use world::units::Heading;
 
     fn compass(seed: u64) -> Compass {
-        Compass::new(&CompassSpec::default(), "auv0", seed, 0.02).unwrap()
+        Compass::new(&CompassSpec::default(), &OnBoard::new("auv0", seed, 0.02)).unwrap()
     }
 
     #[test]
@@ -182,7 +172,7 @@ mod tests {
             gyro_noise_deg_s: none,
             ..Default::default()
         };
-        let mut c = Compass::new(&exact, "auv0", 1, 0.02).unwrap();
+        let mut c = Compass::new(&exact, &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let mut t = at(0.0, 0.0, -5.0);
         // East, nose 15° up, right side 5° down.
         let (roll, pitch) = (5_f64.to_radians(), 15_f64.to_radians());

@@ -10,6 +10,7 @@
 //! *Deviations:* the density itself is given, not conductivity and temperature: the water has no salt and heat of its
 //! own. The depth sensor's reading goes with it; this one measures none.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::CtdReading;
@@ -58,19 +59,7 @@ impl Listed for CtdSpec {
 
 impl SensorParams for CtdSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Ctd::new(
-            self,
-            on.place("ctd")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Ctd::new(self, on.place("ctd")?, &on.robot)?))
     }
 }
 
@@ -94,22 +83,16 @@ pub struct Ctd {
 }
 
 impl Ctd {
-    /// A CTD at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A CTD at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step.
-    pub fn new(
-        spec: &CtdSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
-        let every = super::tools::every("sensors.ctd.rate_hz", spec.rate_hz.get(), dt_s)?;
+    pub fn new(spec: &CtdSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
+        let every = on.every("sensors.ctd.rate_hz", spec.rate_hz.get())?;
         let response_s = spec.response_s.get();
         Ok(Self {
             lag: if response_s > 0.0 {
-                math::exp(-every.period_s(dt_s) / response_s)
+                math::exp(-every.period_s(on.dt_s) / response_s)
             } else {
                 0.0
             },
@@ -117,7 +100,7 @@ impl Ctd {
             p_BS,
             noise_kg_m3: spec.noise_kg_m3.get(),
             inside: None,
-            rng: Stream::new(seed, robot_id, "ctd"),
+            rng: on.stream("ctd"),
         })
     }
 
@@ -162,7 +145,8 @@ mod tests {
     #[test]
     fn reads_the_density_at_its_mount_with_its_noise() {
         let mount = Vector3::new(0.0, 0.0, 0.2);
-        let mut c = Ctd::new(&CtdSpec::default(), mount, "auv0", 1, 0.02).expect("10 Hz fit");
+        let mut c = Ctd::new(&CtdSpec::default(), mount, &OnBoard::new("auv0", 1, 0.02))
+            .expect("10 Hz fit");
         for (z, want) in [(-3.1, 1020.0), (-5.0, 1024.0)] {
             let t = at(0.0, 0.0, z);
             let all = run(30_000, 0.02, |k| c.read(k, &t, &TwoLayers));
@@ -180,7 +164,8 @@ mod tests {
             noise_kg_m3: NonNegative::new(0.0),
             ..Default::default()
         };
-        let mut c = Ctd::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).expect("10 Hz fit");
+        let mut c =
+            Ctd::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).expect("10 Hz fit");
         let read = |c: &mut Ctd, n: u64, z: f64| {
             let t = at(0.0, 0.0, z);
             let all = run(n, 0.02, |k| c.read(k, &t, &TwoLayers));

@@ -12,6 +12,7 @@
 //! beyond 60° of tilt). The velocity is that of the body's origin: the instrument's own turns with the
 //! vehicle are taken out with the gyros, as vehicles do, here without the gyros' small noise.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -69,19 +70,7 @@ impl Listed for DvlSpec {
 
 impl SensorParams for DvlSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Dvl::new(
-            self,
-            on.place("dvl")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Dvl::new(self, on.place("dvl")?, &on.robot)?))
     }
 }
 
@@ -103,17 +92,11 @@ pub struct Dvl {
 }
 
 impl Dvl {
-    /// A Doppler log at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A Doppler log at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step or the range is empty.
-    pub fn new(
-        spec: &DvlSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &DvlSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let lock_m = spec.min_altitude_m.get()..=spec.max_altitude_m.get();
         if lock_m.is_empty() {
             return Err(RobotError::Invalid {
@@ -121,10 +104,10 @@ impl Dvl {
                 problem: format!("must be at least min_altitude_m, {} m", lock_m.start()),
             });
         }
-        let mut rng = Stream::new(seed, robot_id, "dvl");
+        let mut rng = on.stream("dvl");
         let scale = 1.0 + spec.scale_error.get() * rng.normal();
         Ok(Self {
-            every: super::tools::every("sensors.dvl.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.dvl.rate_hz", spec.rate_hz.get())?,
             p_BS,
             noise_m_s: spec.noise_m_s.get(),
             scale,
@@ -160,7 +143,12 @@ mod tests {
     use world::terrain::Terrain;
 
     fn dvl(spec: &DvlSpec, seed: u64) -> Dvl {
-        Dvl::new(spec, Vector3::new(0.0, 0.0, -0.1), "auv0", seed, 0.02).unwrap()
+        Dvl::new(
+            spec,
+            Vector3::new(0.0, 0.0, -0.1),
+            &OnBoard::new("auv0", seed, 0.02),
+        )
+        .unwrap()
     }
 
     fn moving(z: f64) -> Truth {
@@ -226,7 +214,7 @@ mod tests {
             max_altitude_m: Positive::new(0.2),
             ..Default::default()
         };
-        let e = Dvl::new(&spec, Vector3::zeros(), "a", 1, 0.02).expect_err("empty");
+        let e = Dvl::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("empty");
         assert_eq!(
             e.to_string(),
             "sensors.dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m"

@@ -11,6 +11,7 @@
 //! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ solved exactly with the
 //! concentration running straight between two samples. Power-up time and blank drift are left out.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::ChemicalReading;
@@ -72,18 +73,10 @@ impl Listed for FluorometerSpec {
 
 impl SensorParams for FluorometerSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Fluorometer::new(
             self,
             on.place("fluorometer")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 }
@@ -134,16 +127,14 @@ impl Response {
 }
 
 impl Fluorometer {
-    /// A fluorometer at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A fluorometer at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step or the converter has no or too many bits.
     pub fn new(
         spec: &FluorometerSpec,
         p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
+        on: &OnBoard,
     ) -> Result<Self, RobotError> {
         if !(1..=24).contains(&spec.adc_bits) {
             return Err(RobotError::Invalid {
@@ -152,7 +143,7 @@ impl Fluorometer {
             });
         }
         let rate = spec.rate_hz.get();
-        let every = super::tools::every("sensors.fluorometer.rate_hz", rate, dt_s)?;
+        let every = on.every("sensors.fluorometer.rate_hz", rate)?;
         Ok(Self {
             every,
             p_BS,
@@ -162,11 +153,11 @@ impl Fluorometer {
             noise_v: spec.noise_v.get(),
             levels: f64::from((1_u32 << spec.adc_bits) - 1),
             response: Response {
-                period_s: every.period_s(dt_s),
+                period_s: every.period_s(on.dt_s),
                 tau_s: spec.response_s.get(),
                 state: None,
             },
-            rng: Stream::new(seed, robot_id, "fluorometer"),
+            rng: on.stream("fluorometer"),
         })
     }
 
@@ -212,7 +203,12 @@ mod tests {
     }
 
     fn fluorometer(spec: FluorometerSpec) -> Fluorometer {
-        Fluorometer::new(&spec, Vector3::new(0.8, 0.0, 0.0), "auv0", 1, 0.02).unwrap()
+        Fluorometer::new(
+            &spec,
+            Vector3::new(0.8, 0.0, 0.0),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap()
     }
 
     fn quiet(response_s: f64) -> FluorometerSpec {
@@ -308,7 +304,9 @@ mod tests {
 
     #[test]
     fn impossible_instruments_are_refused() {
-        let new = |spec: FluorometerSpec| Fluorometer::new(&spec, Vector3::zeros(), "a", 1, 0.02);
+        let new = |spec: FluorometerSpec| {
+            Fluorometer::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
+        };
         let none = FluorometerSpec {
             adc_bits: 0,
             ..Default::default()

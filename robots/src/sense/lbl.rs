@@ -9,6 +9,7 @@
 //!
 //! *Deviations:* errors are independent and round, travel time and the geometry of the buoys are left out.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::LblFix;
@@ -57,13 +58,7 @@ impl Listed for LblSpec {
 
 impl SensorParams for LblSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Lbl::new(self, robot_id, seed, dt_s)?))
+        Ok(Box::new(Lbl::new(self, &on.robot)?))
     }
 }
 
@@ -83,17 +78,17 @@ pub struct Lbl {
 }
 
 impl Lbl {
-    /// A transceiver of the robot `robot_id`; fixes are those of the body's origin.
+    /// A transceiver of the robot `on`; fixes are those of the body's origin.
     ///
     /// # Errors
     /// When the period is shorter than a step.
-    pub fn new(spec: &LblSpec, robot_id: &str, seed: u64, dt_s: f64) -> Result<Self, RobotError> {
+    pub fn new(spec: &LblSpec, on: &OnBoard) -> Result<Self, RobotError> {
         let rate_hz = 1.0 / spec.period_s.get();
         Ok(Self {
-            every: super::tools::every("sensors.lbl.period_s", rate_hz, dt_s)?,
+            every: on.every("sensors.lbl.period_s", rate_hz)?,
             noise_m: spec.noise_m.get(),
             dropout: spec.dropout.get(),
-            rng: Stream::new(seed, robot_id, "lbl"),
+            rng: on.stream("lbl"),
         })
     }
 
@@ -119,7 +114,7 @@ mod tests {
 
     #[test]
     fn fixes_scatter_and_fail_as_specified() {
-        let mut l = Lbl::new(&LblSpec::default(), "auv0", 1, 0.5).unwrap();
+        let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 1, 0.5)).unwrap();
         let t = at(30.0, -40.0, -5.0);
         let tries = 10_000;
         let v = run(60 * tries + 1, 0.5, |c| l.read(c, &t));
@@ -134,7 +129,7 @@ mod tests {
     /// The paper's errors of about 10 m, as the move from one fix to the next.
     #[test]
     fn successive_fixes_differ_by_ten_metres_rms() {
-        let mut l = Lbl::new(&LblSpec::default(), "auv0", 4, 0.5).unwrap();
+        let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 4, 0.5)).unwrap();
         let v = run(600_000, 0.5, |c| l.read(c, &at(0.0, 0.0, -5.0)));
         // Pairs that share no fix: squares are independent, their spread as large as their mean.
         let squares: Vec<f64> = (v.chunks_exact(2))
@@ -153,7 +148,7 @@ mod tests {
             dropout: Fraction::new(0.0),
             ..Default::default()
         };
-        let mut l = Lbl::new(&never_failing, "auv0", 1, 0.5).unwrap();
+        let mut l = Lbl::new(&never_failing, &OnBoard::new("auv0", 1, 0.5)).unwrap();
         let when = run(181, 0.5, |c| {
             l.read(c, &at(0.0, 0.0, -5.0)).map(|_| c.t_s())
         });

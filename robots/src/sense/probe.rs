@@ -14,6 +14,7 @@
 //! *Deviations*: the 0.5 mm of spatial resolution is taken as a point: it is less than the smallest eddies
 //! (0.83 mm) and far less than the smallest scale of a simulated plume, so averaging over it changes nothing.
 
+use super::on_board::OnBoard;
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
@@ -79,18 +80,12 @@ struct Channel {
 }
 
 impl Probes {
-    /// Probes of these names on the robot `robot_id`, each with a random stream of its own.
+    /// Probes of these names on the robot `on`, each with a random stream of its own.
     ///
     /// # Errors
     /// When there are none or too many, the rate does not fit the step, the range is empty or the converter
     /// has no or too many bits.
-    pub fn new(
-        spec: &ProbesSpec,
-        names: &[String],
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &ProbesSpec, names: &[String], on: &OnBoard) -> Result<Self, RobotError> {
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: format!("probes{field}"),
             problem,
@@ -112,10 +107,10 @@ impl Probes {
                 format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
             return Err(invalid(".range_v", problem));
         }
-        let every = super::tools::every("probes.rate_hz", spec.rate_hz.get(), dt_s)?;
-        let tau_periods = spec.response_s.get() / every.period_s(dt_s);
+        let every = on.every("probes.rate_hz", spec.rate_hz.get())?;
+        let tau_periods = spec.response_s.get() / every.period_s(on.dt_s);
         let channel = |name: &String| Channel {
-            rng: Stream::new(seed, robot_id, &format!("probe {name}")),
+            rng: on.stream(&format!("probe {name}")),
             latest: None,
         };
         Ok(Self {
@@ -195,7 +190,7 @@ mod tests {
     }
 
     fn probes(spec: &ProbesSpec, n: usize) -> Probes {
-        Probes::new(spec, &names(n), "gantry0", 1, 0.01).expect("legal")
+        Probes::new(spec, &names(n), &OnBoard::new("gantry0", 1, 0.01)).expect("legal")
     }
 
     fn tips(ys: &[f64]) -> Vec<Vector3<f64>> {
@@ -283,7 +278,8 @@ mod tests {
     #[test]
     fn impossible_probes_are_refused() {
         let new = |spec: &ProbesSpec, n| {
-            let e = Probes::new(spec, &names(n), "g", 1, 0.01).expect_err("impossible");
+            let e =
+                Probes::new(spec, &names(n), &OnBoard::new("g", 1, 0.01)).expect_err("impossible");
             e.to_string()
         };
         let ok = ProbesSpec::default();

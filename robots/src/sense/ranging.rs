@@ -10,6 +10,7 @@
 //! *Deviations:* beams without width, told apart in both directions; no side lobes and no echoes by way of the surface, which
 //! itself throws none back. A beam that drops out says nothing; one without echo says that the way is free.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::Readings;
@@ -90,18 +91,10 @@ impl Listed for RangingSpec {
 
 impl SensorParams for RangingSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Ranging::new(
             self,
             on.place("ranging")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 
@@ -138,17 +131,11 @@ pub struct Ranging {
 }
 
 impl Ranging {
-    /// A ranging at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A ranging at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step, or the fan cannot be.
-    pub fn new(
-        spec: &RangingSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &RangingSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.ranging.{field}"),
             problem,
@@ -196,14 +183,14 @@ impl Ranging {
             })
             .collect();
         Ok(Self {
-            every: super::tools::every("sensors.ranging.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.ranging.rate_hz", spec.rate_hz.get())?,
             p_BS,
             dirs_B,
             min_m,
             max_m,
             noise_m: spec.noise_m.get(),
             dropout: spec.dropout.get(),
-            rng: Stream::new(seed, robot_id, "ranging"),
+            rng: on.stream("ranging"),
         })
     }
 

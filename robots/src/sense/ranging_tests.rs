@@ -25,7 +25,12 @@ fn pile(east_m: f64, north_m: f64) -> Obstacles {
 }
 
 fn ranging(spec: RangingSpec) -> Ranging {
-    Ranging::new(&spec, Vector3::new(0.8, 0.0, 0.0), "auv0", 1, 0.02).unwrap()
+    Ranging::new(
+        &spec,
+        Vector3::new(0.8, 0.0, 0.0),
+        &OnBoard::new("auv0", 1, 0.02),
+    )
+    .unwrap()
 }
 
 fn quiet() -> RangingSpec {
@@ -122,7 +127,7 @@ fn beams_that_look_down_end_on_the_bed() {
 #[test]
 fn impossible_fans_are_refused() {
     let says = |spec: RangingSpec| {
-        Ranging::new(&spec, Vector3::zeros(), "a", 1, 0.02)
+        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
             .expect_err("impossible")
             .to_string()
     };

@@ -17,6 +17,7 @@
 //! it. Straight rays, no echo by way of the surface, no side lobes along the track, smooth bed without ripples. The ping is taken in an
 //! instant: in the 27 ms to 20 m and back a vehicle at 2 m/s moves 5 cm.
 
+use super::on_board::OnBoard;
 use super::sidescan_fan::Fan;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
@@ -107,18 +108,10 @@ impl Listed for SidescanSpec {
 
 impl SensorParams for SidescanSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Sidescan::new(
             self,
             on.place("sidescan")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 
@@ -163,17 +156,11 @@ pub struct Sidescan {
 }
 
 impl Sidescan {
-    /// A sidescan sonar at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A sidescan sonar at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit range or step, or the beam cannot be.
-    pub fn new(
-        spec: &SidescanSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &SidescanSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.sidescan.{field}"),
             problem,
@@ -207,7 +194,7 @@ impl Sidescan {
             floor * part * part * part * from_db(2.0 * spec.absorption_db_m.get() * (r - range_m))
         };
         Ok(Self {
-            every: super::tools::every("sensors.sidescan.rate_hz", rate_hz, dt_s)?,
+            every: on.every("sensors.sidescan.rate_hz", rate_hz)?,
             p_BS,
             fan: Fan {
                 range_m,
@@ -221,7 +208,7 @@ impl Sidescan {
             floor,
             always: spec.always,
             echo: vec![0.0; n],
-            rng: Stream::new(seed, robot_id, "sidescan"),
+            rng: on.stream("sidescan"),
         })
     }
 

@@ -17,7 +17,7 @@ fn block(east_m: f64, north_m: f64, bed: &Terrain) -> Obstacles {
 }
 
 fn sonar(spec: SidescanSpec) -> Sidescan {
-    Sidescan::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).unwrap()
+    Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap()
 }
 
 /// Mean strength (dB above the floor) of each sample to starboard over `pings`, by intensities.
@@ -167,7 +167,7 @@ fn off_a_survey_it_is_silent_unless_told() {
 #[test]
 fn what_cannot_be_is_refused() {
     let says = |spec: SidescanSpec| {
-        Sidescan::new(&spec, Vector3::zeros(), "a", 1, 0.02)
+        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
             .expect_err("impossible")
             .to_string()
     };

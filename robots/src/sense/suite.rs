@@ -1,6 +1,7 @@
 //! All instruments of a robot, read in one go.
 
 use super::camera::{CameraSpec, Optics};
+use super::on_board::OnBoard;
 use super::tools::Below;
 use super::{
     AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
@@ -26,12 +27,8 @@ const SURVEYS: f64 = 0.05;
 pub struct Fitting<'a> {
     /// The pose in body axes of the vehicle's mount of a name.
     pub mounts: &'a dyn Fn(&str) -> Option<Pose>,
-    /// Its name.
-    pub robot_id: &'a str,
-    /// Seed of the run.
-    pub seed: u64,
-    /// Step, s.
-    pub dt_s: f64,
+    /// The robot.
+    pub robot: OnBoard<'a>,
 }
 
 impl Fitting<'_> {
@@ -87,7 +84,7 @@ impl Around<'_> {
     }
 }
 
-/// An instrument at work. It draws from a stream of its own: `Stream::new(seed, robot_id, name)`.
+/// An instrument at work. It draws from a stream of its own: [`OnBoard::stream`].
 pub trait Sensor: std::fmt::Debug + Send + Sync {
     /// Reads what is around it, and writes what it says in this step.
     fn sense(&mut self, around: &Around, readings: &mut Readings);
@@ -186,16 +183,9 @@ impl SensorSuite {
     pub fn new(
         spec: &SensorsSpec,
         mounts: &dyn Fn(&str) -> Option<Pose>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
+        robot: OnBoard,
     ) -> Result<Self, RobotError> {
-        let on = Fitting {
-            mounts,
-            robot_id,
-            seed,
-            dt_s,
-        };
+        let on = Fitting { mounts, robot };
         let all = spec.iter().map(|s| s.build(&on));
         all.collect::<Result<_, _>>().map(Self)
     }
@@ -242,7 +232,7 @@ mod tests {
                 world::units::Heading::from_deg(90.0),
             ))
         };
-        let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
+        let mut suite = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
         let t = at(0.0, 0.0, -5.0);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
@@ -315,7 +305,8 @@ mod tests {
             (name != "adcp")
                 .then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)))
         };
-        let e = SensorSuite::new(&all(), &none, "auv0", 1, 0.02).expect_err("no adcp mount");
+        let e = SensorSuite::new(&all(), &none, OnBoard::new("auv0", 1, 0.02))
+            .expect_err("no adcp mount");
         assert_eq!(
             e.to_string(),
             "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the sensor out"

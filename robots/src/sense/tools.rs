@@ -1,29 +1,9 @@
-//! What several instruments need: rates that fit the step, and the way along a beam to the bed.
+//! What several instruments need: noise, and the way along a beam to the bed.
 
-use crate::error::RobotError;
 use nalgebra::Vector3;
-use world::clock::Every;
 use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
-
-/// Steps between two readings at `rate_hz`.
-///
-/// # Errors
-/// When the instrument would have to read more than once in a step.
-pub(super) fn every(field: &str, rate_hz: f64, dt_s: f64) -> Result<Every, RobotError> {
-    // A thousandth of slack: 1 / 0.02 is not exactly 50.
-    if rate_hz * dt_s > 1.001 {
-        return Err(RobotError::Invalid {
-            field: field.to_owned(),
-            problem: format!(
-                "{rate_hz} Hz is more than one reading a step; at most {} Hz with steps of {dt_s} s",
-                1.0 / dt_s
-            ),
-        });
-    }
-    Ok(Every::period(1.0 / rate_hz, dt_s))
-}
 
 /// Three independent normal numbers of one standard deviation.
 pub(super) fn normal3(rng: &mut Stream, std: f64) -> Vector3<f64> {

@@ -1,12 +1,12 @@
-//! The mass that a vehicle's URDF gives, and what of it the equation of motion takes.
+//! The mass that a vehicle's URDF gives, and what the equation of motion takes from it.
 //!
 //! *Source:* parallel-axis theorem over all links with a mass, joints at zero.
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* hydrodynamic parameters were fitted to one hull, so mass, inertia and height of the centre of
-//! gravity may differ from theirs by 1 % and are then used as they are; a centre of gravity off the hull's axis and products of
-//! inertia within 1 % are left out. Both is told.
+//! *Deviations:* hydrodynamic parameters were fitted to one hull. So mass, inertia and height of the centre of
+//! gravity may differ from theirs by 1 %, and the URDF's values are then used. A centre of gravity off the hull's
+//! axis, and products of inertia, within 1 % are left out. Both are reported.
 
 use super::coefficients::Coefficients;
 use super::urdf_parts::{finite, joined, pose_of};
@@ -16,9 +16,9 @@ use urdf_rs::Robot;
 use world::frames::Pose;
 use world::units::GRAVITY_M_S2;
 
-/// By how much mass and inertia may differ from the hydrodynamic parameters.
+/// Greatest relative difference of mass and inertia from the hydrodynamic parameters.
 const MASS_TOLERANCE: f64 = 0.01;
-/// By how much they differ in a file with eight digits; that is no difference.
+/// Relative difference that rounding to eight digits in a file can cause; it counts as none.
 const ROUNDING: f64 = 1e-6;
 
 /// Mass, centre of gravity and inertia of a vehicle, FLU.
@@ -75,10 +75,10 @@ impl Ballast {
         })
     }
 
-    /// The parameters with this mass, and what is to be told of it.
+    /// The parameters with this mass, and what must be reported about it.
     ///
     /// # Errors
-    /// If it is not that of the hull for which the parameters are.
+    /// If it is not the mass of the hull for which the parameters are.
     pub(super) fn put_into(
         &self,
         body: &str,
@@ -105,7 +105,7 @@ impl Ballast {
             let have = inertia[(row, column)];
             if !near(want.x + have, want.x) {
                 return Err(format!(
-                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull without"
+                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull with zero"
                 ));
             }
         }
@@ -171,7 +171,7 @@ impl Ballast {
         ] {
             if have.abs() > ROUNDING * scale {
                 told.push(format!(
-                    "{what} is {have} {unit} by its URDF: left out, the equation of motion has none"
+                    "{what} is {have} {unit} by its URDF: ignored, because the equation of motion has none"
                 ));
             }
         }

@@ -2,6 +2,7 @@
 
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
+use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
@@ -122,6 +123,9 @@ pub struct RunArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Folder for the results. With several scenarios it gets one folder for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -260,6 +264,9 @@ pub struct StatisticsArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Duration of the measurement, s [default: 1200 in an open channel, else the scenario's time.limit_s].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,

@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis campaign`.
 
+use super::args_key::KeyArgs;
 use clap::Subcommand;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -46,7 +47,7 @@ pub enum CampaignCommand {
     Run(CampaignRunArgs),
     /// Show how much of a campaign is done.
     Status(StatusArgs),
-    /// Write all rows of a campaign to one file.
+    /// Write all rows of a campaign to one file, and all declarations to one beside it.
     Merge(MergeArgs),
     /// Compare the arms: tables, figures and a page.
     Report(ReportArgs),
@@ -78,6 +79,9 @@ pub struct CampaignRunArgs {
     /// Folder for the blocks. Several machines may share it.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Do the I-th of N shares, counted from 1 [default: what the cluster's scheduler says, else all].
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
@@ -127,10 +131,10 @@ pub struct MergeArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Parquet file to write.
+    /// Parquet file to write; the declarations go beside it (all.parquet: all-declarations.parquet).
     #[arg(long, short, value_name = "FILE")]
     pub out: PathBuf,
-    /// Also write a CSV file beside it.
+    /// Also write both as CSV files beside them.
     #[arg(long)]
     pub csv: bool,
 }
@@ -150,6 +154,9 @@ pub struct RerunArgs {
     /// Number of the run, as in the column `run`.
     #[arg(long, value_name = "K")]
     pub run: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Write the recording (run.mcap).
     #[arg(long)]
     pub record: bool,

@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis picture`.
 
+use super::args_key::KeyArgs;
 use std::path::PathBuf;
 use std::str::FromStr;
 
@@ -40,6 +41,9 @@ pub struct PictureArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
 }
 
 const PICTURE_AFTER: &str = "\

@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis reproduce`.
 
+use super::args_key::KeyArgs;
 use std::path::PathBuf;
 
 /// Arguments of `reproduce`.
@@ -11,8 +12,8 @@ use std::path::PathBuf;
         have none.\n\n\
         ROW is the name of an experiment. A name without a row of its own stands for all rows that begin with it: \
         `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
-        The results are REPRODUCTION.md, figures.csv (the table) and rows.csv (every run). They are renewed every 50 \
-        seeds, so an interrupted experiment keeps what is done. The figures do not depend on the number of jobs.",
+        The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
+        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the number of jobs.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
@@ -34,6 +35,9 @@ pub struct ReproduceArgs {
     #[arg(long, value_name = "SEED", default_value_t = 1,
         value_parser = clap::value_parser!(u64).range(..=1 << 62))]
     pub first_seed: u64,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
     /// Use 20 seeds for each row, for a first look.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,

@@ -55,7 +55,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
-    let campaign = load(&args.file)?;
+    let mut campaign = load(&args.file)?;
+    campaign.key = args.key.get();
     say::warnings(campaign.notes());
     let bar = if args.quiet {
         ProgressBar::hidden()
@@ -201,9 +202,11 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
     let merged = merge(&args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
-        "{} in {}",
+        "{} in {}, {} in {}",
         count(merged.rows, "row"),
-        args.out.display()
+        args.out.display(),
+        count(merged.declarations, "declaration"),
+        merged.declarations_path.display()
     ));
     if merged.rows < merged.of {
         eprintln!(
@@ -217,7 +220,9 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
 fn rerun(args: &RerunArgs) -> Exit {
     let found = Manifest::of(&args.dir).and_then(|manifest| {
         let row = read_row(&args.dir, args.run)?;
-        let campaign = manifest.campaign()?;
+        let mut campaign = manifest.campaign()?;
+        campaign.key = args.key.get();
+        manifest.same_key(&campaign)?;
         let place = campaign.place(args.run);
         let mut what = format!("arm {}", campaign.arm(place.arm).name);
         let condition = campaign.condition_name(place.condition);
@@ -240,7 +245,8 @@ fn rerun(args: &RerunArgs) -> Exit {
         .unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
         files: Vec::new(),
-        seed,
+        seed: seed.number(),
+        key: args.key.clone(),
         out: Some(out.clone()),
         speed: Speed::Max,
         no_zenoh: true,

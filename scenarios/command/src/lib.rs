@@ -9,6 +9,7 @@
 mod args;
 mod args_campaign;
 mod args_explain;
+mod args_key;
 mod args_picture;
 mod args_reproduce;
 mod args_vision;

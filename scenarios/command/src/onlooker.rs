@@ -14,12 +14,10 @@ use output::results::{
     BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables,
     RobotInfo, RunEnd, RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
 };
-use rheotaxis::abnormal::Abnormals;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::GantryBlock;
-use rheotaxis::scenario::Loaded;
+use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
@@ -74,7 +72,7 @@ impl<'a> Onlooker<'a> {
             title: scenario.title.clone(),
             success: scenario.success.words(),
             scenario_text: loaded.text.clone(),
-            seed: args.seed,
+            seed: args.key.seed(args.seed),
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
         let gantries = gantries(loaded)?;
@@ -157,7 +155,6 @@ impl<'a> Onlooker<'a> {
             let closed = recorder.finish(&ended.digest).map(drop);
             self.note(closed);
         }
-        let world = &trial.simulation.world;
         let ocean = trial.simulation.ocean();
         let plume = ocean.plume();
         let sources: Vec<SourceTruth> = (plume.sources().iter())
@@ -172,12 +169,14 @@ impl<'a> Onlooker<'a> {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
         };
-        (self.builder).went_wrong(&world.resource::<Abnormals>().0);
+        (self.builder).went_wrong(&trial.score().abnormal);
+        self.builder.added(trial);
         let summary = self.builder.finish(
-            RunEnd {
+            &RunEnd {
                 outcome,
                 error: self.failure.as_ref().map(ToString::to_string),
                 digest: ended.digest.clone(),
+                declarations: ended.declarations.clone(),
                 totals: Totals {
                     mission_s: ended.t_s,
                     spin_up_s: self.spin_up_s,
@@ -259,7 +258,7 @@ fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Liv
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),
-        seed: run.seed,
+        seed: run.seed.number(),
         version: run.version.clone(),
     };
     let live = Live::start(&options, meta)?;
@@ -283,7 +282,7 @@ fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
         .max_by(f64::total_cmp);
     let info = |block: &GantryBlock| {
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &loaded.base_dir).map_err(|source| {
+        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).map_err(|source| {
             AssembleError::Robot {
                 id: id.clone(),
                 source,

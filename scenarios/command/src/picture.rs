@@ -45,7 +45,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         say::error(format!("--visibility must be > 0, got {wrong}"), None);
         return Exit::Error;
     }
-    let mut trial = match Trial::assemble(&loaded, args.seed) {
+    let mut trial = match Trial::assemble(&loaded, args.key.seed(args.seed)) {
         Ok(trial) => trial,
         Err(error) => {
             say::error(error, None);
@@ -88,7 +88,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
     let camera = CameraModel::new(&spec.unwrap_or_default());
     let [heading, down] = args.look.0;
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());
-    let noise = seeds::key(args.seed, "picture", "camera");
+    let noise = seeds::key(args.key.seed(args.seed), "picture", "camera");
     let made = render(&camera, &pose_WC, &scene, noise);
     let files = [
         Some((args.out.as_path(), made.image.clone())),

@@ -46,7 +46,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         done.push(reproduced);
     }
     say::line(format_args!(
-        "results in {}: REPRODUCTION.md, figures.csv, rows.csv",
+        "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
         args.out.display()
     ));
     Ok(())
@@ -95,6 +95,7 @@ fn one(
     let plan = Plan {
         n,
         first_seed: args.first_seed,
+        key: args.key.get(),
         until_half_width: args.until_width,
         jobs: args.jobs,
     };

@@ -79,7 +79,7 @@ fn one(
         let estimate = cost::estimate(&cost::cost(&loaded.scenario));
         eprintln!("{}: takes at most {estimate}", loaded.name);
     }
-    let mut trial = Trial::assemble(&loaded, args.seed)?;
+    let mut trial = Trial::assemble(&loaded, args.key.seed(args.seed))?;
     let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
     let ended = trial.run(&mut onlooker);
     Ok(onlooker.finish(&trial, &ended)?)

@@ -8,7 +8,7 @@ use output::files::{ReportError, begin_folder};
 use robots::vision::VerifierSpec;
 use std::sync::Mutex;
 use std::time::Duration;
-use studies::score_vision::{Plan, ScoreError, SizePx, save, score, table, write};
+use studies::score_vision::{ScenePlan, ScoreError, SizePx, save, score, table, write};
 
 /// Renders and scores the scenes, prints the scores and writes the folder.
 pub(super) fn score_vision(args: &ScoreVisionArgs) -> Exit {
@@ -46,7 +46,7 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     );
     bar.set_prefix("score-vision");
     bar.enable_steady_tick(Duration::from_millis(500));
-    let plan = Plan {
+    let plan = ScenePlan {
         seed: args.seed,
         scenes: args.scenes,
         size_px: [args.width, (3 * args.width).div_ceil(4)],

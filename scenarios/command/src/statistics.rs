@@ -34,10 +34,11 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
     bar.set_style(style.expect("the template is well formed"));
     bar.set_prefix(loaded.name.clone());
-    let measured = statistics::statistics(&loaded, args.seed, args.seconds, |share| {
-        bar.set_position((share * PARTS as f64) as u64);
-        !stop.load(Ordering::Relaxed)
-    });
+    let measured =
+        statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
+            bar.set_position((share * PARTS as f64) as u64);
+            !stop.load(Ordering::Relaxed)
+        });
     bar.finish_and_clear();
     let measured = match measured {
         Ok(measured) => measured,

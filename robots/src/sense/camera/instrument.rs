@@ -7,6 +7,7 @@
 //!
 //! *Deviations:* a picture asked for before the last one's time is up is taken when it is.
 
+use super::super::on_board::OnBoard;
 use super::super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::model::{CameraModel, CameraSpec, turned};
 use super::render::render;
@@ -21,7 +22,6 @@ use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::{Pose, Truth};
 use world::registry::Listed;
-use world::seeds;
 
 /// Most pixels along a side.
 const MOST: u32 = 4096;
@@ -39,14 +39,8 @@ impl Listed for CameraSpec {
 
 impl SensorParams for CameraSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         let mount = on.mount("camera")?;
-        Ok(Box::new(Camera::new(self, &mount, robot_id, seed, dt_s)?))
+        Ok(Box::new(Camera::new(self, &mount, &on.robot)?))
     }
 
     fn cost(&self, _: f64, used: f64, times: &Times) -> Cost {
@@ -88,17 +82,11 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at the mount `pose_BM` (body axes) of the robot `robot_id`.
+    /// A camera at the mount `pose_BM` (body axes) of the robot `on`.
     ///
     /// # Errors
     /// When the rate does not fit the step, or the picture or its angle cannot be.
-    pub fn new(
-        spec: &CameraSpec,
-        pose_BM: &Pose,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &CameraSpec, pose_BM: &Pose, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.camera.{field}"),
             problem,
@@ -114,7 +102,7 @@ impl Camera {
                 format!("must be less than 170, got {}", spec.view_deg.get()),
             ));
         }
-        let every = super::super::tools::every("sensors.camera.rate_hz", spec.rate_hz.get(), dt_s)?;
+        let every = on.every("sensors.camera.rate_hz", spec.rate_hz.get())?;
         let look = turned(
             spec.pan_deg.get().to_radians(),
             spec.tilt_deg.get().to_radians(),
@@ -127,7 +115,7 @@ impl Camera {
             next: 0,
             asked: false,
             taken: 0,
-            key: seeds::key(seed, robot_id, "camera"),
+            key: on.key("camera"),
         })
     }
 

@@ -3,6 +3,7 @@
 use super::bands::{GREEN, N, Rgb, each, see};
 use super::light::{SCATTER_COSINE, phase};
 use super::*;
+use crate::sense::OnBoard;
 use crate::sense::testing::{at, run};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -347,7 +348,7 @@ fn the_instrument_takes_a_picture_when_asked_and_not_more_often_than_it_can() {
         ..CameraSpec::default()
     };
     let mount = Pose::level(Vector3::new(0.5, 0.0, -0.1), Heading::from_deg(90.0));
-    let mut camera = Camera::new(&spec, &mount, "auv0", 3, 0.1).unwrap();
+    let mut camera = Camera::new(&spec, &mount, &OnBoard::new("auv0", 3, 0.1)).unwrap();
     let o = Optics::new(&OpticsSpec::default()).unwrap();
     let scene = Scene {
         terrain: &BED,
@@ -377,7 +378,7 @@ fn a_camera_that_cannot_be_is_refused_with_its_field() {
     let refused = |change: &dyn Fn(&mut CameraSpec)| {
         let mut spec = CameraSpec::default();
         change(&mut spec);
-        Camera::new(&spec, &mount, "a", 1, 0.02)
+        Camera::new(&spec, &mount, &OnBoard::new("a", 1, 0.02))
             .unwrap_err()
             .to_string()
     };

@@ -2,12 +2,12 @@
 
 use super::Payload;
 use super::message::{Message, with};
-use super::options::chunk;
 use super::slots::Numbered;
 use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
 use rheotaxis::frame::{PictureFrame, PingFrame};
+use rheotaxis::topic::chunk;
 use serde_json::json;
 
 /// JPEG quality of a picture; the files and the recording are lossless.

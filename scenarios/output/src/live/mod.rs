@@ -6,7 +6,6 @@
 
 mod error;
 mod options;
-mod table;
 mod topics;
 
 #[cfg(feature = "live")]
@@ -17,8 +16,6 @@ mod mailbox;
 mod map_message;
 #[cfg(feature = "live")]
 mod message;
-#[cfg(feature = "live")]
-mod message_gantry;
 #[cfg(feature = "live")]
 mod session;
 #[cfg(feature = "live")]
@@ -31,7 +28,7 @@ mod off;
 
 pub use error::LiveError;
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
-pub use topics::{Field, Kind, Payload, Topic, topics};
+pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(not(feature = "live"))]
 pub use off::Live;

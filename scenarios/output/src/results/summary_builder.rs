@@ -11,10 +11,12 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::abnormal::Abnormal;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::Trial;
 use robots::handoff::{
     Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
 };
-use std::collections::VecDeque;
+use serde_json::Value;
+use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use world::units::Heading;
 
@@ -109,20 +111,14 @@ pub struct RunEnd {
     pub error: Option<String>,
     /// Digest of the state sequence.
     pub digest: String,
+    /// The declarations in the score, by robot or gantry.
+    pub declarations: BTreeMap<String, Vec<Declaration>>,
     /// Times and counts.
     pub totals: Totals,
 }
 
 /// How long fixes are remembered, s: those that may have spoilt a declaration.
 const FIX_S: f64 = 60.0;
-
-/// A declaration, with what was known when it was made.
-#[derive(Clone, Copy, Debug)]
-struct Made {
-    said: Declaration,
-    traced_m: Option<f64>,
-    fix_m: Option<f64>,
-}
 
 #[derive(Debug)]
 struct Robot {
@@ -133,7 +129,9 @@ struct Robot {
     travelled_m: f64,
     first_detection: Option<(f64, Vector2<f64>)>,
     detections: u64,
-    declarations: Vec<Made>,
+    /// What was known when a declaration was made, by its number: the straight distance from the first detection in
+    /// the area or subregion, and the largest shift by a fix in the minute before, m.
+    made: BTreeMap<u32, [Option<f64>; 2]>,
     regions: Regions,
     /// First detection in the present subregion, or in the last one.
     in_region: Option<Vector2<f64>>,
@@ -158,7 +156,7 @@ impl Robot {
             travelled_m: 0.0,
             first_detection: None,
             detections: 0,
-            declarations: Vec::new(),
+            made: BTreeMap::new(),
             regions: Regions::default(),
             in_region: None,
             fixes: VecDeque::new(),
@@ -218,31 +216,25 @@ impl Robot {
         }
         self.regions = r.regions.clone();
         for d in &r.declarations {
-            match self
-                .declarations
-                .iter_mut()
-                .find(|m| m.said.number == d.number)
-            {
-                Some(made) => made.said = *d,
-                None => self.declarations.push(Made {
-                    said: *d,
-                    traced_m: self.in_region.map(|from| (d.position - from).norm()),
-                    fix_m: self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp),
-                }),
-            }
+            self.made.entry(d.number).or_insert_with(|| {
+                let traced_m = self.in_region.map(|from| (d.position - from).norm());
+                let fix_m = self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp);
+                [traced_m, fix_m]
+            });
         }
     }
 
-    fn summary(&self, sources: &[SourceTruth]) -> RobotSummary {
-        let traced_m = self
-            .first_detection
-            .zip(self.declarations.first())
-            .map(|((_, from), d)| (d.said.position - from).norm());
-        let mut declarations: Vec<DeclarationSummary> = (self.declarations.iter())
-            .map(|made| DeclarationSummary {
-                traced_m: made.traced_m,
-                fix_m: made.fix_m,
-                ..DeclarationSummary::of(&made.said, sources)
+    fn summary(&self, said: &[Declaration], sources: &[SourceTruth]) -> RobotSummary {
+        let traced_m = (self.first_detection.zip(said.first()))
+            .map(|((_, from), d)| (d.position - from).norm());
+        let mut declarations: Vec<DeclarationSummary> = (said.iter())
+            .map(|d| {
+                let [traced_m, fix_m] = self.made.get(&d.number).copied().unwrap_or_default();
+                DeclarationSummary {
+                    traced_m,
+                    fix_m,
+                    ..DeclarationSummary::of(d, sources)
+                }
             })
             .collect();
         let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
@@ -250,7 +242,6 @@ impl Robot {
             .enumerate()
             .map(|(k, d)| d.name = format!("source {}", k + 1))
             .count();
-        let said: Vec<Declaration> = self.declarations.iter().map(|m| m.said).collect();
         let timed_out = |r: &&Region| r.state == RegionState::TimedOut;
         RobotSummary {
             id: self.id.clone(),
@@ -258,7 +249,7 @@ impl Robot {
             sources_declared,
             declarations,
             regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
-            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &said, sources)),
+            map: (self.map.as_ref()).map(|last| MapEnd::of(last, said, sources)),
             regions: (self.regions.all.iter().zip(0..))
                 .map(|(region, k)| RegionSummary {
                     name: region_name(k),
@@ -300,6 +291,8 @@ pub struct SummaryBuilder {
     robots: Vec<Robot>,
     gantries: Vec<GantryPath>,
     abnormal: Vec<Abnormal>,
+    apparatus: BTreeMap<String, Value>,
+    published: BTreeMap<String, Value>,
 }
 
 impl SummaryBuilder {
@@ -311,7 +304,16 @@ impl SummaryBuilder {
             robots: Vec::new(),
             gantries: Vec::new(),
             abnormal: Vec::new(),
+            apparatus: BTreeMap::new(),
+            published: BTreeMap::new(),
         }
+    }
+
+    /// What other crates add to the summary at the end: the parts of their machines and the last values of their topics.
+    pub fn added(&mut self, trial: &Trial) {
+        self.apparatus = trial.apparatus();
+        let last = trial.published().map(|p| (p.key.clone(), p.value.clone()));
+        self.published = last.collect();
     }
 
     /// Everything that went wrong up to the end, which may lie between two frames.
@@ -340,18 +342,20 @@ impl SummaryBuilder {
 
     /// The summary of the run, compared with the true sources.
     #[must_use]
-    pub fn finish(&self, end: RunEnd, sources: &[SourceTruth]) -> Summary {
+    pub fn finish(&self, end: &RunEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
+        let said = |id: &str| end.declarations.get(id).map_or(&[][..], Vec::as_slice);
         let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
         Summary {
             scenario: self.run.scenario_name.clone(),
             title: self.run.title.clone(),
             success_rule: self.run.success.clone(),
-            seed: self.run.seed,
+            seed: self.run.seed.number(),
+            key: self.run.seed.key().mark(),
             versions: Versions::of(&self.run.version),
-            digest: end.digest,
+            digest: end.digest.clone(),
             outcome: end.outcome,
-            error: end.error,
+            error: end.error.clone(),
             sources: sources
                 .iter()
                 .map(|s| SourceSummary {
@@ -361,8 +365,18 @@ impl SummaryBuilder {
                     flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
                 })
                 .collect(),
-            robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
-            gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
+            robots: self
+                .robots
+                .iter()
+                .map(|r| r.summary(said(&r.id), sources))
+                .collect(),
+            gantries: self
+                .gantries
+                .iter()
+                .map(|g| g.summary(said(g.id()).first(), sources))
+                .collect(),
+            apparatus: self.apparatus.clone(),
+            published: self.published.clone(),
             abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
             run: RunSummary {
                 totals: t,

@@ -1,5 +1,6 @@
 //! Checks of what a scenario means. They find contradictions that reading alone cannot see; each has the field's path.
 
+use super::beside::Beside;
 use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
@@ -11,8 +12,8 @@ use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
-use robots::sense::SensorSuite;
 use robots::sense::camera::Optics;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
@@ -114,6 +115,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             found.push(Found::error(format!("gantries[{i}].id"), problem));
         }
     }
+    added(scenario, &robot_ids, &gantry_ids, &mut found);
     check_able::declarations(scenario, &mut found);
     times(scenario, &mut found);
     check_able::purpose(scenario, &mut found);
@@ -124,6 +126,21 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         check_steps::steps(scenario, water, &area, &terrain, &mut found);
     }
     found
+}
+
+/// The ids of machines of other crates.
+fn added(scenario: &Scenario, robots: &[&str], gantries: &[&str], found: &mut Vec<Found>) {
+    let ids: Vec<&str> = scenario.apparatus.iter().map(|a| a.id()).collect();
+    names("apparatus", &ids, found);
+    twins("apparatus", &ids, found);
+    for (i, id) in ids.iter().enumerate() {
+        for (list, others) in [("robots", robots), ("gantries", gantries)] {
+            if let Some(twin) = others.iter().position(|other| other == id) {
+                let problem = format!("\"{id}\" is already the name of {list}[{twin}]");
+                found.push(Found::error(format!("apparatus[{i}].id"), problem));
+            }
+        }
+    }
 }
 
 fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
@@ -279,14 +296,14 @@ fn parts(
     found: &mut Vec<Found>,
 ) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
-    match Vehicle::load(&robot.vehicle, base_dir) {
+    match Vehicle::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
                 found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));
             }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();
-            match SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+            match SensorSuite::new(&robot.sensors, &mounts, OnBoard::new(id, 0, step_s)) {
                 Ok(_) => return Some(vehicle),
                 Err(e) => found.push(robot_error(&path, "sensors", e)),
             }

@@ -1,9 +1,10 @@
 //! Checks of a gantry; each finding has the field's path.
 
+use super::beside::Beside;
 use super::check::robot_error;
 use super::fault::Found;
 use super::gantry::GantryBlock;
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use std::path::Path;
 use world::area::Area;
@@ -21,7 +22,7 @@ pub(crate) fn check(
 ) {
     let path = format!("gantries[{i}]");
     let fault = |part, error| robot_error(&path, part, error);
-    let gantry = match Gantry::load(&block.gantry, base_dir) {
+    let gantry = match Gantry::load(&block.gantry, &Beside(base_dir)) {
         Ok(gantry) => gantry,
         Err(e) => return found.push(fault("gantry", e)),
     };
@@ -52,7 +53,8 @@ pub(crate) fn check(
     }
     let layout = block.layout(&gantry);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    if let Err(e) = Probes::new(&block.probes, &names, block.id.as_str(), 0, step_s) {
+    let on = OnBoard::new(block.id.as_str(), 0, step_s);
+    if let Err(e) = Probes::new(&block.probes, &names, &on) {
         found.push(fault("probes", e));
     }
     if let Err(e) = block.tracker.build(&layout) {

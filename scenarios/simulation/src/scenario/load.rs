@@ -32,6 +32,8 @@ pub struct Loaded {
     pub base_dir: PathBuf,
     /// Hash of the text, 32 hexadecimal digits.
     pub hash: String,
+    /// The registry under which it was read; runs of it take up the systems and topics that this carries.
+    pub registry: Registry,
 }
 
 impl Loaded {
@@ -96,8 +98,30 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
         }
         (Ok(text), _) => text,
     };
+    loaded(path, name, base_dir, text)
+}
+
+/// Reads a scenario from its text, with what a registry adds. Errors call it `name`, and paths in it are relative to the
+/// working folder. Handy for programs that change the text of a [`template`](catalog::template).
+///
+/// # Errors
+/// As [`load`].
+pub fn load_text(registry: &Registry, name: &str, text: &str) -> Result<Loaded, ScenarioError> {
+    registry.scope(|| {
+        let (path, base_dir) = (Path::new(name), PathBuf::new());
+        loaded(path, name.to_string(), base_dir, text.to_string())
+    })
+}
+
+fn loaded(
+    path: &Path,
+    name: String,
+    base_dir: PathBuf,
+    text: String,
+) -> Result<Loaded, ScenarioError> {
     let mut digest = Digest::default();
     digest.text(&text);
+    let shown = path.display().to_string();
     Ok(Loaded {
         scenario: read_whole(&shown, &text, &|s| check(s, &base_dir))?,
         name,
@@ -105,6 +129,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
         path: path.to_path_buf(),
         hash: digest.hex(),
         text,
+        registry: Registry::now(),
     })
 }
 

@@ -3,6 +3,7 @@
 use super::gantry::GantryBlock;
 use super::success::SuccessSpec;
 use super::version::Version;
+use crate::apparatus::ApparatusSpec;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
@@ -58,6 +59,9 @@ pub struct Scenario {
     /// Two-axis gantries that search; any number.
     #[serde(default)]
     pub gantries: Vec<GantryBlock>,
+    /// Machines of kinds that other crates add; any number.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub apparatus: Vec<ApparatusSpec>,
     /// Steps, spin-up and the longest mission.
     pub time: TimeSpec,
     /// When the mission counts as a success.

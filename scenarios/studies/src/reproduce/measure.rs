@@ -1,13 +1,13 @@
 //! Events and measures of a run, with the names that row files use.
 
 use crate::campaign::report::Unit;
-use crate::campaign::{DeclaredAt, RunRow};
+use crate::campaign::{DeclarationRow, RunRow};
 use serde::{Deserialize, Serialize};
 
 /// Something that did or did not happen in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Event {
+pub enum RunEvent {
     /// It succeeded as the scenario defines it.
     Success,
     /// A source was declared, at any place.
@@ -35,31 +35,31 @@ pub enum Event {
 const EDGE: &str = "up_flow_edge";
 
 /// The first declaration of a subregion that the vehicle did not reject.
-fn of_region(r: &RunRow, k: u32) -> Option<&DeclaredAt> {
-    (r.declarations.iter()).find(|d| d.region == Some(k) && d.verdict != "rejected")
+fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
+    (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.verdict != "rejected")
 }
 
-impl Event {
+impl RunEvent {
     /// Whether it happened; `None` if the run cannot tell.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<bool> {
         match self {
-            Event::Success => Some(r.success),
-            Event::Declared => Some(r.declared_s.is_some()),
-            Event::MostlyAlong => {
+            RunEvent::Success => Some(r.success),
+            RunEvent::Declared => Some(r.declared_s.is_some()),
+            RunEvent::MostlyAlong => {
                 (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs())
             }
-            Event::CorrectCell => Some(r.correct_cell_s.is_some()),
-            Event::RegionDeclared(k) => Some(of_region(r, k).is_some()),
-            Event::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(|d| d.rule == EDGE)),
-            Event::RegionFixOver(k, m) => {
+            RunEvent::CorrectCell => Some(r.correct_cell_s.is_some()),
+            RunEvent::RegionDeclared(k) => Some(of_region(r, k).is_some()),
+            RunEvent::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(|d| d.rule == EDGE)),
+            RunEvent::RegionFixOver(k, m) => {
                 of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
             }
-            Event::RegionFixUnder(k, m) => Event::RegionFixOver(k, m).of(r).map(|over| !over),
-            Event::RegionErrorOver(k, m) => of_region(r, k)?
+            RunEvent::RegionFixUnder(k, m) => RunEvent::RegionFixOver(k, m).of(r).map(|over| !over),
+            RunEvent::RegionErrorOver(k, m) => of_region(r, k)?
                 .error_m
                 .map(|error_m| error_m >= f64::from(m)),
-            Event::RegionAcrossOver(k, m) => {
+            RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
             }
         }
@@ -186,7 +186,7 @@ mod tests {
 
     #[test]
     fn of_subregions() {
-        let at = |region, rule: &str, along, across, fix_m| DeclaredAt {
+        let at = |region, rule: &str, along, across, fix_m| DeclarationRow {
             region: Some(region),
             rule: rule.to_string(),
             verdict: "unchecked".to_string(),
@@ -194,9 +194,9 @@ mod tests {
             error_along_m: Some(along),
             error_across_m: Some(across),
             fix_m,
-            ..DeclaredAt::default()
+            ..DeclarationRow::default()
         };
-        let rejected = DeclaredAt {
+        let rejected = DeclarationRow {
             verdict: "rejected".to_string(),
             ..at(2, "AlongFlow", 300.0, 0.0, None)
         };
@@ -209,22 +209,22 @@ mod tests {
             sources_declared: 1,
             ..RunRow::default()
         };
-        let yes = |e: Event| e.of(&row);
+        let yes = |e: RunEvent| e.of(&row);
         assert_eq!(
-            [0, 1, 2].map(|k| yes(Event::RegionDeclared(k))),
+            [0, 1, 2].map(|k| yes(RunEvent::RegionDeclared(k))),
             [Some(true), Some(false), Some(true)]
         );
         assert_eq!(
-            [0, 1, 2].map(|k| yes(Event::RegionAtEdge(k))),
+            [0, 1, 2].map(|k| yes(RunEvent::RegionAtEdge(k))),
             [Some(true), Some(false), Some(false)]
         );
-        assert_eq!(yes(Event::RegionFixOver(2, 12)), Some(true));
-        assert_eq!(yes(Event::RegionFixUnder(2, 12)), Some(false));
-        assert_eq!(yes(Event::RegionFixOver(0, 1)), Some(false));
-        assert_eq!(yes(Event::RegionFixOver(1, 1)), None);
-        assert_eq!(yes(Event::RegionAcrossOver(2, 31)), Some(true));
-        assert_eq!(yes(Event::RegionAcrossOver(2, 32)), Some(false));
-        assert_eq!(yes(Event::RegionErrorOver(1, 1)), None);
+        assert_eq!(yes(RunEvent::RegionFixOver(2, 12)), Some(true));
+        assert_eq!(yes(RunEvent::RegionFixUnder(2, 12)), Some(false));
+        assert_eq!(yes(RunEvent::RegionFixOver(0, 1)), Some(false));
+        assert_eq!(yes(RunEvent::RegionFixOver(1, 1)), None);
+        assert_eq!(yes(RunEvent::RegionAcrossOver(2, 31)), Some(true));
+        assert_eq!(yes(RunEvent::RegionAcrossOver(2, 32)), Some(false));
+        assert_eq!(yes(RunEvent::RegionErrorOver(1, 1)), None);
         let of = |m: Measure| m.of(&row);
         assert_eq!(of(Measure::Declarations), Some(3.0));
         assert_eq!(of(Measure::FarDeclarations(40)), Some(1.0));

@@ -1,6 +1,6 @@
 //! What a paper reports, and the scenario with which we compare it: one row file each.
 
-use super::measure::Event;
+use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, put};
 use output::files::ReportError;
@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
 use world::files;
+use world::registry::Registry;
 
 /// Longest file read, bytes: a row is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
@@ -44,7 +45,7 @@ pub struct Figure {
     pub arm: Option<String>,
     /// Only runs in which this happened count.
     #[serde(default)]
-    pub among: Option<Event>,
+    pub among: Option<RunEvent>,
     /// What is computed from our runs.
     pub quantity: Quantity,
     /// The paper's figure; absent if there is nothing to compare.
@@ -313,6 +314,7 @@ fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
         name: template.name.to_string(),
         base_dir: PathBuf::new(),
         hash: digest.hex(),
+        registry: Registry::now(),
     })
 }
 
