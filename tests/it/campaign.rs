@@ -85,7 +85,7 @@ fn blocks(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     files
         .map(|f| f.unwrap())
         .map(|f| (f.file_name().into_string().unwrap(), f.path()))
-        .filter(|(name, _)| name.ends_with(".parquet"))
+        .filter(|(name, _)| name.starts_with("part-") && name.ends_with(".parquet"))
         .map(|(name, path)| (name, fs::read(path).unwrap()))
         .collect()
 }
@@ -177,7 +177,10 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     let declared: usize = one.iter().map(|r| r.declarations.len()).sum();
     let declarations = fs::read_to_string(dir.join("all-declarations.csv")).unwrap();
     assert_eq!(declarations.lines().count(), 1 + declared);
-    assert!(said.contains(&format!(", {declared} declaration")), "{said}");
+    assert!(
+        said.contains(&format!(", {declared} declaration")),
+        "{said}"
+    );
     assert!(
         csv.lines().nth(14).unwrap().contains(&one[13].digest),
         "{csv}"
@@ -280,7 +283,10 @@ fn blocks_that_are_not_whole_are_found_named_and_done_again() {
     let (_, said) = ends(dir, 1, &["merge", "out", "-o", "all.parquet"]);
     assert!(said.contains(says), "{said}");
     let (_, said) = ends(dir, 0, &run);
-    assert!(said.starts_with(says) && said.ends_with("; it is done again\n"), "{said}");
+    assert!(
+        said.starts_with(says) && said.ends_with("; it is done again\n"),
+        "{said}"
+    );
     assert_eq!(rows(&out), good);
 }
 
@@ -333,8 +339,7 @@ fn a_full_disk_is_said_and_what_was_done_stays_readable() {
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
     assert!(
-        said.contains("cannot write out/")
-            && said.contains("-000003.parquet: File too large"),
+        said.contains("cannot write out/") && said.contains("-000003.parquet: File too large"),
         "{said}"
     );
     assert!(said.contains("blocks written before are whole"), "{said}");

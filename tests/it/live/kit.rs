@@ -344,7 +344,10 @@ pub(super) fn broken(schema: &Value, value: &Value, at: &str, out: &mut Vec<Stri
     }
     if schema["pattern"] == "^[a-z0-9_]+$" {
         let small = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
-        if !value.as_str().is_some_and(|s| !s.is_empty() && s.chars().all(small)) {
+        if !value
+            .as_str()
+            .is_some_and(|s| !s.is_empty() && s.chars().all(small))
+        {
             out.push(format!("{at}: {value} is no name"));
         }
     }
