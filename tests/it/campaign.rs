@@ -3,6 +3,7 @@
 mod adaptive;
 mod cut_off;
 mod damaged;
+mod keyed;
 mod permeable;
 mod seeds;
 

@@ -41,7 +41,7 @@ pub(crate) fn info() -> RunInfo {
         title: "A sample <&>".into(),
         success: "a source is declared within 20 m of a true one".into(),
         scenario_text: "(version: 1, title: \"a < b\")\n".into(),
-        seed: 7,
+        seed: 7.into(),
         version: "0.1.0".into(),
     }
 }
@@ -232,6 +232,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 robots: vec![robot],
                 gantries: Vec::new(),
                 abnormal: Vec::new(),
+                published: Vec::new(),
             }
         })
         .collect()

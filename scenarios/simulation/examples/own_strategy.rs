@@ -1,8 +1,8 @@
-//! A strategy of one's own, known by its name in a scenario: against the water until it smells something, and there it declares.
+//! A strategy of your own: up-stream until it smells something, and there it declares.
 //!
 //! `cargo run --release -p rheotaxis --example own_strategy`
 
-use rheotaxis::scenario::{load_with, template};
+use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
 use robots::error::RobotError;
 use robots::handoff::{
@@ -17,7 +17,8 @@ use world::registry::{Listed, Registry};
 use world::seeds::Stream;
 use world::units::Heading;
 
-/// Parameters: what a scenario may say.
+/// The parameters, as a scenario file gives them. `Positive` is a number that must be above zero; a file with another
+/// number is refused with line and column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct UpFlowParams {
@@ -27,31 +28,33 @@ struct UpFlowParams {
     altitude_m: Positive,
 }
 
+/// The name in scenario files, and what `rheotaxis list` says about it.
 impl Listed for UpFlowParams {
     const ENTRY: Entry = Entry {
         name: "UpFlow",
-        what: "against the water until it smells something, and there it declares",
+        what: "up-stream until it smells something, and there it declares",
         source: "an example",
     };
 }
 
+/// From parameters to a strategy at work.
 impl StrategyParams for UpFlowParams {
     fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
         Ok(Box::new(UpFlow(self.clone())))
     }
 }
 
-/// The strategy at work.
+/// The strategy at work. It is called once a tick. It gets what the instruments and the navigation say, never the
+/// truth, and answers with a goal for the guidance.
 #[derive(Debug)]
 struct UpFlow(UpFlowParams);
 
 impl Strategy for UpFlow {
     fn step(&mut self, seen: &Observation, _: &mut Stream) -> Decision {
+        let up_stream = (seen.estimate.flow).map_or(Heading::from_deg(270.0), |f| f.up_flow());
         let goal = Goal {
             id: 1,
-            manoeuvre: Manoeuvre::Course {
-                course: (seen.estimate.flow).map_or(Heading::from_deg(270.0), |f| f.up_flow()),
-            },
+            manoeuvre: Manoeuvre::Course { course: up_stream },
             vertical: Vertical::Altitude(self.0.altitude_m.get()),
             speed_m_s: self.0.speed_m_s.get(),
         };
@@ -65,39 +68,35 @@ impl Strategy for UpFlow {
     }
 }
 
-#[allow(clippy::print_stdout, reason = "an example speaks")]
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // A registry that knows the new strategy beside those of the program.
     let registry = Registry::default().with::<Strategies, UpFlowParams>()?;
 
     // A scenario of the catalogue with this strategy in the place of its own.
-    let folder = std::env::temp_dir().join(format!("own_strategy-{}", std::process::id()));
-    std::fs::create_dir_all(&folder)?;
-    let file = folder.join("channel.ron");
-    let text = template("uniform_channel")
-        .ok_or("it is in the catalogue")?
-        .text;
-    let begins = text.find("strategy: Amp(").ok_or("it has a strategy")?;
-    let own = "strategy: UpFlow(speed_m_s: 1.5, altitude_m: 2.0)";
-    let ends = begins + closing(&text[begins..]);
-    std::fs::write(&file, format!("{}{own}{}", &text[..begins], &text[ends..]))?;
+    let text = template("uniform_channel").ok_or("no such scenario")?.text;
+    let text = text
+        .replace(
+            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+            "UpFlow(speed_m_s: 1.5, altitude_m: 2)",
+        )
+        .replace(
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 300, limit_s: 120",
+        );
 
-    let loaded = load_with(&registry, &file)?;
-    let ended = Trial::assemble(&loaded, 1)?.finish_quietly();
+    let mut trial = Trial::assemble(&load_text(&registry, "up_flow", &text)?, 1)?;
+    trial.until(60.0);
+    let robot = &trial.frame().ok_or("no frame")?.robots[0];
+    let went_m = 150.0 - robot.truth.pose.p_WB.x;
+    println!(
+        "{}: {went_m:.0} m up-stream in a minute",
+        robot.behaviour.name()
+    );
+    let ended = trial.run(&mut rheotaxis::trial::Unwatched);
     println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
-    std::fs::remove_dir_all(&folder)?;
-    Ok(())
-}
-
-/// Length of `name(…)` to its closing parenthesis.
-fn closing(text: &str) -> usize {
-    let mut open = 0;
-    for (i, c) in text.char_indices() {
-        match c {
-            '(' => open += 1,
-            ')' if open == 1 => return i + 1,
-            ')' => open -= 1,
-            _ => {}
-        }
+    if went_m < 30.0 {
+        return Err("the strategy did not take the vehicle up-stream".into());
     }
-    text.len()
+    Ok(())
 }

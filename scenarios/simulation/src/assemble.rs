@@ -1,27 +1,31 @@
-//! From a scenario to a world that ticks: everything that lives in it, put in its place.
+//! From a scenario to a world that ticks: everything that takes part in a run is put into its place here.
 
-use crate::abnormal::Abnormals;
-use crate::auv::assemble as auv;
+use crate::apparatus::{Launch, Systems};
 use crate::error::AssembleError;
-use crate::frame::system::Outbox;
-use crate::gantry::assemble as gantry;
-use crate::gantry::system::outcome;
+use crate::extend::Addition;
+use crate::fleet::Fleet;
 use crate::ocean::{DriftEvery, Ocean, Origin};
+use crate::outbox::Outbox;
+use crate::registry::topics;
 use crate::scenario::Scenario;
 use crate::score::Score;
-use crate::searchers::{Roster, part};
 use crate::tick::tick;
+use crate::topic::Topics;
+use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{Mut, Schedule, World};
 use nalgebra::Vector3;
-use robots::handoff::{Decision, GantryDecision, Outcome};
+use robots::handoff::Outcome;
 use robots::sense::camera::Optics;
 use std::path::Path;
 use world::clock::{Clock, Every};
 use world::digest::Digest;
 use world::fields::Flow;
+use world::frames::Truth;
 use world::physics::Physics;
+use world::registry::Registry;
+use world::seeds::Seed;
 
-/// A scenario brought to life: the ECS world and the tick that moves it.
+/// A scenario brought to life: the world of entities and resources, and the tick that moves it.
 pub struct Simulation {
     /// All entities and resources.
     pub world: World,
@@ -30,86 +34,49 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Puts everything in its place; mission time is zero, the plume not yet released.
+    /// Assembles a scenario for a seed, with what the registry of this thread carries. Mission time is zero, and
+    /// nothing is released yet.
     ///
     /// # Errors
-    /// When a part of the scenario cannot be built; what [`crate::scenario::check`] passes can.
+    /// If a part of the scenario cannot be built. A scenario without errors in [`crate::scenario::check`] can be.
     pub fn assemble(
         scenario: &Scenario,
         base_dir: &Path,
-        seed: u64,
+        seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
+        Self::assemble_with(&Registry::now(), scenario, base_dir, seed)
+    }
+
+    /// The same with what a registry carries: systems, resources and topics of other crates.
+    ///
+    /// # Errors
+    /// As [`Simulation::assemble`]; also if a system for a searcher reads the truth, or if the order of two systems
+    /// is not defined.
+    pub fn assemble_with(
+        registry: &Registry,
+        scenario: &Scenario,
+        base_dir: &Path,
+        seed: impl Into<Seed>,
+    ) -> Result<Self, AssembleError> {
+        let seed = seed.into();
         let dt_s = scenario.time.step_s.get();
         let origin = Origin::of(scenario, base_dir, seed);
-        let ocean = origin.build(base_dir)?;
-        let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
-        let mut physics = Physics::new(dt_s);
-        physics.add_terrain(&ocean.terrain, &ocean.area);
-        for obstacle in &ocean.obstacles.0 {
-            physics.add_obstacle(obstacle);
-        }
-
         let mut world = World::new();
-        let mut roster = Roster::default();
-        for spec in &scenario.robots {
-            let setting = spec.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
-            let robot = auv::spawn(
-                &mut world,
-                &mut physics,
-                spec,
-                &setting,
-                base_dir,
-                seed,
-                dt_s,
-            )
-            .map_err(|source| AssembleError::Robot {
-                id: spec.id.as_str().to_string(),
-                source,
-            })?;
-            roster.robots.push(robot);
+        furnish(&mut world, scenario, origin.build(base_dir)?)?;
+        world.insert_resource(Topics::new(topics(registry)));
+        let fleet = Fleet::of(scenario);
+        let launch = Launch {
+            base_dir,
+            seed,
+            dt_s,
+        };
+        for apparatus in fleet.all() {
+            apparatus.spawn(&mut world, &launch)?;
         }
-        for block in &scenario.gantries {
-            let gantry = gantry::spawn(
-                &mut world,
-                &mut physics,
-                block,
-                &ocean.terrain,
-                base_dir,
-                seed,
-            )
-            .map_err(|source| AssembleError::Robot {
-                id: block.id.as_str().to_string(),
-                source,
-            })?;
-            roster.gantries.push(gantry);
-        }
-        let every = |period_s: f64| Every::period(period_s, dt_s);
-        world.insert_resource(Clock::new(dt_s));
-        let robots = scenario.robots.iter().map(|r| &r.id);
-        let ids = robots.chain(scenario.gantries.iter().map(|g| &g.id));
-        world.insert_resource(Score::new(
-            ocean.plume().sources().iter().map(|s| s.p_W).collect(),
-            ids.map(|id| id.as_str().to_string()),
-        ));
-        world.insert_resource(roster);
-        world.insert_resource(DriftEvery(every(scenario.time.drift_period_s.get())));
-        world.insert_resource(Outbox {
-            frame: None,
-            plume: None,
-            pictures: Vec::new(),
-            pings: Vec::new(),
-            frame_every: every(scenario.record.frame_period_s.get()),
-            plume_every: every(scenario.record.plume_period_s.get()),
-            plume_points: scenario.record.plume_points as usize,
-        });
-        world.insert_resource(optics);
-        world.insert_resource(ocean);
-        world.insert_resource(physics);
-        world.insert_resource(Digest::default());
-        world.insert_resource(Abnormals::default());
+        let tick = schedule(&mut world, &fleet, registry)?;
         Ok(Self {
             world,
-            tick: tick(),
+            tick,
             origin,
         })
     }
@@ -142,14 +109,79 @@ impl Simulation {
         self.ocean().velocity(p_W, self.t_s())
     }
 
-    /// How each robot's and then each gantry's mission ended, in the scenario's order; `None` while it lasts.
+    /// How the mission of each searcher ended, in the order of [`Score::searchers`]; `None` while it lasts.
     pub fn outcomes(&self) -> impl Iterator<Item = Option<Outcome>> {
-        let (world, roster) = (&self.world, self.world.resource::<Roster>());
-        let robots = roster
-            .robots
-            .iter()
-            .map(|robot| part::<Decision>(world, *robot).outcome);
-        let gantries = roster.gantries.iter();
-        robots.chain(gantries.map(|gantry| outcome(part::<GantryDecision>(world, *gantry))))
+        let score = self.world.resource::<Score>();
+        score.searchers.iter().map(|s| s.outcome)
     }
+}
+
+/// Puts in what every run has: ocean, physics, clock, score, outbox.
+fn furnish(world: &mut World, scenario: &Scenario, ocean: Ocean) -> Result<(), AssembleError> {
+    let dt_s = scenario.time.step_s.get();
+    let every = |period_s: f64| Every::period(period_s, dt_s);
+    let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
+    let mut physics = Physics::new(dt_s);
+    physics.add_terrain(&ocean.terrain, &ocean.area);
+    for obstacle in &ocean.obstacles.0 {
+        physics.add_obstacle(obstacle);
+    }
+    world.insert_resource(Clock::new(dt_s));
+    world.insert_resource(Score::new(
+        ocean.plume().sources().iter().map(|s| s.p_W).collect(),
+    ));
+    world.insert_resource(DriftEvery(every(scenario.time.drift_period_s.get())));
+    world.insert_resource(Outbox::new(
+        every(scenario.record.frame_period_s.get()),
+        every(scenario.record.plume_period_s.get()),
+        scenario.record.plume_points as usize,
+    ));
+    world.insert_resource(optics);
+    world.insert_resource(ocean);
+    world.insert_resource(physics);
+    world.insert_resource(Digest::default());
+    Ok(())
+}
+
+/// The tick with the systems of each kind of apparatus and of each extension.
+fn schedule(
+    world: &mut World,
+    fleet: &Fleet,
+    registry: &Registry,
+) -> Result<Schedule, AssembleError> {
+    let additions: Vec<&Addition> = registry.carried().collect();
+    let kinds = fleet.kinds();
+    let mut tick = tick(kinds.len() + additions.len(), fleet.own_kinds());
+    let truth = truth(world);
+    let mut faults = Vec::new();
+    for (turn, kind) in kinds.iter().enumerate() {
+        let mut systems = Systems::new(&mut tick, world, &truth, turn);
+        kind.systems(&mut systems);
+        faults.extend(systems.faults());
+    }
+    for (turn, addition) in (kinds.len()..).zip(additions) {
+        let mut systems = Systems::new(&mut tick, world, &truth, turn);
+        (addition.0)(&mut systems);
+        faults.extend(systems.faults());
+    }
+    if let Some(problem) = faults.into_iter().next() {
+        return Err(AssembleError::Systems { problem });
+    }
+    match tick.initialize(world) {
+        Ok(_) => Ok(tick),
+        Err(error) => Err(AssembleError::Systems {
+            problem: error.to_string(tick.graph(), world),
+        }),
+    }
+}
+
+/// The types that hold the truth, which no system for a searcher may read.
+fn truth(world: &mut World) -> [(ComponentId, &'static str); 5] {
+    [
+        (world.register_component::<Truth>(), "Truth"),
+        (world.register_component::<Ocean>(), "Ocean"),
+        (world.register_component::<Physics>(), "Physics"),
+        (world.register_component::<Score>(), "Score"),
+        (world.register_component::<Outbox>(), "Outbox"),
+    ]
 }

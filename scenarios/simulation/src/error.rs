@@ -1,4 +1,4 @@
-//! Why a scenario cannot be brought to life.
+//! Why a scenario cannot be assembled.
 
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -16,12 +16,26 @@ pub enum AssembleError {
     /// Light in the water.
     #[error(transparent)]
     Optics(RobotError),
-    /// A robot.
+    /// A robot or a gantry.
     #[error("robot {id}: {source}")]
     Robot {
-        /// Which.
+        /// Its id in the scenario.
         id: String,
         /// What is wrong.
         source: RobotError,
+    },
+    /// A machine of a kind that another crate adds.
+    #[error("{id}: {problem}")]
+    Apparatus {
+        /// Its id in the scenario.
+        id: String,
+        /// What is wrong, and what would be right.
+        problem: String,
+    },
+    /// The systems of other crates do not fit into the tick.
+    #[error("{problem}")]
+    Systems {
+        /// What is wrong with them.
+        problem: String,
     },
 }

@@ -1,15 +1,20 @@
-//! A picture of the whole run at one instant, as plain data: what recording, live state, files and
-//! figures are made from. Made in the Report stage; nobody who reads it can reach back.
+//! The state of a run at one instant, as plain data.
+//!
+//! Recordings, live state, tables and figures are made from frames. A frame is a copy: nothing that is done with it
+//! changes the run. Robots and gantries have their own types here; any other apparatus publishes values of
+//! [topics](crate::topic), which are in [`Frame::published`].
 
-pub mod system;
+mod gantry;
+mod robot;
 
-pub use crate::auv::{PictureFrame, PingFrame, RobotFrame};
-pub use crate::gantry::GantryFrame;
+pub use gantry::GantryFrame;
+pub use robot::{PictureFrame, PingFrame, RobotFrame};
 
 use crate::abnormal::Abnormal;
+use crate::topic::Published;
 
 /// The run at one instant.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
     /// Simulated time, s; zero is the start of the mission, after the spin-up.
     pub t_s: f64,
@@ -19,8 +24,10 @@ pub struct Frame {
     pub robots: Vec<RobotFrame>,
     /// All gantries, in the scenario's order.
     pub gantries: Vec<GantryFrame>,
-    /// What went wrong so far, whether over or not.
+    /// All abnormal events so far, including those that are over.
     pub abnormal: Vec<Abnormal>,
+    /// The newest value of each topic that was published since the previous frame, sorted by key.
+    pub published: Vec<Published>,
 }
 
 /// Some of the plume's filaments at one instant.
@@ -28,9 +35,9 @@ pub struct Frame {
 pub struct PlumeFrame {
     /// Simulated time, s.
     pub t_s: f64,
-    /// How many filaments there are in all.
+    /// Number of all filaments.
     pub total: usize,
-    /// Of each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, so that the masses
-    /// sum to what is in the water, and how many those are.
+    /// For each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, and
+    /// their number. The masses sum to the mass in the water.
     pub points: Vec<[f32; 6]>,
 }

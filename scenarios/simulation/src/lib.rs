@@ -1,57 +1,84 @@
-//! A simulator of chemical-plume tracing: vehicles and gantries that smell a turbulent plume in moving water and must find
-//! its source. This crate is what others build on: scenarios, the tick, trials. It draws nothing and writes no files.
+//! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water
+//! and search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws
+//! nothing and writes no files; the crates `output`, `studies` and `command` do.
 //!
-//! # The first run
+//! # 1. The first run
 //!
-//! A [`scenario`] says where, in which water, what is released, who searches, and when it counts as found. A
-//! [`Trial`](trial::Trial) runs it for a seed; the same seed gives the same run, bit by bit.
+//! A [`scenario`] describes an experiment: the place, its water, what is released, who searches, and when the search
+//! is a success. A [`Trial`](trial::Trial) is one run of it for a seed. The same seed gives the same run, bit by bit.
 //!
 //! ```
 //! use rheotaxis::{scenario::load, trial::Trial};
 //!
-//! let scenario = load("uniform_channel".as_ref())?; // or the path of a file
+//! let scenario = load("uniform_channel".as_ref())?; // a name in the catalogue, or the path of a file
 //! let mut trial = Trial::assemble(&scenario, 1)?;
-//! trial.until(60.0); // a minute of the mission, after the spin-up of the plume
-//! let robot = &trial.frame().expect("frames come ten times a second").robots[0];
+//! trial.until(60.0); // the spin-up of the plume, then a minute of the mission
+//! let robot = &trial.frame().expect("there are ten frames a second").robots[0];
 //! println!("{} at {}", robot.behaviour.name(), robot.truth.pose.p_WB);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`Trial::run`](trial::Trial::run) goes to the end; a [`Watch`](trial::Watch) sees every frame. `examples/shortest.rs` and
-//! `examples/stepped.rs` are whole programs.
+//! - `examples/shortest.rs`: a whole run in 25 lines.
+//! - `examples/stepped.rs`: the state every minute. [`Trial::run`](trial::Trial::run) makes the whole run, and a
+//!   [`Watch`](trial::Watch) sees every frame.
 //!
-//! # A strategy of your own
+//! # 2. A scenario of your own
 //!
-//! A strategy is a struct of parameters that a scenario can name, and a state machine that turns an observation into a decision,
-//! once a tick. `examples/own_strategy.rs` is one, whole:
+//! `rheotaxis init uniform_channel` writes a scenario file to change, `rheotaxis explain robots.strategy` says what a
+//! field may hold, and `rheotaxis check FILE` names every mistake with line and column. [`load`](scenario::load) does
+//! the same in a program.
 //!
-//! 1. Parameters with `Listed` (name as in RON, one sentence, source) and `StrategyParams` (what they build).
-//! 2. The state machine with `Strategy`: what was seen goes in, a `Decision` comes out. It never sees the truth.
-//! 3. A [`Registry`](world::registry::Registry) that adds the parameters to the kind `Strategies`, and
-//!    [`load_with`](scenario::load_with), which reads scenarios that ask for them. `command::main_with` gives the whole command,
-//!    campaigns and figures for them.
+//! # 3. A strategy of your own
 //!
-//! Behaviours, declaration rules, source maps, planners, sensors, currents and a gantry's searchers are added the same way.
+//! A strategy is a struct of parameters that a scenario can name, and a state machine that turns an observation into a
+//! decision, once a tick. `examples/own_strategy.rs` is a whole one:
+//!
+//! 1. Parameters, with `Listed` (name in files, one sentence, source) and `StrategyParams` (what they build).
+//! 2. The state machine, with `Strategy`. It gets what the instruments say and never the truth.
+//! 3. A [`Registry`](world::registry::Registry) with the parameters as a row of the kind `Strategies`, and
+//!    [`load_with`](scenario::load_with) or [`load_text`](scenario::load_text), which read scenarios that name them.
+//! 4. `command::main_with(&registry)` in a `main` of your own: the whole command, with campaigns and figures, for them.
+//!
+//! # 4. More of your own
+//!
+//! | what | how | example |
+//! | --- | --- | --- |
+//! | a current | a row of `Currents` | `own_current.rs` |
+//! | a sensor | a row of `Sensors` | `own_sensor.rs` |
+//! | a behaviour, declaration rule, source map, planner, a gantry's searcher | a row of its kind | like `own_strategy.rs` |
+//! | a system in a stage of the tick, with data of its own | [`with_systems`](extend::Extend::with_systems) | `own_system.rs` |
+//! | a value that live state, recording and summary show | [`with_topic`](extend::Extend::with_topic) | `own_topic.rs` |
+//! | a machine beside robots and gantries | a row of [`Apparatuses`](apparatus::Apparatuses) | `own_apparatus.rs` |
+//!
+//! Run an example with `cargo run --release -p rheotaxis --example own_current`.
 //!
 //! # Where things are
 //!
-//! [`scenario`] reads and checks files; [`explain`] knows every field. [`ocean`] is water, plume and obstacles, which no searcher
-//! changes; [`auv`] and [`gantry`] are the searchers; [`tick`] is the order of all systems on one screen; [`score`], [`abnormal`]
-//! and [`frame`] are what is seen of a run.
+//! - [`scenario`] reads and checks files; [`explain`] describes every field.
+//! - [`ocean`] holds water, plume and obstacles. No searcher changes it.
+//! - [`auv`] and [`gantry`] are the searchers; [`apparatus`] is the trait that both implement.
+//! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
+//! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
+//! - [`registry`] lists everything that has a name; [`extend`] adds systems and topics.
 #![forbid(unsafe_code)]
 
 pub mod abnormal;
+pub mod apparatus;
 pub mod assemble;
 pub mod auv;
 pub mod error;
 pub mod explain;
+pub mod extend;
+pub mod fleet;
 pub mod frame;
 pub mod gantry;
 pub mod ocean;
+pub mod outbox;
 pub mod outcome;
 pub mod registry;
 pub mod scenario;
 pub mod score;
 pub mod searchers;
 pub mod tick;
+pub mod topic;
 pub mod trial;

@@ -6,17 +6,17 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RunOutcome {
-    /// Success as the scenario defines it: a source declared near enough.
+    /// A source was found, as the scenario defines success.
     Found,
-    /// Declared, but not near enough, or came to its end without declaring.
+    /// The declarations were not near enough, or the mission ended without one.
     NotFound,
-    /// Came to its planned end; the scenario asks for no more.
+    /// The mission came to its planned end, and the scenario asks for no more.
     Completed,
-    /// The vehicle gave up: too far outside the area.
+    /// The vehicle gave up because it was too far outside the area.
     Aborted,
-    /// The scenario's time limit came first.
+    /// The time limit of the scenario was reached.
     TimeOut,
-    /// Stopped from outside (Ctrl-C, remote stop).
+    /// The user stopped it (Ctrl-C).
     Interrupted,
     /// An error ended the run; `error` says which.
     Failed,

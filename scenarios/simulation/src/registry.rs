@@ -1,52 +1,61 @@
-//! All that a scenario can ask for by name, as lists show it; and how a crate of one's own adds to it.
+//! All that a scenario can ask for by name, as `rheotaxis list` shows it, and all topics.
+//!
+//! A crate of your own adds rows to a kind, and reads scenarios with them:
 //!
 //! ```ignore
 //! let registry = Registry::default().with::<Reacquires, Spiral>()?;
 //! let loaded = rheotaxis::scenario::load_with(&registry, path)?;
 //! ```
+//!
+//! What is not a row (systems, topics) is in [`crate::extend`].
 
+use crate::apparatus::Apparatuses;
+use crate::frame::Frame;
+use crate::topic::{Published, Topic, chunk, run};
+use crate::{auv, gantry};
+use serde_json::Value;
 use world::catalogue::Entry;
 use world::registry::Kind;
 pub use world::registry::{Choice, Listed, Registry, Spec};
 
-/// Which part of a list.
+/// A part of the list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Group {
-    /// What decides.
+    /// Algorithms of searchers.
     Algorithms,
-    /// What moves the water.
+    /// Currents.
     Flows,
-    /// What a robot senses with.
+    /// Sensors.
     Sensors,
-    /// What it moves with.
+    /// Vehicles, gantries and other machines.
     Vehicles,
 }
 
-/// How a scenario names the things of a section.
+/// How a scenario names the entries of a section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Named {
     /// As a choice: `Name(...)`.
     Choice,
     /// As a field: `name: (...)`.
     Field,
-    /// By the name of another thing that they are part of, or by one of its fields.
+    /// Not by itself: as a part of another entry, or by one of its fields.
     Within,
 }
 
-/// What a list shows under one heading.
+/// The entries under one heading of the list.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
-    /// Which part of a list it belongs to.
+    /// The part of the list that it belongs to.
     pub group: Group,
     /// Its heading.
     pub heading: &'static str,
-    /// How a scenario names its things.
+    /// How a scenario names its entries.
     pub named: Named,
-    /// Its things.
+    /// Its entries.
     pub entries: Vec<Entry>,
 }
 
-/// Everything, in the order of lists; things of one heading that are named alike stand together.
+/// All sections, in the order of the list. Sections with the same heading are joined.
 #[must_use]
 pub fn sections(registry: &Registry) -> Vec<Section> {
     use Group::{Algorithms, Flows, Sensors, Vehicles};
@@ -112,9 +121,10 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
             Named::Choice,
             robots::vehicles::CATALOGUE,
         ),
+        chosen.kind::<Apparatuses>(Vehicles),
     ];
     let mut sections: Vec<Section> = Vec::new();
-    for next in all {
+    for next in all.into_iter().filter(|s| !s.entries.is_empty()) {
         match sections.last_mut() {
             Some(last) if last.heading == next.heading => last.entries.extend(next.entries),
             _ => sections.push(next),
@@ -123,7 +133,39 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
     sections
 }
 
-/// What is known under a registry.
+/// All topics of a run: its own, those of each kind of apparatus, those that a registry carries.
+#[must_use]
+pub fn topics(registry: &Registry) -> Vec<Topic> {
+    let own = [
+        run::CLOCK,
+        auv::topics::TOPICS,
+        gantry::topics::TOPICS,
+        run::RUN,
+    ];
+    own.into_iter()
+        .flatten()
+        .chain(registry.carried())
+        .copied()
+        .collect()
+}
+
+/// The JSON messages of a frame, with their keys below `rheotaxis/<run>/`: those of each robot, those of each gantry,
+/// and what systems have published.
+#[must_use]
+pub fn messages(frame: &Frame) -> Vec<(String, Value)> {
+    let robot = |r| auv::message::messages(frame.t_s, r, &frame.abnormal);
+    let gantry = |g| gantry::message::messages(frame.t_s, g);
+    let published = |p: &Published| {
+        let key: Vec<String> = p.key.split('/').map(chunk).collect();
+        (key.join("/"), p.value.clone())
+    };
+    let robots = frame.robots.iter().flat_map(robot);
+    let gantries = frame.gantries.iter().flat_map(gantry);
+    let published = frame.published.iter().map(published);
+    robots.chain(gantries).chain(published).collect()
+}
+
+/// Sections under a registry.
 struct Of<'r>(&'r Registry);
 
 impl Of<'_> {
@@ -154,9 +196,8 @@ fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
 mod tests {
     use super::*;
     use crate::scenario::{CATALOG, parse_with};
-    use robots::behave::{BehaviourParams, ReacquireSpec, Reacquires};
+    use robots::behave::{Behave, BehaviourParams, ReacquireSpec, Reacquires};
     use robots::error::RobotError;
-    use robots::handoff::Behave;
     use robots::strategy::AmpSpec;
     use serde::{Deserialize, Serialize};
     use std::path::Path;
@@ -171,6 +212,20 @@ mod tests {
                 assert!(said.iter().all(|s| s.trim().len() > 2), "{e:?}");
                 let twice = section.entries[..i].iter().any(|o| o.name == e.name);
                 assert!(!twice, "{} is there twice", e.name);
+            }
+        }
+    }
+
+    #[test]
+    fn topics_have_names_and_keys_of_their_own_and_every_field_is_explained() {
+        let all = topics(&Registry::default());
+        for (i, topic) in all.iter().enumerate() {
+            let alike = |t: &&Topic| t.name == topic.name || t.key == topic.key;
+            assert_eq!(all[..i].iter().find(alike), None);
+            for (j, field) in topic.fields.iter().enumerate() {
+                let known = &topic.fields[..j];
+                assert!(known.iter().all(|f| f.name != field.name), "{}", field.name);
+                assert!(field.what.ends_with('.'), "{}: {}", topic.name, field.name);
             }
         }
     }

@@ -1,27 +1,18 @@
-//! Who searches: names and the order in which systems see them.
+//! The names of searchers, and access to their components.
 
-use bevy_ecs::prelude::{Component, Entity, Resource, World};
+use bevy_ecs::prelude::Component;
 
-/// All searchers, each in the scenario's order: systems whose order can be seen (digest, frames, score, the physics' input) go by it, not by
-/// the order in which they happen to be stored.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Roster {
-    /// Robots.
-    pub robots: Vec<Entity>,
-    /// Gantries.
-    pub gantries: Vec<Entity>,
-}
-
-/// The parts of somebody on the roster: nobody leaves it while the run lasts.
-pub(crate) fn whole<T, E: std::fmt::Debug>(parts: Result<T, E>) -> T {
-    parts.expect("who is on the roster is alive and has all parts: spawn it with them")
-}
-
-/// A searcher's id in the scenario.
+/// Name and place of a searcher. The physics, the digest, the score and frames go through searchers in the order of the
+/// scenario, not in the order in which entities happen to be stored.
 #[derive(Component, Clone, Debug)]
-pub struct SearcherId(pub String);
+pub struct SearcherId {
+    /// Its id in the scenario.
+    pub name: String,
+    /// Its place in [`Score::searchers`](crate::score::Score::searchers).
+    pub place: usize,
+}
 
-/// A part of a searcher.
-pub(crate) fn part<C: Component>(world: &World, of: Entity) -> &C {
-    whole(world.get(of).ok_or(of))
+/// The components of a searcher. They are always there: no searcher leaves the world during a run.
+pub(crate) fn whole<T, E: std::fmt::Debug>(parts: Result<T, E>) -> T {
+    parts.expect("every searcher is alive and has all components: spawn it with them")
 }

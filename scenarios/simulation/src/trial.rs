@@ -1,36 +1,40 @@
-//! One run of a scenario from spin-up to its end, without files or screens: those watch it.
+//! One run of a scenario from the spin-up to its end. It writes no files and draws nothing: a [`Watch`] does.
 //!
-//! [`Trial::run`] does all of it; [`Trial::step`] and [`Trial::until`] go a part of the way, and what there is can be
+//! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be
 //! read in between. All three give the same run, bit for bit.
 
+use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
 use crate::error::AssembleError;
-use crate::frame::system::Outbox;
+use crate::fleet::Fleet;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use crate::ocean::{Mismatch, Ocean, SpunUp};
+use crate::outbox::Outbox;
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::score::Score;
+use crate::topic::{Published, Topics};
 use nalgebra::Vector3;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use world::clock::Clock;
 use world::digest::Digest;
+use world::seeds::Seed;
 
-/// Somebody who looks on: records, publishes, paces, draws progress. Nothing it does reaches the run
-/// but the wish to stop.
+/// An observer of a run: it records, publishes, sets the pace or shows progress. It can stop the run, and nothing
+/// else that it does reaches the run.
 pub trait Watch {
-    /// The share of the spin-up that is done; `false` stops the run.
+    /// Tells the completed share of the spin-up; `false` stops the run.
     fn spun_up(&mut self, _share: f64) -> bool {
         true
     }
-    /// A new picture of the robots.
+    /// A new frame.
     fn frame(&mut self, _frame: &Frame) {}
     /// A new picture of the plume.
     fn plume(&mut self, _plume: &PlumeFrame) {}
-    /// A picture that a robot's camera took.
+    /// A new picture by a robot's camera.
     fn picture(&mut self, _picture: &PictureFrame) {}
-    /// A ping of a robot's sidescan sonar.
+    /// A new ping of a robot's sidescan sonar.
     fn ping(&mut self, _ping: &PingFrame) {}
     /// After every tick; `false` stops the run.
     fn go_on(&mut self, _t_s: f64) -> bool {
@@ -38,7 +42,7 @@ pub trait Watch {
     }
 }
 
-/// Nobody looks on.
+/// An observer that does nothing.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unwatched;
 
@@ -63,21 +67,20 @@ pub struct Ended {
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+enum RunPhase {
     Assembled,
     SpunUp,
-    /// By who looked on.
+    /// An observer stopped it.
     Stopped,
     Ended,
 }
 
-/// A run, ready to start.
+/// One run of a scenario.
 pub struct Trial {
-    /// Everything that lives in it.
+    /// Its world and its tick.
     pub simulation: Simulation,
-    stage: Stage,
-    success: SuccessSpec,
-    limit_s: f64,
+    phase: RunPhase,
+    scenario: Scenario,
     sources: Vec<Vector3<f64>>,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
@@ -85,20 +88,20 @@ pub struct Trial {
 }
 
 impl Trial {
-    /// Puts a scenario together for a seed.
+    /// Assembles a scenario for a seed, with everything that the registry carries under which it was read.
     ///
     /// # Errors
-    /// See [`Simulation::assemble`].
-    pub fn assemble(loaded: &Loaded, seed: u64) -> Result<Self, AssembleError> {
+    /// See [`Simulation::assemble_with`].
+    pub fn assemble(loaded: &Loaded, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
-        let simulation = Simulation::assemble(scenario, &loaded.base_dir, seed)?;
+        let simulation =
+            Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;
         let sources = simulation.ocean().plume().sources();
         let sources: Vec<_> = sources.iter().map(|s| s.p_W).collect();
         Ok(Self {
             simulation,
-            stage: Stage::Assembled,
-            success: scenario.success.clone(),
-            limit_s: scenario.time.limit_s.get(),
+            phase: RunPhase::Assembled,
+            scenario: scenario.clone(),
             flow_sums: vec![Vector3::zeros(); sources.len()],
             flow_samples: 0,
             sources,
@@ -106,26 +109,26 @@ impl Trial {
         })
     }
 
-    /// Lets water and plume develop and returns a copy of them, for other runs to
-    /// [`take over`](Self::take_over); `None` if `watch` stopped it, and then [`Self::run`] only says so.
-    /// Not needed before [`Self::run`], which spins up by itself where this was not done.
+    /// Lets water and plume develop and returns a copy of them, which other runs can
+    /// [take over](Self::take_over); `None` if `watch` stopped the spin-up. [`Self::run`] spins up by itself if this
+    /// was not called before.
     ///
     /// # Panics
     /// If the run has been spun up before.
     pub fn spin_up(&mut self, watch: &mut dyn Watch) -> Option<SpunUp> {
         self.develop(watch);
-        (self.stage == Stage::SpunUp).then(|| {
+        (self.phase == RunPhase::SpunUp).then(|| {
             let state = self.simulation.ocean().state();
             SpunUp::new(self.simulation.origin.clone(), state)
         })
     }
 
-    /// Takes over what another run has spun up, in place of spinning up: from here on the run is the
-    /// same bit for bit. Costs a copy of the state.
+    /// Takes over the spin-up of another run instead of its own. The result is the same, bit for bit. The state is
+    /// copied.
     ///
     /// # Errors
-    /// If the two runs differ in what the spin-up depends on; the run is then as it was, and can
-    /// spin up itself.
+    /// If the two runs differ in something that the spin-up depends on. The run is then unchanged and can spin up
+    /// itself.
     ///
     /// # Panics
     /// If the run has been spun up before.
@@ -133,7 +136,7 @@ impl Trial {
         let state = spun_up.copy_for(&self.simulation.origin)?;
         self.start_afresh();
         self.simulation.ocean_mut().put_state(state);
-        self.set_out(Stage::SpunUp);
+        self.set_out(RunPhase::SpunUp);
         Ok(())
     }
 
@@ -145,34 +148,34 @@ impl Trial {
             !stopped
         });
         self.set_out(if stopped {
-            Stage::Stopped
+            RunPhase::Stopped
         } else {
-            Stage::SpunUp
+            RunPhase::SpunUp
         });
     }
 
     fn start_afresh(&self) {
         assert!(
-            self.stage == Stage::Assembled,
+            self.phase == RunPhase::Assembled,
             "a trial is spun up once: assemble another for another run"
         );
     }
 
-    fn set_out(&mut self, stage: Stage) {
-        self.stage = stage;
+    fn set_out(&mut self, phase: RunPhase) {
+        self.phase = phase;
         let world = &mut self.simulation.world;
         world.resource_scope::<Digest, ()>(|world, mut digest| {
             world.resource::<Ocean>().plume().digest_into(&mut digest);
         });
     }
 
-    /// Runs it to its end: the spin-up, unless that is done or taken over, and the rest of the mission.
+    /// Makes the run to its end: the spin-up, unless it is done or taken over, and the rest of the mission.
     pub fn run(&mut self, watch: &mut dyn Watch) -> Ended {
         while self.advance(watch) {}
         self.ended()
     }
 
-    /// One tick of the mission, after the spin-up where that is not done; `false` once the run is over.
+    /// One tick of the mission, with the spin-up before the first one; `false` once the run is over.
     pub fn step(&mut self) -> bool {
         self.advance(&mut Unwatched)
     }
@@ -187,33 +190,33 @@ impl Trial {
         true
     }
 
-    /// One tick with somebody who looks on; `false` once the run is over or `watch` stopped it.
+    /// One tick with an observer; `false` once the run is over or `watch` stopped it.
     fn advance(&mut self, watch: &mut dyn Watch) -> bool {
-        if self.stage == Stage::Assembled {
+        if self.phase == RunPhase::Assembled {
             self.develop(watch);
         }
-        if self.stage != Stage::SpunUp {
+        if self.phase != RunPhase::SpunUp {
             return false;
         }
         self.simulation.tick();
         self.show(watch);
         let t_s = self.simulation.t_s();
         if !watch.go_on(t_s) {
-            self.stage = Stage::Stopped;
-        } else if self.all_over() || t_s >= self.limit_s - 1e-9 {
-            self.stage = Stage::Ended;
+            self.phase = RunPhase::Stopped;
+        } else if self.all_over() || t_s >= self.scenario.time.limit_s.get() - 1e-9 {
+            self.phase = RunPhase::Ended;
         }
-        self.stage == Stage::SpunUp
+        self.phase == RunPhase::SpunUp
     }
 
-    /// What the run has come to by now. Before its end the outcome is as if the time limit had come.
+    /// The result of the run so far. Before its end the outcome is the one that it would have at the time limit.
     #[must_use]
     pub fn ended(&self) -> Ended {
         let world = &self.simulation.world;
         let samples = f64::from(self.flow_samples.max(1));
         Ended {
-            outcome: match self.stage {
-                Stage::Stopped => RunOutcome::Interrupted,
+            outcome: match self.phase {
+                RunPhase::Stopped => RunOutcome::Interrupted,
                 _ => self.outcome(),
             },
             flow_at_sources: self.flow_sums.iter().map(|sum| sum / samples).collect(),
@@ -224,20 +227,33 @@ impl Trial {
         }
     }
 
-    /// Runs it to its end with nobody looking on.
+    /// Makes the run to its end without an observer.
     #[must_use]
     pub fn finish_quietly(mut self) -> Ended {
         self.run(&mut Unwatched)
     }
 
-    /// The newest picture of the searchers; `None` before the first. How often one is taken says `record` of the
-    /// scenario.
+    /// The newest frame; `None` before the first. `record.frame_period_s` of the scenario says how often there is one.
     #[must_use]
     pub fn frame(&self) -> Option<&Frame> {
         self.frame.as_ref()
     }
 
-    /// How near each searcher came, and what was declared so far.
+    /// The newest value of every key that was published, sorted by key.
+    pub fn published(&self) -> impl Iterator<Item = &Published> {
+        self.simulation.world.resource::<Topics>().newest()
+    }
+
+    /// What the summary shows of each machine that has its own part in it, by id.
+    #[must_use]
+    pub fn apparatus(&self) -> BTreeMap<String, serde_json::Value> {
+        let all = Fleet::of(&self.scenario);
+        let part =
+            |a: &dyn Apparatus| Some((a.id().to_string(), a.summary(&self.simulation.world)?));
+        all.all().filter_map(part).collect()
+    }
+
+    /// How near each searcher came to a source, what it declared, and how its mission ended.
     #[must_use]
     pub fn score(&self) -> &Score {
         self.simulation.world.resource()
@@ -265,13 +281,13 @@ impl Trial {
         }
     }
 
-    /// Every robot has ended its mission (without robots the run goes on to its limit).
+    /// Whether all searchers have ended their missions. Without searchers the run goes on to its time limit.
     fn all_over(&self) -> bool {
         let mut decisions = self.simulation.outcomes().peekable();
         decisions.peek().is_some() && decisions.all(|d| d.is_some())
     }
 
-    /// Declarations so far, by the searchers that have made any.
+    /// Declarations so far, by searcher.
     fn declarations(&self) -> BTreeMap<String, Vec<Declaration>> {
         let all = self.score().searchers.iter();
         all.filter(|s| !s.declarations.is_empty())
@@ -282,13 +298,13 @@ impl Trial {
     fn outcome(&self) -> RunOutcome {
         let missions: Vec<_> = self.simulation.outcomes().collect();
         let declarations = self.declarations();
-        // What the vehicle itself has rejected does not stand.
+        // A declaration that the vehicle itself has rejected does not count.
         let stands = |d: &&Declaration| d.verdict != Verdict::Rejected;
         let standing = || declarations.values().flatten().filter(stands);
         let declared = |s: &Vector3<f64>, within_m: f64| {
             standing().any(|d| (s.xy() - d.position).norm() <= within_m)
         };
-        if let SuccessSpec::Declared(wanted) = &self.success
+        if let SuccessSpec::Declared(wanted) = &self.scenario.success
             && !declarations.is_empty()
         {
             let within_m = wanted.within_m.get();
@@ -298,7 +314,7 @@ impl Trial {
                 RunOutcome::NotFound
             };
         }
-        if let SuccessSpec::Reached(wanted) = &self.success
+        if let SuccessSpec::Reached(wanted) = &self.scenario.success
             && self.score().closest_m() <= wanted.within_m.get()
         {
             return RunOutcome::Found;
@@ -308,7 +324,7 @@ impl Trial {
         } else if missions.contains(&None) {
             RunOutcome::TimeOut
         } else {
-            match &self.success {
+            match &self.scenario.success {
                 SuccessSpec::Completed => RunOutcome::Completed,
                 SuccessSpec::AllDeclared(wanted)
                     if (self.sources.iter()).all(|s| declared(s, wanted.within_m.get())) =>

@@ -161,6 +161,7 @@ pub(super) fn frame(step: u64) -> Frame {
         robots: vec![robot],
         gantries: vec![gantry()],
         abnormal: Vec::new(),
+        published: Vec::new(),
     }
 }
 

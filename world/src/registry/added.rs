@@ -1,4 +1,4 @@
-//! The rows that are known: those that come with the program and those that a crate of somebody else adds.
+//! The rows that are known: those that come with the program and those that another crate adds.
 
 use super::{Kind, Listed, Row, Takes};
 use crate::catalogue::Entry;
@@ -16,10 +16,25 @@ struct Added {
     row: Arc<dyn Any + Send + Sync>,
 }
 
-/// Rows beside those that come with the program; by default none.
+/// What a crate adds to the program: rows of kinds, and things of any other type that a run takes up (such as systems of
+/// the tick). By default nothing.
 #[derive(Clone, Debug, Default)]
 pub struct Registry {
     added: Vec<Added>,
+    carried: Vec<Arc<dyn Any + Send + Sync>>,
+}
+
+/// The same rows and things: those of one registry and its copies.
+impl PartialEq for Registry {
+    fn eq(&self, other: &Self) -> bool {
+        let places = |r: &Self| -> Vec<*const ()> {
+            let rows = r.added.iter().map(|a| &a.row);
+            rows.chain(&r.carried)
+                .map(|thing| Arc::as_ptr(thing).cast())
+                .collect()
+        };
+        places(self) == places(other)
+    }
 }
 
 thread_local! {
@@ -49,6 +64,18 @@ impl Registry {
             row: Arc::new(Row::<K>::of::<S>()),
         });
         Ok(self)
+    }
+
+    /// Adds a thing that is not a row. Whoever knows its type finds it with [`Registry::carried`].
+    #[must_use]
+    pub fn carrying<T: Send + Sync + 'static>(mut self, thing: T) -> Self {
+        self.carried.push(Arc::new(thing));
+        self
+    }
+
+    /// The things of a type, in the order in which they were added.
+    pub fn carried<T: Send + Sync + 'static>(&self) -> impl Iterator<Item = &T> {
+        self.carried.iter().filter_map(|c| c.downcast_ref())
     }
 
     /// All things of a kind: those that come with the program first.

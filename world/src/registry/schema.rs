@@ -27,7 +27,7 @@ impl<K: Kind> JsonSchema for Choice<K> {
                 .to_value()
             })
             .collect();
-        json_schema!({ "description": K::HEADING, "oneOf": variants })
+        json_schema!({ "description": K::WHAT.trim(), "oneOf": variants })
     }
 }
 
@@ -52,7 +52,7 @@ impl<K: Kind> JsonSchema for Set<K> {
             })
             .collect();
         json_schema!({
-            "description": K::HEADING,
+            "description": K::WHAT.trim(),
             "type": "object",
             "properties": fields,
             "additionalProperties": false,

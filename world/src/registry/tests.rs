@@ -88,3 +88,16 @@ fn another_crates_row_is_known_within_its_scope_only() {
     let twice = registry.with::<Shapes, Hexagon>();
     assert!(twice.is_err_and(|e| e.to_string().contains("there is a `Hexagon` already")));
 }
+
+#[test]
+fn things_of_any_type_are_carried_in_their_order() {
+    let registry = Registry::default()
+        .carrying(1_u8)
+        .carrying("a")
+        .carrying(2_u8);
+    assert_eq!(registry.carried::<u8>().collect::<Vec<_>>(), [&1, &2]);
+    assert_eq!(registry.carried::<&str>().count(), 1);
+    assert_eq!(registry, registry.clone());
+    assert_ne!(registry, Registry::default());
+    assert_ne!(registry, registry.clone().carrying(3_u8));
+}

@@ -136,6 +136,12 @@ impl Mailbox {
                     *spike |= earlier;
                 }
             }
+            // So must values of topics that the new state does not have.
+            for value in &old.published {
+                if new.published.iter().all(|p| p.key != value.key) {
+                    new.published.push(value.clone());
+                }
+            }
             slots.counts.superseded += 1;
         }
         let old = slots.frame.replace(new);
@@ -235,7 +241,7 @@ impl Mailbox {
 
 #[cfg(test)]
 mod tests {
-    use super::super::message::tests::frame;
+    use super::super::message::tests::{frame, published};
     use super::*;
 
     fn hour_between_states() -> Mailbox {
@@ -273,6 +279,24 @@ mod tests {
         };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].decision.working.spike[0]);
+    }
+
+    #[test]
+    fn the_newest_value_of_each_topic_outlives_its_state() {
+        let mailbox = hour_between_states();
+        for (step, values) in [(0, [("a", 0.0), ("b", 0.0)]), (1, [("b", 1.0), ("c", 1.0)])] {
+            let mut state = frame(step);
+            state.published = values.map(|(key, t_s)| published(key, t_s)).to_vec();
+            mailbox.put_frame(&state);
+        }
+        let Work::Frame(sent) = mailbox.next() else {
+            panic!("a state was handed over")
+        };
+        let mut values: Vec<_> = (sent.published.iter())
+            .map(|p| (p.key.as_str(), p.t_s))
+            .collect();
+        values.sort_by_key(|v| v.0);
+        assert_eq!(values, [("a", 0.0), ("b", 1.0), ("c", 1.0)]);
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //! sent.
 
 use super::message::Message;
-use super::options::chunk;
 use rheotaxis::frame::{Frame, RobotFrame};
+use rheotaxis::topic::chunk;
 use robots::handoff::Belief;
 use serde_json::json;
 use std::collections::BTreeMap;

@@ -1,12 +1,9 @@
 //! The messages: a state as JSON, a plume as packed numbers.
 
-use super::message_gantry::gantry;
-use super::options::chunk;
-use super::{LiveCounts, Payload, Topic, topics};
-use rheotaxis::abnormal::Abnormal;
-use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
-use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
-use serde_json::{Map, Value, json};
+use super::{LiveCounts, Payload, Topic};
+use rheotaxis::frame::{Frame, PlumeFrame};
+use rheotaxis::registry::messages;
+use serde_json::{Value, json};
 
 /// A message, with its key below `rheotaxis/<run>/`.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,172 +55,8 @@ pub(super) fn clock(t_s: f64, step: u64, ended: bool, counts: LiveCounts) -> Mes
 
 /// All messages of a state except the clock.
 pub(super) fn state(frame: &Frame) -> Vec<Message> {
-    let robots = (frame.robots.iter()).flat_map(|r| robot(frame.t_s, r, &frame.abnormal));
-    let gantries = frame.gantries.iter().flat_map(|g| gantry(frame.t_s, g));
-    robots.chain(gantries).collect()
-}
-
-fn robot(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<Message> {
-    let id = chunk(&r.id);
-    let mut out = Vec::with_capacity(8);
-    let mut say =
-        |topic: &str, value: Value| out.push(Message::json(format!("auv/{id}/{topic}"), &value));
-
-    let pose = &r.truth.pose;
-    say(
-        "truth",
-        json!({
-            "t_s": t_s,
-            "position_m": pose.p_WB.as_slice(),
-            "quaternion_xyzw": pose.R_WB.coords.as_slice(),
-            "heading_rad": pose.heading().rad(),
-            "velocity_m_s": r.truth.v_world().as_slice(),
-            "rates_rad_s": r.truth.w_WB_B.as_slice(),
-            "altitude_m": r.altitude_m,
-        }),
-    );
-    let e = &r.estimate;
-    say(
-        "estimate",
-        with(
-            json!({
-                "t_s": e.t_s,
-                "position_m": e.position.as_slice(),
-                "depth_m": e.depth_m,
-                "heading_rad": e.attitude.heading.rad(),
-                "roll_rad": e.attitude.roll_rad,
-                "pitch_rad": e.attitude.pitch_rad,
-                "velocity_m_s": e.v_ground().as_slice(),
-                "fix_jump_m": e.fix_jump_m(),
-            }),
-            "altitude_m",
-            e.altitude_m,
-        ),
-    );
-    if let Some(flow) = &e.flow {
-        say(
-            "flow",
-            json!({
-                "t_s": e.t_s,
-                "velocity_m_s": flow.velocity.as_slice(),
-                "heading_rad": flow.heading().rad(),
-                "age_s": flow.age_s,
-            }),
-        );
-    }
-    if let Some(g) = &r.goal {
-        say("goal", goal(t_s, g));
-    }
-    if let Some(c) = &r.command {
-        say("command", command(t_s, c, r));
-    }
-    if let Some(c) = &r.chemical {
-        say(
-            "chemical",
-            json!({
-                "t_s": t_s,
-                "volts": c.volts,
-                "of_full_scale": c.of_full_scale,
-                "above_threshold": c.detected,
-                "detected": r.detected,
-            }),
-        );
-    }
-    let lost: Vec<[f64; 2]> = r.lost_points.iter().map(|p| [p.x, p.y]).collect();
-    let mut doing = json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost});
-    if let Some(k) = r.regions.now {
-        let corners = r.regions.all[k as usize].area.corners();
-        let corners = corners.map(|p| [p.x, p.y]);
-        doing = merged(
-            doing,
-            json!({"region": k, "region_name": region_name(k), "region_m": corners}),
-        );
-    }
-    let wrong: Vec<&str> = (abnormal.iter())
-        .filter(|a| a.robot == r.id && !a.over)
-        .map(|a| a.what.words())
-        .collect();
-    if !wrong.is_empty() {
-        doing = merged(doing, json!({ "abnormal": wrong }));
-    }
-    say("behaviour", doing);
-    if !r.layers.is_empty() {
-        let names: Vec<&str> = r.layers.iter().map(|l| l.name).collect();
-        let states: Vec<_> = r.layers.iter().map(|l| l.state).collect();
-        let mut said = json!({"t_s": t_s, "layers": names, "states": states});
-        if let Some(holds) = r.holding_layer() {
-            said["holds"] = holds.into();
-        }
-        say("layers", said);
-    }
-    for d in &r.declarations {
-        say(&format!("declaration/{}", d.number), declaration(d));
-    }
-    out
-}
-
-fn declaration(d: &Declaration) -> Value {
-    let mut said = json!({
-        "t_s": d.t_s, "number": d.number, "position_m": d.position.as_slice(), "rule": d.rule,
-        "verdict": d.verdict.name(),
-    });
-    if let Some(k) = d.region {
-        said = merged(said, json!({ "region": k, "region_name": region_name(k) }));
-    }
-    if let Some(p) = d.surveyed {
-        said = merged(said, json!({"surveyed_m": p.as_slice()}));
-    }
-    said
-}
-
-fn goal(t_s: f64, g: &Goal) -> Value {
-    let horizontal = match g.manoeuvre {
-        Manoeuvre::GoToPoint { point, radius_m } => with(
-            json!({"manoeuvre": "go_to_point", "point_m": point.as_slice()}),
-            "radius_m",
-            radius_m,
-        ),
-        Manoeuvre::FollowLine { from, to } => {
-            json!({"manoeuvre": "follow_line", "from_m": from.as_slice(), "point_m": to.as_slice()})
-        }
-        Manoeuvre::GoToPointWithHeading { point, heading } => json!({
-            "manoeuvre": "go_to_point_with_heading", "point_m": point.as_slice(), "heading_rad": heading.rad(),
-        }),
-        Manoeuvre::Course { course } => json!({"manoeuvre": "course", "heading_rad": course.rad()}),
-        Manoeuvre::Direct { .. } => json!({"manoeuvre": "direct"}),
-    };
-    let (vertical, vertical_m) = vertical(g.vertical);
-    merged(
-        horizontal,
-        json!({
-            "t_s": t_s, "id": g.id, "vertical": vertical, "vertical_m": vertical_m, "speed_m_s": g.speed_m_s,
-        }),
-    )
-}
-
-fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
-    let asked = match c {
-        Command::Steer(s) => {
-            let (vertical, vertical_m) = vertical(s.vertical);
-            json!({
-                "kind": "steer", "heading_rad": s.heading.rad(), "water_speed_m_s": s.water_speed_m_s,
-                "vertical": vertical, "vertical_m": vertical_m,
-            })
-        }
-        Command::Direct(_) => json!({"kind": "direct"}),
-    };
-    let a = &r.actuators;
-    merged(
-        asked,
-        json!({"t_s": t_s, "rudder_rad": a.rudder_rad, "stern_rad": a.stern_rad, "rpm": a.rpm}),
-    )
-}
-
-fn vertical(v: Vertical) -> (&'static str, f64) {
-    match v {
-        Vertical::Altitude(m) => ("altitude", m),
-        Vertical::Depth(m) => ("depth", m),
-    }
+    let all = messages(frame).into_iter();
+    all.map(|(key, value)| Message::json(key, &value)).collect()
 }
 
 /// A plume, evenly thinned if it is too large for one message.
@@ -240,8 +73,8 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
     Message::numbers("plume", shown.flatten(), &header)
 }
 
-/// Messages known before the run starts: scenario, version and schemas.
-pub(super) fn meta(meta: &super::LiveMeta) -> Vec<Message> {
+/// Messages known before the run starts: scenario, version and schemas of the topics.
+pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
     let mut out = vec![
         Message::json(
             "meta/scenario",
@@ -255,7 +88,7 @@ pub(super) fn meta(meta: &super::LiveMeta) -> Vec<Message> {
         ),
     ];
     let schema = |t: &Topic| Message::json(format!("meta/schema/{}", t.name), &t.schema());
-    out.extend(topics().iter().map(schema));
+    out.extend(topics.iter().map(schema));
     out
 }
 
@@ -263,27 +96,16 @@ pub(super) fn digest(digest: &str) -> Message {
     Message::json("meta/digest", &json!({"digest": digest}))
 }
 
-fn merged(a: Value, b: Value) -> Value {
-    let fields = |v| match v {
-        Value::Object(fields) => fields,
-        _ => Map::new(),
-    };
-    fields(a).into_iter().chain(fields(b)).collect()
-}
-
-pub(super) fn with(object: Value, name: &str, number: Option<f64>) -> Value {
-    match number {
-        Some(number) => merged(object, json!({ name: number })),
-        None => object,
-    }
-}
-
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
     use crate::sample_gantry as sample;
     use nalgebra::{Vector2, Vector3};
-    use robots::handoff::{ActuatorCommand, Attitude, Behaviour, Estimate, GantryBehaviour};
+    use rheotaxis::frame::{GantryFrame, RobotFrame};
+    use rheotaxis::topic::Published;
+    use robots::handoff::{
+        ActuatorCommand, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan,
+    };
     use world::frames::{Pose, Truth};
     use world::units::Heading;
 
@@ -333,7 +155,29 @@ pub(super) mod tests {
             robots: vec![robot],
             gantries: vec![sample::gantry(1.0, 0.0, GantryBehaviour::StepUp)],
             abnormal: Vec::new(),
+            published: Vec::new(),
         }
+    }
+
+    /// A value of a topic of another crate.
+    pub(crate) fn published(key: &str, t_s: f64) -> Published {
+        const TOPIC: Topic = Topic::json("own", "own/<id>", "always", "A test.", &[]);
+        Published {
+            topic: TOPIC,
+            key: key.to_owned(),
+            t_s,
+            value: json!({ "t_s": t_s }),
+        }
+    }
+
+    #[test]
+    fn what_systems_publish_comes_under_its_key() {
+        let mut frame = frame(0);
+        frame.published = vec![published("own/Buoy 1", 2.5)];
+        let last = state(&frame).pop().unwrap();
+        assert_eq!(last.key, "own/buoy_1");
+        let value: Value = serde_json::from_slice(&last.payload).unwrap();
+        assert_eq!(value["t_s"], 2.5);
     }
 
     #[test]
@@ -371,5 +215,38 @@ pub(super) mod tests {
         // The masses sum to those of all points passed in.
         let mass: f64 = (0..shown).map(|i| f64::from(number(6 * i + 4))).sum();
         assert!((mass / (4.0 * n as f64) - 1.0).abs() < 1e-5, "{mass}");
+    }
+
+    fn said(g: &GantryFrame, topic: &str) -> Option<Value> {
+        let key = format!("gantry/crab0/{topic}");
+        let frame = Frame {
+            t_s: 2.5,
+            gantries: vec![g.clone()],
+            ..Frame::default()
+        };
+        let message = state(&frame).into_iter().find(|m| m.key == key)?;
+        Some(serde_json::from_slice(&message.payload).unwrap())
+    }
+
+    #[test]
+    fn only_the_probes_there_are_speak_and_only_once_they_were_read() {
+        let mut g = sample::gantry(1.0, 0.2, GantryBehaviour::Cast);
+        assert_eq!(said(&g, "probes"), None);
+        g.scan = Some(ProbeScan {
+            t_s: 2.4,
+            volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0],
+            count: 1,
+        });
+        let probes = said(&g, "probes").unwrap();
+        assert_eq!(
+            probes,
+            json!({"t_s": 2.4, "position_m": [[1.0, 0.2, -0.125]], "volts": [-4.5]})
+        );
+        let spikes = said(&g, "spikes").unwrap();
+        assert_eq!(spikes["spike"], json!([false]));
+        assert!(spikes.get("predicted_v").is_none());
+        let doing = said(&g, "behaviour").unwrap();
+        assert_eq!(doing, json!({"t_s": 2.5, "behaviour": "cast", "move": 1}));
+        assert_eq!(said(&g, "declaration"), None);
     }
 }

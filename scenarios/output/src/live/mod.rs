@@ -6,7 +6,6 @@
 
 mod error;
 mod options;
-mod table;
 mod topics;
 
 #[cfg(feature = "live")]
@@ -17,8 +16,6 @@ mod mailbox;
 mod map_message;
 #[cfg(feature = "live")]
 mod message;
-#[cfg(feature = "live")]
-mod message_gantry;
 #[cfg(feature = "live")]
 mod session;
 #[cfg(feature = "live")]

@@ -1,6 +1,7 @@
 //! Options of live state.
 
 use super::LiveError;
+use rheotaxis::topic::chunk;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -81,19 +82,6 @@ pub struct LiveCounts {
 #[must_use]
 pub fn run_id(scenario: &str, seed: u64) -> String {
     format!("{}_{seed}", chunk(scenario))
-}
-
-/// Turns a name into a chunk of a key.
-pub(super) fn chunk(name: &str) -> String {
-    if name.is_empty() {
-        return "_".to_owned();
-    }
-    name.chars()
-        .map(|c| match c.to_ascii_lowercase() {
-            c @ ('a'..='z' | '0'..='9' | '_') => c,
-            _ => '_',
-        })
-        .collect()
 }
 
 #[cfg(test)]

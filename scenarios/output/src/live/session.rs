@@ -3,8 +3,9 @@
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
+use super::message::Message;
 use super::tree::Tree;
-use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message};
+use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
@@ -48,8 +49,10 @@ impl Live {
         let (going, gone) = sync_channel::<()>(1);
         let thread = {
             let (mailbox, options) = (Arc::clone(&mailbox), options.clone());
+            // Here, because the registry is that of this thread.
+            let meta = message::meta(&meta, &topics());
             move || {
-                publish(config, &options, &meta, &mailbox, &up);
+                publish(config, &options, meta, &mailbox, &up);
                 // There may be nobody waiting any more.
                 let _late = going.try_send(());
             }
@@ -146,7 +149,7 @@ impl Drop for Live {
 fn publish(
     config: Config,
     options: &LiveOptions,
-    meta: &LiveMeta,
+    meta: Vec<Message>,
     mailbox: &Mailbox,
     up: &SyncSender<Up>,
 ) {
@@ -157,7 +160,7 @@ fn publish(
             return;
         }
     };
-    match Tree::grow(&session, options, message::meta(meta)) {
+    match Tree::grow(&session, options, meta) {
         Err(e) => {
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }

@@ -1,13 +1,14 @@
 //! An MCAP file of ROS 2 messages, written under a temporary name and renamed when it is complete.
 //!
 //! *Source*: MCAP specification (mcap.dev/spec), profile `ros2`, message encoding `cdr`, schema
-//! encoding `ros2msg`.
+//! encoding `ros2msg`. Topics of other crates: message encoding `json`, schema encoding `jsonschema`.
 //! *Parameters*: [`FLUSH_NS`]: chunks are closed at least this often in simulated time.
 //! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover` restores its index.
 
 use super::ros_messages::MessageKind;
 use ::mcap::records::{MessageHeader, Metadata};
 use ::mcap::{Attachment, McapError, WriteOptions, Writer};
+use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::io::{self, BufWriter};
@@ -121,22 +122,66 @@ impl McapFile {
         t_ns: u64,
         cdr: &[u8],
     ) -> Result<(), RecordError> {
+        let form = |file: &mut Self| {
+            let schema = kind.schema();
+            file.add_channel(topic, kind.name(), ["ros2msg", "cdr"], schema.as_bytes())
+        };
+        self.write_as(topic, form, t_ns, cdr)
+    }
+
+    /// Writes one JSON message at a simulated time; `schema` is the JSON Schema of the topic.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn write_json(
+        &mut self,
+        topic: &str,
+        name: &str,
+        schema: impl FnOnce() -> Value,
+        t_ns: u64,
+        value: &Value,
+    ) -> Result<(), RecordError> {
+        let form = |file: &mut Self| {
+            let schema = schema().to_string();
+            file.add_channel(topic, name, ["jsonschema", "json"], schema.as_bytes())
+        };
+        self.write_as(topic, form, t_ns, value.to_string().as_bytes())
+    }
+
+    /// Adds a channel; its encodings are those of the schema and of the messages.
+    fn add_channel(
+        &mut self,
+        topic: &str,
+        schema_name: &str,
+        [schema_encoding, encoding]: [&str; 2],
+        schema: &[u8],
+    ) -> Result<(), RecordError> {
+        let failed = self.failed();
+        let schema = (self.writer)
+            .add_schema(schema_name, schema_encoding, schema)
+            .map_err(&failed)?;
+        let id = (self.writer)
+            .add_channel(schema, topic, encoding, &BTreeMap::new())
+            .map_err(&failed)?;
+        let channel = Channel { id, sequence: 0 };
+        self.channels.insert(topic.to_owned(), channel);
+        Ok(())
+    }
+
+    fn write_as(
+        &mut self,
+        topic: &str,
+        add: impl FnOnce(&mut Self) -> Result<(), RecordError>,
+        t_ns: u64,
+        data: &[u8],
+    ) -> Result<(), RecordError> {
         let failed = self.failed();
         if t_ns >= self.flushed_ns + FLUSH_NS {
             self.flushed_ns = t_ns;
             self.writer.flush().map_err(&failed)?;
         }
         if !self.channels.contains_key(topic) {
-            let schema = self
-                .writer
-                .add_schema(kind.name(), "ros2msg", kind.schema().as_bytes())
-                .map_err(&failed)?;
-            let id = self
-                .writer
-                .add_channel(schema, topic, "cdr", &BTreeMap::new())
-                .map_err(&failed)?;
-            self.channels
-                .insert(topic.to_owned(), Channel { id, sequence: 0 });
+            add(self)?;
         }
         let channel = self
             .channels
@@ -150,7 +195,7 @@ impl McapFile {
         };
         channel.sequence = channel.sequence.wrapping_add(1);
         self.writer
-            .write_to_known_channel(&header, cdr)
+            .write_to_known_channel(&header, data)
             .map_err(&failed)
     }
 
@@ -240,6 +285,35 @@ mod tests {
         assert_eq!(summary.metadata_indexes[0].name, "run");
         assert_eq!(summary.channels.len(), 2);
         assert!(!temporary.exists());
+    }
+
+    #[test]
+    fn json_has_a_channel_of_its_own_form() {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("run.mcap");
+        let mut f = McapFile::create(&path, "test").unwrap();
+        let (schema, value) = (
+            serde_json::json!({"type": "object"}),
+            serde_json::json!({"m": 2}),
+        );
+        for t in [0, 1] {
+            f.write_json("/own/depth", "depth", || schema.clone(), t, &value)
+                .unwrap();
+        }
+        f.finish().unwrap();
+        let bytes = fs::read(&path).unwrap();
+        let messages: Vec<_> = (::mcap::MessageStream::new(&bytes).unwrap())
+            .map(Result::unwrap)
+            .collect();
+        assert_eq!(messages.len(), 2);
+        let (channel, schema) = (&messages[1].channel, messages[1].channel.schema.as_ref());
+        let schema = schema.unwrap();
+        let said = (channel.message_encoding.as_str(), schema.encoding.as_str());
+        assert_eq!(said, ("json", "jsonschema"));
+        assert_eq!(
+            (schema.name.as_str(), &*messages[1].data),
+            ("depth", &b"{\"m\":2}"[..])
+        );
     }
 
     #[test]

@@ -121,6 +121,10 @@ impl Recorder {
         for (known, gantry) in self.gantries.iter_mut().zip(&frame.gantries) {
             known.record(&mut self.file, t, gantry)?;
         }
+        for p in &frame.published {
+            let (topic, at) = (format!("/{}", p.key), nanoseconds(p.t_s));
+            (self.file).write_json(&topic, p.topic.name, || p.topic.schema(), at, &p.value)?;
+        }
         let believed: Vec<String> = frame.robots.iter().map(|r| believed_frame(&r.id)).collect();
         let heads: Vec<_> = frame.gantries.iter().flat_map(frames_of).collect();
         let of_robots = frame.robots.iter().zip(&believed).flat_map(|(r, b)| {

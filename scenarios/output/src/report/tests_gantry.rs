@@ -104,6 +104,7 @@ fn frames() -> Vec<Frame> {
                 robots: Vec::new(),
                 gantries: vec![g],
                 abnormal: Vec::new(),
+                published: Vec::new(),
             }
         })
         .collect()

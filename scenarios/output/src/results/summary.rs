@@ -7,6 +7,8 @@ use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::VERSION;
 use robots::handoff::{Evidence, RegionState, Verdict};
 use serde::Serialize;
+use serde_json::Value;
+use std::collections::BTreeMap;
 
 /// A horizontal position in the world.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -276,6 +278,9 @@ pub struct Summary {
     pub success_rule: String,
     /// Seed.
     pub seed: u64,
+    /// The mark of the secret key that the run had beside its seed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// The versions that made the run.
     pub versions: Versions,
     /// Digest of the whole state sequence; the same run has the same digest.
@@ -290,6 +295,12 @@ pub struct Summary {
     pub robots: Vec<RobotSummary>,
     /// Each gantry.
     pub gantries: Vec<GantrySummary>,
+    /// Machines of other crates that have their own part here, by id.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub apparatus: BTreeMap<String, Value>,
+    /// The last value of each topic of another crate, by key.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub published: BTreeMap<String, Value>,
     /// Events that went wrong without ending the run.
     pub abnormal: Vec<AbnormalSummary>,
     /// The run itself.

@@ -12,9 +12,11 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::abnormal::Abnormal;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::Trial;
 use robots::handoff::{
     Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
 };
+use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use world::units::Heading;
@@ -208,6 +210,8 @@ pub struct SummaryBuilder {
     robots: Vec<Robot>,
     gantries: Vec<GantryPath>,
     abnormal: Vec<Abnormal>,
+    apparatus: BTreeMap<String, Value>,
+    published: BTreeMap<String, Value>,
 }
 
 impl SummaryBuilder {
@@ -219,7 +223,16 @@ impl SummaryBuilder {
             robots: Vec::new(),
             gantries: Vec::new(),
             abnormal: Vec::new(),
+            apparatus: BTreeMap::new(),
+            published: BTreeMap::new(),
         }
+    }
+
+    /// What other crates add to the summary at the end: the parts of their machines and the last values of their topics.
+    pub fn added(&mut self, trial: &Trial) {
+        self.apparatus = trial.apparatus();
+        let last = trial.published().map(|p| (p.key.clone(), p.value.clone()));
+        self.published = last.collect();
     }
 
     /// Everything that went wrong up to the end, which may lie between two frames.
@@ -256,7 +269,8 @@ impl SummaryBuilder {
             scenario: self.run.scenario_name.clone(),
             title: self.run.title.clone(),
             success_rule: self.run.success.clone(),
-            seed: self.run.seed,
+            seed: self.run.seed.number(),
+            key: self.run.seed.key().mark(),
             versions: Versions::of(&self.run.version),
             digest: end.digest.clone(),
             outcome: end.outcome,
@@ -280,6 +294,8 @@ impl SummaryBuilder {
                 .iter()
                 .map(|g| g.summary(said(g.id()).first(), sources))
                 .collect(),
+            apparatus: self.apparatus.clone(),
+            published: self.published.clone(),
             abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
             run: RunSummary {
                 totals: t,

@@ -1,21 +1,22 @@
-//! What goes wrong in a run without ending it: a vehicle outside its area, instruments that hear nothing, contacts.
+//! Abnormal events: things that go wrong in a run without ending it. A vehicle leaves its area, an instrument gets no
+//! echo, something touches the bed.
 //!
-//! A watch compares what is with what should be, tick by tick, and keeps an event for each time something went
-//! wrong, with place and duration. Nothing of it reaches the vehicle or the digest. Another kind of event is
-//! another line in [`Abnormality`] and in the `watch` of a searcher's systems.
+//! A system compares the state with what it should be in every tick and keeps an event for each time something went
+//! wrong, with its place and duration. Neither the vehicle nor the digest depends on it. For another kind of event
+//! add a line to [`Abnormality`] and to the system `watch` of the searcher.
 
-use bevy_ecs::prelude::{Component, Resource};
+use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// Farther outside the area than this is left, m: a vehicle needs as much to turn round at its edge (R of Pang 2009,
-/// Table 4).
+/// A vehicle that is farther outside the area than this has left it, m. It needs this distance to turn at the edge (R
+/// of Pang 2009, Table 4).
 pub(crate) const OUTSIDE_M: f64 = 10.0;
-/// An instrument that hears nothing for so long is blind, s: in turns and dives it misses a few readings.
+/// An instrument without an echo for longer than this is blind, s. In turns and dives it misses a few readings.
 const BLIND_S: f64 = 10.0;
-/// What stops for less than this and comes again is one event, s.
+/// Two episodes with a shorter pause between them are one event, s.
 const CALM_S: f64 = 5.0;
-/// Most events of a kind and robot; later ones are counted into the last.
+/// Most events of one kind for one robot; later ones prolong the last.
 const MOST: usize = 20;
 
 /// A kind of event.
@@ -24,11 +25,11 @@ const MOST: usize = 20;
 pub enum Abnormality {
     /// The vehicle was more than 10 m outside the area.
     LeftArea,
-    /// Its Doppler log heard no bed.
+    /// Its Doppler log had no echo from the bed.
     NoBottomLock,
-    /// Its altimeter heard no bed.
+    /// Its altimeter had no echo from the bed.
     NoAltitude,
-    /// Its current profiler had no water to measure.
+    /// Its current profiler measured no flow.
     NoFlow,
     /// It touched the bed or an obstacle.
     Touched,
@@ -65,18 +66,18 @@ impl Abnormality {
     }
 }
 
-/// Something went wrong for a while.
+/// Something that went wrong for some time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Abnormal {
     /// Id of the robot in the scenario.
     pub robot: String,
-    /// What.
+    /// The kind of event.
     pub what: Abnormality,
-    /// Since when, s of mission time.
+    /// Beginning, s of mission time.
     pub t_s: f64,
-    /// How long, so far, s.
+    /// Duration so far, s.
     pub lasted_s: f64,
-    /// It is over.
+    /// Whether it is over.
     pub over: bool,
     /// Where it began (ENU), m.
     pub p_W: Vector3<f64>,
@@ -103,27 +104,23 @@ impl Abnormal {
     }
 }
 
-/// All events of a run so far, by their beginning as they came to count.
-#[derive(Resource, Clone, Debug, Default)]
-pub struct Abnormals(pub Vec<Abnormal>);
-
-/// One kind of event of one robot, as it goes on.
+/// The present event of one kind for one robot.
 #[derive(Clone, Copy, Debug, Default)]
 struct Episode {
     /// When and where it began.
     began: Option<(f64, Vector3<f64>)>,
     last_s: f64,
-    /// Which of the events it is, once it counts.
+    /// Its index among all events, once it lasted long enough to count.
     event: Option<usize>,
     count: usize,
 }
 
-/// A robot's watch.
+/// The present events of a robot.
 #[derive(Component, Clone, Debug, Default)]
 pub struct Lookout([Episode; Abnormality::ALL.len()]);
 
 impl Lookout {
-    /// Takes in whether something is wrong now; `None` where this tick cannot tell.
+    /// Notes whether something is wrong now; `None` if this tick has no reading.
     pub(crate) fn see(
         &mut self,
         what: Abnormality,

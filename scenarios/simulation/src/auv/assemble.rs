@@ -1,11 +1,15 @@
-//! Puts a robot into the world.
+//! Brings robots into a run.
 
-use super::frame::Log;
-use super::{Guiding, Hull, Instruments, Mapping, Navigation, Searching, Steering};
+use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
 use crate::abnormal::Lookout;
-use crate::scenario::RobotSpec;
+use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
+use crate::error::AssembleError;
+use crate::ocean::Ocean;
+use crate::ocean::system::digest_plume;
+use crate::scenario::{Beside, RobotSpec};
+use crate::score::Score;
 use crate::searchers::SearcherId;
-use bevy_ecs::prelude::{Entity, World};
+use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::actuate::Autopilot;
 use robots::error::RobotError;
@@ -15,32 +19,90 @@ use robots::handoff::{
     ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
     Setting, Vertical,
 };
-use robots::sense::SensorSuite;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
-use std::path::Path;
+use world::catalogue::Entry;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
 use world::physics::Physics;
+use world::registry::Listed;
 use world::seeds::Stream;
+use world::stage::Stage;
 
-/// Spawns it; its body goes into `physics`.
-pub(crate) fn spawn(
-    world: &mut World,
-    physics: &mut Physics,
+impl Listed for RobotSpec {
+    const ENTRY: Entry = Entry {
+        name: "Auv",
+        what: "An underwater vehicle that moves freely in the water",
+        source: "Pang 2009",
+    };
+}
+
+impl Apparatus for RobotSpec {
+    fn id(&self) -> &str {
+        self.id.as_str()
+    }
+
+    fn spawn(&self, world: &mut World, launch: &Launch) -> Result<(), AssembleError> {
+        let ocean = world.resource::<Ocean>();
+        let setting = self.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
+        spawn(self, &setting, world, launch).map_err(|source| AssembleError::Robot {
+            id: self.id.as_str().to_string(),
+            source,
+        })
+    }
+
+    fn systems(&self, systems: &mut Systems) {
+        systems
+            .add(Stage::Sense, system::read_instruments)
+            .add_blind(Stage::Estimate, system::estimate_state)
+            .add_blind(Stage::Map, system::update_map)
+            .add_blind(Stage::Decide, system::decide)
+            .add_blind(Stage::Guide, system::guide)
+            .add_blind(Stage::Actuate, system::actuate)
+            .add(
+                Stage::Physics,
+                (
+                    system::push_bodies.before(BodiesMove),
+                    system::read_bodies.after(BodiesMove),
+                ),
+            )
+            .add(
+                Stage::Report,
+                (
+                    system::digest_robots.before(digest_plume),
+                    system::keep_score,
+                    system::watch,
+                    system::keep_log,
+                )
+                    .chain(),
+            )
+            .add_to_frame(system::picture);
+    }
+}
+
+fn spawn(
     spec: &RobotSpec,
     setting: &Setting,
-    base_dir: &Path,
-    seed: u64,
-    dt_s: f64,
-) -> Result<Entity, RobotError> {
+    world: &mut World,
+    launch: &Launch,
+) -> Result<(), RobotError> {
     let id = spec.id.as_str();
+    let Launch {
+        base_dir,
+        seed,
+        dt_s,
+    } = *launch;
     let heading = spec.start.heading_deg.heading();
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
-    let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
-    let body = physics.add_body(vehicle.body_spec(id, truth));
-    let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
+    let vehicle = Vehicle::load(&spec.vehicle, &Beside(base_dir))?;
+    let body = (world.resource_mut::<Physics>()).add_body(vehicle.body_spec(id, truth));
+    let suite = SensorSuite::new(
+        &spec.sensors,
+        &|name| vehicle.mount(name),
+        OnBoard::new(id, seed, dt_s),
+    )?;
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
@@ -49,7 +111,7 @@ pub(crate) fn spawn(
         heading,
         depth_m: -p_W.z,
     };
-    // A first belief from the launch data alone; the navigator itself starts fresh at the first tick.
+    // A first estimate from the data of the launch alone; the estimator itself starts with the first tick.
     let estimate =
         Estimator::new(&spec.estimator, start, dt_s).step(&Clock::new(dt_s), &Readings::default());
     let goal = Goal {
@@ -62,32 +124,41 @@ pub(crate) fn spawn(
     let mapper = (spec.map.as_ref())
         .map(|map| map.build(&setting.area, Stream::new(seed, id, "map")))
         .transpose()?;
+    let place = world.resource_mut::<Score>().join(id);
     let mut robot = world.spawn((
-        SearcherId(id.to_string()),
+        SearcherId {
+            name: id.to_string(),
+            place,
+        },
         truth,
         Hull { vehicle, body },
-        Instruments(suite),
+        suite,
         Readings::default(),
-        Navigation(Estimator::new(&spec.estimator, start, dt_s)),
+        Estimator::new(&spec.estimator, start, dt_s),
         estimate,
         (
             Searching {
                 strategy,
                 rng: Stream::new(seed, id, "strategy"),
+            },
+            Briefing {
+                area: setting.area,
                 home: fix,
             },
             Decision::new(Behaviour::Idle, goal),
-            Guiding(Guidance::new(&spec.guidance)),
+            Guidance::new(&spec.guidance),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
-            Steering(Autopilot::new(&spec.autopilot)),
+            Autopilot::new(&spec.autopilot),
             ActuatorCommand::default(),
             Log::default(),
             Lookout::default(),
         ),
     ));
     if let Some(mapper) = mapper {
-        robot.insert((mapper.belief().clone(), Mapping(mapper)));
+        robot.insert((mapper.belief().clone(), Mapping { mapper }));
     }
-    Ok(robot.id())
+    let robot = robot.id();
+    world.get_resource_or_init::<Robots>().0.push(robot);
+    Ok(())
 }

@@ -1,60 +1,67 @@
-//! A robot that moves freely in the water: its parts, its systems, what is seen of it.
+//! A robot that moves freely in the water: its components, its systems, its topics.
 
-pub(crate) mod assemble;
-mod frame;
+mod assemble;
+pub(crate) mod message;
 pub(crate) mod system;
+pub mod topics;
 
-pub(crate) use frame::Log;
-pub use frame::{PictureFrame, PingFrame, RobotFrame};
+pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 
-use bevy_ecs::prelude::Component;
+use bevy_ecs::prelude::{Component, Entity, Resource};
 use nalgebra::Vector2;
-use robots::actuate::Autopilot;
-use robots::estimate::Estimator;
-use robots::guide::Guidance;
+use robots::handoff::ChemicalReading;
 use robots::map::Mapper;
-use robots::sense::SensorSuite;
 use robots::strategy::Strategy;
 use robots::vehicles::Vehicle;
+use world::area::Area;
 use world::physics::BodyId;
 use world::seeds::Stream;
 
-/// Its vehicle and its body in the physics.
+/// All robots, in the scenario's order.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Robots(pub Vec<Entity>);
+
+/// A robot's vehicle and its body in the physics.
 #[derive(Component)]
 pub struct Hull {
     /// Dynamics and actuators.
     pub vehicle: Vehicle,
-    /// Body it moves.
+    /// The body that it moves.
     pub body: BodyId,
 }
 
-/// Its instruments.
-#[derive(Component)]
-pub struct Instruments(pub SensorSuite);
-
-/// Its navigation.
-#[derive(Component)]
-pub struct Navigation(pub Estimator);
-
-/// Its strategy with the random stream it holds.
+/// A robot's strategy and its random numbers.
 #[derive(Component)]
 pub struct Searching {
-    /// What decides.
+    /// The strategy.
     pub strategy: Box<dyn Strategy>,
     /// Its random numbers.
     pub rng: Stream,
-    /// Where it was launched, as its navigation had it (east, north), m.
+}
+
+/// What a robot is told before its mission.
+#[derive(Component, Clone, Copy, Debug)]
+pub struct Briefing {
+    /// The operating area.
+    pub area: Area,
+    /// Where it was launched, according to its navigation (east, north), m.
     pub home: Vector2<f64>,
 }
 
-/// Its map of where the source may be, if it keeps one.
+/// A robot's map of where the source may be, if it keeps one.
 #[derive(Component)]
-pub struct Mapping(pub Box<dyn Mapper>);
+pub struct Mapping {
+    /// The map.
+    pub mapper: Box<dyn Mapper>,
+}
 
-/// Its guidance.
-#[derive(Component)]
-pub struct Guiding(pub Guidance);
-
-/// Its autopilot.
-#[derive(Component)]
-pub struct Steering(pub Autopilot);
+/// What happened to a robot between two frames.
+#[derive(Component, Clone, Debug, Default)]
+pub(crate) struct Log {
+    /// Newest chemical reading; it stays until there is another.
+    chemical: Option<ChemicalReading>,
+    /// Whether there was a detection.
+    detected: bool,
+    /// The largest shift by a position fix, m.
+    fix_m: Option<f64>,
+}

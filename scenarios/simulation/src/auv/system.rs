@@ -1,18 +1,23 @@
-//! The systems of a robot: each hands its parts, and the ocean, to plain state machines.
+//! The systems of robots: each passes components and the ocean to plain state machines.
 
-use super::{Guiding, Hull, Instruments, Mapping, Navigation, Searching, Steering};
-use crate::abnormal::{Abnormality, Abnormals, Lookout, OUTSIDE_M};
+use super::{Briefing, Hull, Log, Mapping, Robots, Searching};
+use crate::abnormal::{Abnormality, Lookout, OUTSIDE_M};
+use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 use crate::ocean::Ocean;
+use crate::outbox::Outbox;
 use crate::score::Score;
-use crate::searchers::{Roster, SearcherId, whole};
+use crate::searchers::{SearcherId, whole};
 use bevy_ecs::prelude::{DetectChanges, Query, Ref, Res, ResMut};
 use nalgebra::Vector3;
+use robots::actuate::Autopilot;
+use robots::estimate::Estimator;
+use robots::guide::Guidance;
 use robots::handoff::{
     ActuatorCommand, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
 };
 use robots::map::MapObservation;
 use robots::sense::camera::Optics;
-use robots::sense::{Around, Asked};
+use robots::sense::{Around, Asked, SensorSuite};
 use world::clock::Clock;
 use world::digest::Digest;
 use world::fields::Flow;
@@ -23,10 +28,10 @@ pub(crate) fn read_instruments(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     optics: Res<Optics>,
-    mut robots: Query<(&Truth, &Decision, &mut Instruments, &mut Readings)>,
+    mut robots: Query<(&Truth, &Decision, &mut SensorSuite, &mut Readings)>,
 ) {
     for (truth, decision, mut suite, mut readings) in &mut robots {
-        *readings = (suite.0).read(&Around {
+        *readings = suite.read(&Around {
             clock: &clock,
             truth,
             flow: &*ocean,
@@ -41,10 +46,10 @@ pub(crate) fn read_instruments(
 
 pub(crate) fn estimate_state(
     clock: Res<Clock>,
-    mut robots: Query<(&Readings, &mut Navigation, &mut Estimate)>,
+    mut robots: Query<(&Readings, &mut Estimator, &mut Estimate)>,
 ) {
-    for (readings, mut navigator, mut estimate) in &mut robots {
-        *estimate = navigator.0.step(&clock, readings);
+    for (readings, mut estimator, mut estimate) in &mut robots {
+        *estimate = estimator.step(&clock, readings);
     }
 }
 
@@ -52,15 +57,15 @@ pub(crate) fn update_map(
     clock: Res<Clock>,
     mut robots: Query<(&Readings, &Estimate, &mut Mapping, &mut Belief)>,
 ) {
-    for (readings, estimate, mut mapper, mut belief) in &mut robots {
+    for (readings, estimate, mut mapping, mut belief) in &mut robots {
         let p = estimate.position;
-        mapper.0.step(&MapObservation {
+        mapping.mapper.step(&MapObservation {
             t_s: clock.t_s(),
             p_W: Vector3::new(p.x, p.y, -estimate.depth_m),
             detected: readings.chemical.map(|c| c.detected),
             flow: estimate.flow.map(|f| f.velocity),
         });
-        let new = mapper.0.belief();
+        let new = mapping.mapper.belief();
         if new.updates != belief.updates {
             *belief = new.clone();
         }
@@ -71,20 +76,22 @@ type Deciding<'a> = (
     &'a Readings,
     &'a Estimate,
     &'a GuidanceStatus,
+    &'a Briefing,
     Option<&'a Belief>,
     &'a mut Searching,
     &'a mut Decision,
 );
 
-pub(crate) fn decide(clock: Res<Clock>, ocean: Res<Ocean>, mut robots: Query<Deciding>) {
-    for (readings, estimate, guidance, belief, mut searching, mut decision) in &mut robots {
+pub(crate) fn decide(clock: Res<Clock>, mut robots: Query<Deciding>) {
+    for (readings, estimate, guidance, briefing, belief, mut searching, mut decision) in &mut robots
+    {
         let seen = Observation {
             t_s: clock.t_s(),
             estimate: *estimate,
             chemical: readings.chemical,
             guidance: *guidance,
-            area: ocean.area,
-            home: searching.home,
+            area: briefing.area,
+            home: briefing.home,
             belief: belief.cloned(),
             ranging: readings.ranging.clone(),
             sidescan: readings.sidescan.clone(),
@@ -98,51 +105,55 @@ pub(crate) fn decide(clock: Res<Clock>, ocean: Res<Ocean>, mut robots: Query<Dec
 
 pub(crate) fn guide(
     clock: Res<Clock>,
-    ocean: Res<Ocean>,
     mut robots: Query<(
         &Estimate,
         &Decision,
-        &mut Guiding,
+        &Briefing,
+        &mut Guidance,
         &mut Command,
         &mut GuidanceStatus,
     )>,
 ) {
-    for (estimate, decision, mut guidance, mut command, mut status) in &mut robots {
-        (*command, *status) = guidance
-            .0
-            .step(estimate, &decision.goal, &ocean.area, clock.dt_s);
+    for (estimate, decision, briefing, mut guidance, mut command, mut status) in &mut robots {
+        (*command, *status) = guidance.step(estimate, &decision.goal, &briefing.area, clock.dt_s);
     }
 }
 
 pub(crate) fn actuate(
     clock: Res<Clock>,
-    mut robots: Query<(&Command, &Estimate, &mut Steering, &mut ActuatorCommand)>,
+    mut robots: Query<(&Command, &Estimate, &mut Autopilot, &mut ActuatorCommand)>,
 ) {
     for (command, estimate, mut autopilot, mut set) in &mut robots {
-        *set = autopilot.0.step(command, estimate, clock.dt_s);
+        *set = autopilot.step(command, estimate, clock.dt_s);
     }
 }
 
-pub(crate) fn move_bodies(
+pub(crate) fn push_bodies(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
-    roster: Res<Roster>,
+    roster: Res<Robots>,
     mut physics: ResMut<Physics>,
-    mut robots: Query<(&SearcherId, &ActuatorCommand, &mut Hull, &mut Truth)>,
+    mut robots: Query<(&Truth, &ActuatorCommand, &mut Hull)>,
 ) {
-    let mut each = robots.iter_many_mut(&roster.robots);
-    while let Some((_, set, mut hull, truth)) = each.fetch_next().map(whole) {
+    let mut each = robots.iter_many_mut(&roster.0);
+    while let Some((truth, set, mut hull)) = each.fetch_next().map(whole) {
         let sample = ocean.sample(&truth.pose.p_WB, clock.t_s());
-        let push = hull.vehicle.step(&truth, &sample, set, clock.dt_s);
+        let push = hull.vehicle.step(truth, &sample, set, clock.dt_s);
         physics.push(hull.body, push);
     }
-    physics.step();
-    for (id, _, hull, mut truth) in &mut robots {
+}
+
+pub(crate) fn read_bodies(
+    clock: Res<Clock>,
+    physics: Res<Physics>,
+    mut robots: Query<(&SearcherId, &Hull, &mut Truth)>,
+) {
+    for (id, hull, mut truth) in &mut robots {
         *truth = physics.truth(hull.body);
         assert!(
             truth.is_finite(),
             "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the water there",
-            id.0,
+            id.name,
             clock.step
         );
     }
@@ -157,11 +168,11 @@ type Digested<'a> = (
 );
 
 pub(crate) fn digest_robots(
-    roster: Res<Roster>,
+    roster: Res<Robots>,
     mut digest: ResMut<Digest>,
     robots: Query<Digested>,
 ) {
-    for (truth, estimate, decision, set, belief) in robots.iter_many(&roster.robots).map(whole) {
+    for (truth, estimate, decision, set, belief) in robots.iter_many(&roster.0).map(whole) {
         digest.f64s(truth.pose.p_WB.as_slice());
         digest.f64s(truth.pose.R_WB.coords.as_slice());
         digest.f64s(truth.v_WB_B.as_slice());
@@ -177,14 +188,32 @@ pub(crate) fn digest_robots(
     }
 }
 
+type Scored<'a> = (
+    &'a SearcherId,
+    &'a Truth,
+    &'a Estimate,
+    &'a Readings,
+    &'a Decision,
+);
+
 pub(crate) fn keep_score(
-    roster: Res<Roster>,
+    clock: Res<Clock>,
+    roster: Res<Robots>,
     mut score: ResMut<Score>,
-    robots: Query<(&Truth, &Decision)>,
+    robots: Query<Scored>,
 ) {
-    for (n, (truth, decision)) in robots.iter_many(&roster.robots).map(whole).enumerate() {
-        score.at(n, &truth.pose.p_WB);
-        score.declared(n, decision.declared);
+    for (id, truth, estimate, readings, decision) in robots.iter_many(&roster.0).map(whole) {
+        let p_W = truth.pose.p_WB;
+        score.at(id.place, &p_W);
+        score.outcome(id.place, decision.outcome);
+        let own = &mut score.searchers[id.place];
+        if let Some(declaration) = decision.declared {
+            own.declared(declaration);
+        }
+        own.misplaced((estimate.position - p_W.xy()).norm());
+        if readings.chemical.is_some_and(|c| c.detected) {
+            own.detected(clock.t_next_s(), p_W.xy());
+        }
     }
 }
 
@@ -192,10 +221,10 @@ pub(crate) fn watch(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     physics: Res<Physics>,
-    mut abnormals: ResMut<Abnormals>,
+    mut score: ResMut<Score>,
     mut robots: Query<(&SearcherId, &Truth, &Readings, &Hull, &mut Lookout)>,
 ) {
-    let events = &mut abnormals.0;
+    let events = &mut score.abnormal;
     for (id, truth, readings, hull, mut lookout) in &mut robots {
         let p = truth.pose.p_WB;
         let outside_m = -ocean.area.edge_distance(p.xy()).0;
@@ -216,7 +245,80 @@ pub(crate) fn watch(
                 Some(physics.contacts(hull.body).touching),
             ),
         ] {
-            lookout.see(what, wrong, &id.0, clock.t_s(), p, events);
+            lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
         }
+    }
+}
+
+/// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
+pub(crate) fn keep_log(
+    clock: Res<Clock>,
+    roster: Res<Robots>,
+    mut outbox: ResMut<Outbox>,
+    mut robots: Query<(&SearcherId, &Truth, &Estimate, &Readings, &mut Log)>,
+) {
+    let t_s = clock.t_s();
+    let mut each = robots.iter_many_mut(&roster.0);
+    while let Some((id, truth, estimate, readings, mut log)) = each.fetch_next().map(whole) {
+        let name = &id.name;
+        let picture = readings.picture.as_ref();
+        (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));
+        let ping = readings.sidescan.as_ref();
+        (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, name, p, estimate)));
+        if let Some(reading) = readings.chemical {
+            log.chemical = Some(reading);
+            log.detected |= reading.detected;
+        }
+        if readings.lbl.is_some() {
+            let moved_m = estimate.fix_jump_m();
+            log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
+        }
+    }
+}
+
+type Pictured<'a> = (
+    &'a SearcherId,
+    &'a Truth,
+    &'a Estimate,
+    &'a Decision,
+    &'a Command,
+    &'a ActuatorCommand,
+    Option<&'a Belief>,
+    &'a mut Log,
+);
+
+pub(crate) fn picture(
+    ocean: Res<Ocean>,
+    roster: Res<Robots>,
+    score: Res<Score>,
+    mut outbox: ResMut<Outbox>,
+    mut robots: Query<Pictured>,
+) {
+    let Some(frame) = &mut outbox.open else {
+        return;
+    };
+    let mut each = robots.iter_many_mut(&roster.0);
+    while let Some(parts) = each.fetch_next().map(whole) {
+        let (id, truth, estimate, decision, command, set, belief, mut log) = parts;
+        let p = truth.pose.p_WB;
+        frame.robots.push(RobotFrame {
+            id: id.name.clone(),
+            truth: *truth,
+            altitude_m: p.z - ocean.terrain.bed_z(p.x, p.y),
+            estimate: *estimate,
+            goal: Some(decision.goal),
+            command: Some(*command),
+            actuators: *set,
+            chemical: log.chemical,
+            detected: std::mem::take(&mut log.detected),
+            behaviour: decision.behaviour,
+            layers: decision.layers.clone(),
+            lost_points: decision.lost_points.clone(),
+            planned: decision.planned.clone(),
+            belief: belief.cloned(),
+            regions: decision.regions.clone(),
+            declarations: score.searchers[id.place].declarations.clone(),
+            fix_m: log.fix_m.take(),
+        });
     }
 }

@@ -1,40 +1,85 @@
-//! Puts a gantry into the world.
+//! Brings gantries into a run.
 
-use super::system::{Head, Rig, Searcher};
-use crate::scenario::GantryBlock;
+use super::Gantries;
+use super::system::{self, Head, Rig, Searcher};
+use crate::apparatus::{Apparatus, Launch, Systems};
+use crate::error::AssembleError;
+use crate::ocean::Ocean;
+use crate::ocean::system::digest_plume;
+use crate::scenario::{Beside, GantryBlock};
+use crate::score::Score;
 use crate::searchers::SearcherId;
-use bevy_ecs::prelude::{Entity, World};
+use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
 use robots::handoff::{GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
-use std::path::Path;
+use world::catalogue::Entry;
 use world::physics::Physics;
+use world::registry::Listed;
 use world::seeds::Stream;
-use world::terrain::Terrain;
+use world::stage::Stage;
 
-/// Spawns it; its joints go into `physics`.
-pub(crate) fn spawn(
-    world: &mut World,
-    physics: &mut Physics,
-    block: &GantryBlock,
-    terrain: &Terrain,
-    base_dir: &Path,
-    seed: u64,
-) -> Result<Entity, RobotError> {
+impl Listed for GantryBlock {
+    const ENTRY: Entry = Entry {
+        name: "Gantry",
+        what: "A sensor head on a two-axis gantry in a flume",
+        source: "Webster, Volyanskyy & Weissburg 2012",
+    };
+}
+
+impl Apparatus for GantryBlock {
+    fn id(&self) -> &str {
+        self.id.as_str()
+    }
+
+    fn spawn(&self, world: &mut World, launch: &Launch) -> Result<(), AssembleError> {
+        spawn(self, world, launch).map_err(|source| AssembleError::Robot {
+            id: self.id.as_str().to_string(),
+            source,
+        })
+    }
+
+    fn systems(&self, systems: &mut Systems) {
+        systems
+            .add(Stage::Sense, system::read_probes)
+            .add_blind(Stage::Decide, system::track)
+            .add(Stage::Actuate, system::drive_gantries)
+            .add(
+                Stage::Report,
+                (
+                    system::digest_gantries.after(digest_plume),
+                    system::keep_score,
+                )
+                    .chain(),
+            )
+            .add_to_frame(system::picture);
+    }
+}
+
+fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), RobotError> {
     let id = block.id.as_str();
-    let dt_s = physics.dt_s();
-    let gantry = Gantry::load(&block.gantry, base_dir)?;
+    let Launch {
+        base_dir,
+        seed,
+        dt_s,
+    } = *launch;
+    let gantry = Gantry::load(&block.gantry, &Beside(base_dir))?;
     gantry.check_step(dt_s)?;
     let layout = block.layout(&gantry);
-    let base = block.base(terrain);
-    let joints = physics.add_gantry(gantry.body_spec(id, &base, block.start_m())?);
+    let base = block.base(&world.resource::<Ocean>().terrain);
+    let body = gantry.body_spec(id, &base, block.start_m())?;
+    let joints = world.resource_mut::<Physics>().add_gantry(body);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    let probes = Probes::new(&block.probes, &names, id, seed, dt_s)?;
+    let probes = Probes::new(&block.probes, &names, &OnBoard::new(id, seed, dt_s))?;
     let strategy = block.tracker.build(&layout)?;
+    let place = world.resource_mut::<Score>().join(id);
     let gantry = world.spawn((
-        SearcherId(id.to_string()),
+        SearcherId {
+            name: id.to_string(),
+            place,
+        },
         Rig {
             gantry,
             joints,
@@ -57,5 +102,7 @@ pub(crate) fn spawn(
             stopped: None,
         },
     ));
-    Ok(gantry.id())
+    let gantry = gantry.id();
+    world.get_resource_or_init::<Gantries>().0.push(gantry);
+    Ok(())
 }

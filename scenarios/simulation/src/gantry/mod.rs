@@ -1,7 +1,14 @@
-//! A sensor head on a two-axis gantry: its parts, its systems, what is seen of it.
+//! A sensor head on a two-axis gantry: its components, its systems, its topics.
 
-pub(crate) mod assemble;
-mod frame;
+mod assemble;
+pub(crate) mod message;
 pub(crate) mod system;
+pub mod topics;
 
-pub use frame::GantryFrame;
+pub use crate::frame::GantryFrame;
+
+use bevy_ecs::prelude::{Entity, Resource};
+
+/// All gantries, in the scenario's order.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Gantries(pub Vec<Entity>);

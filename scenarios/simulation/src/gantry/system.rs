@@ -1,9 +1,11 @@
-//! The systems of gantries: probes and encoders, the searcher, the drives; and what is seen of them.
+//! The systems of gantries: probes and encoders, the searcher, the drives, score and frames.
 
-use super::frame::GantryFrame;
+use super::Gantries;
+use crate::frame::GantryFrame;
 use crate::ocean::Ocean;
-use crate::score::{Score, SearcherScore};
-use crate::searchers::{Roster, SearcherId, whole};
+use crate::outbox::Outbox;
+use crate::score::Score;
+use crate::searchers::{SearcherId, whole};
 use bevy_ecs::prelude::{Component, Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::handoff::{
@@ -117,11 +119,11 @@ pub(crate) fn drive_gantries(
 
 pub(crate) fn digest_gantries(
     physics: Res<Physics>,
-    roster: Res<Roster>,
+    roster: Res<Gantries>,
     mut digest: ResMut<Digest>,
     gantries: Query<(&Rig, &Head, &GantryDecision)>,
 ) {
-    for (rig, head, decision) in gantries.iter_many(&roster.gantries).map(whole) {
+    for (rig, head, decision) in gantries.iter_many(&roster.0).map(whole) {
         for joint in physics.joints(rig.joints) {
             digest.f64s(&[joint.position_m, joint.speed_m_s]);
         }
@@ -133,76 +135,85 @@ pub(crate) fn digest_gantries(
     }
 }
 
-/// Parts of a gantry that a picture of it needs.
-pub(crate) type Pictured<'a> = (
+type Pictured<'a> = (
     &'a SearcherId,
     &'a Rig,
     &'a Head,
     &'a GantryReadings,
     &'a GantryDecision,
-    &'a Searcher,
 );
 
-/// All gantries as they are, in the scenario's order.
 pub(crate) fn picture(
-    physics: &Physics,
-    roster: &Roster,
-    score: &Score,
-    gantries: &Query<Pictured>,
-) -> Vec<GantryFrame> {
-    let scored = score.searchers[roster.robots.len()..].iter();
-    let one = |((id, rig, head, readings, decision, _), scored): (
-        (
-            &SearcherId,
-            &Rig,
-            &Head,
-            &GantryReadings,
-            &GantryDecision,
-            &Searcher,
-        ),
-        &SearcherScore,
-    )| {
+    physics: Res<Physics>,
+    roster: Res<Gantries>,
+    score: Res<Score>,
+    mut outbox: ResMut<Outbox>,
+    gantries: Query<Pictured>,
+) {
+    let Some(frame) = &mut outbox.open else {
+        return;
+    };
+    for (id, rig, head, readings, decision) in gantries.iter_many(&roster.0).map(whole) {
         let joints = physics.joints(rig.joints);
         let base = &rig.base;
-        let head_W = rig.gantry.head_W(base, &joints);
         let touching = physics.gantry_contact(rig.joints).with;
-        GantryFrame {
-            id: id.0.clone(),
+        let declarations = &score.searchers[id.place].declarations;
+        frame.gantries.push(GantryFrame {
+            id: id.name.clone(),
             joint_names: rig.gantry.joint_names().map(str::to_string),
             joints,
             readings: readings.joints,
             forward: (base.R_WB * Vector3::x()).xy(),
-            head_W,
+            head_W: rig.gantry.head_W(base, &joints),
             tips_W: rig.gantry.tips_W(base, &joints).collect(),
             scan: head.latest,
             decision: decision.clone(),
             touching: touching.map(|solid| physics.name(solid).to_string()),
-            declaration: scored.declarations.first().copied(),
-        }
-    };
-    let all = gantries.iter_many(&roster.gantries).map(whole);
-    all.zip(scored).map(one).collect()
+            declaration: declarations.first().copied(),
+        });
+    }
 }
 
+type Scored<'a> = (
+    &'a SearcherId,
+    &'a Rig,
+    &'a GantryReadings,
+    &'a GantryDecision,
+    &'a Searcher,
+);
+
 pub(crate) fn keep_score(
-    roster: Res<Roster>,
+    clock: Res<Clock>,
+    roster: Res<Gantries>,
     physics: Res<Physics>,
     mut score: ResMut<Score>,
-    gantries: Query<(&Rig, &GantryDecision, &Searcher)>,
+    gantries: Query<Scored>,
 ) {
-    for (k, parts) in gantries.iter_many(&roster.gantries).map(whole).enumerate() {
-        let n = roster.robots.len() + k;
+    for (id, rig, readings, decision, searcher) in gantries.iter_many(&roster.0).map(whole) {
+        let ended = decision.stopped.map(|_| Outcome::Completed);
+        score.outcome(id.place, ended);
+        let own = &mut score.searchers[id.place];
+        let head_W = rig.gantry.head_W(&rig.base, &physics.joints(rig.joints));
+        own.moved(&head_W);
+        let spikes = &decision.working.spike;
+        if readings.scan.is_some() && spikes.contains(&true) {
+            own.detected(clock.t_next_s(), head_W.xy());
+        }
         // It declares once: where its head is when it stops.
-        if score.searchers[n].declarations.is_empty() {
-            score.declared(n, declaration(&physics, parts));
+        if own.declarations.is_empty()
+            && let Some(declaration) = declaration(&physics, rig, decision, searcher)
+        {
+            own.declared(declaration);
         }
     }
 }
 
-/// Where the searcher says the source is, once it has stopped there: where its encoders have the head.
+/// Where the searcher says the source is, once it has stopped there: the place of the head according to its encoders.
 fn declaration(
     physics: &Physics,
-    (rig, decision, searcher): (&Rig, &GantryDecision, &Searcher),
+    rig: &Rig,
+    decision: &GantryDecision,
+    searcher: &Searcher,
 ) -> Option<Declaration> {
     let t_s = searcher
         .stopped_s
@@ -215,9 +226,4 @@ fn declaration(
         head + (rig.base.R_WB * off.push(0.0)).xy(),
         "stop",
     ))
-}
-
-/// How a gantry's mission ended, if it did.
-pub(crate) fn outcome(decision: &GantryDecision) -> Option<Outcome> {
-    decision.stopped.map(|_| Outcome::Completed)
 }

@@ -1,7 +1,7 @@
-//! The ocean of a run: place, water and plume. It goes its way whoever searches in it.
+//! The ocean of a run: place, water and plume. It does not depend on who searches in it.
 //!
-//! Searchers read it and never write to it: only `system::drift` and the spin-up do. So runs whose oceans have the
-//! same [`Origin`] have the same ocean, bit for bit.
+//! Only `system::drift` and the spin-up write to it; sensors read it. So two runs with the same [`Origin`] have the
+//! same ocean, bit for bit.
 
 mod origin;
 mod spun_up;
@@ -22,14 +22,14 @@ use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
-/// Place, water and plume. Asked as a [`Flow`] it answers at times of the mission, s.
+/// Place, water and plume. It holds the truth. As a [`Flow`] it takes times of the mission, s.
 #[derive(Resource)]
 pub struct Ocean {
     /// The operating area.
     pub area: Area,
     /// The bed.
     pub terrain: Terrain,
-    /// All solid things, also those that the water passes through.
+    /// All solid things, including those that the water passes through.
     pub obstacles: Obstacles,
     water: Water,
     plume: Plume,
@@ -39,7 +39,7 @@ pub struct Ocean {
 }
 
 impl Ocean {
-    /// Before the spin-up, nothing released yet.
+    /// Before the spin-up; nothing is released yet.
     fn new(
         area: Area,
         terrain: Terrain,
@@ -59,7 +59,7 @@ impl Ocean {
         }
     }
 
-    /// The water, which counts time from its own beginning.
+    /// The water. Its own time begins with the spin-up.
     #[must_use]
     pub fn water(&self) -> &Water {
         &self.water
@@ -77,14 +77,15 @@ impl Ocean {
         &self.plume
     }
 
-    /// What a sensor smells at a time of the mission, s: the plume carried along by the orbits of the waves.
+    /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the
+    /// waves.
     #[must_use]
     pub fn dye(&self, t_s: f64) -> Displaced<'_> {
         Displaced::new(&self.plume, self, t_s)
     }
 
-    /// Lets water and plume develop before the mission. `heard` is told the share done after every step and ends it
-    /// early by answering `false`.
+    /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it
+    /// returns `false`, the spin-up ends early.
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
         if self.plume.sources().is_empty() {
             self.water.advance(self.spin_up_s);
@@ -101,7 +102,7 @@ impl Ocean {
         }
     }
 
-    /// Brings the water up to a time of the mission, s.
+    /// Advances the water to a time of the mission, s.
     pub fn advance_water(&mut self, t_s: f64) {
         self.water.advance(t_s + self.spin_up_s);
     }
@@ -112,13 +113,13 @@ impl Ocean {
         self.plume.drift(&self.water, from_s + t0_s, to_s + t0_s);
     }
 
-    /// Copies of water and plume as they are.
+    /// Copies of the present water and plume.
     #[must_use]
     pub fn state(&self) -> (Water, Plume) {
         (self.water.clone(), self.plume.clone())
     }
 
-    /// Puts another ocean's state in the place of its own; the origins of both must be alike.
+    /// Takes over the state of another ocean with the same origin.
     pub(crate) fn put_state(&mut self, (water, plume): (Water, Plume)) {
         self.water = water;
         self.plume = plume;

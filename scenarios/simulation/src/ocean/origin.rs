@@ -1,7 +1,7 @@
-//! What water and plume of a run follow from.
+//! Everything that the water and the plume of a run depend on.
 //!
-//! Whatever they depend on has to be a field of [`Origin`]: runs share a spin-up if their origins are the same (see
-//! [`SpunUp`](super::SpunUp)), and a value that stood beside it could silently be that of another run.
+//! It must all be in fields of [`Origin`]. Runs with the same origin share a spin-up (see [`SpunUp`](super::SpunUp));
+//! a value outside it could differ between them without notice.
 
 use super::Ocean;
 use crate::error::AssembleError;
@@ -15,12 +15,13 @@ use std::path::Path;
 use world::digest::Digest;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{NonNegative, Positive};
+use world::seeds::Seed;
 
-/// All that a run's water and plume follow from, up to the start of the mission.
+/// Everything that a run's water and plume depend on, up to the start of the mission.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
-    seed: u64,
+    seed: Seed,
     area: AreaSpec,
     terrain: TerrainSpec,
     water: WaterSpec,
@@ -33,17 +34,18 @@ pub struct Origin {
     spin_up_period_s: Positive,
     #[serde(rename = "time.flow_period_s")]
     flow_period_s: NonNegative,
-    /// Digests of the files that the obstacles name, by name; of one that cannot be read none: building says what is wrong with it.
+    /// Digests of the files that the obstacles name, by name; `None` for a file that cannot be read. Building reports
+    /// that.
     files: BTreeMap<String, Option<String>>,
 }
 
 impl Origin {
-    /// The origin of a scenario's run; files are looked for under `base_dir`.
-    pub fn of(scenario: &Scenario, base_dir: &Path, seed: u64) -> Self {
+    /// The origin of a run of a scenario; paths are relative to `base_dir`.
+    pub fn of(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Self {
         let files = scenario.obstacles.iter().filter_map(ObstacleSpec::file);
         let time = &scenario.time;
         Self {
-            seed,
+            seed: seed.into(),
             area: scenario.area.clone(),
             terrain: scenario.terrain.clone(),
             water: scenario.water.clone(),
@@ -59,10 +61,10 @@ impl Origin {
         }
     }
 
-    /// The ocean; files are looked for under `base_dir`.
+    /// Builds the ocean; paths are relative to `base_dir`.
     ///
     /// # Errors
-    /// When a part of it cannot be built.
+    /// If a part of it cannot be built.
     pub fn build(&self, base_dir: &Path) -> Result<Ocean, AssembleError> {
         let area = self.area.build();
         let terrain = self.terrain.build(&area);
@@ -87,7 +89,7 @@ impl Origin {
         self.spin_up_s.get()
     }
 
-    /// Steps of the spin-up: how many, and how long each is, s.
+    /// Number of steps of the spin-up, and the length of each, s.
     pub fn spin_up_steps(&self) -> (u64, f64) {
         let steps = (self.spin_up_s() / self.spin_up_period_s.get()).ceil();
         (steps as u64, self.spin_up_s() / steps)
@@ -95,15 +97,15 @@ impl Origin {
 
     /// The run's seed.
     #[must_use]
-    pub fn seed(&self) -> u64 {
+    pub fn seed(&self) -> Seed {
         self.seed
     }
 
-    /// The first field but the seed that is not the same in another.
+    /// The first field, except the seed, that differs from another origin's.
     pub fn unlike(&self, other: &Self) -> Option<String> {
         let [ours, theirs] = [self, other].map(Self::fields);
         let mut names = ours.keys().filter(|name| *name != "seed");
-        // As text, so that -0 is not 0.
+        // Compared as text, so that -0 differs from 0.
         let differs = |name: &&String| {
             let text = |value: Option<&serde_json::Value>| value.map(ToString::to_string);
             text(ours.get(*name)) != text(theirs.get(*name))
@@ -114,7 +116,7 @@ impl Origin {
     fn fields(&self) -> serde_json::Map<String, serde_json::Value> {
         match serde_json::to_value(self) {
             Ok(serde_json::Value::Object(fields)) => fields,
-            other => unreachable!("a scenario that was read can be written: {other:?}"),
+            other => unreachable!("every scenario can be written as an object: {other:?}"),
         }
     }
 }

@@ -1,8 +1,8 @@
-//! Water and plume after the spin-up, kept so that runs that share them pay for it once.
+//! Water and plume after the spin-up, kept so that several runs can share them.
 //!
-//! A spin-up knows no robot: what comes out of it follows from the blocks of the scenario that make its water and plume,
-//! the files these name and the seed alone (see [`Origin`]). Runs that agree in these, say the arms of one seed of a
-//! campaign, start from the same state bit for bit, whether they spin up themselves or take it over.
+//! The spin-up does not depend on any robot. It depends on the blocks of the scenario for water and plume, on the
+//! files that these name, and on the seed (see [`Origin`]). Runs that agree in these, such as the arms of one seed of
+//! a campaign, start from the same state bit for bit, whether they spin up themselves or take the state over.
 //!
 //! ```no_run
 //! # use rheotaxis::{scenario, trial::{Trial, Unwatched}};
@@ -11,7 +11,7 @@
 //! if let Some(spun_up) = first.spin_up(&mut Unwatched) {
 //!     let ended = first.run(&mut Unwatched);
 //!     let mut second = Trial::assemble(&other, 7)?;
-//!     second.take_over(&spun_up)?; // or, on a mismatch, let it spin up itself
+//!     second.take_over(&spun_up)?; // after a mismatch it can still spin up itself
 //!     let ended = second.run(&mut Unwatched);
 //! }
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -21,12 +21,12 @@ use super::Origin;
 use plumes::filaments::Plume;
 use plumes::flow::Water;
 use std::sync::Arc;
+use world::seeds::Seed;
 
-/// The state after a spin-up, to be taken over by other runs with
-/// [`Trial::take_over`](crate::trial::Trial::take_over).
+/// The state after a spin-up. Other runs take it over with [`Trial::take_over`](crate::trial::Trial::take_over).
 ///
-/// A clone shares it: give it to as many threads as there are. It holds 28 bytes a filament (1.4 MB for
-/// 50 000) and the flow's grid, 16 bytes a node, and is freed with its last clone.
+/// Clones share the state, also between threads. It needs 28 bytes for each filament (1.4 MB for 50 000) and 16 bytes
+/// for each node of the flow's grid. The last clone frees it.
 #[derive(Clone, Debug)]
 pub struct SpunUp(Arc<State>);
 
@@ -46,7 +46,7 @@ impl SpunUp {
         }))
     }
 
-    /// Copies of water and plume for a run of that origin.
+    /// Copies of water and plume for a run with this origin.
     pub(crate) fn copy_for(&self, origin: &Origin) -> Result<(Water, Plume), Mismatch> {
         let state = &*self.0;
         if let Some(block) = state.origin.unlike(origin) {
@@ -60,21 +60,22 @@ impl SpunUp {
     }
 }
 
-/// Why a run cannot take over what another has spun up.
+/// Why a run cannot take over the spin-up of another.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Mismatch {
-    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`, `sources`,
-    /// `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`, what the obstacles' files hold.
+    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`,
+    /// `sources`, `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`: the content of the
+    /// obstacles' files.
     #[error(
         "the state was spun up with another `{0}`: runs may share a spin-up only if this is the same"
     )]
     Block(String),
-    /// Another seed, hence another plume.
-    #[error("the state was spun up with seed {theirs}, this run has seed {ours}")]
+    /// Another seed or another key, which gives another plume.
+    #[error("the state was spun up with seed {}, this run has seed {}", theirs.told(), ours.told())]
     Seed {
-        /// The seed it was spun up with.
-        theirs: u64,
-        /// The seed of the run that wanted it.
-        ours: u64,
+        /// The seed of the spin-up.
+        theirs: Seed,
+        /// The seed of the run that should take it over.
+        ours: Seed,
     },
 }

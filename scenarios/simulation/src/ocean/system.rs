@@ -5,7 +5,7 @@ use bevy_ecs::prelude::{Res, ResMut};
 use world::clock::Clock;
 use world::digest::Digest;
 
-/// Water and plume at the end of this step.
+/// Advances water and plume to the end of this step.
 pub(crate) fn drift(clock: Res<Clock>, every: Res<DriftEvery>, mut ocean: ResMut<Ocean>) {
     let t1 = clock.t_next_s();
     ocean.advance_water(t1);
@@ -15,7 +15,7 @@ pub(crate) fn drift(clock: Res<Clock>, every: Res<DriftEvery>, mut ocean: ResMut
     }
 }
 
-/// The plume into the digest, whenever it has drifted.
+/// Adds the plume to the digest, in the steps in which it has drifted.
 pub(crate) fn digest_plume(
     clock: Res<Clock>,
     every: Res<DriftEvery>,

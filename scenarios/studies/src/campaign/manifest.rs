@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_new, write_on_disk};
+use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
@@ -43,6 +44,9 @@ pub struct Manifest {
     /// The runs' seeds, for people; the campaign's text is what counts.
     #[serde(default)]
     pub seeds: String,
+    /// The mark of the key that the runs have beside their seeds; `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// Name of the base scenario.
     pub scenario_name: String,
     /// Folder to which paths in the scenario are relative.
@@ -67,6 +71,7 @@ impl Manifest {
             block,
             runs: campaign.n_runs(),
             seeds: campaign.spec.seeds.words(),
+            key: campaign.key.mark(),
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
             campaign_text: campaign.text.clone(),
@@ -163,6 +168,7 @@ impl Manifest {
             name: self.scenario_name.clone(),
             base_dir: self.base_dir.clone(),
             hash: self.scenario_hash.clone(),
+            registry: Registry::now(),
         };
         let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
         let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
@@ -180,9 +186,28 @@ impl Manifest {
         Ok(campaign)
     }
 
+    /// Refuses to make a run again under another key than that of the folder.
+    ///
+    /// # Errors
+    /// Names the mark of the folder's key.
+    pub fn same_key(&self, campaign: &Campaign) -> Result<(), CampaignError> {
+        if self.key == campaign.key.mark() {
+            return Ok(());
+        }
+        let problem = match &self.key {
+            Some(mark) => format!("its runs have the key with the mark {mark}: give it with --key"),
+            None => "its runs have no key: leave out --key and RHEOTAXIS_KEY".to_string(),
+        };
+        Err(CampaignError::Read {
+            path: PathBuf::from(FILE),
+            problem,
+        })
+    }
+
     /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
     #[must_use]
     pub fn differences(&self, ours: &Self) -> Vec<String> {
+        let key = |m: &Self| m.key.clone().unwrap_or_else(|| "none".to_string());
         let pairs = [
             ("scenario", &self.scenario_hash, &ours.scenario_hash),
             ("campaign", &self.campaign_hash, &ours.campaign_hash),
@@ -192,6 +217,7 @@ impl Manifest {
                 &self.block.to_string(),
                 &ours.block.to_string(),
             ),
+            ("mark of the key", &key(self), &key(ours)),
         ];
         (pairs.iter())
             .filter(|(_, there, here)| there != here)

@@ -16,6 +16,7 @@ use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, Unwatched, Watch};
 use std::time::Instant;
+use world::seeds::Seed;
 
 /// What identifies a run in the table.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -28,8 +29,8 @@ pub struct RunName {
     pub condition: String,
     /// Index of the seed.
     pub seed_index: u64,
-    /// The seed itself.
-    pub seed: u64,
+    /// The seed itself, with the campaign's key.
+    pub seed: Seed,
 }
 
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
@@ -224,7 +225,7 @@ fn failed(name: &RunName, error: String) -> RunRow {
         arm: name.arm.clone(),
         condition: name.condition.clone(),
         seed_index: name.seed_index,
-        seed: name.seed,
+        seed: name.seed.number(),
         outcome: outcome_name(RunOutcome::Failed),
         error: Some(error),
         ..RunRow::default()
@@ -248,7 +249,7 @@ mod tests {
         let name = RunName {
             run: 4,
             arm: "a".to_string(),
-            seed: 9,
+            seed: Seed::from(9),
             ..RunName::default()
         };
         let row = guarded(&name, || panic!("the hull is {} m long", -1));

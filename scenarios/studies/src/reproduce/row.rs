@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
 use world::files;
+use world::registry::Registry;
 
 /// Longest file read, bytes: a row is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
@@ -313,6 +314,7 @@ fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
         name: template.name.to_string(),
         base_dir: PathBuf::new(),
         hash: digest.hex(),
+        registry: Registry::now(),
     })
 }
 

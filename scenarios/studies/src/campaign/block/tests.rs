@@ -32,7 +32,7 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
             run,
             arm: campaign.arm(place.arm).name.clone(),
             condition: campaign.condition_name(place.condition),
-            seed: place.seed,
+            seed: place.seed.number(),
             error: (run == 3).then(|| "no water".to_string()),
             declarations: (0..run % 3).map(|number| declared(run, number)).collect(),
             ..row(
@@ -185,10 +185,13 @@ fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
     broken
 }
 
+/// For more: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib damaged_blocks`.
 #[test]
 fn damaged_blocks_are_not_whole() {
-    assert!(survives(block_path, 1000, 1) >= 990);
-    assert!(survives(declarations_path, 1000, 2) >= 990);
+    let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
+    let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(1000);
+    assert!(survives(block_path, n, 1) >= n * 99 / 100);
+    assert!(survives(declarations_path, n, 2) >= n * 99 / 100);
 }
 
 /// Bytes whose seal fits them all the same: as if the program had written nonsense.
@@ -292,14 +295,4 @@ fn a_merge_has_a_line_for_every_declaration() {
         fs::read_to_string(dir.join("all-declarations.csv")).unwrap(),
         lines
     );
-}
-
-/// By hand: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib many_damaged -- --ignored`.
-#[test]
-#[ignore = "takes minutes"]
-fn many_damaged_blocks() {
-    let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
-    let n = n.and_then(|n| n.parse().ok()).unwrap_or(20_000);
-    let broken = [block_path, declarations_path].map(|damage| survives(damage, n, 11));
-    assert!(broken.iter().all(|b| *b > n / 2), "{broken:?}");
 }

@@ -1,4 +1,4 @@
-//! A gantry at one instant, for those who look on.
+//! A gantry at one instant.
 
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Declaration, GantryDecision, JointReadings, ProbeScan};

@@ -1,6 +1,5 @@
-//! A robot at one instant, its pictures and its pings, for those who look on.
+//! A robot at one instant, the pictures of its camera and the pings of its sidescan.
 
-use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
@@ -28,29 +27,28 @@ pub struct RobotFrame {
     pub actuators: ActuatorCommand,
     /// Newest chemical reading.
     pub chemical: Option<ChemicalReading>,
-    /// A detection happened since the frame before.
+    /// Whether there was a detection since the previous frame.
     pub detected: bool,
     /// What it is doing.
     pub behaviour: Behaviour,
-    /// Layers of its planner, lowest first; empty for a strategy without.
+    /// Layers of its planner, lowest first; empty for a strategy without layers.
     pub layers: Arc<[Layer]>,
     /// Points where it lost the plume, as it believes (east, north), m.
     pub lost_points: Vec<Vector2<f64>>,
-    /// The path it means to take (ENU), m; empty without one.
+    /// The path it plans to follow (ENU), m; empty without a path.
     pub planned: Arc<Vec<Vector3<f64>>>,
-    /// Where it believes the source may be, if it keeps a map; renewed only when [`Belief::updates`] has grown.
+    /// Its map of where the source may be, if it keeps one. It is new only if [`Belief::updates`] has grown.
     pub belief: Option<Belief>,
-    /// The subregions of its mission; none where the area is one.
+    /// The subregions of its mission; none if the area is not divided.
     pub regions: Regions,
     /// Its declarations so far, by number.
     pub declarations: Vec<Declaration>,
-    /// How far position fixes moved what it believes since the frame before, the farthest of them, m; `None` when
-    /// none came.
+    /// The largest shift of its estimate by a position fix since the previous frame, m; `None` without a fix.
     pub fix_m: Option<f64>,
 }
 
 impl RobotFrame {
-    /// Name of the layer that holds the vehicle.
+    /// Name of the layer that controls the vehicle.
     #[must_use]
     pub fn holding_layer(&self) -> Option<&'static str> {
         let holds = |l: &&Layer| l.state == LayerState::Holds;
@@ -74,7 +72,7 @@ pub struct PictureFrame {
 }
 
 impl PictureFrame {
-    /// One just taken.
+    /// From a picture that was taken in this step.
     #[must_use]
     pub fn new(t_s: f64, id: &str, picture: &Picture, truth: &Truth, estimate: &Estimate) -> Self {
         Self {
@@ -101,7 +99,7 @@ pub struct PingFrame {
 }
 
 impl PingFrame {
-    /// One just heard.
+    /// From a ping of this step.
     #[must_use]
     pub fn new(t_s: f64, id: &str, ping: &SidescanPing, estimate: &Estimate) -> Self {
         Self {
@@ -111,13 +109,4 @@ impl PingFrame {
             estimate: *estimate,
         }
     }
-}
-
-/// What a robot's log keeps between two frames.
-#[derive(Component, Clone, Debug, Default)]
-pub(crate) struct Log {
-    pub(crate) chemical: Option<ChemicalReading>,
-    pub(crate) detected: bool,
-    pub(crate) fix_m: Option<f64>,
-    pub(crate) over: bool,
 }

@@ -1,15 +1,14 @@
-//! A gantry's state as messages.
+//! The messages of a gantry, one for each row of [`TOPICS`](super::topics::TOPICS).
 
-use super::message::{Message, with};
-use super::options::chunk;
-use rheotaxis::gantry::GantryFrame;
+use crate::frame::GantryFrame;
+use crate::topic::{chunk, with};
 use serde_json::{Value, json};
 
-pub(super) fn gantry(t_s: f64, g: &GantryFrame) -> Vec<Message> {
+/// All messages of a gantry in a frame.
+pub(crate) fn messages(t_s: f64, g: &GantryFrame) -> Vec<(String, Value)> {
     let id = chunk(&g.id);
     let mut out = Vec::with_capacity(5);
-    let mut say =
-        |topic: &str, value: Value| out.push(Message::json(format!("gantry/{id}/{topic}"), &value));
+    let mut say = |topic: &str, value: Value| out.push((format!("gantry/{id}/{topic}"), value));
     let d = &g.decision;
 
     let mut joints = json!({
@@ -64,40 +63,4 @@ pub(super) fn gantry(t_s: f64, g: &GantryFrame) -> Vec<Message> {
         );
     }
     out
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::sample_gantry as sample;
-    use robots::handoff::{GantryBehaviour, ProbeScan};
-
-    fn said(g: &GantryFrame, topic: &str) -> Option<Value> {
-        let key = format!("gantry/crab0/{topic}");
-        let all = gantry(2.5, g);
-        let message = all.iter().find(|m| m.key == key)?;
-        Some(serde_json::from_slice(&message.payload).unwrap())
-    }
-
-    #[test]
-    fn only_the_probes_there_are_speak_and_only_once_they_were_read() {
-        let mut g = sample::gantry(1.0, 0.2, GantryBehaviour::Cast);
-        assert_eq!(said(&g, "probes"), None);
-        g.scan = Some(ProbeScan {
-            t_s: 2.4,
-            volts: [-4.5, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0, 9.0],
-            count: 1,
-        });
-        let probes = said(&g, "probes").unwrap();
-        assert_eq!(
-            probes,
-            json!({"t_s": 2.4, "position_m": [[1.0, 0.2, -0.125]], "volts": [-4.5]})
-        );
-        let spikes = said(&g, "spikes").unwrap();
-        assert_eq!(spikes["spike"], json!([false]));
-        assert!(spikes.get("predicted_v").is_none());
-        let doing = said(&g, "behaviour").unwrap();
-        assert_eq!(doing, json!({"t_s": 2.5, "behaviour": "cast", "move": 1}));
-        assert_eq!(said(&g, "declaration"), None);
-    }
 }

@@ -1,0 +1,85 @@
+//! A current of your own: a jet, fastest on its axis and slower to its sides.
+//!
+//! `cargo run --release -p rheotaxis --example own_current`
+
+use nalgebra::{Vector2, Vector3};
+use plumes::error::PlumeError;
+use plumes::flow::{CurrentParams, Currents, Place, PlaneCurrent, Water};
+use rheotaxis::scenario::{load_text, template};
+use rheotaxis::trial::Trial;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+use world::catalogue::Entry;
+use world::ranges::Positive;
+use world::registry::{Listed, Registry};
+
+/// An eastward jet along north = 0.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+struct Jet {
+    /// Speed on the axis, m/s.
+    speed_m_s: Positive,
+    /// Distance from the axis at which half of the speed is left, m.
+    half_width_m: Positive,
+}
+
+/// The name in scenario files, and what `rheotaxis list` says about it.
+impl Listed for Jet {
+    const ENTRY: Entry = Entry {
+        name: "Jet",
+        what: "an eastward jet, slower to its sides",
+        source: "an example",
+    };
+}
+
+/// How it joins the water. The water adds all currents up; this one is the same at all depths.
+impl CurrentParams for Jet {
+    fn join(&self, water: &mut Water, _: &Place) -> Result<(), PlumeError> {
+        water.add(Arc::new(self.clone()));
+        Ok(())
+    }
+}
+
+/// The current itself: (east, north) in m/s at a place and a time.
+impl PlaneCurrent for Jet {
+    fn velocity(&self, p: Vector2<f64>, _t_s: f64) -> Vector2<f64> {
+        let off = p.y / self.half_width_m.get();
+        Vector2::new(self.speed_m_s.get() / (1.0 + off * off), 0.0)
+    }
+
+    fn is_steady(&self) -> bool {
+        true
+    }
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let registry = Registry::default().with::<Currents, Jet>()?;
+    let text = template("uniform_channel").ok_or("no such scenario")?.text;
+    let text = text
+        .replace(
+            "currents: [",
+            "currents: [Jet(speed_m_s: 0.3, half_width_m: 20),",
+        )
+        .replace(
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 60, limit_s: 10",
+        );
+
+    // The plume drifts with it, and the vehicle is carried by it.
+    let mut trial = Trial::assemble(&load_text(&registry, "jet", &text)?, 1)?;
+    trial.until(10.0);
+    let speeds = [0.0, 20.0, 50.0].map(|north_m| {
+        let speed_m_s = trial
+            .simulation
+            .velocity(&Vector3::new(0.0, north_m, -5.0))
+            .x;
+        println!("{north_m:2.0} m off the axis: {speed_m_s:.2} m/s");
+        speed_m_s
+    });
+    if !(speeds[0] > speeds[1] + 0.1 && speeds[1] > speeds[2] + 0.05) {
+        return Err("the jet is not in the water".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,92 @@
+//! A sensor of your own: the pressure of the water, with noise.
+//!
+//! `cargo run --release -p rheotaxis --example own_sensor`
+
+use rheotaxis::scenario::{load_text, template};
+use rheotaxis::trial::Trial;
+use robots::error::RobotError;
+use robots::handoff::Readings;
+use robots::sense::{Around, Fitting, Sensor, SensorParams, Sensors};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::ranges::NonNegative;
+use world::registry::{Listed, Registry};
+use world::seeds::Stream;
+
+/// The parameters, in the field `pressure` of `sensors`. A field that is left out has its default.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+struct PressureParams {
+    /// Standard deviation of the noise, Pa.
+    noise_pa: NonNegative,
+}
+
+impl Default for PressureParams {
+    fn default() -> Self {
+        Self {
+            noise_pa: NonNegative::new(100.0),
+        }
+    }
+}
+
+/// The name in scenario files, and what `rheotaxis list` says about it.
+impl Listed for PressureParams {
+    const ENTRY: Entry = Entry {
+        name: "pressure",
+        what: "pressure of the water above the vehicle",
+        source: "an example",
+    };
+}
+
+/// From parameters to an instrument on a vehicle. Its random numbers are its own, so it changes nobody else's.
+impl SensorParams for PressureParams {
+    fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
+        Ok(Box::new(Pressure {
+            noise_pa: self.noise_pa.get(),
+            rng: Stream::new(on.seed, on.robot_id, "pressure"),
+        }))
+    }
+}
+
+/// The instrument at work. Sensors are the only parts of a searcher that may read the truth: they turn it into
+/// readings.
+#[derive(Debug)]
+struct Pressure {
+    noise_pa: f64,
+    rng: Stream,
+}
+
+impl Sensor for Pressure {
+    fn sense(&mut self, around: &Around, readings: &mut Readings) {
+        let p_W = around.truth.pose.p_WB;
+        let density = around.flow.density(&p_W, around.clock.t_s());
+        let pressure_pa = density * 9.81 * -p_W.z + self.noise_pa * self.rng.normal();
+        // Strategies find it in `Observation::other`.
+        readings.other.push(("pressure_pa", pressure_pa));
+    }
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let registry = Registry::default().with::<Sensors, PressureParams>()?;
+    let text = template("uniform_channel").ok_or("no such scenario")?.text;
+    let text = text
+        .replace("sensors: (", "sensors: (pressure: (noise_pa: 50), ")
+        .replace(
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 60, limit_s: 10",
+        );
+
+    let mut trial = Trial::assemble(&load_text(&registry, "pressure", &text)?, 1)?;
+    trial.until(5.0);
+    let depth_m = -trial.frame().ok_or("no frame")?.robots[0].truth.pose.p_WB.z;
+    let world = &mut trial.simulation.world;
+    let readings = world.query::<&Readings>().single(world)?;
+    let (name, pressure_pa) = readings.other.first().ok_or("the sensor says nothing")?;
+    println!("{name} {pressure_pa:.0} at a depth of {depth_m:.2} m");
+    if (pressure_pa - 1026.0 * 9.81 * depth_m).abs() > 1000.0 {
+        return Err("that is not the pressure at this depth".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,100 @@
+//! A topic of your own: a system publishes a value, and everybody who watches the run gets it.
+//!
+//! Live state has it under `rheotaxis/<run>/own/<id>/smells`, `rheotaxis topics` lists it, `run.mcap` holds it as JSON,
+//! and `summary.json` shows the last value. Publishing never changes a result.
+//!
+//! `cargo run --release -p rheotaxis --example own_topic`
+
+use bevy_ecs::prelude::{Local, Query, Res, ResMut};
+use rheotaxis::extend::{Extend, Systems};
+use rheotaxis::frame::Frame;
+use rheotaxis::scenario::{load_text, template};
+use rheotaxis::searchers::SearcherId;
+use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
+use rheotaxis::trial::{Trial, Unwatched, Watch};
+use robots::handoff::Readings;
+use serde::Serialize;
+use world::clock::Clock;
+use world::registry::Registry;
+use world::stage::Stage;
+
+/// The row of the topic in the table: name, key, rate, meaning, fields with their units.
+const SMELLS: Topic = Topic::json(
+    "smells",
+    "own/<id>/smells",
+    "with every reading of the chemical sensor",
+    "What a robot has smelt so far.",
+    &[
+        Field::always("t_s", FieldKind::Number, "Simulated time, s."),
+        Field::always("readings", FieldKind::Count, "Readings so far."),
+        Field::always(
+            "strongest_v",
+            FieldKind::Number,
+            "The strongest of them, V.",
+        ),
+    ],
+);
+
+/// A value of the topic; its fields are those of the row.
+#[derive(Clone, Default, Serialize)]
+struct Smells {
+    t_s: f64,
+    readings: u64,
+    strongest_v: f64,
+}
+
+/// The system that publishes. `Local` is data that only this system has.
+fn publish(
+    clock: Res<Clock>,
+    robots: Query<(&SearcherId, &Readings)>,
+    mut smells: Local<Smells>,
+    mut topics: ResMut<Topics>,
+) {
+    for (id, readings) in &robots {
+        if let Some(reading) = readings.chemical {
+            smells.t_s = clock.t_s();
+            smells.readings += 1;
+            smells.strongest_v = smells.strongest_v.max(reading.volts);
+            topics.publish(&SMELLS, &id.name, clock.t_s(), &*smells);
+        }
+    }
+}
+
+/// Somebody who watches the run: counts what arrives.
+#[derive(Default)]
+struct Arrived(usize);
+
+impl Watch for Arrived {
+    fn frame(&mut self, frame: &Frame) {
+        self.0 += frame.published.len();
+    }
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let registry =
+        (Registry::default().with_topic(SMELLS)?).with_systems(|systems: &mut Systems| {
+            systems.add_blind(Stage::Report, publish);
+        });
+    let text = template("uniform_channel").ok_or("no such scenario")?.text;
+    let text = text.replace(
+        "spin_up_s: 2000, limit_s: 1800",
+        "spin_up_s: 300, limit_s: 60",
+    );
+
+    let mut trial = Trial::assemble(&load_text(&registry, "smells", &text)?, 1)?;
+    let mut arrived = Arrived::default();
+    let digest = trial.run(&mut arrived).digest;
+    for published in trial.published() {
+        println!("{}: {}", published.key, published.value);
+    }
+    println!("{} values in frames", arrived.0);
+
+    // The same run without the topic has the same digest.
+    let plain = load_text(&Registry::default(), "smells", &text)?;
+    let same = Trial::assemble(&plain, 1)?.run(&mut Unwatched).digest == digest;
+    if arrived.0 < 100 || trial.published().count() != 1 || !same {
+        return Err("the topic did not arrive, or it changed the run".into());
+    }
+    Ok(())
+}

@@ -1,0 +1,54 @@
+//! The machines of a scenario, each behind the trait [`Apparatus`].
+
+use crate::apparatus::Apparatus;
+use crate::scenario::Scenario;
+
+/// The machines of a scenario, in the order of their turns.
+#[derive(Clone, Debug)]
+pub struct Fleet<'s> {
+    /// Those of the kinds that come with the program.
+    own: Vec<&'s dyn Apparatus>,
+    /// Those of other crates.
+    added: Vec<&'s dyn Apparatus>,
+}
+
+impl<'s> Fleet<'s> {
+    /// Robots, then gantries, then what other crates add, each in the scenario's order.
+    #[must_use]
+    pub fn of(scenario: &'s Scenario) -> Self {
+        let robots = scenario.robots.iter().map(|r| r as &dyn Apparatus);
+        let gantries = scenario.gantries.iter().map(|g| g as &dyn Apparatus);
+        Self {
+            own: robots.chain(gantries).collect(),
+            added: scenario.apparatus.iter().map(|a| &**a).collect(),
+        }
+    }
+
+    /// All of them.
+    pub fn all(&self) -> impl Iterator<Item = &'s dyn Apparatus> {
+        self.own.iter().chain(&self.added).copied()
+    }
+
+    /// The first machine of each kind.
+    pub(crate) fn kinds(&self) -> Vec<&'s dyn Apparatus> {
+        let mut kinds = firsts(&self.own);
+        kinds.extend(firsts(&self.added));
+        kinds
+    }
+
+    /// How many of the kinds come with the program; they are the first ones.
+    pub(crate) fn own_kinds(&self) -> usize {
+        firsts(&self.own).len()
+    }
+}
+
+/// The first of each kind.
+fn firsts<'s>(all: &[&'s dyn Apparatus]) -> Vec<&'s dyn Apparatus> {
+    let mut firsts: Vec<&dyn Apparatus> = Vec::new();
+    for one in all {
+        if firsts.iter().all(|f| f.entry().name != one.entry().name) {
+            firsts.push(*one);
+        }
+    }
+    firsts
+}

@@ -1,0 +1,43 @@
+//! What a run hands to those who record, publish and draw: frames, pictures, pings.
+
+pub(crate) mod system;
+
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use bevy_ecs::prelude::Resource;
+use world::clock::Every;
+
+/// What waits for the trial, which takes it after the tick; and how often frames are made. It holds the truth.
+#[derive(Resource, Debug)]
+pub struct Outbox {
+    /// The frame of this step while it is made; `None` in steps without a frame. Systems of
+    /// [`add_to_frame`](crate::apparatus::Systems::add_to_frame) write into it.
+    pub open: Option<Frame>,
+    /// The newest frame.
+    pub(crate) frame: Option<Frame>,
+    /// The newest picture of the plume.
+    pub(crate) plume: Option<PlumeFrame>,
+    /// Pictures by cameras since the trial last took them.
+    pub(crate) pictures: Vec<PictureFrame>,
+    /// Pings of sidescan sonars since the trial last took them.
+    pub(crate) pings: Vec<PingFrame>,
+    frame_every: Every,
+    plume_every: Every,
+    plume_points: usize,
+}
+
+impl Outbox {
+    /// Empty, with the periods of frames and of pictures of the plume, and the most filaments in such a picture.
+    #[must_use]
+    pub fn new(frame_every: Every, plume_every: Every, plume_points: usize) -> Self {
+        Self {
+            open: None,
+            frame: None,
+            plume: None,
+            pictures: Vec::new(),
+            pings: Vec::new(),
+            frame_every,
+            plume_every,
+            plume_points,
+        }
+    }
+}

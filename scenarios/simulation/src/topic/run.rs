@@ -1,0 +1,91 @@
+//! The topics of a run itself, and what the tables of topics have in common.
+
+use super::{Field, FieldKind, Payload, Topic};
+
+/// Rate of what is published with each state.
+pub const STATE_RATE: &str = "with the state, at most 20 a second";
+/// Rate of what never changes.
+pub const ONCE: &str = "once, kept for those who come later";
+
+/// The time of a message.
+pub const T: Field = Field::always(
+    "t_s",
+    FieldKind::Number,
+    "Simulated time, s; zero is the start of the mission.",
+);
+/// A place or vector in the plane (east, north).
+pub const E_N: FieldKind = FieldKind::Vector(2);
+/// A place or vector in space (east, north, up).
+pub const E_N_U: FieldKind = FieldKind::Vector(3);
+
+// Keeps each row on one line.
+#[rustfmt::skip]
+/// Time; it is published last, so that whoever has it also has the state that belongs to it.
+pub const CLOCK: &[Topic] = &[
+    Topic::json("clock", "clock", STATE_RATE, "Simulated time, and what became of the states.", &[
+        T,
+        Field::always("step", FieldKind::Count, "Step of the mission."),
+        Field::always("ended", FieldKind::Flag, "True in the last message of a run that came to its end."),
+        Field::always("sent", FieldKind::Count, "States published so far, this one included."),
+        Field::always("superseded", FieldKind::Count, "States replaced by a newer one before they were sent."),
+    ]),
+];
+
+#[rustfmt::skip]
+/// The plume, the maps and what is published once.
+pub const RUN: &[Topic] = &[
+    Topic {
+        name: "plume",
+        key: "plume",
+        what: "Some of the plume's filaments: of each x y z (m, ENU), size (m), mass (kg) of all filaments it stands for, how many those are; packed little-endian f32. The masses sum to what is in the water.",
+        rate: "at most 2 a second",
+        payload: Payload::PackedF32,
+        fields: &[
+            T,
+            Field::always("total", FieldKind::Count, "How many filaments there are in all."),
+            Field::always("shown", FieldKind::Count, "How many are in the payload."),
+            Field::always("fields", FieldKind::Words, "What the numbers of a filament are, in their order."),
+            Field::always("dtype", FieldKind::Word(&["<f4"]), "How a number is packed."),
+        ],
+    },
+    Topic {
+        name: "map",
+        key: "map/<id>",
+        what: "Where a robot believes the source may be: the probability of each cell, first axis fastest, then the second, then upwards, packed little-endian f32.",
+        rate: "at most 2 a second, of a robot that keeps a map",
+        payload: Payload::PackedF32,
+        fields: &[
+            Field::always("t_s", FieldKind::Number, "Simulated time of its last update, s."),
+            Field::always("updates", FieldKind::Count, "Updates so far."),
+            Field::always("informed", FieldKind::Flag, "A detection went into it."),
+            Field::always("cells", FieldKind::Vector(3), "Cells along the first and the second axis, and upwards; 1 in the third for a map of the plane."),
+            Field::always("cell_m", FieldKind::Vector(3), "Size of a cell along them, m; larger than the robot's own where the map would not fit into a message."),
+            Field::always("corner_m", E_N_U, "Lowest corner of the first cell (east, north, up), m."),
+            Field::always("axis_heading_rad", FieldKind::Number, "Direction of the first axis, clockwise from north, rad; the second lies to its left."),
+            Field::always("best_m", E_N_U, "Middle of the most probable cell (east, north, up), m."),
+            Field::always("entropy_nat", FieldKind::Number, "Entropy, nat."),
+            Field::always("credible_95", FieldKind::Number, "Size of the smallest set of cells with 95 % of the probability, m²; m³ for a map of the space."),
+            Field::always("dtype", FieldKind::Word(&["<f4"]), "How a number is packed."),
+        ],
+    },
+    Topic::json("scenario", "meta/scenario", ONCE, "What is run.", &[
+        Field::always("name", FieldKind::Text, "Name of the scenario."),
+        Field::always("seed", FieldKind::Count, "The seed."),
+        Field::always("ron", FieldKind::Text, "The scenario as written (RON)."),
+    ]),
+    Topic::json("version", "meta/version", ONCE, "By what it is run.", &[
+        Field::always("program", FieldKind::Text, "The program."),
+        Field::always("version", FieldKind::Text, "Its version."),
+    ]),
+    Topic::json("digest", "meta/digest", "once, at the end", "Digest over the whole state sequence: equal digests, equal runs.", &[
+        Field::always("digest", FieldKind::Text, "The digest."),
+    ]),
+    Topic {
+        name: "schema",
+        key: "meta/schema/<name>",
+        what: "JSON Schema of a topic.",
+        rate: ONCE,
+        payload: Payload::Schema,
+        fields: &[],
+    },
+];
