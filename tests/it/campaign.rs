@@ -86,7 +86,7 @@ fn blocks(dir: &Path) -> BTreeMap<String, Vec<u8>> {
     files
         .map(|f| f.unwrap())
         .map(|f| (f.file_name().into_string().unwrap(), f.path()))
-        .filter(|(name, _)| name.ends_with(".parquet"))
+        .filter(|(name, _)| name.starts_with("part-") && name.ends_with(".parquet"))
         .map(|(name, path)| (name, fs::read(path).unwrap()))
         .collect()
 }

@@ -56,7 +56,8 @@ fn bytes(s: &str) -> Result<f64, String> {
     }
 }
 
-const EXAMPLES: &str = "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` gives examples and exit codes.";
+const EXAMPLES: &str =
+    "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` has examples.";
 
 const AFTER: &str = "\
 Examples:

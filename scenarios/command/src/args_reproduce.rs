@@ -13,7 +13,8 @@ use std::path::PathBuf;
         ROW is the name of an experiment. A name without a row of its own stands for all rows that begin with it: \
         `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
         The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
-        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the number of jobs.",
+        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
+        number of jobs.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \

@@ -157,14 +157,7 @@ impl<'a> Onlooker<'a> {
         }
         let ocean = trial.simulation.ocean();
         let plume = ocean.plume();
-        let sources: Vec<SourceTruth> = (plume.sources().iter())
-            .zip(&ended.flow_at_sources)
-            .map(|(s, flow)| SourceTruth {
-                id: s.id.clone(),
-                position: s.p_W,
-                flow: flow.xy(),
-            })
-            .collect();
+        let sources = SourceTruth::of(trial, ended);
         let outcome = match self.failure {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,

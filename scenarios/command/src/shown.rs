@@ -55,3 +55,30 @@ impl Diagnostic for Shown {
         Some(Box::new(std::iter::once(label)))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rheotaxis::scenario::{ScenarioError, parse, template};
+
+    /// What is drawn of a channel with a field too many, behind a title of that length.
+    fn drawn(title: usize) -> String {
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        let long = format!("title: \"{}\", colour: 3, // ", "x".repeat(title));
+        let text = text.replacen("title: ", &long, 1);
+        match parse("long.ron", &text) {
+            Err(ScenarioError::Text(fault)) => Shown::from(*fault).to_string(),
+            other => panic!("one mistake expected, got {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_fault_on_a_line_too_long_to_show_names_its_place() {
+        assert_eq!(drawn(10), "there is no field `colour`");
+        let said = drawn(1000);
+        assert_eq!(
+            said,
+            "there is no field `colour` (long.ron, line 4, column 1016)"
+        );
+    }
+}

@@ -49,7 +49,8 @@ impl SensorParams for PressureParams {
     }
 }
 
-/// The instrument at work. Sensors are the only parts of a searcher that may read the truth: they turn it into readings.
+/// The instrument at work. Sensors are the only parts of a searcher that may read the truth: they turn it into
+/// readings.
 #[derive(Debug)]
 struct Pressure {
     noise_pa: f64,

@@ -44,8 +44,8 @@ impl StrategyParams for UpFlowParams {
     }
 }
 
-/// The strategy at work. It is called once a tick. It gets what the instruments and the navigation say, never the truth,
-/// and answers with a goal for the guidance.
+/// The strategy at work. It is called once a tick. It gets what the instruments and the navigation say, never the
+/// truth, and answers with a goal for the guidance.
 #[derive(Debug)]
 struct UpFlow(UpFlowParams);
 

@@ -34,8 +34,8 @@ pub struct Simulation {
 }
 
 impl Simulation {
-    /// Assembles a scenario for a seed, with what the registry of this thread carries. Mission time is zero, and nothing is
-    /// released yet.
+    /// Assembles a scenario for a seed, with what the registry of this thread carries. Mission time is zero, and
+    /// nothing is released yet.
     ///
     /// # Errors
     /// If a part of the scenario cannot be built. A scenario without errors in [`crate::scenario::check`] can be.
@@ -50,8 +50,8 @@ impl Simulation {
     /// The same with what a registry carries: systems, resources and topics of other crates.
     ///
     /// # Errors
-    /// As [`Simulation::assemble`]; also if a system for a searcher reads the truth, or if the order of two systems is not
-    /// defined.
+    /// As [`Simulation::assemble`]; also if a system for a searcher reads the truth, or if the order of two systems
+    /// is not defined.
     pub fn assemble_with(
         registry: &Registry,
         scenario: &Scenario,

@@ -1,8 +1,8 @@
 //! What a crate adds to every run of the program: systems with their resources, and topics.
 //!
 //! Both are carried by the [`Registry`], like rows. A scenario that is read under a registry
-//! ([`load_with`](crate::scenario::load_with)) keeps it, so [`Trial::assemble`](crate::trial::Trial::assemble), campaigns
-//! and the whole command (`command::main_with`) take up what it carries.
+//! ([`load_with`](crate::scenario::load_with)) keeps it, so [`Trial::assemble`](crate::trial::Trial::assemble),
+//! campaigns and the whole command (`command::main_with`) take up what it carries.
 //!
 //! ```
 //! use bevy_ecs::prelude::{Query, ResMut, Resource};
@@ -35,9 +35,9 @@ pub(crate) struct Addition(pub(crate) Box<dyn Fn(&mut Systems) + Send + Sync>);
 
 /// What a registry carries beside its rows.
 pub trait Extend: Sized {
-    /// Adds systems to the tick of every run, and resources to its world. They run after the systems of the program in
-    /// their stage, and in every run they start anew. See [`Systems`] for the order, and [`crate::apparatus`] for what they
-    /// may know.
+    /// Adds systems to the tick of every run, and resources to its world. They run after the systems of the program
+    /// in their stage, and in every run they start anew. See [`Systems`] for the order, and [`crate::apparatus`] for
+    /// what they may know.
     #[must_use]
     fn with_systems(self, add: impl Fn(&mut Systems) + Send + Sync + 'static) -> Self;
 

@@ -37,7 +37,7 @@ pub struct PlumeFrame {
     pub t_s: f64,
     /// Number of all filaments.
     pub total: usize,
-    /// For each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, and their
-    /// number. The masses sum to the mass in the water.
+    /// For each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, and
+    /// their number. The masses sum to the mass in the water.
     pub points: Vec<[f32; 6]>,
 }

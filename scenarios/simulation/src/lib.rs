@@ -1,11 +1,11 @@
-//! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water and
-//! search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws nothing
-//! and writes no files; the crates `output`, `studies` and `command` do.
+//! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water
+//! and search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws
+//! nothing and writes no files; the crates `output`, `studies` and `command` do.
 //!
 //! # 1. The first run
 //!
-//! A [`scenario`] describes an experiment: the place, its water, what is released, who searches, and when the search is a
-//! success. A [`Trial`](trial::Trial) is one run of it for a seed. The same seed gives the same run, bit by bit.
+//! A [`scenario`] describes an experiment: the place, its water, what is released, who searches, and when the search
+//! is a success. A [`Trial`](trial::Trial) is one run of it for a seed. The same seed gives the same run, bit by bit.
 //!
 //! ```
 //! use rheotaxis::{scenario::load, trial::Trial};
@@ -24,9 +24,9 @@
 //!
 //! # 2. A scenario of your own
 //!
-//! `rheotaxis init uniform_channel` writes a scenario file to change, `rheotaxis explain robots.strategy` says what a field
-//! may hold, and `rheotaxis check FILE` names every mistake with line and column. [`load`](scenario::load) does the same
-//! in a program.
+//! `rheotaxis init uniform_channel` writes a scenario file to change, `rheotaxis explain robots.strategy` says what a
+//! field may hold, and `rheotaxis check FILE` names every mistake with line and column. [`load`](scenario::load) does
+//! the same in a program.
 //!
 //! # 3. A strategy of your own
 //!
@@ -45,10 +45,13 @@
 //! | --- | --- | --- |
 //! | a current | a row of `Currents` | `own_current.rs` |
 //! | a sensor | a row of `Sensors` | `own_sensor.rs` |
-//! | a behaviour, declaration rule, source map, planner, a gantry's searcher | a row of its kind | like `own_strategy.rs` |
-//! | a system in a stage of the tick, with data of its own | [`with_systems`](extend::Extend::with_systems) | `own_system.rs` |
-//! | a value that live state, recording and summary show | [`with_topic`](extend::Extend::with_topic) | `own_topic.rs` |
+//! | a behaviour, a rule of declaration, a source map, a planner | a row of its kind | like `own_strategy.rs` |
+//! | a system in a stage of the tick, with data of its own | [`with_systems`] | `own_system.rs` |
+//! | a value that live state, recording and summary show | [`with_topic`] | `own_topic.rs` |
 //! | a machine beside robots and gantries | a row of [`Apparatuses`](apparatus::Apparatuses) | `own_apparatus.rs` |
+//!
+//! [`with_systems`]: extend::Extend::with_systems
+//! [`with_topic`]: extend::Extend::with_topic
 //!
 //! Run an example with `cargo run --release -p rheotaxis --example own_current`.
 //!

@@ -149,8 +149,8 @@ pub fn topics(registry: &Registry) -> Vec<Topic> {
         .collect()
 }
 
-/// The JSON messages of a frame, with their keys below `rheotaxis/<run>/`: those of each robot, those of each gantry, and
-/// what systems have published.
+/// The JSON messages of a frame, with their keys below `rheotaxis/<run>/`: those of each robot, those of each gantry,
+/// and what systems have published.
 #[must_use]
 pub fn messages(frame: &Frame) -> Vec<(String, Value)> {
     let robot = |r| auv::message::messages(frame.t_s, r, &frame.abnormal);

@@ -1,5 +1,5 @@
-//! What a run is judged by, kept up to date in every step: how near each searcher came to a source, how far it travelled,
-//! what it detected and declared, how it ended, and what went wrong on the way.
+//! What a run is judged by, kept up to date in every step: how near each searcher came to a source, how far it
+//! travelled, what it detected and declared, how it ended, and what went wrong on the way.
 //!
 //! Frames, summaries, rows of campaigns and live state read it. It depends on no frame, so it does not change with how
 //! often the run is recorded. It holds the truth: no searcher may read it.
@@ -109,8 +109,8 @@ impl Score {
         }
     }
 
-    /// Adds a searcher and returns its place in [`Score::searchers`]. The run lasts until the missions of all searchers have
-    /// ended: an instrument that only measures does not join.
+    /// Adds a searcher and returns its place in [`Score::searchers`]. The run lasts until the missions of all
+    /// searchers have ended: an instrument that only measures does not join.
     pub fn join(&mut self, id: &str) -> usize {
         self.searchers.push(SearcherScore::new(id));
         self.searchers.len() - 1

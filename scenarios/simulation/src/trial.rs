@@ -1,7 +1,7 @@
 //! One run of a scenario from the spin-up to its end. It writes no files and draws nothing: a [`Watch`] does.
 //!
-//! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be read in
-//! between. All three give the same run, bit for bit.
+//! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be
+//! read in between. All three give the same run, bit for bit.
 
 use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
@@ -21,8 +21,8 @@ use world::clock::Clock;
 use world::digest::Digest;
 use world::seeds::Seed;
 
-/// An observer of a run: it records, publishes, sets the pace or shows progress. It can stop the run, and nothing else that
-/// it does reaches the run.
+/// An observer of a run: it records, publishes, sets the pace or shows progress. It can stop the run, and nothing
+/// else that it does reaches the run.
 pub trait Watch {
     /// Tells the completed share of the spin-up; `false` stops the run.
     fn spun_up(&mut self, _share: f64) -> bool {
@@ -127,7 +127,8 @@ impl Trial {
     /// copied.
     ///
     /// # Errors
-    /// If the two runs differ in something that the spin-up depends on. The run is then unchanged and can spin up itself.
+    /// If the two runs differ in something that the spin-up depends on. The run is then unchanged and can spin up
+    /// itself.
     ///
     /// # Panics
     /// If the run has been spun up before.

@@ -1,13 +1,13 @@
 //! Pictures and pings as messages: a camera's picture as JPEG, a sidescan's ping as packed numbers, each with a header.
 
 use super::Payload;
-use super::message::{Message, with};
+use super::message::Message;
 use super::slots::Numbered;
 use image::RgbImage;
 use image::codecs::jpeg::JpegEncoder;
 use image::imageops::thumbnail;
 use rheotaxis::frame::{PictureFrame, PingFrame};
-use rheotaxis::topic::chunk;
+use rheotaxis::topic::{chunk, with};
 use serde_json::json;
 
 /// JPEG quality of a picture; the files and the recording are lossless.

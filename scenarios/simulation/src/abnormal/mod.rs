@@ -2,15 +2,15 @@
 //! echo, something touches the bed.
 //!
 //! A system compares the state with what it should be in every tick and keeps an event for each time something went
-//! wrong, with its place and duration. Neither the vehicle nor the digest depends on it. For another kind of event add a
-//! line to [`Abnormality`] and to the system `watch` of the searcher.
+//! wrong, with its place and duration. Neither the vehicle nor the digest depends on it. For another kind of event
+//! add a line to [`Abnormality`] and to the system `watch` of the searcher.
 
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use serde::Serialize;
 
-/// A vehicle that is farther outside the area than this has left it, m. It needs this distance to turn at the edge (R of
-/// Pang 2009, Table 4).
+/// A vehicle that is farther outside the area than this has left it, m. It needs this distance to turn at the edge (R
+/// of Pang 2009, Table 4).
 pub(crate) const OUTSIDE_M: f64 = 10.0;
 /// An instrument without an echo for longer than this is blind, s. In turns and dives it misses a few readings.
 const BLIND_S: f64 = 10.0;

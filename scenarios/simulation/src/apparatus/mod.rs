@@ -15,12 +15,23 @@
 //!
 //! # What a searcher must not know
 //!
-//! A searcher knows only what its instruments and its navigation tell it. The types in [`truth`] hold the truth. A system
-//! that decides something for a searcher must not read them: add it with [`Systems::add_blind`], which refuses it if it
-//! does. A system that only measures, judges or publishes may read the truth: add it with [`Systems::add`].
+//! A searcher knows only what its instruments and its navigation tell it. These types hold the truth:
+//!
+//! | type | holds |
+//! | --- | --- |
+//! | [`Truth`](world::frames::Truth) | where a robot is and how it moves |
+//! | [`Ocean`](crate::ocean::Ocean) | water, plume, sources, obstacles, bed |
+//! | [`Physics`](world::physics::Physics) | all bodies and contacts |
+//! | [`Score`](crate::score::Score) | distances to the sources, true paths |
+//! | [`Outbox`](crate::outbox::Outbox) | frames, which show all of it |
+//!
+//! A system that decides something for a searcher must not read them. Add it with [`Systems::add_blind`], which
+//! refuses it if it does. A system that only measures, judges or publishes may read the truth: add it with
+//! [`Systems::add`].
 //!
 //! What a searcher may know are these components of `robots::handoff`: `Readings`, `Estimate`, `Belief`, `Decision`,
-//! `Command`, `GuidanceStatus`, `ActuatorCommand`, and of a gantry `GantryReadings` and `GantryDecision`.
+//! `Command`, `GuidanceStatus`, `ActuatorCommand`, and of a gantry `GantryReadings` and `GantryDecision`; also
+//! [`Briefing`](crate::auv::Briefing).
 
 mod systems;
 
@@ -34,8 +45,8 @@ use world::kind;
 use world::registry::Spec;
 use world::seeds::Seed;
 
-/// What a run tells its apparatus before it begins. What else there is stands in the world as a resource: ocean, physics,
-/// clock, score.
+/// What a run tells its apparatus before it begins. What else there is stands in the world as a resource: ocean,
+/// physics, clock, score.
 #[derive(Clone, Copy, Debug)]
 pub struct Launch<'a> {
     /// Folder that paths in the scenario are relative to.
@@ -60,8 +71,8 @@ pub trait Apparatus: Spec {
     /// Adds the systems of all machines of this kind. It is called once for a run, for the first machine of the kind.
     fn systems(&self, systems: &mut Systems);
 
-    /// What `summary.json` shows of it at the end of a run, under `apparatus` and its id; `None` for nothing. Robots and
-    /// gantries have their own parts of the summary, made from [`Score`](crate::score::Score) and frames.
+    /// What `summary.json` shows of it at the end of a run, under `apparatus` and its id; `None` for nothing. Robots
+    /// and gantries have their own parts of the summary, made from [`Score`](crate::score::Score) and frames.
     fn summary(&self, _world: &World) -> Option<Value> {
         None
     }

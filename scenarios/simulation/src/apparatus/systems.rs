@@ -64,8 +64,8 @@ impl<'a> Systems<'a> {
         self
     }
 
-    /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the frame
-    /// is open in those steps in which one is taken.
+    /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the
+    /// frame is open in those steps in which one is taken.
     pub fn add_to_frame<M>(
         &mut self,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
@@ -87,8 +87,8 @@ impl<'a> Systems<'a> {
         for (id, what) in self.truth {
             if reads(&access, *id) {
                 self.faults.push(format!(
-                    "the system `{name}` works for a searcher and reads {what}, which holds the truth: let it read what \
-                     instruments and navigation say, or add it with `add` if it only measures or judges"
+                    "the system `{name}` works for a searcher and reads {what}, which holds the truth: let it read \
+                     what instruments and navigation say, or add it with `add` if it only measures or judges"
                 ));
             }
         }

@@ -20,7 +20,7 @@ Editors can use the [JSON Schema](scenario.schema.json).
 ";
 
 /// Longest line of prose, characters; rows of tables cannot be broken.
-const WIDTH: usize = 120;
+const WIDTH: usize = 116;
 /// Most places of a type that are listed.
 const PLACES: usize = 4;
 

@@ -1,7 +1,7 @@
 //! The ocean of a run: place, water and plume. It does not depend on who searches in it.
 //!
-//! Only `system::drift` and the spin-up write to it; sensors read it. So two runs with the same [`Origin`] have the same
-//! ocean, bit for bit.
+//! Only `system::drift` and the spin-up write to it; sensors read it. So two runs with the same [`Origin`] have the
+//! same ocean, bit for bit.
 
 mod origin;
 mod spun_up;
@@ -77,14 +77,15 @@ impl Ocean {
         &self.plume
     }
 
-    /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the waves.
+    /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the
+    /// waves.
     #[must_use]
     pub fn dye(&self, t_s: f64) -> Displaced<'_> {
         Displaced::new(&self.plume, self, t_s)
     }
 
-    /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it returns
-    /// `false`, the spin-up ends early.
+    /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it
+    /// returns `false`, the spin-up ends early.
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
         if self.plume.sources().is_empty() {
             self.water.advance(self.spin_up_s);

@@ -1,7 +1,7 @@
 //! Everything that the water and the plume of a run depend on.
 //!
-//! It must all be in fields of [`Origin`]. Runs with the same origin share a spin-up (see [`SpunUp`](super::SpunUp)); a value
-//! outside it could differ between them without notice.
+//! It must all be in fields of [`Origin`]. Runs with the same origin share a spin-up (see [`SpunUp`](super::SpunUp));
+//! a value outside it could differ between them without notice.
 
 use super::Ocean;
 use crate::error::AssembleError;
@@ -34,7 +34,8 @@ pub struct Origin {
     spin_up_period_s: Positive,
     #[serde(rename = "time.flow_period_s")]
     flow_period_s: NonNegative,
-    /// Digests of the files that the obstacles name, by name; `None` for a file that cannot be read. Building reports that.
+    /// Digests of the files that the obstacles name, by name; `None` for a file that cannot be read. Building reports
+    /// that.
     files: BTreeMap<String, Option<String>>,
 }
 

@@ -1,8 +1,8 @@
 //! Water and plume after the spin-up, kept so that several runs can share them.
 //!
-//! The spin-up does not depend on any robot. It depends on the blocks of the scenario for water and plume, on the files
-//! that these name, and on the seed (see [`Origin`]). Runs that agree in these, such as the arms of one seed of a campaign,
-//! start from the same state bit for bit, whether they spin up themselves or take the state over.
+//! The spin-up does not depend on any robot. It depends on the blocks of the scenario for water and plume, on the
+//! files that these name, and on the seed (see [`Origin`]). Runs that agree in these, such as the arms of one seed of
+//! a campaign, start from the same state bit for bit, whether they spin up themselves or take the state over.
 //!
 //! ```no_run
 //! # use rheotaxis::{scenario, trial::{Trial, Unwatched}};
@@ -25,8 +25,8 @@ use world::seeds::Seed;
 
 /// The state after a spin-up. Other runs take it over with [`Trial::take_over`](crate::trial::Trial::take_over).
 ///
-/// Clones share the state, also between threads. It needs 28 bytes for each filament (1.4 MB for 50 000) and 16 bytes for
-/// each node of the flow's grid. The last clone frees it.
+/// Clones share the state, also between threads. It needs 28 bytes for each filament (1.4 MB for 50 000) and 16 bytes
+/// for each node of the flow's grid. The last clone frees it.
 #[derive(Clone, Debug)]
 pub struct SpunUp(Arc<State>);
 
@@ -63,8 +63,9 @@ impl SpunUp {
 /// Why a run cannot take over the spin-up of another.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Mismatch {
-    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`, `sources`,
-    /// `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`: the content of the obstacles' files.
+    /// A part of the scenario that the spin-up depends on: `area`, `terrain`, `water`, `obstacles`, `permeable`,
+    /// `sources`, `time.spin_up_s`, `time.spin_up_period_s`, `time.flow_period_s`, or `files`: the content of the
+    /// obstacles' files.
     #[error(
         "the state was spun up with another `{0}`: runs may share a spin-up only if this is the same"
     )]

@@ -101,8 +101,8 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     loaded(path, name, base_dir, text)
 }
 
-/// Reads a scenario from its text, with what a registry adds. Errors call it `name`, and paths in it are relative to the
-/// working folder. Handy for programs that change the text of a [`template`](catalog::template).
+/// Reads a scenario from its text, with what a registry adds. Errors call it `name`. Paths in it are relative to the
+/// working folder. It serves programs that change the text of a [`template`](catalog::template).
 ///
 /// # Errors
 /// As [`load`].

@@ -1,8 +1,8 @@
 //! Topics: named values that a run publishes, and the tables that describe them.
 //!
-//! A [`Topic`] is a row of a table: name, key, meaning, rate and fields. From it come the JSON Schema that a run publishes
-//! and the text of `rheotaxis topics`. A system publishes a value with [`Topics::publish`]. Live state puts it under
-//! `rheotaxis/<run>/<key>`, the recording keeps it as JSON, and the summary shows the last one.
+//! A [`Topic`] is a row of a table: name, key, meaning, rate and fields. From it come the JSON Schema that a run
+//! publishes and the text of `rheotaxis topics`. A system publishes a value with [`Topics::publish`]. Live state puts
+//! it under `rheotaxis/<run>/<key>`, the recording keeps it as JSON, and the summary shows the last one.
 //!
 //! Publishing never changes a result: no system of the tick reads what was published.
 
@@ -147,8 +147,8 @@ pub struct Topic {
 }
 
 impl Topic {
-    /// A topic whose messages are JSON objects with these fields. Give every message the time `t_s`, and put the unit into
-    /// the name of each field.
+    /// A topic whose messages are JSON objects with these fields. Give every message the time `t_s`, and put the unit
+    /// into the name of each field.
     #[must_use]
     pub const fn json(
         name: &'static str,
@@ -228,7 +228,8 @@ pub(crate) fn merged(a: Value, b: Value) -> Value {
 }
 
 /// A JSON object with one more number, if there is one.
-pub(crate) fn with(object: Value, name: &str, number: Option<f64>) -> Value {
+#[must_use]
+pub fn with(object: Value, name: &str, number: Option<f64>) -> Value {
     match number {
         Some(number) => merged(object, json!({ name: number })),
         None => object,

@@ -40,8 +40,8 @@ impl Topics {
         }
     }
 
-    /// Publishes a value of a topic at a simulated time. `id` takes the place of `<id>` in the topic's key; it is empty for
-    /// a key without one. Of several values between two frames the last one counts.
+    /// Publishes a value of a topic at a simulated time. `id` takes the place of `<id>` in the topic's key; it is
+    /// empty for a key without one. Of several values between two frames the last one counts.
     ///
     /// # Panics
     /// If the topic is not declared, if the value is not a JSON object, or if the id does not fit into the key.

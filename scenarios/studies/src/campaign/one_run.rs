@@ -14,8 +14,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
-use robots::handoff::Verdict;
+use rheotaxis::trial::{Trial, Unwatched, Watch};
 use std::time::Instant;
 use world::seeds::Seed;
 
@@ -90,7 +89,9 @@ fn attempt(
             ..Totals::default()
         },
     };
-    let summary = gatherer.builder.finish(&end, &sources(&trial, &ended));
+    let summary = gatherer
+        .builder
+        .finish(&end, &SourceTruth::of(&trial, &ended));
     let within_m = loaded.scenario.success.declared_within_m();
     Ok(row(name, &summary, within_m))
 }
@@ -119,17 +120,6 @@ impl Watch for Gatherer {
     }
 }
 
-fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
-    let plume = trial.simulation.ocean().plume();
-    (plume.sources().iter().zip(&ended.flow_at_sources))
-        .map(|(s, flow)| SourceTruth {
-            id: s.id.clone(),
-            position: s.p_W,
-            flow: flow.xy(),
-        })
-        .collect()
-}
-
 fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
     let by_robots = summary.robots.iter().flat_map(|r| {
         let of_first = std::iter::once(r.traced_m).chain(std::iter::repeat(None));
@@ -150,7 +140,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         within_m.is_some_and(|within_m| {
             declarations.iter().any(|d| {
                 let (e, n) = (d.east_m - s.position.east_m, d.north_m - s.position.north_m);
-                d.verdict != Verdict::Rejected.name() && (e * e + n * n).sqrt() <= within_m
+                d.stands() && (e * e + n * n).sqrt() <= within_m
             })
         })
     };
@@ -211,7 +201,7 @@ fn declaration(name: &RunName, robot: &str, d: &DeclarationSummary) -> Declarati
         arm: name.arm.clone(),
         condition: name.condition.clone(),
         seed_index: name.seed_index,
-        seed: name.seed,
+        seed: name.seed.number(),
         robot: robot.to_string(),
         number: d.number.into(),
         region: d.region.map(u64::from),

@@ -1,5 +1,7 @@
 //! What a campaign keeps of a run: a row of the table of runs, and a row for each declaration.
 
+use robots::handoff::{UP_FLOW_EDGE, Verdict};
+
 /// What a campaign keeps of a run. Except for the two wall times, it does not depend on the machine, the number of
 /// shards or jobs, or the order.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -113,4 +115,18 @@ pub struct DeclarationRow {
     pub traced_m: Option<f64>,
     /// The largest shift by a position fix of what the robot believed, in the minute before, m.
     pub fix_m: Option<f64>,
+}
+
+impl DeclarationRow {
+    /// Whether the vehicle has not rejected it.
+    #[must_use]
+    pub fn stands(&self) -> bool {
+        self.verdict != Verdict::Rejected.name()
+    }
+
+    /// Whether it says where a plume crosses a subregion's up-flow edge, not where a source is.
+    #[must_use]
+    pub fn at_edge(&self) -> bool {
+        self.rule == UP_FLOW_EDGE
+    }
 }

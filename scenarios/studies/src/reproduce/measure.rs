@@ -31,12 +31,9 @@ pub enum RunEvent {
     RegionAcrossOver(u32, u32),
 }
 
-/// The rule named in declarations on a subregion's up-flow edge.
-const EDGE: &str = "up_flow_edge";
-
 /// The first declaration of a subregion that the vehicle did not reject.
 fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
-    (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.verdict != "rejected")
+    (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.stands())
 }
 
 impl RunEvent {
@@ -51,7 +48,7 @@ impl RunEvent {
             }
             RunEvent::CorrectCell => Some(r.correct_cell_s.is_some()),
             RunEvent::RegionDeclared(k) => Some(of_region(r, k).is_some()),
-            RunEvent::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(|d| d.rule == EDGE)),
+            RunEvent::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(DeclarationRow::at_edge)),
             RunEvent::RegionFixOver(k, m) => {
                 of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
             }
@@ -166,7 +163,7 @@ impl Measure {
             Measure::Declarations => sound(r.declarations.len()),
             Measure::FarDeclarations(m) => sound(
                 (r.declarations.iter())
-                    .filter(|d| d.rule != EDGE && d.error_m.is_some_and(|e| e >= f64::from(m)))
+                    .filter(|d| !d.at_edge() && d.error_m.is_some_and(|e| e >= f64::from(m)))
                     .count(),
             ),
             Measure::SourcesDeclared => sound(r.sources_declared as usize),
@@ -183,6 +180,7 @@ impl Measure {
 mod tests {
     use super::*;
     use crate::campaign::report::sample::row;
+    use robots::handoff::UP_FLOW_EDGE;
 
     #[test]
     fn of_subregions() {
@@ -202,7 +200,7 @@ mod tests {
         };
         let row = RunRow {
             declarations: vec![
-                at(0, EDGE, 480.0, -4.0, None),
+                at(0, UP_FLOW_EDGE, 480.0, -4.0, None),
                 rejected,
                 at(2, "AlongFlow", 3.0, -31.0, Some(12.0)),
             ],

@@ -39,7 +39,7 @@ pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
 /// several; without any declaration, at its end.
 fn success_s(row: &RunRow) -> f64 {
     let mut kept = (row.declarations.iter())
-        .filter(|d| d.verdict != "rejected")
+        .filter(|d| d.stands())
         .map(|d| d.t_s);
     let at = if row.sources_declared > 1 {
         kept.next_back()
