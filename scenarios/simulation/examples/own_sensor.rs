@@ -44,7 +44,7 @@ impl SensorParams for PressureParams {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
         Ok(Box::new(Pressure {
             noise_pa: self.noise_pa.get(),
-            rng: Stream::new(on.seed, on.robot_id, "pressure"),
+            rng: on.robot.stream("pressure"),
         }))
     }
 }
