@@ -101,7 +101,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
 }
 
 /// Reads a scenario from its text, with what a registry adds. Errors call it `name`, and paths in it are relative to the
-/// working folder. Handy for programs that change the text of a [`template`](catalog::template).
+/// working folder. Handy for programs that change the text of a [`template`](super::template).
 ///
 /// # Errors
 /// As [`load`].
