@@ -43,3 +43,13 @@ print(
     .sort("arm")
     .collect()
 )
+
+# Declarations by rule and verdict. The join leaves out those of runs that have no row yet.
+declared = pl.scan_parquet(f"{folder}/declarations-*.parquet").join(runs.select("run"), on="run")
+by = ["arm", "rule", "verdict"]
+print(
+    declared.group_by(by)
+    .agg(pl.len().alias("declarations"), pl.col("run").n_unique().alias("runs"), pl.col("error_m").median())
+    .sort(by)
+    .collect()
+)

@@ -31,3 +31,10 @@ SELECT arm, count(*) AS runs,
        round(max(spin_up_wall_s + mission_wall_s), 1) AS slowest_s
 FROM read_parquet('part-*.parquet')
 GROUP BY ALL ORDER BY ALL;
+
+-- Declarations by rule and verdict. The join leaves out those of runs that have no row yet.
+SELECT d.arm, d.rule, d.verdict, count(*) AS declarations, count(DISTINCT d.run) AS runs,
+       round(median(d.error_m), 2) AS median_error_m
+FROM read_parquet('declarations-*.parquet') d
+JOIN read_parquet('part-*.parquet') r USING (run)
+GROUP BY ALL ORDER BY ALL;

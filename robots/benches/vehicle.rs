@@ -3,8 +3,9 @@
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::handoff::{ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
-use robots::vehicles::{Gantry, GantrySpec, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
-use std::path::Path;
+use robots::vehicles::{
+    Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec,
+};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -41,7 +42,7 @@ fn auv(parameters: ParameterSet) -> Vehicle {
         parameters,
         ..RemusSpec::default()
     });
-    Vehicle::load(&spec, Path::new(".")).expect("built-in vehicle")
+    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 const TURN: ActuatorCommand = ActuatorCommand {
@@ -97,7 +98,7 @@ fn with_physics(bencher: Bencher, solver: Solver) {
 /// 1000 steps of the gantry, drives and joints, in sight of the bed; diagonal steps to and fro.
 #[divan::bench]
 fn gantry(bencher: Bencher) {
-    let mut gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    let mut gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     let mut physics = Physics::new(STEP_S);
     let area = Area {
         centre: Vector2::zeros(),

@@ -8,7 +8,7 @@ pub enum RobotError {
     File {
         /// The file.
         path: String,
-        /// What is wrong with it, naming the element.
+        /// What is wrong with it; names the element.
         problem: String,
     },
     /// A field is outside what the model can do.
@@ -16,7 +16,7 @@ pub enum RobotError {
     Invalid {
         /// Path of the field, as in the scenario file.
         field: String,
-        /// What is wrong and what would be legal.
+        /// What is wrong, and what would be legal.
         problem: String,
     },
 }

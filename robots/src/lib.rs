@@ -1,6 +1,8 @@
-//! What searches: vehicles, sensors, estimation, behaviours, guidance. Never sees the truth.
+//! Searchers: vehicles, sensors, estimation, mapping, planning, behaviours, guidance. A searcher never sees the
+//! truth.
 //!
-//! Knows no plume: water and chemistry reach it through `world::fields` and its own sensors.
+//! This crate does not know the crate `plumes`: water and chemistry reach a searcher only through `world::fields` and
+//! its sensors. It opens no files; see [`vehicles::Files`].
 #![forbid(unsafe_code)]
 
 pub mod actuate;
@@ -11,6 +13,8 @@ pub mod estimate;
 pub mod guide;
 pub mod handoff;
 pub mod map;
+pub mod memory;
+pub mod places;
 pub mod plan;
 pub mod sense;
 pub mod strategy;

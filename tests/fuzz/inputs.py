@@ -177,7 +177,7 @@ def campaign_file(rng, base, at, do):
 
 def readers(rng, do):
     """Everything that reads a campaign's folder."""
-    names = ("campaign.json", "part-", "out", "all.parquet", "s.ron", "c.ron", "(arm", "no run")
+    names = ("campaign.json", "part-", "declarations-", "out", "all.parquet", "s.ron", "c.ron", "(arm", "no run")
     for args in rng.sample([["status", "out"], ["merge", "out", "-o", "all.parquet", "--csv"],
                             ["report", "out", "--out", "report"], ["rerun", "out", "--run", "1", "--quiet"],
                             ["run", "c.ron", "--out", "out", "--quiet", "--jobs", "1", "--max-wall", "1s"]], 3):
@@ -201,7 +201,7 @@ def manifest(rng, base, at, do):
 def block(rng, base, at, do):
     """Blocks of rows (Parquet)."""
     shutil.copytree(base.campaign, at, dirs_exist_ok=True)
-    parts = sorted((at / "out").glob("part-*.parquet"))
+    parts = sorted((at / "out").glob("*.parquet"))
     path = rng.choice(parts)
     data = path.read_bytes()
     way = rng.random()
@@ -255,7 +255,8 @@ OUTPUTS = {
     ("segment", "a.png", "--out", "out"): ["out/sheet.png", "out/segmentation.json", "out/left.png", "out"],
     ("picture", "s.ron", "--at", "0,0,-1", "--out", "p.png", "--truth", "t.png"): ["p.png", "t.png"],
     ("statistics", "s.ron", "--seconds", "1", "--quiet", "--out", "out"): ["out/statistics.csv"],
-    ("campaign", "merge", "c", "-o", "all.parquet", "--csv"): ["all.parquet", "all.csv", "c/part-000000.parquet"],
+    ("campaign", "merge", "c", "-o", "all.parquet", "--csv"): ["all.parquet", "all.csv", "all-declarations.csv",
+                                                                    "c/part-000000.parquet", "c/declarations-000000.parquet"],
     ("campaign", "report", "c", "--out", "out"): ["out/arms.csv", "out/report.html", "out/success.png"],
     ("campaign", "run", "c.ron", "--out", "c", "--quiet", "--jobs", "1"): ["c/part-000001.parquet", "c/campaign.json"],
     ("campaign", "rerun", "c", "--run", "0", "--quiet", "--out", "out"): ["out/track.csv", "out/report.html"],

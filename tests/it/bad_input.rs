@@ -11,9 +11,9 @@ use std::process::Output;
 
 /// A whole scenario in which each test breaks one thing.
 const POND: &str = r#"(
-    version: 1,
+    version: 2,
     title: "Pond",
-    source: "none: made for these tests",
+    citation: "none: made for these tests",
     area: (length_m: 100, width_m: 50, axis_heading_deg: 0),
     terrain: Level(depth_m: 10),
     water: (
@@ -143,12 +143,12 @@ fn truncated_anywhere_says_that_the_file_ends_too_early() {
 
 #[test]
 fn another_version() {
-    refused(pond("version: 1", "version: 2"), &golden("another_version"));
+    refused(pond("version: 2", "version: 3"), &golden("another_version"));
 }
 
 #[test]
 fn no_version() {
-    refused(pond("version: 1,", ""), &golden("no_version"));
+    refused(pond("version: 2,", ""), &golden("no_version"));
 }
 
 #[test]

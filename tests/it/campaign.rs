@@ -3,6 +3,7 @@
 mod adaptive;
 mod cut_off;
 mod damaged;
+mod keyed;
 mod permeable;
 mod seeds;
 
@@ -11,7 +12,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 use std::process::Output;
-use studies::campaign::{RunRow, block_path, read_rows};
+use studies::campaign::{RunRow, block_path, declarations_path, read_rows};
 
 /// Two arms, two conditions, in a channel so short that a run takes hundredths of a second.
 const CAMPAIGN: &str = r#"(
@@ -162,7 +163,11 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     );
     // Merged, all rows are in both files.
     let (said, _) = ends(dir, 0, &["merge", "three", "-o", "all.parquet", "--csv"]);
-    assert_eq!(said, "24 rows in all.parquet\n");
+    assert!(
+        said.starts_with("24 rows in all.parquet, ")
+            && said.ends_with(" in all-declarations.parquet\n"),
+        "{said}"
+    );
     assert!(
         fs::read(dir.join("all.parquet"))
             .unwrap()
@@ -170,6 +175,13 @@ fn rows_do_not_depend_on_shards_jobs_or_blocks() {
     );
     let csv = fs::read_to_string(dir.join("all.csv")).unwrap();
     assert_eq!(csv.lines().count(), 25);
+    let declared: usize = one.iter().map(|r| r.declarations.len()).sum();
+    let declarations = fs::read_to_string(dir.join("all-declarations.csv")).unwrap();
+    assert_eq!(declarations.lines().count(), 1 + declared);
+    assert!(
+        said.contains(&format!(", {declared} declaration")),
+        "{said}"
+    );
     assert!(
         csv.lines().nth(14).unwrap().contains(&one[13].digest),
         "{csv}"
@@ -265,6 +277,18 @@ fn blocks_that_are_not_whole_are_found_named_and_done_again() {
         assert_eq!(rows(&out), good);
         ends(dir, 0, &["status", "out"]);
     }
+    // The same of its declarations.
+    let declarations = declarations_path(&out, 1);
+    fs::write(&declarations, b"PAR1").unwrap();
+    let says = "out/declarations-000001.parquet is not whole: ";
+    let (_, said) = ends(dir, 1, &["merge", "out", "-o", "all.parquet"]);
+    assert!(said.contains(says), "{said}");
+    let (_, said) = ends(dir, 0, &run);
+    assert!(
+        said.starts_with(says) && said.ends_with("; it is done again\n"),
+        "{said}"
+    );
+    assert_eq!(rows(&out), good);
 }
 
 #[test]
@@ -316,7 +340,7 @@ fn a_full_disk_is_said_and_what_was_done_stays_readable() {
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
     assert!(
-        said.contains("cannot write out/part-000003.parquet: File too large"),
+        said.contains("cannot write out/") && said.contains("-000003.parquet: File too large"),
         "{said}"
     );
     assert!(said.contains("blocks written before are whole"), "{said}");

@@ -55,6 +55,32 @@ fn two_processes_with_and_without_zenoh_and_recording_agree() {
     assert_ne!(bare, run("other", 6, &["--no-zenoh", "--no-record"]));
 }
 
+/// A contest's runs: their random numbers follow from the seed and a text that only the contest knows.
+#[test]
+fn a_key_makes_another_run_that_only_its_owner_can_repeat() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = short_duck(dir.path());
+    let run = |name: &str, key: &[&str]| {
+        let options = [&["--no-zenoh", "--no-record"], key].concat();
+        digest_of(&file, 5, &dir.path().join(name), &options)
+    };
+    const SECRET: &str = "9 plovers, 3 whelks";
+    let keyed = run("keyed", &["--key", SECRET]);
+    assert_eq!(keyed, run("again", &["--key", SECRET]));
+    assert_ne!(keyed, run("open", &[]));
+    assert_ne!(keyed, run("guessed", &["--key", "9 plovers, 2 whelks"]));
+    let summary = |name: &str| std::fs::read_to_string(dir.path().join(name).join("summary.json"));
+    let mark = world::seeds::Key::secret(SECRET).mark().unwrap();
+    assert!(summary("keyed").unwrap().contains(&mark));
+    assert!(!summary("open").unwrap().contains("\"key\""));
+    for entry in std::fs::read_dir(dir.path().join("keyed")).unwrap() {
+        let path = entry.unwrap().path();
+        let bytes = std::fs::read(&path).unwrap();
+        let told = bytes.windows(SECRET.len()).any(|w| w == SECRET.as_bytes());
+        assert!(!told, "{} tells the secret", path.display());
+    }
+}
+
 #[test]
 fn thread_count_does_not_matter() {
     let dir = tempfile::tempdir().unwrap();

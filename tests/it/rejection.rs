@@ -6,9 +6,9 @@ use std::path::Path;
 
 /// A nozzle with nothing around it that a sidescan could see.
 const BARE: &str = r#"(
-    version: 1,
+    version: 2,
     title: "A bare nozzle in a steady channel",
-    source: "ours",
+    citation: "ours",
     area: (length_m: 400, width_m: 240, axis_heading_deg: 90),
     terrain: Level(depth_m: 10),
     water: (

@@ -73,8 +73,8 @@ fn those_that_come_with_the_program_are_fine() {
         let warnings = loaded.check().unwrap();
         assert!(warnings.is_empty(), "{}: {warnings:?}", template.name);
         assert!(
-            !loaded.scenario.source.is_empty(),
-            "{} says no source",
+            !loaded.scenario.citation.is_empty(),
+            "{} has no citation",
             template.name
         );
     }

@@ -134,8 +134,8 @@ fn another_place_water_source_time_or_seed_is_refused_by_name() {
     assert_eq!(
         error,
         Mismatch::Seed {
-            theirs: 11,
-            ours: 12
+            theirs: 11.into(),
+            ours: 12.into()
         }
     );
     assert!(error.to_string().contains("seed 11"), "{error}");

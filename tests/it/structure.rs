@@ -1,4 +1,4 @@
-//! The never-rules of README, checked from manifests and `use` lines.
+//! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure_robots`.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -13,7 +13,7 @@ fn read(path: &Path) -> String {
 }
 
 /// All Rust files below a folder of the workspace, as (path from the root, text).
-fn sources(folder: &str) -> Vec<(String, String)> {
+pub(crate) fn sources(folder: &str) -> Vec<(String, String)> {
     let mut found = Vec::new();
     let mut open = vec![root().join(folder)];
     while let Some(dir) = open.pop() {
@@ -49,7 +49,7 @@ fn dependencies(krate: &str) -> Vec<String> {
 }
 
 /// Lines of code that name `word` as a path segment, comments left out.
-fn naming<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
+pub(crate) fn naming<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
     text.lines()
         .filter(|l| !l.trim_start().starts_with("//"))
         .filter(|l| {
@@ -241,69 +241,6 @@ fn only_systems_speak_ecs() {
                     !bad,
                     "{file} uses {word}: systems live in system.rs, tick.rs, assemble.rs"
                 );
-            }
-        }
-    }
-}
-
-#[test]
-fn stages_meet_only_in_handoff() {
-    let stages = [
-        "sense", "estimate", "map", "guide", "actuate", "behave", "declare", "plan", "track",
-        "survey", "vision",
-    ];
-    for (file, text) in sources("robots/src") {
-        let stage = file.split('/').nth(2).unwrap();
-        // A strategy composes behaviours, declaration rules, planners and what looks at pictures: it alone may name them.
-        let may: &[&str] = if stage == "strategy" {
-            &["behave", "declare", "plan", "survey", "vision"]
-        } else {
-            &[]
-        };
-        let tests = file.rsplit('/').next().unwrap().contains("test");
-        if tests || (!stages.contains(&stage) && stage != "strategy") {
-            continue;
-        }
-        // A part's tests may close the loop with other parts.
-        let code = text.split("#[cfg(test)]").next().unwrap();
-        for other in stages.iter().chain(&["strategy", "vehicles"]) {
-            if *other == stage || may.contains(other) {
-                continue;
-            }
-            let path = format!("crate::{other}");
-            assert!(
-                naming(code, &path).is_empty() && !code.contains(&format!("{path}::")),
-                "{file} imports stage folder {other}"
-            );
-        }
-    }
-}
-
-#[test]
-fn algorithm_files_say_where_they_come_from() {
-    for folder in [
-        "robots/src/behave",
-        "robots/src/declare",
-        "robots/src/guide",
-        "robots/src/track",
-        "robots/src/map",
-        "robots/src/plan",
-        "robots/src/survey",
-        "robots/src/vision",
-    ] {
-        for (file, text) in sources(folder) {
-            let name = file.rsplit('/').next().unwrap();
-            // Doors, tables and plain data hold no algorithm.
-            if ["mod.rs", "catalogue.rs", "system.rs", "data.rs"].contains(&name)
-                || name.starts_with("test")
-                || name.ends_with("tests.rs")
-                || name.ends_with("spec.rs")
-            {
-                continue;
-            }
-            let head: String = text.lines().take_while(|l| l.starts_with("//!")).collect();
-            for word in ["*Source", "*Parameters", "*Deviations"] {
-                assert!(head.contains(word), "{file}: its head lacks {word}*");
             }
         }
     }

@@ -5,9 +5,9 @@ use serde_json::Value;
 
 /// Water to the east, one source in the south-west, its plume through the south-east.
 const MISSION: &str = r#"(
-    version: 1,
+    version: 2,
     title: "Three subregions of a steady channel",
-    source: "ours",
+    citation: "ours",
     area: (length_m: 400, width_m: 200, axis_heading_deg: 90),
     terrain: Level(depth_m: 10),
     water: (

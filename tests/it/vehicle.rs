@@ -4,7 +4,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -18,7 +18,7 @@ fn vehicle(parameters: ParameterSet) -> Vehicle {
         parameters,
         ..RemusSpec::default()
     });
-    Vehicle::load(&spec, Path::new(".")).expect("built-in vehicle")
+    Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 
 fn water(velocity: Vector3<f64>) -> WaterSample {

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{Actuators, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{Actuators, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
 use world::fields::WaterSample;
@@ -33,7 +33,7 @@ impl Auv {
             parameters,
             ..RemusSpec::default()
         });
-        let vehicle = Vehicle::load(&spec, Path::new(".")).expect("built-in vehicle");
+        let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
         let id = physics.add_body(vehicle.body_spec("auv", start));
         let water = WaterSample {
             velocity: Vector3::zeros(),

@@ -3,9 +3,8 @@
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
 use std::f64::consts::PI;
-use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::math;
@@ -246,7 +245,7 @@ fn apart(
             parameters: ParameterSet::Reference,
             ..RemusSpec::default()
         }),
-        Path::new("."),
+        &InMemory::default(),
     )
     .expect("built in");
     let mut ours = Truth::at_rest(Pose {

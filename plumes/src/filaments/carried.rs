@@ -15,8 +15,9 @@
 //! A filament that stays in its cell moves by a series in f32, eight at once. One that leaves its cell goes from face
 //! to face in f64. No step is too long: nothing passes a closed face, and the volume of any cloud is conserved.
 
-use super::cells::Cells as Lookup;
+use super::fetch::highest;
 use super::kernel::{BLOCK, Block, Path};
+use super::lookup::Lookup;
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
 use crate::quad::Quad;
@@ -156,13 +157,16 @@ impl Carrier {
             let v = lookup.level(b.z[l], -1.0 / b.bed[l]);
             (level[l], part[2][l]) = (v.below, v.part);
         }
+        let last = highest(column) as usize * self.levels + highest(level) as usize;
+        assert!(
+            last < self.rates.len(),
+            "a filament's cell has no rates: they were made for another grid than the filaments'"
+        );
         for from in (0..BLOCK).step_by(4) {
             // The first four and the last four of six values.
             let at = |l: usize, first: usize| {
                 let n = column[from + l] as usize * self.levels + level[from + l] as usize;
-                debug_assert!(n < self.rates.len());
-                // SAFETY: column and level are those of a cell's lower corner (`Cells::column`, `Cells::level`, for any
-                // input), and each such cell has its rates (`Blocked::rates`, `refresh`).
+                // SAFETY: no cell of the block lies beyond the rates, as asserted above.
                 let rates = unsafe { self.rates.get_unchecked(n) };
                 let four = rates[first..].first_chunk().expect("four of the six");
                 Quad::new(four)
@@ -224,7 +228,7 @@ impl Carrier {
         }
         for l in 0..BLOCK {
             let rise = (to[2][l] - part[2][l]) * self.ds[level[l] as usize];
-            let bed = lookup.bed(super::cells::Column {
+            let bed = lookup.bed(super::lookup::Column {
                 at: column[l],
                 f: to[0][l],
                 g: to[1][l],

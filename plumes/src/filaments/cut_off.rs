@@ -6,7 +6,7 @@
 //!
 //! *Deviations*: none.
 
-use super::cells::Cells as Lookup;
+use super::lookup::Lookup;
 use super::room::Room;
 use super::solids::Solids;
 use crate::error::PlumeError;

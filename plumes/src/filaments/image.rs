@@ -13,8 +13,8 @@
 //! a wall, the kernel reaches as far as the ways lead. It is cut at 4σ along each axis. Between walls less than 4/3 σ
 //! apart it is even, to 3e-5.
 
-use super::cells::Cells as Lookup;
 use super::leaf::{CUT_SIGMAS, falling};
+use super::lookup::Lookup;
 use super::room::{Place, Room};
 use std::cell::OnceCell;
 

@@ -8,11 +8,11 @@
 //! no sorting, and most groups are never near a robot. A group is halved repeatedly, but only where a question falls
 //! near a half. Answers do not depend on earlier questions, so a viewer that asks too changes nothing.
 
-use super::cells::Cells;
 use super::image::{Felt, Spot};
 use super::kernel::Path;
 pub use super::leaf::CUT_SIGMAS;
 use super::leaf::{LEAF, Leaf};
+use super::lookup::Lookup;
 use super::room::Room;
 use super::store::Store;
 use super::thread;
@@ -118,7 +118,7 @@ impl Index {
         &self,
         stores: &[Store],
         room: &Room,
-        lookup: &Cells,
+        lookup: &Lookup,
         path: Path,
         p: &Vector3<f64>,
     ) -> f64 {

@@ -34,8 +34,8 @@
 //! All arithmetic is f32 and written once. The compiler makes a portable version and one for AVX2 from it (no fused
 //! multiply-add in either), which give the same bits.
 
-use super::cells::{Cells, clamped};
-use super::lookup::{Columns, Levels, Water, fetch};
+use super::fetch::{Columns, Fetched, Levels, fetch};
+use super::lookup::{Lookup, clamped};
 use super::noise::normals;
 
 /// Filaments in a block.
@@ -66,8 +66,8 @@ pub(super) struct Work {
     up: [f32; BLOCK],
     slope: [f32; BLOCK],
     kick: [f32; BLOCK],
-    here: Water,
-    there: Water,
+    here: Fetched,
+    there: Fetched,
 }
 
 impl Work {
@@ -111,12 +111,28 @@ impl Path {
         }
         Path::Portable
     }
+
+    fn name(self) -> &'static str {
+        match self {
+            Path::Portable if cfg!(target_arch = "x86_64") => "SSE2",
+            Path::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => "AVX2",
+        }
+    }
+}
+
+/// Names the vector instructions that the filaments' step uses on this machine. The results have the same bits with
+/// all of them.
+#[must_use]
+pub fn instructions() -> &'static str {
+    Path::detect().name()
 }
 
 /// Moves all filaments of the block, each by its `dt`.
 pub(super) fn step(
     path: Path,
-    cells: &Cells,
+    cells: &Lookup,
     nodes: &[[f32; 4]],
     key: [u32; 2],
     block: &mut Block,
@@ -132,7 +148,13 @@ pub(super) fn step(
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block, work: &mut Work) {
+fn body_avx2(
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    key: [u32; 2],
+    block: &mut Block,
+    work: &mut Work,
+) {
     body(cells, nodes, key, block, work);
 }
 
@@ -141,7 +163,7 @@ fn body_avx2(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], block: &mut Block
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn body(cells: &Cells, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &mut Work) {
+fn body(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &mut Work) {
     let Work {
         noise,
         column,
@@ -233,7 +255,7 @@ pub(super) fn folded(z: f32, bed: f32, up: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::lookup::trilinear;
+    use super::super::fetch::trilinear;
     use super::*;
     use crate::flow::grid::{FlowGrid, GridShape};
     use crate::quad::Quad;
@@ -257,7 +279,7 @@ mod tests {
         }
     }
 
-    fn scene(shape: GridShape) -> (FlowGrid, Cells) {
+    fn scene(shape: GridShape) -> (FlowGrid, Lookup) {
         let area = Area {
             centre: Vector2::new(3.0, -2.0),
             length_m: 100.0,
@@ -267,12 +289,12 @@ mod tests {
         let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
         let mut grid = FlowGrid::new(&area, &terrain, shape);
         grid.refresh(&Swirl, 0.0);
-        let mut cells = Cells::new(&grid);
+        let mut cells = Lookup::new(&grid);
         cells.refresh(&grid);
         (grid, cells)
     }
 
-    fn block(cells: &Cells) -> Block {
+    fn block(cells: &Lookup) -> Block {
         let spread = |n: usize, m: u32| (n as u32).wrapping_mul(m) as f32 / u32::MAX as f32;
         let x: [f32; BLOCK] = std::array::from_fn(|n| 40.0 * (spread(n, 0x9e37_79b9) - 0.5));
         let y: [f32; BLOCK] = std::array::from_fn(|n| 40.0 * (spread(n, 0x85eb_ca6b) - 0.5));
@@ -302,7 +324,9 @@ mod tests {
             for l in 0..BLOCK {
                 let c = cells.column(b.x[l], b.y[l]);
                 let level = cells.level(b.z[l], -1.0 / b.bed[l]);
-                let (q, rise) = trilinear(&cells, &grid.data, c, level.below, level.part);
+                // SAFETY: the cell was found in the grid of these nodes.
+                let (q, rise) =
+                    unsafe { trilinear(&cells, &grid.data, c, level.below, level.part) };
                 let got = Quad::columns([q; 4]).map(|v| v[0]);
                 let want = grid.at(b.x[l], b.y[l], b.z[l]);
                 for d in 0..3 {

@@ -1,129 +1,184 @@
-//! Reads the water at the places of a block of filaments, four filaments at a time.
+//! The flow grid as the drift reads it: the cell of a point, the level of a height, and bed and horizontal diffusivity
+//! in a cell.
 //!
-//! *Source*: trilinear interpolation in the layout of `flow::grid`.
+//! *Source*: the layout and the vertical map are those of `flow::grid`. This file turns them into arithmetic without
+//! branches, for many filaments at once.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: none.
+//! *Deviations*: bed and K_h are bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns
+//! all.
 
-use super::cells::{Cells, Column, Level};
-use super::kernel::BLOCK;
-use crate::quad::Quad;
+use crate::flow::grid::FlowGrid;
 
-/// The columns of a block, side by side.
-pub(super) struct Columns {
-    at: [u32; BLOCK],
-    f: [f32; BLOCK],
-    g: [f32; BLOCK],
+/// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
+pub(super) type Bilinear = [f32; 4];
+
+/// Scalars of the grid, and its columns as bilinear cells.
+#[derive(Clone, Debug)]
+pub(super) struct Lookup {
+    origin: [f32; 2],
+    /// Axis i and axis j, divided by the spacing: cells per metre.
+    axes: [[f32; 2]; 2],
+    /// Last node along i and j, as numbers.
+    last: [f32; 2],
+    dims: [i32; 3],
+    stretch: f32,
+    bed: Vec<Bilinear>,
+    k_h: Vec<Bilinear>,
+    /// The horizontal diffusivity, if it is the same everywhere.
+    pub(super) even_k_h: Option<f32>,
 }
 
-impl Columns {
-    pub(super) fn new() -> Self {
+/// Position of a point among the columns.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Column {
+    /// Column of the cell's lower corner, i·ny + j.
+    pub(super) at: u32,
+    /// Position in the cell along i and j, as parts of it.
+    pub(super) f: f32,
+    pub(super) g: f32,
+    /// Whether the point is outside the grid.
+    pub(super) outside: bool,
+}
+
+/// Position of a height among the levels.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Level {
+    /// Level below.
+    pub(super) below: u32,
+    /// Position between it and the next, as a part.
+    pub(super) part: f32,
+    /// Reciprocal of the distance between the two, 1/m.
+    pub(super) per_m: f32,
+}
+
+impl Lookup {
+    pub(super) fn new(grid: &FlowGrid) -> Self {
+        let [nx, ny, nz] = grid.dims;
+        let per = |axis: [f32; 2], spacing: f32| axis.map(|v| v / spacing);
         Self {
-            at: [0; BLOCK],
-            f: [0.0; BLOCK],
-            g: [0.0; BLOCK],
+            origin: grid.origin,
+            axes: [
+                per(grid.along, grid.spacing[0]),
+                per(grid.across, grid.spacing[1]),
+            ],
+            last: [(nx - 1) as f32, (ny - 1) as f32],
+            dims: [nx as i32, ny as i32, nz as i32],
+            stretch: grid.stretch,
+            bed: bilinear(&grid.bed, nx, ny),
+            k_h: bilinear(&grid.k_h, nx, ny),
+            even_k_h: None,
         }
     }
 
-    #[inline(always)]
-    pub(super) fn set(&mut self, l: usize, c: Column) {
-        (self.at[l], self.f[l], self.g[l]) = (c.at, c.f, c.g);
+    /// Takes over the values that a refresh of the grid has changed.
+    pub(super) fn refresh(&mut self, grid: &FlowGrid) {
+        let first = grid.k_h[0];
+        self.even_k_h = grid.k_h.iter().all(|k| *k == first).then_some(first);
+        if self.even_k_h.is_none() {
+            self.k_h = bilinear(&grid.k_h, grid.dims[0], grid.dims[1]);
+        }
     }
 
+    /// Nodes in a column, and nodes from one column to the next along i.
     #[inline(always)]
-    pub(super) fn get(&self, l: usize) -> Column {
+    pub(super) fn strides(&self) -> (usize, usize) {
+        let nz = self.dims[2] as usize;
+        (nz, nz * self.dims[1] as usize)
+    }
+
+    /// The column cell of a point; for a point outside the grid, that of the nearest edge.
+    #[inline(always)]
+    pub(super) fn column(&self, x: f32, y: f32) -> Column {
+        let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
+        let c = dx * self.axes[0][0] + dy * self.axes[0][1];
+        let d = dx * self.axes[1][0] + dy * self.axes[1][1];
+        let (i, f) = split(c, self.last[0], self.dims[0]);
+        let (j, g) = split(d, self.last[1], self.dims[1]);
+        let inside = (c >= 0.0) & (c <= self.last[0]) & (d >= 0.0) & (d <= self.last[1]);
         Column {
-            at: self.at[l],
-            f: self.f[l],
-            g: self.g[l],
-            outside: false,
-        }
-    }
-}
-
-/// The levels of a block, side by side.
-pub(super) struct Levels {
-    below: [u32; BLOCK],
-    part: [f32; BLOCK],
-}
-
-impl Levels {
-    pub(super) fn new() -> Self {
-        Self {
-            below: [0; BLOCK],
-            part: [0.0; BLOCK],
+            at: (i * self.dims[1] + j) as u32,
+            f,
+            g,
+            outside: !inside,
         }
     }
 
-    /// Stores a level. Returns the part that is not stored: the reciprocal of the distance between the levels.
+    /// Position of a height among the levels; `up` is the reciprocal of the depth.
     #[inline(always)]
-    pub(super) fn set(&mut self, l: usize, v: Level) -> f32 {
-        (self.below[l], self.part[l]) = (v.below, v.part);
-        v.per_m
+    pub(super) fn level(&self, z: f32, up: f32) -> Level {
+        let s = clamped(1.0 + z * up, 1.0);
+        let a = self.stretch;
+        let b = 1.0 - a;
+        let last = (self.dims[2] - 1) as f32;
+        let (k, _) = split(
+            2.0 * s / (b + (b * b + 4.0 * a * s).sqrt()) * last,
+            last,
+            self.dims[2],
+        );
+        let h = 1.0 / last;
+        let xi = k as f32 * h;
+        let s0 = xi * (b + a * xi);
+        let per = 1.0 / (h * (b + a * (2.0 * xi + h)));
+        // Rounding of the square root may give the neighbouring level; the clamp keeps the result continuous.
+        Level {
+            below: k as u32,
+            part: clamped((s - s0) * per, 1.0),
+            per_m: per * up,
+        }
+    }
+
+    /// Height of the bed, m (negative).
+    #[inline(always)]
+    pub(super) fn bed(&self, c: Column) -> f32 {
+        value(&self.bed[c.at as usize], c)
+    }
+
+    /// Horizontal diffusivity (m²/s) and its gradient east and north (m/s).
+    #[inline(always)]
+    pub(super) fn k_h(&self, c: Column) -> (f32, [f32; 2]) {
+        let q = &self.k_h[c.at as usize];
+        let (di, dj) = (q[1] + q[3] * c.g, q[2] + q[3] * c.f);
+        let along = |d: usize| di * self.axes[0][d] + dj * self.axes[1][d];
+        (value(q, c), [along(0), along(1)])
     }
 }
 
-/// u, v, w and K_z of a block.
-pub(super) type Water = [[f32; BLOCK]; 4];
-
-/// Fills in the water at the places of a block. Multiplies `slope`, the reciprocal distance of the levels, by the
-/// difference of K_z between them.
 #[inline(always)]
-pub(super) fn fetch(
-    cells: &Cells,
-    nodes: &[[f32; 4]],
-    column: &Columns,
-    level: &Levels,
-    water: &mut Water,
-    mut slope: Option<&mut [f32; BLOCK]>,
-) {
-    for from in (0..BLOCK).step_by(4) {
-        let at = |l: usize| {
-            let l = from + l;
-            trilinear(cells, nodes, column.get(l), level.below[l], level.part[l])
-        };
-        let (a, b, c, d) = (at(0), at(1), at(2), at(3));
-        let four = Quad::columns([a.0, b.0, c.0, d.0]);
-        for d in 0..4 {
-            water[d][from..from + 4].copy_from_slice(&four[d]);
-        }
-        if let Some(slope) = slope.as_deref_mut() {
-            let rise = Quad::columns([a.1, b.1, c.1, d.1])[3];
-            for l in 0..4 {
-                slope[from + l] *= rise[l];
-            }
-        }
-    }
+fn value(q: &Bilinear, c: Column) -> f32 {
+    q[0] + c.g * q[2] + c.f * (q[1] + c.g * q[3])
 }
 
-/// `[u, v, w, K_z]` at a point of a column cell, and its difference between the levels below and above.
+/// Cell index in 0..n−1, and the position in the cell as a part of it.
 #[inline(always)]
-pub(super) fn trilinear(
-    cells: &Cells,
-    nodes: &[[f32; 4]],
-    c: Column,
-    level: u32,
-    part: f32,
-) -> (Quad, Quad) {
-    let (up_j, up_i) = cells.strides();
-    let at = c.at as usize * up_j + level as usize;
-    let node = |n: usize| {
-        debug_assert!(n < nodes.len());
-        // SAFETY: column and level are those of a cell's lower corner (`Cells::column`, `Cells::level`, for any input),
-        // so this node, its neighbours and those above them exist.
-        Quad::new(unsafe { nodes.get_unchecked(n) })
-    };
-    let (f0, g0) = (1.0 - c.f, 1.0 - c.g);
-    let (w00, w01, w10, w11) = (f0 * g0, f0 * c.g, c.f * g0, c.f * c.g);
-    let layer = |n: usize| {
-        let near = node(n).times(w00).add(node(n + up_j).times(w01));
-        let far = node(n + up_i)
-            .times(w10)
-            .add(node(n + up_i + up_j).times(w11));
-        near.add(far)
-    };
-    let (low, high) = (layer(at), layer(at + 1));
-    let rise = high.sub(low);
-    (low.add(rise.times(part)), rise)
+fn split(c: f32, last: f32, n: i32) -> (i32, f32) {
+    let c = clamped(c, last);
+    // SAFETY: the value lies between 0 and the number of nodes, which fits; NaN has become 0.
+    let i = unsafe { c.to_int_unchecked::<i32>() };
+    let i = if i < n - 2 { i } else { n - 2 };
+    (i, c - i as f32)
+}
+
+/// Limits a value to 0 to `hi`; NaN becomes 0. Written so that it compiles to two instructions.
+#[inline(always)]
+pub(super) fn clamped(v: f32, hi: f32) -> f32 {
+    let v = if v > 0.0 { v } else { 0.0 };
+    if v < hi { v } else { hi }
+}
+
+fn bilinear(nodes: &[f32], nx: usize, ny: usize) -> Vec<Bilinear> {
+    let mut cells = vec![[0.0; 4]; nx * ny];
+    for i in 0..nx - 1 {
+        for j in 0..ny - 1 {
+            let n = |a: usize, b: usize| nodes[(i + a) * ny + j + b];
+            cells[i * ny + j] = [
+                n(0, 0),
+                n(1, 0) - n(0, 0),
+                n(0, 1) - n(0, 0),
+                n(1, 1) - n(1, 0) - n(0, 1) + n(0, 0),
+            ];
+        }
+    }
+    cells
 }

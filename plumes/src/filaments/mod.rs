@@ -1,10 +1,10 @@
 //! Filaments: store, drift, concentration.
 
 mod carried;
-mod cells;
 mod cut_off;
 mod displaced;
 mod evenness;
+mod fetch;
 mod image;
 mod index;
 mod kernel;
@@ -53,5 +53,6 @@ mod walls;
 pub use cut_off::cut_off;
 pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
+pub use kernel::instructions;
 pub use longest_step::{EVEN, SharpestMixing, Uneven};
 pub use plume::{Plume, PlumeSettings};

@@ -8,7 +8,7 @@
 //! belongs to the side on which it lies. Obstacles reach into open cells by less than half a cell: dye is there too,
 //! but nobody asks for it.
 
-use super::cells::Cells as Lookup;
+use super::lookup::Lookup;
 use super::room::{Place, Room};
 use crate::flow::blockage::Cells;
 use nalgebra::Vector3;

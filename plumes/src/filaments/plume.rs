@@ -11,10 +11,10 @@
 //! fixed source releases at p − ξ(p, t), with ξ the displacement by the waves (file `displaced`).
 
 use super::carried::{Carrier, Way};
-use super::cells::Cells;
 use super::cut_off;
 use super::index::Index;
 use super::kernel::{self, Path, Work};
+use super::lookup::Lookup;
 use super::noise::step_key;
 use super::room::Room;
 use super::size::Size;
@@ -32,7 +32,7 @@ use std::sync::OnceLock;
 use world::area::Area;
 use world::fields::{Concentration, Flow};
 use world::obstacles::Obstacles;
-use world::seeds;
+use world::seeds::{self, Seed};
 use world::terrain::Terrain;
 
 /// How finely the plume resolves the water.
@@ -61,7 +61,7 @@ pub struct Plume {
     keys: Vec<u64>,
     pub(super) stores: Vec<Store>,
     pub(super) grid: FlowGrid,
-    cells: Cells,
+    cells: Lookup,
     refresh_s: f64,
     next_refresh_s: Option<f64>,
     carried_s: Option<f64>,
@@ -83,9 +83,10 @@ impl Plume {
         specs: &[SourceSpec],
         area: &Area,
         terrain: &Terrain,
-        seed: u64,
+        seed: impl Into<Seed>,
         settings: PlumeSettings,
     ) -> Result<Self, PlumeError> {
+        let seed = seed.into();
         let sources = place(specs, area, terrain)?;
         let grid = FlowGrid::new(area, terrain, settings.grid);
         Ok(Self {
@@ -102,7 +103,7 @@ impl Plume {
                 .map(|s| Store::new(Size::new(&s.release), s.filament_kg))
                 .collect(),
             sources,
-            cells: Cells::new(&grid),
+            cells: Lookup::new(&grid),
             room: Room::new(&grid),
             carrier: None,
             grid,

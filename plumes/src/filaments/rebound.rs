@@ -11,7 +11,7 @@
 //! own, mirrored. In horizontal motion a filament keeps its height; it is mirrored at a bed or a solid's slope that it
 //! runs into.
 
-use super::cells::Cells as Lookup;
+use super::lookup::Lookup;
 use super::room::{Place, Room};
 use crate::flow::blockage::Cells;
 use crate::flow::grid::FlowGrid;

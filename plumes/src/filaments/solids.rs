@@ -82,7 +82,7 @@ impl Solids {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests_water::{Water, plume, pour, source};
+    use super::super::tests_water::{Given, plume, pour, source};
     use nalgebra::Vector3;
     use std::path::Path;
     use world::obstacles::{BoxShape, CylinderShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec};
@@ -120,7 +120,7 @@ mod tests {
         .iter()
         .map(|s| Obstacle::build(s, &bed, Path::new(".")).unwrap())
         .collect();
-        let water = Water(|_| 0.3, |_| (0.05, 0.002));
+        let water = Given(|_| 0.3, |_| (0.05, 0.002));
         let mut plume = plume(source(2.0, 20.0, 0.001, 0.03), &bed)
             .with_obstacles(Obstacles(solids.clone()))
             .unwrap();

@@ -6,8 +6,8 @@
 //!
 //! *Deviations*: none.
 
-use super::cells::Cells;
 use super::kernel::{BLOCK, Block, Work};
+use super::lookup::Lookup;
 use super::rebound::Kick;
 use super::room::Room;
 use super::store::Store;
@@ -16,7 +16,7 @@ use crate::flow::grid::FlowGrid;
 /// Reflects filaments of a block at walls through which their kicks led. Returns their number.
 pub(super) fn keep_out(
     room: &Room,
-    cells: &Cells,
+    cells: &Lookup,
     grid: &FlowGrid,
     from: &[[f32; BLOCK]; 3],
     b: &mut Block,
@@ -46,7 +46,7 @@ pub(super) fn keep_out(
 /// As `keep_out`, for a store that was carried away from earlier positions.
 pub(super) fn hold(
     room: &Room,
-    cells: &Cells,
+    cells: &Lookup,
     grid: &FlowGrid,
     before: &[Vec<f32>; 3],
     store: &mut Store,

@@ -1,6 +1,6 @@
 //! Exact tests of the drift: spread, shear, and that no filament leaves through bed or surface.
 
-use super::tests_water::{Water, moments, plume, pour, source};
+use super::tests_water::{Given, moments, plume, pour, source};
 use world::fields::Flow;
 use world::math;
 use world::terrain::Terrain;
@@ -16,7 +16,7 @@ fn spread_is_2kt_whatever_the_step() {
     // 100 s from a point: variance 2K·100 (x = U·100). With 5·10⁴ filaments a sample variance has a relative
     // standard error of √(2/n) = 0.63 %; five of them allowed, at every step.
     let n = 50_000;
-    let water = Water(|_| 0.5, |_| (0.02, 0.005));
+    let water = Given(|_| 0.5, |_| (0.02, 0.005));
     for dt in STEPS_S {
         let mut p = plume(
             source(1.0, NONE_HZ, 0.0, 0.1),
@@ -45,7 +45,7 @@ fn spread_is_2kt_whatever_the_step() {
 #[test]
 fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
     // Each filament's y²/(2K·age) has mean 1, relative standard error √(2/n).
-    let water = Water(|_| 0.5, |_| (0.02, 0.0));
+    let water = Given(|_| 0.5, |_| (0.02, 0.0));
     for dt in STEPS_S {
         let mut p = plume(
             source(20.0, 200.0, 0.0, 0.1),
@@ -75,7 +75,7 @@ fn shear_stretches_a_cloud_by_its_exact_law_whatever_the_step() {
     // u = S(z − z0) with K_z alone: var x = ⅔ K S² t³ (Saffman 1962), cov(x, z) = K S t². Both from normal
     // variables: relative standard error of the variance √(2/n), of the covariance √((1 + 1/ρ²)/n), ρ² = ¾.
     let (n, shear, k, t) = (50_000.0_f64, 0.02, 0.01, 100.0);
-    let water = Water(|z: f64| shear * (z + 20.0), |_| (0.0, k));
+    let water = Given(|z: f64| shear * (z + 20.0), |_| (0.0, k));
     for dt in STEPS_S {
         let mut p = plume(
             source(1.0, NONE_HZ, 0.0, 0.1),

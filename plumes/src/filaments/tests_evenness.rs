@@ -2,7 +2,7 @@
 
 use super::longest_step::{EVEN, SharpestMixing};
 use super::tests_mixed::{BINS, DEPTH, gap, interface, parabola};
-use super::tests_water::{Water, basin, plume, pour, source};
+use super::tests_water::{Given, basin, plume, pour, source};
 use crate::flow::grid::GridShape;
 use world::math;
 use world::seeds::Stream;
@@ -14,13 +14,13 @@ const FILAMENTS: usize = 150_000;
 const NOISE: f64 = 0.03;
 
 fn sharpest(k_z: impl Fn(f64) -> f64 + Send + Sync) -> SharpestMixing {
-    let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
+    let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
     SharpestMixing::of(&water, &basin(), &BED, &GridShape::default(), 600.0)
 }
 
 /// Greatest deviation of a bin after `t_s` in steps of `dt_s`, from an even start.
 fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
-    let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
+    let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
     let mut p = plume(source(1.0, 1e-9, 0.0, 0.1), &BED);
     let mut r = Stream::new(4, "test", "evenness");
     // One filament in each of as many layers, so that only the steps are random.

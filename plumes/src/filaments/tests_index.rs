@@ -1,9 +1,9 @@
 //! The index compared with a search through all filaments.
 
-use super::cells::Cells;
 use super::index::Index;
 use super::kernel::Path;
 use super::leaf::{LEAF, Leaf};
+use super::lookup::Lookup;
 use super::room::Room;
 use super::size::Size;
 use super::store::Store;
@@ -16,7 +16,7 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 /// Nothing but bed and surface.
-fn open_water() -> (Room, Cells) {
+fn open_water() -> (Room, Lookup) {
     let area = Area {
         centre: Vector2::zeros(),
         length_m: 400.0,
@@ -25,7 +25,7 @@ fn open_water() -> (Room, Cells) {
     };
     let bed = Terrain::Level { depth_m: 6.0 };
     let grid = FlowGrid::new(&area, &bed, GridShape::default());
-    (Room::new(&grid), Cells::new(&grid))
+    (Room::new(&grid), Lookup::new(&grid))
 }
 
 /// A cloud of filaments of all ages in 6 m of water.

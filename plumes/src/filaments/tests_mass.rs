@@ -1,6 +1,6 @@
 //! Exact tests of mass: the kernel integrates to 1, and what was released is either present or has left.
 
-use super::tests_water::{Water, plume, pour, source};
+use super::tests_water::{Given, plume, pour, source};
 use nalgebra::Vector3;
 use world::digest::Digest;
 use world::fields::Concentration;
@@ -13,7 +13,7 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
         &Terrain::Level { depth_m: depth },
     );
     pour(&mut p, 1, -depth, |_| [0.0, 0.0, z]);
-    let still = Water(|_| 0.0, |_| (0.0, 0.0));
+    let still = Given(|_| 0.0, |_| (0.0, 0.0));
     // The source itself is far away, so that its own releases have no effect at the datum.
     p.drift(&still, 0.0, age_s);
     let f = p.iter().next().expect("the filament");
@@ -63,7 +63,7 @@ fn released_is_here_or_has_left() {
         source(1.0, 37.0, 0.001, 0.03),
         &Terrain::Level { depth_m: 6.0 },
     );
-    let water = Water(|z| 0.8 + 0.05 * z, |_| (0.3, 0.01));
+    let water = Given(|z| 0.8 + 0.05 * z, |_| (0.3, 0.01));
     for k in 0..1500 {
         p.drift(&water, 0.7 * f64::from(k), 0.7 * f64::from(k + 1));
         let (released, here, left) = (p.mass_released_kg(), p.mass_in_kg(), p.mass_left_kg());
@@ -95,7 +95,7 @@ fn a_copy_goes_on_like_the_original_asked_or_not() {
         source(1.0, 20.0, 0.001, 0.03),
         &Terrain::Level { depth_m: 6.0 },
     );
-    let water = Water(|_| 0.3, |_| (0.05, 0.002));
+    let water = Given(|_| 0.3, |_| (0.05, 0.002));
     for k in 0..200 {
         a.drift(&water, f64::from(k), f64::from(k + 1));
     }

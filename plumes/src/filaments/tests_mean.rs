@@ -1,7 +1,7 @@
 //! Exact tests of averages: the Gaussian plume with its images, the flux through every section, gaps as in a Poisson
 //! process.
 
-use super::tests_water::{Water, moments, plume, source};
+use super::tests_water::{Given, moments, plume, source};
 use nalgebra::Vector3;
 use world::fields::Concentration;
 use world::math;
@@ -35,7 +35,7 @@ fn time_mean_is_the_gaussian_plume_and_every_section_carries_what_is_released() 
         source(HEIGHT, 200.0, 0.001, 0.0316),
         &Terrain::Level { depth_m: DEPTH },
     );
-    let water = Water(|_| SPEED, |_| (K, K));
+    let water = Given(|_| SPEED, |_| (K, K));
     let sections = [10.0, 40.0, 70.0];
     let points: Vec<Vector3<f64>> = sections
         .iter()
@@ -109,7 +109,7 @@ fn gaps_of_a_random_release_are_poisson() {
         source(HEIGHT, rate, 0.0, size),
         &Terrain::Level { depth_m: DEPTH },
     );
-    let water = Water(|_| SPEED, |_| (0.0, 0.0));
+    let water = Given(|_| SPEED, |_| (0.0, 0.0));
     let probe = Vector3::new(-70.0, 0.0, HEIGHT - DEPTH);
     // One filament alone at 3σ: a lower concentration means that none is nearer.
     let alone = RATE / rate / (math::powf(std::f64::consts::TAU, 1.5) * size.powi(3) * 0.998_866)

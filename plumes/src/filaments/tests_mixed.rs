@@ -1,7 +1,7 @@
 //! Exact tests of vertical mixing: mixed water stays mixed (Thomson 1987), and mixing has the right speed.
 
 use super::plume::Plume;
-use super::tests_water::{Water, plume, pour, source};
+use super::tests_water::{Given, plume, pour, source};
 use crate::flow::mixing::{damping, parabolic, richardson};
 use world::fields::Flow;
 use world::math;
@@ -43,7 +43,7 @@ fn depths(mut p: Plume, water: &impl Flow, t_s: f64, dt_s: f64) -> Vec<f64> {
 
 /// Filaments in equal bins, divided by the expected number, after an even start.
 fn bins(k_z: impl Fn(f64) -> f64 + Send + Sync, t_s: f64, dt_s: f64) -> [f64; BINS] {
-    let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
+    let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
     let mut counts = [0.0; BINS];
     for d in depths(start(&water, 1.0), &water, t_s, dt_s) {
         counts[((d / DEPTH * BINS as f64) as usize).min(BINS - 1)] += EVEN.recip();
@@ -169,7 +169,7 @@ fn mixing_goes_as_fast_as_the_diffusion_equation_says() {
     // What started below 1.8 m and is above it after 200 s: binomial; five standard errors are allowed, and 2 % for the
     // step. Together this is 6 to 12 % of the parts found.
     fn check(what: &str, k_z: impl Fn(f64) -> f64 + Send + Sync) {
-        let water = Water(|_| 0.0, |z| (0.0, k_z(z)));
+        let water = Given(|_| 0.0, |z| (0.0, k_z(z)));
         let p = start(&water, 0.7);
         let exact = part_above(&p, 0.7, 200.0);
         let n = FILAMENTS as f64;

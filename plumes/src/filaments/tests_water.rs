@@ -11,9 +11,9 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 /// Water given by two functions of height: eastward speed, and (K_h, K_z).
-pub(super) struct Water<U, K>(pub(super) U, pub(super) K);
+pub(super) struct Given<U, K>(pub(super) U, pub(super) K);
 
-impl<U, K> Flow for Water<U, K>
+impl<U, K> Flow for Given<U, K>
 where
     U: Fn(f64) -> f64 + Send + Sync,
     K: Fn(f64) -> (f64, f64) + Send + Sync,

@@ -6,6 +6,7 @@ use world::catalogue::Entry;
 use world::cost::{Cost, Times};
 use world::kind;
 use world::registry::Spec;
+use world::seeds::Seed;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
@@ -27,7 +28,7 @@ pub struct Place<'a> {
     /// The bed.
     pub terrain: &'a Terrain,
     /// Seed of the run.
-    pub seed: u64,
+    pub seed: Seed,
 }
 
 impl Place<'_> {
@@ -104,7 +105,7 @@ pub trait CurrentParams: Spec {
 }
 
 kind! {
-    /// One current; a scenario lists those that add up.
+    /// Currents, waves and turbulence. A scenario lists one or more, and their velocities add up.
     pub CurrentSpec = Currents of CurrentParams {
         heading: "Flows",
         rows: [UniformSpec, LayeredSpec, MeanderSpec, OpenChannelSpec, TideSpec, WavesSpec],

@@ -10,6 +10,7 @@
 use nalgebra::Vector2;
 use world::area::Area;
 use world::fields::SideWalls;
+use world::seeds::Seed;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
@@ -34,7 +35,7 @@ impl Flume {
         area: &Area,
         terrain: &Terrain,
         alone: bool,
-        seed: u64,
+        seed: Seed,
     ) -> Result<Self, PlumeError> {
         let bad = |problem: &str| PlumeError::Invalid {
             field: field.to_owned(),

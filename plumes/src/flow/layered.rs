@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use world::limits::shown;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
 use crate::flow::ground::Floor;
@@ -141,7 +141,7 @@ impl LayeredSpec {
     /// # Errors
     /// Names the field: no layers or too many, the wrong number of interfaces, interfaces not in order of depth, or a
     /// density that does not increase downwards.
-    pub fn build(&self, field: &str, seed: u64) -> Result<Layered, PlumeError> {
+    pub fn build(&self, field: &str, seed: impl Into<Seed>) -> Result<Layered, PlumeError> {
         let bad = |sub: String, problem: String| PlumeError::Invalid {
             field: format!("{field}.{sub}"),
             problem,

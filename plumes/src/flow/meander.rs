@@ -24,7 +24,7 @@ use world::catalogue::Entry;
 use world::cost::{Cost, Part, Times};
 use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
 use crate::flow::catalogue::{CurrentParams, Place};
@@ -156,7 +156,7 @@ impl MeanderSpec {
         field: &str,
         area: &Area,
         carrier: Vector2<f64>,
-        seed: u64,
+        seed: Seed,
     ) -> Result<Meander, PlumeError> {
         let bad = |sub: &str, problem: String| PlumeError::Invalid {
             field: format!("{field}.{sub}"),

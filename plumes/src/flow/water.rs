@@ -25,6 +25,7 @@ use world::area::Area;
 use world::fields::{Flow, Mixing};
 use world::obstacles::Obstacles;
 use world::ranges::Positive;
+use world::seeds::Seed;
 use world::terrain::Terrain;
 
 use crate::error::PlumeError;
@@ -124,7 +125,7 @@ impl WaterSpec {
         area: &Area,
         terrain: &Terrain,
         obstacles: &Obstacles,
-        seed: u64,
+        seed: impl Into<Seed>,
     ) -> Result<Water, PlumeError> {
         let mut water = self.build(area, terrain, seed)?;
         if let Some(spec) = &self.blockage {
@@ -144,7 +145,13 @@ impl WaterSpec {
     ///
     /// # Errors
     /// Names the field at fault and what would be legal.
-    pub fn build(&self, area: &Area, terrain: &Terrain, seed: u64) -> Result<Water, PlumeError> {
+    pub fn build(
+        &self,
+        area: &Area,
+        terrain: &Terrain,
+        seed: impl Into<Seed>,
+    ) -> Result<Water, PlumeError> {
+        let seed = seed.into();
         let bed = (self.bed.as_ref())
             .map(|b| b.build("water.bed"))
             .transpose()?;

@@ -1,7 +1,9 @@
 //! Sources and how they release filaments.
 
+mod placing;
 mod source;
 mod times;
 
-pub use source::{NozzleSpec, ReleaseSpec, Source, SourceSpec, clear, place};
+pub use placing::{clear, misplaced, place};
+pub use source::{NozzleSpec, ReleaseSpec, Source, SourceSpec};
 pub use times::ReleaseTimes;

@@ -7,7 +7,7 @@
 //! *Deviations*: the paper releases at equal intervals. Here random times are the default, because equal intervals
 //! interfere with the sampling of a sensor and leave gaps that no real water has.
 
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 /// The times of release of one source, in order; they do not depend on who asks or how often.
 #[derive(Clone, Debug)]
@@ -20,7 +20,7 @@ pub struct ReleaseTimes {
 impl ReleaseTimes {
     /// Times of the source called `id` under the run's `seed`; nothing is released before the first `until`.
     #[must_use]
-    pub fn new(rate_hz: f64, poisson: bool, seed: u64, id: &str) -> Self {
+    pub fn new(rate_hz: f64, poisson: bool, seed: Seed, id: &str) -> Self {
         Self {
             rate_hz,
             draws: poisson.then(|| Stream::new(seed, id, "release")),
@@ -60,7 +60,7 @@ mod tests {
     use super::*;
 
     fn times(poisson: bool, step_s: f64) -> Vec<f64> {
-        let mut r = ReleaseTimes::new(5.0, poisson, 3, "s1");
+        let mut r = ReleaseTimes::new(5.0, poisson, 3.into(), "s1");
         let mut out = Vec::new();
         for n in 0..(1000.0 / step_s) as usize {
             r.until(n as f64 * step_s, (n + 1) as f64 * step_s, |t| out.push(t));

@@ -16,11 +16,11 @@
 //! rpm = n_ff U_d + K_n ∫(U_d − U)
 //! ```
 //!
-//! *Deviations:* integrals stand still while their output is at its limit, and the heading's also while the
-//! heading is more than 10° off, so that a turn winds nothing up. A heading asked for that itself turns, as in a
-//! circle, leaves a small error standing for minutes; the heading's integral is therefore also bounded to what
-//! it is there for, a rudder's trim, or it ends as the rudder of the circle and holds the next turn back. Without a flow estimate the speed is fed
-//! forward only. Without an altitude the vehicle stays level.
+//! *Deviations:* integrals are frozen while their output is at its limit. The heading's integral is also frozen while
+//! the heading is more than 10° off, so that it does not wind up in a turn. A commanded heading that turns steadily,
+//! as in a circle, leaves a small error for minutes. The heading's integral is therefore also limited to its purpose,
+//! the trim of a rudder; otherwise it would take over the rudder angle of the circle and delay the next turn. Without
+//! a flow estimate the speed is only fed forward. Without an altitude the vehicle stays level.
 
 use super::spec::AutopilotSpec;
 use crate::handoff::{ActuatorCommand, Command, Estimate, Setpoint, Vertical};
@@ -32,7 +32,7 @@ const OFFSET_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
 const OFFSET_M: f64 = 1.0;
 /// Speed errors beyond this are accelerations, not offsets, m/s.
 const OFFSET_M_S: f64 = 0.3;
-/// Below this speed through the water fins do little, and gains no longer grow, m/s.
+/// Below this speed through the water the fins have little effect, and the gains grow no further, m/s.
 const SLOWEST_M_S: f64 = 0.8;
 
 /// The autopilot of one vehicle.
@@ -48,7 +48,7 @@ pub struct Autopilot {
 }
 
 impl Autopilot {
-    /// With nothing integrated yet.
+    /// An autopilot whose integrals are zero.
     #[must_use]
     pub fn new(spec: &AutopilotSpec) -> Self {
         Self {
@@ -74,7 +74,7 @@ impl Autopilot {
             }
             Command::Steer(setpoint) => {
                 let through_water = through_water_m_s(estimate);
-                // Without a flow estimate gains follow the speed asked for.
+                // Without a flow estimate the gains follow the commanded speed.
                 let speed = through_water
                     .unwrap_or(setpoint.water_speed_m_s)
                     .max(SLOWEST_M_S);
@@ -107,7 +107,7 @@ impl Autopilot {
 
     fn stern(&mut self, set: &Setpoint, e: &Estimate, slower: f64, fin: f64, dt_s: f64) -> f64 {
         let k = &self.spec;
-        // Downwards positive, as the stern plane.
+        // Positive downwards, as for the stern plane.
         let error = match set.vertical {
             Vertical::Depth(depth_m) => Some(depth_m - e.depth_m),
             Vertical::Altitude(altitude_m) => e.altitude_m.map(|now| now - altitude_m),
@@ -210,7 +210,7 @@ mod tests {
         let held = steer(10.0, Vertical::Depth(5.0));
         let first = pilot.step(&held, &level(Some(against)), 1.0);
         let later = pilot.step(&held, &level(Some(against)), 1.0);
-        // 2.2 m/s through the water where 2.0 is wished for: K_n 0.2 m/s 1 s less.
+        // 2.2 m/s through the water where 2.0 is commanded: K_n 0.2 m/s 1 s less.
         assert!((first.rpm - later.rpm - 30.0 * 0.2).abs() < 1e-9);
     }
 

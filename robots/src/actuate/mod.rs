@@ -1,4 +1,4 @@
-//! Commands become actuator set-points.
+//! Turns commands into actuator set-points.
 
 mod autopilot;
 mod spec;

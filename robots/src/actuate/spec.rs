@@ -1,18 +1,18 @@
-//! What a scenario may say of the autopilot.
+//! What a scenario can set for the autopilot.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 use world::ranges::{NonNegative, Positive};
 
-/// Gains and limits; the defaults are for the REMUS 100. Gains of fins hold at `design_speed_m_s`
-/// through the water and are scaled by the dynamic pressure from there.
+/// Gains and limits; the defaults are for the REMUS 100. The gains of the fins hold at `design_speed_m_s` through the
+/// water. At other speeds they are scaled with the dynamic pressure.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AutopilotSpec {
-    /// Turn rate asked per heading error, 1/s.
+    /// Commanded turn rate per heading error, 1/s.
     pub heading_gain_1_s: Positive,
-    /// Greatest turn rate asked, deg/s.
+    /// Greatest commanded turn rate, deg/s.
     pub heading_rate_deg_s: Positive,
     /// Rudder per turn rate in a steady turn, s.
     pub rudder_per_rate_s: NonNegative,
@@ -20,15 +20,15 @@ pub struct AutopilotSpec {
     pub rate_gain_s: Positive,
     /// Rudder per integrated heading error, 1/s.
     pub heading_integral_1_s: NonNegative,
-    /// Most rudder that the integral may hold, deg. A straight leg of the REMUS needs 0.3 deg.
+    /// Greatest rudder angle that the integral may contribute, deg. A straight leg of the REMUS needs 0.3 deg.
     pub heading_trim_limit_deg: Positive,
-    /// Pitch asked per error in depth or altitude, deg/m.
+    /// Commanded pitch per error in depth or altitude, deg/m.
     pub depth_gain_deg_m: Positive,
-    /// Pitch asked per integrated error in depth or altitude, deg/(m s).
+    /// Commanded pitch per integrated error in depth or altitude, deg/(m s).
     pub depth_integral_deg_m_s: NonNegative,
-    /// Greatest pitch asked, deg.
+    /// Greatest commanded pitch, deg.
     pub pitch_limit_deg: Positive,
-    /// Stern plane per pitch asked in a steady dive: what the hull's righting moment takes.
+    /// Stern plane per commanded pitch in a steady dive: what balances the hull's righting moment.
     pub stern_per_pitch: NonNegative,
     /// Stern plane per error in pitch.
     pub pitch_gain: Positive,
@@ -79,6 +79,8 @@ impl Default for AutopilotSpec {
 /// Autopilots that a scenario can set up.
 pub const CATALOGUE: &[Entry] = &[Entry {
     name: "autopilot",
-    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by `autopilot: (...)`.",
-    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang 2009, section 6",
+    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by \
+        `autopilot: (...)`.",
+    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang \
+        2009, section 6",
 }];

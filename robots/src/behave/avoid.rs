@@ -1,19 +1,20 @@
-//! Turns away from what the forward ranging shows in the way, the more the nearer it is.
+//! Turns away from obstacles that the forward ranging shows ahead. The nearer the obstacle, the sharper the turn.
 //!
-//! *Source*: Tian et al. 2013, section 2, Avoid-Obstacle, for which it refers to Li & Carter 2006, Proc. OCEANS (soft obstacle
-//! avoidance); turning away in proportion to nearness: Khatib 1986, Int. J. Robotics Research 5(1), 90.
+//! *Source*: Tian et al. 2013, section 2, Avoid-Obstacle, which refers to Li & Carter 2006, Proc. OCEANS (soft
+//! obstacle avoidance); turning away in proportion to nearness: Khatib 1986, Int. J. Robotics Research 5(1), 90.
 //!
-//! *Parameters*: heeded from `heed_m` on, 35 m; whole turn from `near_m` on, 18 m: half as much again as the radius of
-//! the turn; half width of the way that must be free, `clear_m`, 8 m; echoes are remembered for `memory_s`, 15 s; what
-//! cannot be come by for `give_up_s`, 60 s, is given up. The paper prints none.
+//! *Parameters*: distance from which an obstacle counts, `heed_m`, 35 m; distance from which the whole turn is taken,
+//! `near_m`, 18 m (1.5 turning radii); half width of the way that must be free, `clear_m`, 8 m; how long an echo is
+//! remembered, `memory_s`, 15 s; after turning away for `give_up_s`, 60 s, the destination is given up. The paper
+//! prints none of these.
 //!
-//! *Deviations*: ours throughout but for the idea. An echo counts when it lies ahead in the way that the lower layer
-//! asks for, within `clear_m` to either side, and not farther than `near_m` behind the place asked for. The course asked for
-//! is then turned by the least turn that leads past all echoes remembered, times (heed - distance) / (heed - near) of the
-//! nearest; the side taken is kept unless the other one is nearer by 30°. Where turning to it the short way would sweep over
-//! an echo within `near_m`, and the long way not, the vehicle turns the long way. Soft: nothing is planned, and a bay
-//! holds the vehicle until it gives up. Echoes within 1 m of the charted bed are taken for the bed. A fix
-//! moves the remembered echoes with the vehicle.
+//! *Deviations*: only the idea is the paper's. An echo counts if it lies ahead on the way that the lower layer asks
+//! for, within `clear_m` to either side and at most `near_m` beyond the destination. The commanded course is then
+//! turned by the smallest turn that leads past all remembered echoes, times (heed - distance) / (heed - near) of the
+//! nearest one. The vehicle keeps the side that it has taken unless the other side needs 30° less. If the short turn
+//! to the new course would sweep over an echo within `near_m` and the long turn would not, the vehicle takes the long
+//! turn. The avoidance is soft: it plans nothing, and a bay holds the vehicle until it gives up. Echoes within 1 m of
+//! the charted bed count as the bed. A navigation fix moves the remembered echoes with the vehicle.
 
 use crate::error::RobotError;
 use crate::handoff::{Manoeuvre, Observation, Side};
@@ -26,11 +27,13 @@ use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-/// Echoes lower over the charted bed than this are the bed's, m: pitch and the depth's error over the range.
+/// Echoes at less than this height over the charted bed count as the bed, m. It covers errors of pitch and depth over
+/// the range.
 const BED_M: f64 = 1.0;
-/// Farther than this off a line, it is still being gone to, m.
+/// A vehicle farther from a line than this is still on its way to the line, m.
 const ON_LINE_M: f64 = 20.0;
-/// Turns are looked at in these steps, and so much nearer must the other side be to be taken, °.
+/// Step in which turns are tried, and how much smaller the turn to the other side must be before the side is changed,
+/// °.
 const TURNS_DEG: (f64, f64) = (5.0, 30.0);
 
 /// Parameters of the behaviour.
@@ -40,13 +43,13 @@ const TURNS_DEG: (f64, f64) = (5.0, 30.0);
 pub struct Params {
     /// Obstacles count from this distance on, m.
     pub heed_m: Positive,
-    /// From this distance on the whole turn is taken, m; less than `heed_m`.
+    /// From this distance on the vehicle takes the whole turn, m; less than `heed_m`.
     pub near_m: Positive,
     /// Half width of the way that must be free, m.
     pub clear_m: Positive,
-    /// An echo is remembered for so long, s.
+    /// How long an echo is remembered, s.
     pub memory_s: Positive,
-    /// After turning away for so long what is asked for counts as reached, s.
+    /// After the vehicle has turned away for this long, the destination counts as reached, s.
     pub give_up_s: Positive,
 }
 
@@ -67,19 +70,19 @@ impl Default for Params {
 pub struct SoftAvoid {
     params: Params,
     bed: Terrain,
-    /// When and where (east, north; m) something threw the sound back.
+    /// Time (s) and place (east, north; m) of each echo.
     echoes: VecDeque<(f64, Vector2<f64>)>,
-    /// To which side it turns away.
+    /// The side to which the vehicle turns away.
     side: Option<Side>,
-    /// Since when, s.
+    /// Time since which it turns away, s.
     since_s: Option<f64>,
 }
 
 impl SoftAvoid {
-    /// Over a charted bed.
+    /// A new behaviour over a charted bed.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when the distances contradict each other.
+    /// [`RobotError::Invalid`] if the distances contradict each other.
     pub fn new(params: &Params, bed: Terrain) -> Result<Self, RobotError> {
         let (near, heed) = (params.near_m.get(), params.heed_m.get());
         if near >= heed {
@@ -97,7 +100,7 @@ impl SoftAvoid {
         })
     }
 
-    /// What to do instead of `asked`; `None` as long as the way is free.
+    /// The manoeuvre to do instead of `asked`; `None` as long as the way is free.
     pub fn step(&mut self, seen: &Observation, asked: &Manoeuvre) -> Option<Manoeuvre> {
         self.listen(seen);
         let at = seen.estimate.position;
@@ -134,8 +137,8 @@ impl SoftAvoid {
         })
     }
 
-    /// The guidance turns the short way: where that sweeps over something near and the long way does not, a course to
-    /// the other side.
+    /// The guidance takes the shorter turn. If that turn sweeps over a near echo and the longer one does not, this
+    /// gives a course to the other side.
     fn round_the_free_way(
         &self,
         at: Vector2<f64>,
@@ -156,7 +159,7 @@ impl SoftAvoid {
             .then(|| nose.turned(std::f64::consts::FRAC_PI_2.copysign(long_rad)))
     }
 
-    /// It has turned away for too long: what is asked for counts as reached. Told once.
+    /// Whether it has turned away for too long, so that the destination counts as reached. True only once.
     pub fn gives_up(&mut self, t_s: f64) -> bool {
         let long = |since_s| t_s - since_s > self.params.give_up_s.get();
         let gives_up = self.since_s.is_some_and(long);
@@ -166,7 +169,7 @@ impl SoftAvoid {
         gives_up
     }
 
-    /// Distance to the nearest echo in the way on a course, if nearer than `most_m`, m.
+    /// Distance to the nearest echo on the way along a course, m; `None` if there is none nearer than `most_m`.
     fn nearest_m(&self, at: Vector2<f64>, course: Heading, most_m: f64) -> Option<f64> {
         let (ahead, clear_m) = (course.unit(), self.params.clear_m.get());
         let ways = self.echoes.iter().map(|(_, echo)| echo - at);
@@ -176,7 +179,7 @@ impl SoftAvoid {
             .min_by(f64::total_cmp)
     }
 
-    /// The least turn to a side that leads past all echoes, °; right about if none does.
+    /// The smallest turn to a side that leads past all echoes, °; 180° if none does.
     fn free_turn_deg(&self, at: Vector2<f64>, wanted: Heading, side: Side) -> f64 {
         let steps = (180.0 / TURNS_DEG.0) as u32;
         let turns = (1..steps).map(|k| f64::from(k) * TURNS_DEG.0);
@@ -188,7 +191,7 @@ impl SoftAvoid {
         free.next().unwrap_or(180.0)
     }
 
-    /// Takes in a ping and forgets what is old.
+    /// Takes in a ping and forgets old echoes.
     fn listen(&mut self, seen: &Observation) {
         let e = &seen.estimate;
         for (_, echo) in &mut self.echoes {
@@ -211,7 +214,8 @@ impl SoftAvoid {
     }
 }
 
-/// The course that a manoeuvre leads on from here, and how far, m; `None` for actuators driven directly.
+/// The course that a manoeuvre takes from here, and the distance to go, m; `None` if it drives the actuators
+/// directly.
 fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
     let at = seen.estimate.position;
     let towards = |point: Vector2<f64>| {
@@ -226,7 +230,7 @@ fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
         Manoeuvre::FollowLine { from, to } => {
             let line = (to - from).try_normalize(0.0)?;
             let (along_m, off_m) = ((at - from).dot(&line), (at - from).perp(&line));
-            // Before its start or far off it, the way leads to the start.
+            // Before the line's start, or far from the line, the way leads to the start.
             let on = along_m > 0.0 && off_m.abs() < ON_LINE_M;
             towards(if on { to } else { from })
         }
@@ -247,13 +251,14 @@ mod tests {
         SoftAvoid::new(&params, BED).expect("legal")
     }
 
-    /// At the origin, heading north, 3 m down; one beam a bearing (right positive, °) and range (m).
+    /// A ping at the origin, heading north, 3 m deep, with one beam for each bearing (right positive, °) and range
+    /// (m).
     fn ping(t_s: f64, echoes: &[(f64, f64)]) -> Observation {
         let mut o = seen(t_s, Vector2::zeros(), 0.0, None);
         let beam = |(bearing, range): &(f64, f64)| {
             let d = Heading::from_deg(-*bearing).unit();
             Beam {
-                // FLU: forward is the unit's north, left its east when turned the other way round.
+                // FLU: forward is the unit vector's north, left is its east with the sign changed.
                 dir_B: Vector3::new(d.y, d.x, 0.0),
                 echo_m: Some(*range),
             }
@@ -296,7 +301,7 @@ mod tests {
         // A wall that goes on to the left: to the right, though most of it is straight ahead or left.
         let wall: Vec<_> = (-12..3).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
         assert!(turn_deg(avoid(Params::default()).step(&ping(0.0, &wall), &north())) > 0.0);
-        // All round: right about.
+        // Echoes all round: turn back.
         let ring: Vec<_> = (0..72).map(|k| (f64::from(k) * 5.0, 16.0)).collect();
         let t = turn_deg(avoid(Params::default()).step(&ping(0.0, &ring), &north()));
         assert!((t.abs() - 180.0).abs() < 1e-9, "{t}");
@@ -304,7 +309,7 @@ mod tests {
 
     #[test]
     fn what_is_not_in_the_way_does_not_count() {
-        // Far, beside the way (30 sin 20° = 10.3 m), behind.
+        // Too far; beside the way (30 sin 20° = 10.3 m); behind.
         for echo in [(0.0, 36.0), (20.0, 30.0), (179.0, 5.0)] {
             let o = ping(0.0, &[echo]);
             assert_eq!(
@@ -313,7 +318,7 @@ mod tests {
                 "{echo:?}"
             );
         }
-        // The same echo for one who wants to go there; not for one who wants to go a little of the way.
+        // The same echo counts if the destination lies there, and does not if the destination is much nearer.
         let o = ping(0.0, &[(20.0, 30.0)]);
         for (far_m, counts) in [(80.0, true), (13.0, true), (11.0, false)] {
             let there = Manoeuvre::GoToPoint {
@@ -340,7 +345,7 @@ mod tests {
         let mut a = avoid(Params::default());
         let first = turn_deg(a.step(&ping(0.0, &[(2.0, 20.0)]), &north()));
         assert!(first < 0.0);
-        // More of it on the left by now; still to the left.
+        // Now there is more of it on the left; the side stays left.
         let o = ping(1.0, &[(-3.0, 20.0), (-5.0, 20.0)]);
         assert!(turn_deg(a.step(&o, &north())) < 0.0);
         let quiet = |t_s| seen(t_s, Vector2::zeros(), 0.0, None);
@@ -358,7 +363,7 @@ mod tests {
 
     #[test]
     fn turns_about_on_the_free_side() {
-        // Nose north, a wall ahead to the right, the way asked for leads back: to the left.
+        // Nose north, a wall ahead to the right, the commanded way leads back: turn to the left.
         let mut a = avoid(Params::default());
         let wall: Vec<_> = (4..13).map(|k| (f64::from(k) * 10.0, 15.0)).collect();
         let back = Manoeuvre::Course {

@@ -1,25 +1,25 @@
-//! The behaviours by name: each place in a strategy is a kind of its own, with a row for each that can fill it.
+//! The behaviours by name. Each place for a behaviour in a strategy has its own list of behaviours that can fill it.
 
+use super::Behave;
 use super::{cloverleaf, find, reacquire, track_in, track_out};
 use crate::error::RobotError;
-use crate::handoff::Behave;
 use world::catalogue::Entry;
 use world::kind;
 use world::registry::Spec;
 
 /// Parameters of a behaviour.
 pub trait BehaviourParams: Spec {
-    /// The behaviour, ready to be entered.
+    /// Builds the behaviour.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when a parameter makes no sense.
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
     fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
 }
 
 const HEADING: &str = "Behaviours";
 
 kind! {
-    /// Ways to look for the plume.
+    /// Behaviours that search the area for the plume while nothing has been detected yet (Find).
     pub FindSpec = Finds of BehaviourParams {
         heading: HEADING,
         rows: [find::Params],
@@ -28,7 +28,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to go on in the plume.
+    /// Behaviours that follow the plume towards its source while the vehicle detects it (Track-In).
     pub TrackInSpec = TracksIn of BehaviourParams {
         heading: HEADING,
         rows: [track_in::Params],
@@ -37,7 +37,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to act just after losing it.
+    /// Behaviours for the first moments after the plume was lost (Track-Out): they try to return into it at once.
     pub TrackOutSpec = TracksOut of BehaviourParams {
         heading: HEADING,
         rows: [track_out::Params],
@@ -46,7 +46,7 @@ kind! {
 }
 
 kind! {
-    /// Ways to look round where it was lost.
+    /// Behaviours that search around the last detections when Track-Out has not met the plume again (Reacquire).
     pub ReacquireSpec = Reacquires of BehaviourParams {
         heading: HEADING,
         rows: [reacquire::Params, cloverleaf::Params],
@@ -54,7 +54,7 @@ kind! {
     }
 }
 
-/// Behaviours that strategies have by themselves: no scenario chooses them by name.
+/// Behaviours that belong to strategies; no scenario chooses them by name.
 pub const PARTS: &[Entry] = &[
     Entry {
         name: "GoTo",
@@ -63,7 +63,7 @@ pub const PARTS: &[Entry] = &[
     },
     Entry {
         name: "SoftAvoid",
-        what: "avoid: turns off the course asked for, the more the nearer the ranging's echoes in the way are",
+        what: "avoid: turns away from echoes ahead; the nearer they are, the sharper the turn",
         source: "Tian et al. 2013, section 2; Khatib 1986, Int. J. Robotics Research 5(1), 90",
     },
     Entry {

@@ -1,24 +1,28 @@
-//! Looks round the newest last detection point in leaves, one of them down-flow.
+//! Searches around the newest last detection point in loops like a cloverleaf. One of the leaves lies down-flow.
 //!
 //! *Source*: Tian et al. 2013, section 3, Fig. 4b (after Li, Farrell, Pang & Arrieta 2006).
 //!
 //! *Parameters*: N_re, `repetitions`, 2 (2 or 3 in the field); length of a leaf, `leaf_m`, m, larger than the turning
-//! radius `turn_radius_m`, about 15: 16 here; number of leaves, `leaves`, not given: 4;
-//! arrival at a leaf's corners within `arrive_m`, m, not given: 5.
+//! radius `turn_radius_m`, about 15: 16 here; number of leaves, `leaves`, not given: 4; distance at which a leaf's
+//! corner counts as reached, `arrive_m`, m, not given: 5.
 //!
-//! *Deviations*: Fig. 4b does not stand in the text and the leaves are not counted there. n straight ways through the
-//! point, 360°/n apart, joined by turns outside, make n leaves; each is as wide as 180° - 360°/n and its sides are
-//! `leaf_m` long. With four the turns close in circles when `leaf_m` is the turning radius, which is the paper's bound; the
-//! bound for n leaves is turn_radius / tan(90° - 180°/n). The corners are flown to by Go To Point, "the most robust mode" (Pang
-//! 2009, section 4.1): lines to be entered with their heading lead a vehicle of 2 m/s far astray in a flow of 1 m/s. The first
-//! way starts up-flow of the point on the vehicle's side and leads into the down-flow leaf; a last one back to the
-//! point closes the last leaf. Centre and flow are taken anew at each repetition. Corners are held 10 m inside the
-//! area. At its end the list of lost points is emptied, as the bowties leave it, so that the next search round begins
-//! at a new one; the queue of last detection points stays.
+//! *Deviations*: the text does not describe Fig. 4b and does not count the leaves. Here n straight lines through the
+//! point, 360°/n apart and joined by turns outside, make n leaves. Each leaf is 180° - 360°/n wide and its sides are
+//! `leaf_m` long. With four leaves the turns become circles when `leaf_m` equals the turning radius, which is the
+//! paper's bound; the bound for n leaves is turn_radius / tan(90° - 180°/n). The vehicle flies to the corners with Go
+//! To Point, "the most robust mode" (Pang 2009, section 4.1): if it had to enter each line with the line's heading, a
+//! vehicle of 2 m/s would go far astray in a flow of 1 m/s. The first line starts up-flow of the point, on the
+//! vehicle's side, and leads into the down-flow leaf. A last line back to the point closes the last leaf. Each
+//! repetition takes the present centre and flow. Corners are held 10 m inside the area. At the end the behaviour
+//! empties the list of lost points, as the bowties do, so that the next search begins at a new point; the queue of
+//! last detection points stays.
 
 use super::catalogue::BehaviourParams;
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
+use crate::handoff::{Manoeuvre, Observation, Side};
+use crate::memory::PlumeMemory;
+use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -42,9 +46,9 @@ pub struct Params {
     pub leaves: NonZeroU32,
     /// Length of a leaf's sides, m.
     pub leaf_m: Positive,
-    /// Turning radius that the leaves must have room for, m.
+    /// Turning radius of the vehicle, m. The leaves must have room for it.
     pub turn_radius_m: Positive,
-    /// A leaf's corner is reached within this distance, m.
+    /// A leaf's corner counts as reached within this distance, m.
     pub arrive_m: Positive,
 }
 
@@ -63,7 +67,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "Cloverleaf",
-        what: "reacquire: leaves round the newest last detection point, one of them down-flow",
+        what: "reacquire: loops like a cloverleaf around the newest last detection point, one of them down-flow",
         source: "Tian et al. 2013, section 3, Fig. 4b",
     };
 }
@@ -81,9 +85,9 @@ pub struct Cloverleaf {
     leaves: u32,
     leaf_m: f64,
     arrive_m: f64,
-    /// Corners begun since it was entered.
+    /// Corners started since it was entered.
     begun: u32,
-    /// Where the first way leads: down-flow turned by half a leaf; and the way round.
+    /// Direction of the first line: down-flow turned by half a leaf; and the sense of the turns.
     first: Heading,
     turn: Side,
     centre: Vector2<f64>,
@@ -91,7 +95,7 @@ pub struct Cloverleaf {
 
 impl Cloverleaf {
     /// # Errors
-    /// [`RobotError::Invalid`] when the leaves are too few, too many or too short to be flown.
+    /// [`RobotError::Invalid`] if there are too few or too many leaves, or if they are too short to be flown.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: format!("reacquire.Cloverleaf.{field}"),
@@ -106,7 +110,7 @@ impl Cloverleaf {
             return Err(invalid(
                 "leaf_m",
                 format!(
-                    "{leaves} leaves must be {least_m:.1} m or longer to close in turns of {} m, got {}",
+                    "must be at least {least_m:.1} m for {leaves} leaves with turns of {} m, got {}",
                     params.turn_radius_m.get(),
                     params.leaf_m.get()
                 ),
@@ -124,7 +128,7 @@ impl Cloverleaf {
         })
     }
 
-    /// The corner of the given number: of each way its start and its end, and after the last of them the centre.
+    /// The corner of the given number. The corners are the start and end of each line, and at last the centre.
     fn corner(&self, number: u32, seen: &Observation) -> Vector2<f64> {
         if number == self.corners() {
             return self.centre;
@@ -140,7 +144,7 @@ impl Cloverleaf {
         inside(&seen.area, self.centre + from_centre, MARGIN_M)
     }
 
-    /// Corners of all repetitions, and one that leads back into the last leaf's second side.
+    /// Number of corners in all repetitions, with the one that leads back along the last leaf's second side.
     fn corners(&self) -> u32 {
         (2 * self.leaves)
             .saturating_mul(self.repetitions)
@@ -177,7 +181,7 @@ impl Behave for Cloverleaf {
             let up_flow = memory.up_flow_or_nose(seen);
             if number == 0 {
                 let right = up_flow.turned(FRAC_PI_2).unit();
-                // From the vehicle's side across to the other; then the way round that closes this leaf.
+                // The first line leads from the vehicle's side to the other; the turns then close this leaf.
                 self.turn = Side::of((seen.estimate.position - self.centre).dot(&right));
             }
             let half = half_leaf(self.leaves);
@@ -215,7 +219,7 @@ mod tests {
         m
     }
 
-    /// All corners asked for until the end, the vehicle staying at `here`.
+    /// All corners until the end, for a vehicle that stays at `here`.
     fn corners(params: &Params, m: &mut PlumeMemory, here: Vector2<f64>) -> Vec<Vector2<f64>> {
         let mut b = Cloverleaf::new(params).expect("legal");
         let mut rng = Stream::new(1, "t", "t");
@@ -244,8 +248,8 @@ mod tests {
         let mut m = memory(v(10.0, 20.0), 0.0);
         let found = corners(&params, &mut m, v(12.0, 40.0));
         let d = 20.0 / 2f64.sqrt();
-        // Through the point to the south-west, north-west, north-east, south-east: always turning right. The first two
-        // make the southern leaf.
+        // Through the point to the south-west, north-west, north-east, south-east: always turning right. The first
+        // two lines make the southern leaf.
         let ends = [(-d, -d), (-d, d), (d, d), (d, -d)];
         assert_eq!(found.len(), 18, "two rounds of four ways, and back");
         for k in 0..8 {
@@ -256,7 +260,7 @@ mod tests {
                 "{k}"
             );
         }
-        // The last leaf's second side, and home to the point.
+        // The last leaf's second side, and back to the point.
         assert!((found[16] - found[0]).norm() < 1e-9);
         assert_eq!(found[17], v(10.0, 20.0));
         assert_eq!(m.lost.all().len(), 0);
@@ -277,10 +281,10 @@ mod tests {
                     ..Params::default()
                 };
                 let found = corners(&params, &mut memory(v(0.0, 0.0), up_deg), v(0.0, 5.0));
-                // Out to the end of the first way, back from the start of the second: the leaf's middle is down-flow.
+                // From the end of the first line to the start of the second: the leaf's middle is down-flow.
                 let down = Heading::from_deg(up_deg).opposite();
                 assert!(Heading::of(found[1] + found[2]).turn_to(down).abs() < 1e-9);
-                // The ways turn all to the same side, 360/n degrees each.
+                // The lines all turn to the same side, by 360/n degrees each.
                 let ways: Vec<Heading> = (found.chunks_exact(2).take(leaves as usize))
                     .map(|w| Heading::of(w[1] - w[0]))
                     .collect();
@@ -322,7 +326,7 @@ mod tests {
             b.step(&o, true, &mut m, &mut rng),
             Stride::Start(_)
         ));
-        // Entered again it begins again.
+        // When it is entered again, it starts again.
         b.enter(&o, &m);
         assert!(matches!(
             b.step(&o, false, &mut m, &mut rng),

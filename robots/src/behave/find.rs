@@ -1,22 +1,26 @@
-//! Looks for the plume: across the flow, a little up or down it, reflected at the area's edges.
+//! Searches for the plume: moves across the flow, leaning a little up-flow or down-flow, and turns back at the area's
+//! edges.
 //!
 //! *Source*: Pang 2009, section 5.2.
 //!
-//! *Parameters*: angle off the cross-flow direction, `off_across_deg`, °, 20; distance at which an edge
-//! counts as reached, `edge_m`, m (not printed), 20: what a vehicle with a turning radius of 11.5 m (2 m/s at
-//! 10 °/s) needs to turn about in a corner, (1 + sin 45°) · 11.5 m.
+//! *Parameters*: angle off the cross-flow direction, `off_across_deg`, °, 20; distance at which an edge counts as
+//! reached, `edge_m`, m (not printed), 20: (1 + sin 45°) · 11.5 m, which a vehicle with a turning radius of 11.5 m (2
+//! m/s at 10 °/s) needs to turn about in a corner.
 //!
-//! *Deviations*: the search starts where the vehicle is (`start: Here`) or goes to the most down-flow corner
-//! first (`DownFlowCorner`, the paper's plan). It begins with the one of the two up-flow leaning directions
-//! that runs longer before an edge. Of several directions that satisfy the rule at an edge the one
-//! nearest to a mirror reflection is taken. The paper says that a corner always has a solution; with an
-//! area turned against the flow it may have none: the vehicle then runs along the newly met edge. As long
-//! as no flow is known the vehicle keeps its heading and is reflected as by a mirror; the search proper
-//! begins with the first flow.
+//! *Deviations*: the search starts at the vehicle's place (`start: Here`) or first goes to the most down-flow corner
+//! (`DownFlowCorner`, the paper's plan). It begins with the one of the two up-flow leaning directions that runs
+//! longer before it meets an edge. If several directions satisfy the rule at an edge, the one nearest to a mirror
+//! reflection is taken. The paper says that there is a solution in every corner. In an area that is turned against
+//! the flow there may be none: the vehicle then moves along the newly met edge. As long as no flow is known, the
+//! vehicle keeps its heading and turns at edges like a mirror reflection; the actual search begins with the first
+//! flow estimate.
 
 use super::catalogue::BehaviourParams;
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride, edges, inside};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
+use crate::places::{edges, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -28,16 +32,16 @@ use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::Heading;
 
-/// An edge is met by a course with a greater outward component than this (half a degree).
+/// A course runs against an edge if its outward component is greater than this (half a degree).
 const OUTWARD: f64 = 0.01;
 
 /// Where the search begins.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum From {
-    /// Where the vehicle is.
+    /// At the vehicle's place.
     #[default]
     Here,
-    /// At the most down-flow corner of the area, each time the search begins.
+    /// At the most down-flow corner of the area, whenever the search begins.
     DownFlowCorner,
 }
 
@@ -66,7 +70,7 @@ impl Default for Params {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
-    /// Nothing asked yet.
+    /// No goal given yet.
     Begin,
     /// On the way to the corner.
     ToCorner,
@@ -74,14 +78,15 @@ enum Phase {
     Blind(Heading),
     /// On one of the four directions.
     Leg(Heading),
-    /// Along an edge, until one of the four satisfies the rule for `before`, the course that met it.
+    /// Moving along an edge until one of the four directions satisfies the rule for `before`, the course that met the
+    /// edge.
     Along { course: Heading, before: Heading },
 }
 
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "ZigZag",
-        what: "find: crosses the flow at 70 or 110 degrees to it, reflected at the area's edges",
+        what: "find: crosses the flow at 70 or 110 degrees to it, and turns back at the area's edges",
         source: "Pang 2009, section 5.2",
     };
 }
@@ -103,7 +108,7 @@ pub struct ZigZag {
 
 impl ZigZag {
     /// # Errors
-    /// [`RobotError::Invalid`] when the angle does not lead across the flow.
+    /// [`RobotError::Invalid`] if the angle does not lead across the flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         if params.off_across_deg.get() >= 90.0 {
             return Err(RobotError::Invalid {
@@ -125,7 +130,7 @@ impl ZigZag {
         [a, -a, b, -b].map(|turn| up_flow.turned(turn))
     }
 
-    /// Outward normals of the edges within reach, the nearest first. In a small area the reach is a quarter of it,
+    /// Outward normals of the edges within reach, nearest first. In a small area the reach is a quarter of the area,
     /// so that opposite edges are never reached together.
     fn reached(&self, area: &Area, p: Vector2<f64>) -> Vec<Vector2<f64>> {
         let reach_m = self.edge_m.min(area.length_m.min(area.width_m) / 4.0);
@@ -137,7 +142,8 @@ impl ZigZag {
         near.into_iter().map(|(_, n)| n).collect()
     }
 
-    /// The one of the four that keeps the velocity along the edge and turns inward; in a corner, inward of both.
+    /// The one of the four directions that keeps the velocity along the edge and turns inward; in a corner, inward of
+    /// both edges.
     fn rule(&self, up_flow: Heading, before: Heading, near: &[Vector2<f64>]) -> Option<Heading> {
         let was = before.unit();
         let mirror = reflected(was, near);
@@ -160,13 +166,13 @@ impl ZigZag {
         best.map(|(_, h)| h)
     }
 
-    /// What to do at the edges `near`, reached on `course`.
+    /// The reaction to the edges `near`, reached on `course`.
     fn react(&self, up_flow: Heading, course: Heading, near: &[Vector2<f64>]) -> Phase {
         if let Some(leg) = self.rule(up_flow, course, near) {
             return Phase::Leg(leg);
         }
         let c = course.unit();
-        // The edge just met is the one the course runs against most.
+        // The newly met edge is the one that the course runs against most.
         let met = near
             .iter()
             .copied()
@@ -251,7 +257,7 @@ impl Behave for ZigZag {
     }
 }
 
-/// Mirrored at every edge it runs against.
+/// Reflected at every edge that it runs against.
 fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
     near.iter().fold(course, |c, n| {
         let out = c.dot(n);
@@ -259,7 +265,7 @@ fn reflected(course: Vector2<f64>, near: &[Vector2<f64>]) -> Vector2<f64> {
     })
 }
 
-/// How far a course runs before an edge, m.
+/// How far a course runs before it meets an edge, m.
 fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
     let c = course.unit();
     edges(area, p)
@@ -269,7 +275,7 @@ fn run_m(area: &Area, p: Vector2<f64>, course: Heading) -> f64 {
         .fold(f64::INFINITY, f64::min)
 }
 
-/// The corner farthest down-flow, brought inside the reach of the edges.
+/// The corner farthest down-flow, moved inside the reach of the edges.
 fn down_flow_corner(area: &Area, up_flow: Heading, margin_m: f64) -> Vector2<f64> {
     let down = up_flow.opposite().unit();
     let far = |p: &Vector2<f64>| (p - area.centre).dot(&down);

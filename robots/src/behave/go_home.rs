@@ -6,7 +6,9 @@
 //!
 //! *Deviations*: none.
 
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use super::{Behave, Stride};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
 use world::seeds::Stream;
 
 /// State of the way home.

@@ -4,13 +4,15 @@
 //!
 //! *Parameters*: the place.
 //!
-//! *Deviations*: none. Whether detections count on the way is the strategy's matter.
+//! *Deviations*: none. The strategy decides whether detections count on the way.
 
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use super::{Behave, Stride};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 
-/// State of a run to a place.
+/// State of going to a place.
 #[derive(Clone, Copy, Debug)]
 pub struct GoTo {
     point: Vector2<f64>,

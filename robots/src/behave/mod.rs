@@ -1,6 +1,7 @@
 //! Behaviours: one file each.
 
 mod avoid;
+mod behaviour;
 mod catalogue;
 mod cloverleaf;
 mod find;
@@ -13,6 +14,7 @@ mod track_in;
 mod track_out;
 
 pub use avoid::{Params as AvoidParams, SoftAvoid};
+pub use behaviour::{Behave, Stride};
 pub use catalogue::{
     BehaviourParams, FindSpec, Finds, PARTS, ReacquireSpec, Reacquires, TrackInSpec, TrackOutSpec,
     TracksIn, TracksOut,

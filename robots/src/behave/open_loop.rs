@@ -1,14 +1,16 @@
-//! Drives the actuators from a time table: each row holds until the next, the last until the end.
+//! Drives the actuators from a time table. Each row holds until the next one, the last row until the end.
 //!
 //! *Source*: open-loop vehicle trials (Prestero 2001, chapter 6).
 //!
-//! *Parameters*: rows of time, `t_s`, s from the first tick; rudder, `rudder_deg`, °, positive to
-//! starboard; stern plane, `stern_deg`, °, positive nose down; propeller, `rpm`; the end, `end_s`, s.
+//! *Parameters*: rows of time, `t_s`, s from the first tick; rudder, `rudder_deg`, °, positive to starboard; stern
+//! plane, `stern_deg`, °, positive nose down; propeller, `rpm`; the end, `end_s`, s.
 //!
-//! *Deviations*: before the first row all is zero.
+//! *Deviations*: before the first row all actuators are at zero.
 
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, Manoeuvre, Observation, PlumeMemory, Stride};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Finite, NonNegative, Positive};
@@ -48,18 +50,18 @@ pub struct TimeTableParams {
     pub end_s: Positive,
 }
 
-/// State of a run through the table.
+/// State of a pass through the table.
 #[derive(Clone, Debug)]
 pub struct TimeTable {
     params: TimeTableParams,
     began_s: f64,
-    /// Rows begun so far; `None` before the first tick.
+    /// Rows that have begun; `None` before the first tick.
     row: Option<usize>,
 }
 
 impl TimeTable {
     /// # Errors
-    /// [`RobotError::Invalid`] when the rows' times do not grow or reach past the end.
+    /// [`RobotError::Invalid`] if the times of the rows do not grow or reach past the end.
     pub fn new(params: &TimeTableParams) -> Result<Self, RobotError> {
         let invalid = |problem: String| RobotError::Invalid {
             field: "strategy.OpenLoop.table".into(),
@@ -98,7 +100,7 @@ impl Behave for TimeTable {
     }
 
     fn step(&mut self, seen: &Observation, _: bool, _: &mut PlumeMemory, _: &mut Stream) -> Stride {
-        // A nanosecond of grace: the clock is a sum of steps, the table is written in decimals.
+        // A nanosecond of tolerance: the clock is a sum of steps, and the table is written in decimals.
         let t_s = seen.t_s - self.began_s + 1e-9;
         if t_s >= self.params.end_s.get() {
             return Stride::Over;

@@ -1,21 +1,24 @@
-//! Looks round the points where the plume was lost, with bowties.
+//! Searches around the points where the plume was lost, in bowties.
 //!
 //! *Source*: Pang 2009, section 5.5, Table 3, Fig. 6.
 //!
-//! *Parameters*: N_re, `repetitions`, 2; first centre up-flow of the point, `lead_m`, m, 10; angle of the
-//! lines to up-flow, `angle_deg`, °, 15; half width explored, `half_width_m`, m, 13; radius of the closing
-//! turns, `turn_radius_m`, m, 5.
+//! *Parameters*: N_re, `repetitions`, 2; distance of the first centre up-flow of the point, `lead_m`, m, 10; angle of
+//! the lines to up-flow, `angle_deg`, °, 15; explored half width, `half_width_m`, m, 13; radius of the closing turns,
+//! `turn_radius_m`, m, 5.
 //!
-//! *Deviations*: the lengths of Fig. 6 are not legible in print. The text derives the 13 m either side from
-//! lines and closing turns ("a clockwise turn ... radius of at least 5.0 m. Therefore ... at least 13 m"), so
-//! a line spans half_width - 2 turn_radius = 3 m either side of the centre and is 2 · 3 / sin 15° = 23 m long;
-//! `turn_radius_m: 0` gives the other reading, lines alone spanning 13 m, 100 m long. The turns themselves
-//! are the guidance's way to the next line's start. A line's ends are held 10 m inside the area. With
-//! N_re = 1 the bowtie is centred on the point.
+//! *Deviations*: the lengths in Fig. 6 are not legible in print. The text derives the 13 m on either side from lines
+//! and closing turns ("a clockwise turn ... radius of at least 5.0 m. Therefore ... at least 13 m"), so a line spans
+//! half_width - 2 turn_radius = 3 m on either side of the centre and is 2 · 3 / sin 15° = 23 m long. `turn_radius_m:
+//! 0` gives the other reading: the lines alone span 13 m and are 100 m long. The turns themselves are how the
+//! guidance reaches the next line's start. The ends of a line are held 10 m inside the area. With N_re = 1 the bowtie
+//! is centred on the point.
 
 use super::catalogue::BehaviourParams;
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Side, Stride, inside};
+use crate::handoff::{Manoeuvre, Observation, Side};
+use crate::memory::PlumeMemory;
+use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -35,11 +38,11 @@ use world::units::Heading;
 pub struct Params {
     /// N_re: bowties at a point.
     pub repetitions: NonZeroU32,
-    /// The first is centred this far up-flow of the point, m.
+    /// The centre of the first bowtie lies this far up-flow of the point, m.
     pub lead_m: NonNegative,
     /// Angle between a line and up-flow, °.
     pub angle_deg: Positive,
-    /// Explored on either side across the flow, m.
+    /// Width explored on either side, across the flow, m.
     pub half_width_m: Positive,
     /// Least radius of the closing turns, m.
     pub turn_radius_m: NonNegative,
@@ -60,7 +63,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "Bowtie",
-        what: "reacquire: two crossing lines round the lost points, one point after the other",
+        what: "reacquire: bowties of two crossing lines around the lost points, one point after the other",
         source: "Pang 2009, section 5.5, Table 3, Fig. 6",
     };
 }
@@ -77,16 +80,16 @@ pub struct Bowtie {
     params: Params,
     angle_rad: f64,
     half_length_m: f64,
-    /// n of Table 3: bowties done at the present point.
+    /// n of Table 3: bowties finished at the present point.
     done: u32,
-    /// The second line, while the first is being tracked.
+    /// The second line, while the vehicle tracks the first.
     second: Option<(Vector2<f64>, Vector2<f64>)>,
     begun: bool,
 }
 
 impl Bowtie {
     /// # Errors
-    /// [`RobotError::Invalid`] when nothing is left of the lines, or the angle does not lead up-flow.
+    /// [`RobotError::Invalid`] if the lines have no length left, or if the angle does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: format!("reacquire.Bowtie.{field}"),
@@ -126,7 +129,7 @@ impl Bowtie {
         self.params.lead_m.get() * f64::from(last - self.done) / f64::from(last)
     }
 
-    /// The line through `centre` that starts on `side` and leans to the other.
+    /// The line through `centre` that starts on `side` and leans to the other side.
     fn line(
         &self,
         centre: Vector2<f64>,
@@ -193,8 +196,9 @@ impl Behave for Bowtie {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::handoff::Lcdp;
     use crate::handoff::testing::seen;
-    use crate::handoff::{Lcdp, LostPoints};
+    use crate::memory::LostPoints;
 
     fn memory(norths: &[f64]) -> PlumeMemory {
         let up = Heading::from_deg(0.0);
@@ -210,7 +214,7 @@ mod tests {
         }
     }
 
-    /// All lines asked for until the end, the vehicle staying at `east`.
+    /// All lines until the end, for a vehicle that stays at `east`.
     fn lines(params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
         let mut b = Bowtie::new(params).expect("legal");
         let mut m = memory(norths);

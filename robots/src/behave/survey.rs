@@ -1,14 +1,17 @@
-//! Passes over a place: parallel lines, one after the other, back and forth.
+//! Passes over a place on parallel lines, one after the other, back and forth.
 //!
-//! *Source*: Pang 2009, section 4.2 ("a lawn mower search, or ... a side scan maneuver after it declares the source location"
-//! by Follow Line) and section 6: sidescan over the declared source gives its position.
+//! *Source*: Pang 2009, section 4.2 ("a lawn mower search, or ... a side scan maneuver after it declares the source
+//! location" by Follow Line) and section 6: the sidescan over the declared source gives its position.
 //!
-//! *Parameters*: distance of each line from the place, right of `along` positive, `offsets_m`, m; half the lines' length, `half_length_m`, m. None
-//! is printed: see `strategy/survey`.
+//! *Parameters*: distance of each line from the place, positive to the right of `along`, `offsets_m`, m; half the
+//! length of the lines, `half_length_m`, m. The paper prints neither: see `strategy/survey`.
 //!
-//! *Deviations*: none. A line's ends are held 10 m inside the area; a line that is left with less than a metre is not flown.
+//! *Deviations*: none. The ends of a line are held 10 m inside the area; a line with less than a metre left is not
+//! flown.
 
-use crate::handoff::{MARGIN_M, Manoeuvre, Stride, inside};
+use super::Stride;
+use crate::handoff::Manoeuvre;
+use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
@@ -16,10 +19,10 @@ use world::units::Heading;
 
 /// Shortest line that is flown, m.
 const SHORTEST_M: f64 = 1.0;
-/// Farther off its line than this, or turned from it by more than this, the vehicle is not on it, m and rad.
+/// The vehicle is on its line if it is no farther from it and no more turned from it than this, m and rad.
 const ON_LINE: (f64, f64) = (6.0, 0.35);
 
-/// Lines over a place, and which is being flown.
+/// Lines over a place, and which of them is being flown.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Passes {
     lines: Vec<(Vector2<f64>, Vector2<f64>)>,
@@ -28,7 +31,8 @@ pub struct Passes {
 }
 
 impl Passes {
-    /// Lines through points `offsets_m` to the right of `place`, looking along `along`, each `half_length_m` to either end.
+    /// Lines through points `offsets_m` to the right of `place`, looking along `along`. Each extends `half_length_m`
+    /// to both ends.
     #[must_use]
     pub fn over(
         place: Vector2<f64>,
@@ -50,7 +54,7 @@ impl Passes {
         }
     }
 
-    /// One tick. `arrived`: the guidance has reached the end of the line last given.
+    /// One tick. `arrived` says whether the guidance has reached the end of the last line.
     pub fn step(&mut self, arrived: bool) -> Stride {
         if self.begun > 0 && !arrived {
             return Stride::Keep;
@@ -64,7 +68,8 @@ impl Passes {
         }
     }
 
-    /// The line being flown, as a number from 0, while a vehicle at `position` on `course` is on it, not on its way to it.
+    /// Number (from 0) of the line being flown, if a vehicle at `position` on `course` is on it; `None` while it is
+    /// on its way to the line.
     #[must_use]
     pub fn on_line(&self, position: Vector2<f64>, course: Heading) -> Option<usize> {
         let number = self.begun.checked_sub(1)?;

@@ -1,18 +1,20 @@
-//! Goes up-flow in the plume, a little to one side, turning to the other at each detection.
+//! Moves up-flow in the plume, a little to one side, and turns to the other side at each detection.
 //!
 //! *Source*: Pang 2009, section 5.3, Table 1 (after Li 2001).
 //!
 //! *Parameters*: λ, `lambda_s`, s, 5.0; β, `beta_deg`, °, 20.
 //!
-//! *Deviations*: Table 1 compares ψ_v - ψ_f with 180 without wrapping: here the vehicle's heading is
-//! taken left or right of up-flow. Left of it: LHS = +1 (it would leave the plume on its left) and the
-//! course is up-flow + β, else up-flow - β; so each detection turns the vehicle to the other side, which is
-//! the counter-turn. LHS is set before the course, not after, which saves one sample of delay. Without any
-//! flow measured yet the vehicle's heading stands for up-flow.
+//! *Deviations*: Table 1 compares ψ_v - ψ_f with 180 without wrapping. Here the rule asks whether the vehicle's
+//! heading is left or right of up-flow. If it is left, LHS = +1 (the vehicle would leave the plume on its left) and
+//! the course is up-flow + β; otherwise it is up-flow - β. Each detection thus turns the vehicle to the other side,
+//! which is the counter-turn. LHS is set before the course, not after it, which saves a delay of one sample. As long
+//! as no flow has been measured, the vehicle's heading stands for up-flow.
 
 use super::catalogue::BehaviourParams;
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, Lcdp, Manoeuvre, Observation, PlumeMemory, Side, Stride, detects};
+use crate::handoff::{Lcdp, Manoeuvre, Observation, Side, detects};
+use crate::memory::PlumeMemory;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
@@ -26,7 +28,7 @@ use world::units::Heading;
 #[schemars(rename = "CounterTurnParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
-    /// The plume counts as lost after this time without detection, s.
+    /// The plume counts as lost after this time without a detection, s.
     pub lambda_s: Positive,
     /// Angle to up-flow, °, less than 90.
     pub beta_deg: NonNegative,
@@ -44,7 +46,7 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "CounterTurn",
-        what: "track in: beta off up-flow, to the other side at each detection",
+        what: "track in: up-flow turned by beta, to the other side at each detection",
         source: "Pang 2009, section 5.3, Table 1",
     };
 }
@@ -66,7 +68,7 @@ pub struct CounterTurn {
 
 impl CounterTurn {
     /// # Errors
-    /// [`RobotError::Invalid`] when β does not lead up-flow.
+    /// [`RobotError::Invalid`] if β does not lead up-flow.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         if params.beta_deg.get() >= 90.0 {
             return Err(RobotError::Invalid {
@@ -108,7 +110,7 @@ impl Behave for CounterTurn {
         if detects(seen) {
             self.last = Lcdp::here(seen);
         } else if seen.t_s - self.last.t_s > self.lambda_s {
-            // The memory's own copy, where there is one: a navigation fix may have moved it since.
+            // Use the copy in the memory if there is one: a navigation fix may have moved it.
             let same = memory.last_detection.filter(|d| d.t_s == self.last.t_s);
             memory.lose(same.unwrap_or(self.last), up_flow);
             return Stride::Over;

@@ -1,22 +1,26 @@
-//! Just out of the plume: up-flow and across it, to the plume's other side.
+//! Just out of the plume: moves up-flow and across the plume to its other side.
 //!
-//! *Source*: Pang 2009, section 5.4, Table 2; that L_u and L_c might shrink near the source, section 6.
+//! *Source*: Pang 2009, section 5.4, Table 2; section 6 says that L_u and L_c might shrink near the source.
 //!
-//! *Parameters*: L_u, `up_m`, m, 18; L_c, `across_m`, m, 18; arrival radius R is the guidance's. `near`, none in the paper:
-//! newest points looked at, `points`, 3; their extent along the flow at which L_u and L_c are whole, `far_m`, 36 m (two
-//! steps of L_u); least share of them, `least`, 0.6 (11 m: no less than R, so that there is a way to go).
+//! *Parameters*: L_u, `up_m`, m, 18; L_c, `across_m`, m, 18; the arrival radius R is the guidance's. `near` (none in
+//! the paper): number of newest points considered, `points`, 3; their extent along the flow at which L_u and L_c are
+//! not reduced, `far_m`, 36 m (two steps of L_u); their smallest share, `least`, 0.6 (11 m: not less than R, so that
+//! there is a way to go).
 //!
-//! *Deviations*: Table 2 is not legible in print; the text is followed: from the most up-flow lost point
-//! L_u up-flow and L_c to the side opposite to the one on which the plume was left. The point is fixed on
-//! entry and held 10 m inside the area, where the cage lets the vehicle arrive. The paper says that the distance to the
-//! source cannot be told from the plume's width nor from concentrations, and gives no rule for `near`; ours goes by
-//! headway: as long as the vehicle gets on, each point lies about L_u up-flow of the one before it; near the source they
-//! gather. L_u and L_c are multiplied by the extent along the flow of the newest points over `far_m`, between `least` and 1;
-//! with fewer points they are whole.
+//! *Deviations*: Table 2 is not legible in print. This follows the text: from the most up-flow lost point, L_u
+//! up-flow and L_c to the side opposite to the one on which the vehicle left the plume. The destination is fixed on
+//! entry and held 10 m inside the area, where the cage lets the vehicle arrive. The paper says that neither the width
+//! of the plume nor concentrations tell the distance to the source, and gives no rule for `near`. Our rule uses
+//! headway: as long as the vehicle makes headway, each lost point lies about L_u up-flow of the one before it; near
+//! the source the points gather. L_u and L_c are multiplied by the extent of the newest points along the flow over
+//! `far_m`, held between `least` and 1. With fewer points they are not reduced.
 
 use super::catalogue::BehaviourParams;
+use super::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, Lcdp, MARGIN_M, Manoeuvre, Observation, PlumeMemory, Stride, inside};
+use crate::handoff::{Lcdp, Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
+use crate::places::{MARGIN_M, inside};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::f64::consts::FRAC_PI_2;
@@ -32,11 +36,11 @@ use world::units::Heading;
 #[schemars(rename = "UpAcrossParams")]
 #[serde(deny_unknown_fields, default)]
 pub struct Params {
-    /// L_u: up-flow of the point, m.
+    /// L_u: distance up-flow of the point, m.
     pub up_m: NonNegative,
-    /// L_c: across the flow from it, m.
+    /// L_c: distance across the flow from the point, m.
     pub across_m: NonNegative,
-    /// How both shrink near the source; they do not where it is not given.
+    /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,
 }
 
@@ -44,9 +48,9 @@ pub struct Params {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Near {
-    /// How many of the newest last detection points are looked at, at least 2.
+    /// How many of the newest last detection points are considered, at least 2.
     pub points: NonZeroUsize,
-    /// Their extent along the flow from which on nothing shrinks, m.
+    /// If the points extend at least this far along the flow, nothing shrinks, m.
     pub far_m: Positive,
     /// Least share of L_u and L_c.
     pub least: Fraction,
@@ -63,7 +67,7 @@ impl Default for Near {
 }
 
 impl Near {
-    /// Share of L_u and L_c, by last detection points in order of time.
+    /// Share of L_u and L_c, from last detection points in order of time.
     fn share(&self, points: &[Lcdp], up_flow: Heading) -> f64 {
         let Some(first) = points.len().checked_sub(self.points.get()) else {
             return 1.0;
@@ -111,7 +115,7 @@ pub struct UpAcross {
 
 impl UpAcross {
     /// # Errors
-    /// [`RobotError::Invalid`] when one point is to have an extent.
+    /// [`RobotError::Invalid`] if the extent of a single point is asked for.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         if params.near.as_ref().is_some_and(|n| n.points.get() < 2) {
             return Err(RobotError::Invalid {
@@ -164,8 +168,9 @@ impl Behave for UpAcross {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::handoff::Side;
     use crate::handoff::testing::seen;
-    use crate::handoff::{LostPoints, Side};
+    use crate::memory::LostPoints;
     use nalgebra::Vector2;
 
     fn memory(leaves: Side, lost: &[(f64, f64)]) -> PlumeMemory {

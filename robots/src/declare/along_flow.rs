@@ -2,16 +2,16 @@
 //!
 //! *Source*: Pang 2009, section 5.6.
 //!
-//! *Parameters*: number of points, `points`, 3; greatest difference along the flow, `within_m`, m, 4; greatest difference
-//! across it, `across_m`, m, none.
+//! *Parameters*: number of points, `points`, 3; greatest difference along the flow, `within_m`, m, 4; greatest
+//! difference across it, `across_m`, m, none.
 //!
-//! *Deviations*: none by default. The points are sorted by the flow at the time of the test, whatever it was when
-//! they were taken. The difference across the flow is not looked at, as in the paper, which names that among the
-//! causes of its 31 m error and a bound on it as future work: `across_m` is that bound.
+//! *Deviations*: none by default. The points are sorted by the flow at the time of the test, not by the flow at the
+//! time when they were stored. As in the paper, the difference across the flow is not tested. The paper names that
+//! among the causes of its 31 m error, and a bound on it as future work: `across_m` is that bound.
 
 use super::catalogue::{DeclareParams, Points};
-use crate::handoff::PlumeMemory;
 use crate::handoff::{Evidence, Lcdp};
+use crate::memory::PlumeMemory;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,7 +29,7 @@ pub struct AlongFlow {
     pub points: NonZeroUsize,
     /// They must differ by less than this along the flow, m.
     pub within_m: Positive,
-    /// They must differ by less than this across it, m; looked at only if given.
+    /// They must differ by less than this across the flow, m; tested only if given.
     pub across_m: Option<Positive>,
 }
 
@@ -66,8 +66,8 @@ impl DeclareParams for AlongFlow {
 }
 
 impl AlongFlow {
-    /// The most up-flow of `points` (east, north; m), if enough of them lie close to it along the flow, and across it
-    /// where that is asked for; and those it rests on.
+    /// The most up-flow of `points` (east, north; m), if enough of them lie close to it along the flow, and also
+    /// across it if `across_m` is given; and the points that the result rests on.
     #[must_use]
     pub fn declare(&self, points: &[Lcdp], up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
         let up = up_flow.unit();
@@ -114,7 +114,7 @@ mod tests {
     fn by_hand() {
         let rule = AlongFlow::default();
         let north = Heading::from_deg(0.0);
-        // 100, 97.5, 96.5: within 3.5 m, whatever lies behind them and across.
+        // 100, 97.5, 96.5: within 3.5 m. What lies behind them or across does not matter.
         let near = [
             at(0.0, 40.0),
             at(5.0, 97.5),
@@ -127,7 +127,7 @@ mod tests {
             found(&rule, &[at(0.0, 0.0), at(0.0, 2.0), at(0.0, 4.0)], north),
             None
         );
-        // Two are not three.
+        // Two points where three are needed.
         assert_eq!(found(&rule, &near[1..3], north), None);
         assert_eq!(found(&rule, &[], north), None);
     }
@@ -149,7 +149,7 @@ mod tests {
         );
         // From the south the first three are 50, 98, 99: 49 m apart.
         assert_eq!(found(&rule, &points, Heading::from_deg(180.0)), None);
-        // From the side all lie abreast.
+        // Seen from the side, all lie side by side.
         assert!(found(&rule, &points, Heading::from_deg(90.0)).is_some());
     }
 

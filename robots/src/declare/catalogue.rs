@@ -5,14 +5,15 @@ use super::siz_f::SizF;
 use super::siz_t::SizT;
 use super::{credible_area, unchanged};
 use crate::error::RobotError;
-use crate::handoff::{Belief, Declaration, Evidence, Lcdp, PlumeMemory};
+use crate::handoff::{Belief, Declaration, Evidence, Lcdp};
+use crate::memory::PlumeMemory;
 use nalgebra::{Vector2, Vector3};
 use std::num::NonZeroUsize;
 use world::kind;
 use world::registry::Spec;
 use world::units::Heading;
 
-/// The points where the plume was lost that a rule looks at, by their field in the strategy.
+/// The points that a rule looks at, where the plume was lost, by their field in the strategy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Points {
     /// The short list of lost points.
@@ -22,7 +23,7 @@ pub enum Points {
 }
 
 impl Points {
-    /// Those of a searcher.
+    /// Those points of a searcher.
     #[must_use]
     pub fn of(self, memory: &PlumeMemory) -> &[Lcdp] {
         match self {
@@ -32,23 +33,23 @@ impl Points {
     }
 }
 
-/// A rule on the points where the plume was lost: its parameters are all of it.
+/// A rule that looks at the points where the plume was lost. Its parameters are its whole state.
 pub trait DeclareParams: Spec {
     /// The points it looks at.
     fn points(&self) -> Points {
         Points::Lcdps
     }
 
-    /// So many of them there must be.
+    /// The least number of points that it needs.
     fn needs(&self) -> NonZeroUsize;
 
-    /// The source's place (east, north), m, and what that rests on, if the points say so.
+    /// The source's place (east, north), m, and its evidence, if the points show it.
     fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)>;
 
-    /// Whether its parameters make sense.
+    /// Checks its parameters.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when bounds contradict each other.
+    /// [`RobotError::Invalid`] if bounds contradict each other.
     fn check_own(&self) -> Result<(), RobotError> {
         Ok(())
     }
@@ -62,10 +63,11 @@ pub trait DeclareParams: Spec {
         })
     }
 
-    /// Whether the parameters make sense, of a searcher that remembers so many lost points and last detection points.
+    /// Checks the parameters for a searcher that remembers so many lost points and last detection points.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when bounds contradict each other, or more points are asked for than are remembered.
+    /// [`RobotError::Invalid`] if bounds contradict each other, or if the rule needs more points than the searcher
+    /// remembers.
     fn check(&self, lost_points: NonZeroUsize, lcdps: NonZeroUsize) -> Result<(), RobotError> {
         let (most, list) = match self.points() {
             Points::Lost => (lost_points, "lost_points"),
@@ -84,22 +86,22 @@ pub trait DeclareParams: Spec {
     }
 }
 
-/// A rule on a map at work.
+/// State of a rule on a map.
 pub trait BeliefRule: std::fmt::Debug + Send + Sync {
-    /// The source's place (ENU, m), if the map says so at `t_s`.
+    /// The source's place (ENU, m), if the map shows it at `t_s`.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>>;
 }
 
 /// Parameters of a rule on a map.
 pub trait BeliefRuleParams: Spec {
-    /// The rule, nothing seen yet.
+    /// Builds the rule before its first tick.
     fn build(&self) -> Box<dyn BeliefRule>;
 }
 
 const HEADING: &str = "Declaration rules";
 
 kind! {
-    /// The rules on the points where the plume was lost.
+    /// Rules that declare where the source is, from the points where the vehicle last detected the plume.
     pub DeclareSpec = Declares of DeclareParams {
         heading: HEADING,
         rows: [AlongFlow, SizT, SizF],
@@ -108,7 +110,7 @@ kind! {
 }
 
 kind! {
-    /// The rules on a map of the source.
+    /// Rules that declare where the source is, from the robot's map of where it may be.
     pub BeliefRuleSpec = BeliefRules of BeliefRuleParams {
         heading: HEADING,
         rows: [unchanged::Params, credible_area::Params],

@@ -1,7 +1,8 @@
-//! The rules over made-up missions: headway up-flow, then points scattered round the source.
+//! The rules in made-up missions: headway up-flow, then points scattered around the source.
 
 use super::{AdaptiveSize, SizF, SizT, ZoneSize};
-use crate::handoff::{FixMove, Lcdp, LcdpQueue, NavigationFix};
+use crate::handoff::Lcdp;
+use crate::memory::{FixMove, LcdpQueue, NavigationFix};
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::math;
@@ -34,7 +35,8 @@ fn siz_f(eps_m: f64, points: usize) -> SizF {
     }
 }
 
-/// `way` points 10 m apart down-flow of the source, then `near` points round it, each axis off by `scatter_m`.
+/// `way` points 10 m apart down-flow of the source, then `near` points around it, scattered by `scatter_m` in each
+/// axis.
 fn mission(way: usize, near: usize, scatter_m: f64, rng: &mut Stream) -> Vec<Lcdp> {
     let mut off = || Vector2::new(rng.normal(), rng.normal()) * scatter_m;
     let along = |k: usize| SOURCE + Vector2::new(10.0 * (way - k) as f64, 0.0);
@@ -58,8 +60,8 @@ fn five_errors(p: f64, trials: u32) -> f64 {
 
 #[test]
 fn two_points_are_declared_as_often_as_chance_has_it() {
-    // Two points off by sigma an axis differ by a Rayleigh-distributed way of scale sqrt(2) sigma, which is the diagonal; their
-    // distance from their mean is half of it.
+    // Two points off by sigma an axis differ by a Rayleigh-distributed way of scale sqrt(2) sigma, which is the
+    // diagonal; their distance from their mean is half of it.
     let mut rng = Stream::new(1, "two", "test");
     for (eps_m, scatter_m) in [(3.0, 1.0), (4.0, 2.0), (3.0, 5.0)] {
         let mut pair = || mission(0, 2, scatter_m, &mut rng);
@@ -100,12 +102,12 @@ fn the_paper_s_settings_find_a_narrow_cluster_at_the_end_of_the_way() {
 
 #[test]
 fn jumps_of_ten_metres_keep_a_small_box_from_ever_filling() {
-    // Points off by 5 m an axis, as if each had a fix of its own: six of them in 4 m are hopeless, an adaptive zone that
-    // knows of the fixes holds them.
+    // Points off by 5 m an axis, as if each had a fix of its own: six of them in 4 m are hopeless, an adaptive zone
+    // that knows of the fixes holds them.
     let mut rng = Stream::new(3, "wide", "test");
     let mut wide = || mission(5, 6, 5.0, &mut rng);
     let small = share(2000, || siz_t(4.0, 6).declare(&wide(), up(), 5.0).is_some());
-    // The first two of the six would have to lie within 4 m: 15 %; the other four as near again.
+    // Dead reckoning is exact here, but the fixes err by 5 m in each axis and one comes before each point.
     assert!(small < 0.001, "{small}");
     let adaptive = SizF {
         size: ZoneSize::Adaptive(AdaptiveSize::default()),
@@ -118,7 +120,7 @@ fn jumps_of_ten_metres_keep_a_small_box_from_ever_filling() {
 
 #[test]
 fn points_that_move_with_their_fixes_lie_as_dead_reckoning_has_them() {
-    // A vehicle that knows its way exactly but for the fixes, which err by 5 m an axis and come before each point.
+    // Only the newest fix and the mean of the cluster are in error.
     let mut rng = Stream::new(4, "moved", "test");
     for _ in 0..100 {
         let (mut stay, mut whole) = (LcdpQueue::new(n(9)), LcdpQueue::new(n(9)));

@@ -1,11 +1,13 @@
 //! Declares when the source is believed to lie within a small enough area.
 //!
-//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section 2.8.
+//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section
+//! 2.8.
 //!
 //! *Parameters*: greatest size of the smallest set of cells with 95 % of the probability, `below`: m² in a map of the
-//! plane, m³ in a map of space, 50 (five of the cells of Wang & Pang); it must have been so for `for_s`, s, 5.
+//! plane, m³ in a map of space, 50 (five of the cells of Wang & Pang); how long it must have been so small, `for_s`,
+//! s, 5.
 //!
-//! *Deviations*: none of our own making; none of the papers has this rule.
+//! *Deviations*: none of the papers has this rule.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
@@ -23,7 +25,7 @@ use world::registry::Listed;
 pub struct Params {
     /// Greatest size of the 95 % region, m² (m³ in a map of space).
     pub below: Positive,
-    /// For this long, s.
+    /// How long it must have been so, s.
     pub for_s: NonNegative,
 }
 
@@ -58,7 +60,7 @@ pub struct CredibleArea {
 }
 
 impl CredibleArea {
-    /// Nothing seen yet.
+    /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
         Self {
@@ -69,8 +71,8 @@ impl CredibleArea {
 }
 
 impl BeliefRule for CredibleArea {
-    /// The source's place (ENU, m), if the map says so at `t_s`: the mean over the cells nearest the likeliest one would
-    /// mix separate hills, so it is the likeliest cell itself.
+    /// The source's place (ENU, m), if the map shows it at `t_s`: the likeliest cell. A mean over the cells near it
+    /// could mix separate peaks.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
         if !belief.informed || belief.credible_95 > self.params.below.get() {
             self.since_s = None;

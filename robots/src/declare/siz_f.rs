@@ -1,19 +1,21 @@
-//! Declares the most up-flow of enough last detection points that lie near their mean, the others left aside.
+//! Declares the most up-flow of the last detection points that lie near their mean, if there are enough of them.
+//! Points far from the mean are left out.
 //!
 //! *Source*: Tian et al. 2013, section 3, eq. 5, algorithm 2.
 //!
 //! *Parameters*: ε_F, `size: Fixed`, m, 6; N_min, `points`, 6; N_ini, `initial`, not given.
 //!
-//! *Deviations*: algorithm 2 as printed tests for the result inside the loop and would give up after its first removal;
-//! here the loop goes on until it finds or too few are left, as the text says. At least N_min must be left (the
-//! algorithm), not more than N_min (the text). Of equally far points the most down-flow one goes first. N_ini is 1,
-//! which does nothing: the paper says that it matters only for very small N_min.
+//! *Deviations*: algorithm 2 as printed tests the result inside the loop and would give up after its first removal.
+//! Here the loop goes on until it finds a result or too few points are left, as the text says. At least N_min points
+//! must be left (the algorithm), not more than N_min (the text). Of equally far points the most down-flow one is
+//! removed first. N_ini is 1, which has no effect: the paper says that it matters only for very small N_min.
 
 use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
-use crate::handoff::PlumeMemory;
-use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
+use crate::handoff::{Evidence, Lcdp};
+use crate::memory::PlumeMemory;
+use crate::memory::most_up_flow_first;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -29,9 +31,9 @@ use world::units::Heading;
 pub struct SizF {
     /// Greatest distance from the mean, m.
     pub size: ZoneSize,
-    /// N_min: so many must be left.
+    /// N_min: the number of points that must be left.
     pub points: NonZeroUsize,
-    /// N_ini: so many there must be before anything is declared.
+    /// N_ini: the number of points that there must be before anything is declared.
     pub initial: NonZeroUsize,
 }
 
@@ -48,7 +50,7 @@ impl Default for SizF {
 impl Listed for SizF {
     const ENTRY: Entry = Entry {
         name: "SizF",
-        what: "the most up-flow of six or more last detection points within 6 m of their mean, the others left aside",
+        what: "the most up-flow of six or more last detection points within 6 m of their mean; others are left out",
         source: "Tian et al. 2013, section 3, algorithm 2",
     };
 }
@@ -68,8 +70,9 @@ impl DeclareParams for SizF {
 }
 
 impl SizF {
-    /// The most up-flow (east, north), m, of those of `points` (in order of time) that remain near their mean, if they
-    /// are enough, and what it rests on. `fix_m`, what a navigation fix errs along an axis, m, matters to an adaptive size only.
+    /// The most up-flow (east, north), m, of those `points` (in order of time) that remain near their mean, if there
+    /// are enough, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
+    /// size only.
     #[must_use]
     pub fn declare(
         &self,
@@ -86,7 +89,7 @@ impl SizF {
             let sum: Vector2<f64> = left.iter().map(|p| p.position).sum();
             let mean = sum / left.len() as f64;
             let far = |p: &Lcdp| (p.position - mean).norm();
-            // The last of equals: the most down-flow one.
+            // The last of equals is the most down-flow one.
             let (k, most) =
                 (left.iter().enumerate()).max_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
             if far(most) <= eps_m {
@@ -134,14 +137,14 @@ mod tests {
             found(&rule(1.5, 3), 0.0, &places),
             Some(Vector2::new(0.0, 101.0))
         );
-        // Four are not left within 1.5 m.
+        // Fewer than four points are left within 1.5 m.
         assert_eq!(found(&rule(1.5, 4), 0.0, &places), None);
         // 60, 99, 100, 101 within 30 m of their mean, 90: found with four.
         assert_eq!(
             found(&rule(30.0, 4), 0.0, &places),
             Some(Vector2::new(0.0, 101.0))
         );
-        // Just as far as the size will do.
+        // A distance equal to the size is enough.
         assert_eq!(
             found(&rule(2.0, 2), 0.0, &[(0.0, 0.0), (0.0, 4.0)]),
             Some(Vector2::new(0.0, 4.0))
@@ -176,13 +179,13 @@ mod tests {
         assert_eq!(found(&rule(6.0, 3), 0.0, &[(1.0, 1.0); 2]), None);
         let one = Some(Vector2::new(1.0, 1.0));
         assert_eq!(found(&rule(1e-9, 3), 77.0, &[(1.0, 1.0); 3]), one);
-        // In a line across the flow all are equally up-flow: the rightmost, for good.
+        // In a line across the flow all points are equally far up-flow: always the rightmost is declared.
         let line = [(0.0, 5.0), (4.0, 5.0), (2.0, 5.0)];
         assert_eq!(
             found(&rule(6.0, 3), 0.0, &line),
             Some(Vector2::new(0.0, 5.0))
         );
-        // Two pairs equally far: the down-flow pair goes first, whatever came first.
+        // Two pairs equally far: the down-flow pair is removed first, in any order in time.
         for places in [
             [(0.0, 0.0), (0.0, 0.0), (0.0, 80.0), (0.0, 80.0)],
             [(0.0, 80.0), (0.0, 0.0), (0.0, 80.0), (0.0, 0.0)],
@@ -229,7 +232,8 @@ mod tests {
     proptest! {
         #![proptest_config(fixed(256))]
 
-        // The order in time does not matter to a fixed size; what is declared is a point with enough others near it.
+        // The order in time does not matter to a fixed size. The declared place is a point with enough others near
+        // it.
         #[test]
         fn order_does_not_matter_and_the_answer_has_company(
             places in proptest::collection::vec((-15.0..15.0f64, -15.0..15.0f64), 0..20),
@@ -250,7 +254,7 @@ mod tests {
             }
         }
 
-        // Six points within 6 m of each other and none else within reach of their company are always found.
+        // Six points within 6 m of each other, with no others near, are always found.
         #[test]
         fn a_lone_cluster_is_found(
             cluster in proptest::collection::vec((-2.0..2.0f64, -2.0..2.0f64), 6..9),

@@ -2,20 +2,21 @@
 //!
 //! *Source*: Tian et al. 2013, section 3, eq. 2-4, algorithm 1.
 //!
-//! *Parameters*: ε_T, `size: Fixed`, m, 4; N_dec, `points`, 6; N_ini, `initial`, not given. Before the missions of 2002
-//! ε_T = 3 m and N_dec = 3, with which nothing was declared.
+//! *Parameters*: ε_T, `size: Fixed`, m, 4; N_dec, `points`, 6; N_ini, `initial`, not given. Before the missions of
+//! 2002 the values were ε_T = 3 m and N_dec = 3, with which nothing was declared.
 //!
-//! *Deviations*: none by default. N_ini is 1, which does nothing: the paper says that it matters only for very small
-//! N_dec. `size: Adaptive` takes twice the adaptive radius for the diagonal. `order: UpFlow` is another reading: algorithm 1
-//! takes the newest points "in the order of the time serials", and so does the default; but its input is a queue in
-//! up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this rule with these
-//! 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
+//! *Deviations*: none by default. N_ini is 1, which has no effect: the paper says that it matters only for very small
+//! N_dec. `size: Adaptive` takes twice the adaptive radius as the diagonal. `order: UpFlow` is another reading:
+//! algorithm 1 takes the newest points "in the order of the time serials", as the default does; but its input is a
+//! queue in up-flow order (eq. 1), and the REMUS of 2003, of which the paper says that it carried "a type of" this
+//! rule with these 4 m, looked at the first points of a list in up-flow order (Pang 2009, section 5.6).
 
 use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
-use crate::handoff::PlumeMemory;
-use crate::handoff::{Evidence, Lcdp, most_up_flow_first};
+use crate::handoff::{Evidence, Lcdp};
+use crate::memory::PlumeMemory;
+use crate::memory::most_up_flow_first;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -31,15 +32,15 @@ use world::units::Heading;
 pub struct SizT {
     /// Greatest diagonal of the points' bounding box (axes east and north), m.
     pub size: ZoneSize,
-    /// N_dec: how many points are looked at.
+    /// N_dec: number of points considered.
     pub points: NonZeroUsize,
     /// Which ones.
     pub order: Order,
-    /// N_ini: so many there must be before anything is declared.
+    /// N_ini: the number of points that there must be before anything is declared.
     pub initial: NonZeroUsize,
 }
 
-/// Of which order the first points are looked at.
+/// The order whose first points are looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Order {
     /// Newest first.
@@ -83,10 +84,9 @@ impl DeclareParams for SizT {
 }
 
 impl SizT {
-    /// The mean (east, north), m, of those of `points` (in order of time) that are looked at, if they lie close enough
-    /// together, and what it rests on.
-    /// `fix_m`, what a navigation fix errs along an axis, m, matters to an adaptive size only; `up_flow` to that and to
-    /// the order of the same name.
+    /// The mean (east, north), m, of the considered `points` (given in order of time), if they lie close enough
+    /// together, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
+    /// size only; `up_flow` matters to an adaptive size and to the order of the same name.
     #[must_use]
     pub fn declare(
         &self,
@@ -149,9 +149,9 @@ mod tests {
         );
         // 3 by 5 m: sqrt(34) = 5.83.
         assert_eq!(found(&rule(5.8, 3), &places), None);
-        // The fourth is 80 m off.
+        // The fourth is 80 m away.
         assert_eq!(found(&rule(5.9, 4), &places), None);
-        // A diagonal just as long as the size will do: 3, 4, 5.
+        // A diagonal exactly as long as the size is enough: 3, 4, 5.
         let just = [(0.0, 0.0), (3.0, 4.0)];
         assert_eq!(found(&rule(5.0, 2), &just), Some(Vector2::new(1.5, 2.0)));
     }
@@ -160,7 +160,7 @@ mod tests {
     fn degenerate_clusters() {
         assert_eq!(found(&rule(4.0, 3), &[]), None);
         assert_eq!(found(&rule(4.0, 3), &[(1.0, 1.0), (1.0, 1.0)]), None);
-        // All in one place; all in a line.
+        // All in one place; all on a line.
         assert_eq!(
             found(&rule(1e-9, 3), &[(1.0, 1.0); 3]),
             Some(Vector2::new(1.0, 1.0))
@@ -231,7 +231,8 @@ mod tests {
             }),
             ..rule(4.0, 4)
         };
-        // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them too.
+        // Flow along north: 3 m across it, sigma 2.2 m. Flow along east: 1 m, sigma 0.74 m, and r = 1.8 m holds them
+        // too.
         assert!(
             adaptive
                 .declare(&points, Heading::from_deg(0.0), 0.0)
@@ -262,7 +263,7 @@ mod tests {
             if let (Some(a), Some(b)) = (whole, turned) {
                 prop_assert!((a - b).norm() < 1e-12);
                 let moved: Vec<_> = places.iter().map(|(e, n)| (e + shift, *n)).collect();
-                // Rounding may push a diagonal over the limit: a hair's breadth more is allowed.
+                // Rounding may push a diagonal over the limit, so a little more is allowed.
                 let c = found(&rule(eps + 1e-9, 6), &moved).expect("the same box elsewhere");
                 prop_assert!((c - a - Vector2::new(shift, 0.0)).norm() < 1e-9);
             }

@@ -4,7 +4,7 @@ use crate::handoff::{Belief, BeliefGrid, Lcdp};
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 
-/// Six cells of 5 m with most of the probability in one.
+/// Six cells of 5 m; one of them has most of the probability.
 pub(crate) fn belief(best: usize, informed: bool, credible_95: f64) -> Belief {
     let mut p = vec![0.1; 6];
     p[best] = 0.5;

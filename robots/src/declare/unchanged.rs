@@ -4,7 +4,7 @@
 //!
 //! *Parameters*: `for_s`, s, 30.
 //!
-//! *Deviations*: time counts from the first detection on: before it the map says nothing, and does not change either.
+//! *Deviations*: time counts from the first detection on. Before it the map knows nothing and would not change.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
 use crate::handoff::Belief;
@@ -54,7 +54,7 @@ pub struct Unchanged {
 }
 
 impl Unchanged {
-    /// Nothing seen yet.
+    /// The rule before its first tick.
     #[must_use]
     pub fn new(params: &Params) -> Self {
         Self {
@@ -65,7 +65,7 @@ impl Unchanged {
 }
 
 impl BeliefRule for Unchanged {
-    /// The source's place (ENU, m), if the map says so at `t_s`.
+    /// The source's place (ENU, m), if the map shows it at `t_s`.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
         if !belief.informed {
             self.since = None;
@@ -94,7 +94,7 @@ mod tests {
         assert_eq!(rule.step(0.0, &belief(4, false, 10.0)), None);
         assert_eq!(rule.step(100.0, &belief(4, true, 10.0)), None);
         assert_eq!(rule.step(129.9, &belief(4, true, 10.0)), None);
-        // Another cell for a moment begins the count anew.
+        // Another cell for a moment restarts the count.
         assert_eq!(rule.step(129.95, &belief(3, true, 10.0)), None);
         assert_eq!(rule.step(130.0, &belief(4, true, 10.0)), None);
         assert_eq!(rule.step(159.9, &belief(4, true, 10.0)), None);

@@ -1,17 +1,17 @@
-//! How large a source identification zone is: fixed, or growing with the scatter of the points across the flow.
+//! Size of a source identification zone: fixed, or growing with the scatter of the points across the flow.
 //!
-//! *Source*: Tian et al. 2013, section 3: fixed sizes ε_T, ε_F, with sizes that adapt named as future work in section 6;
-//! the robust scale is the median absolute deviation (Hampel 1974, J. Am. Stat. Assoc. 69, 383).
+//! *Source*: Tian et al. 2013, section 3: fixed sizes ε_T, ε_F; section 6 names adaptive sizes as future work. The
+//! robust scale is the median absolute deviation (Hampel 1974, J. Am. Stat. Assoc. 69, 383).
 //!
-//! *Parameters*: of `Adaptive`: share of the scatter to be held, `coverage`, 0.95; newest points looked at, `look_back`,
-//! 12; bounds of the radius, `least_m`, 2 (half of ε_T = 4 m) and `most_m`, 15 (the vehicle's turning radius: places
-//! farther apart than that are told apart by its own leaves).
+//! *Parameters*: of `Adaptive`: share of the scattered points that the zone holds, `coverage`, 0.95; number of newest
+//! points considered, `look_back`, 12; bounds of the radius, `least_m`, 2 (half of ε_T = 4 m) and `most_m`, 15 (the
+//! vehicle's turning radius: the vehicle's own cloverleaf separates places farther apart than that).
 //!
-//! *Deviations*: the papers give no rule for adapting; ours: on the way to the source the last detection points move on
-//! along the flow but scatter across it, by the plume's width and by navigation. Once they scatter no more along the flow
-//! than across it, there is no headway any more. So the zone is a circle that would hold `coverage` of points scattered
-//! normally in both directions as they are across the flow: r = σ √(-2 ln(1 - coverage)), with
-//! σ = 1.4826 times the median absolute deviation of y_flow, and never less than a navigation fix errs along an axis.
+//! *Deviations*: the papers give no rule for adapting. Ours: on the way to the source the last detection points move
+//! along the flow and scatter across it, because of the plume's width and of navigation. When they scatter no more
+//! along the flow than across it, there is no headway any more. So the zone is a circle that would hold `coverage` of
+//! points scattered normally in both directions as they are across the flow: r = σ √(-2 ln(1 - coverage)). Here σ =
+//! 1.4826 times the median absolute deviation of y_flow, and at least the error of a navigation fix along an axis.
 
 use crate::error::RobotError;
 use crate::handoff::Lcdp;
@@ -22,7 +22,7 @@ use world::math;
 use world::ranges::{Fraction, Positive};
 use world::units::Heading;
 
-/// Median absolute deviation of a normal distribution of scale 1, inverted.
+/// Inverse of the median absolute deviation of a normal distribution of scale 1.
 const MAD_TO_SCALE: f64 = 1.482_602_218_505_602;
 
 /// The size of a zone.
@@ -31,17 +31,17 @@ const MAD_TO_SCALE: f64 = 1.482_602_218_505_602;
 pub enum ZoneSize {
     /// ε, m, in the meaning of the rule: a diagonal for `SizT`, a radius for `SizF`.
     Fixed(Positive),
-    /// By the scatter of the points.
+    /// Follows the scatter of the points.
     Adaptive(AdaptiveSize),
 }
 
-/// Parameters of a size by the scatter of the points.
+/// Parameters of a size that follows the scatter of the points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSize {
-    /// Share of the points scattered round the source that the zone is to hold, 0 < coverage < 1.
+    /// Share of the points scattered around the source that the zone is to hold, 0 < coverage < 1.
     pub coverage: Fraction,
-    /// How many of the newest points the scatter is taken from.
+    /// Number of newest points from which the scatter is estimated.
     pub look_back: NonZeroUsize,
     /// Least radius, m.
     pub least_m: Positive,
@@ -61,7 +61,8 @@ impl Default for AdaptiveSize {
 }
 
 impl AdaptiveSize {
-    /// Radius of the zone, m, from points in order of time; `fix_m`: what a navigation fix errs along an axis, m.
+    /// Radius of the zone, m, from points in order of time; `fix_m` is the error of a navigation fix along an axis,
+    /// m.
     #[must_use]
     pub fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
         let newest = points.len().saturating_sub(self.look_back.get());
@@ -75,7 +76,7 @@ impl AdaptiveSize {
 }
 
 impl ZoneSize {
-    /// The radius a rule compares with, m: `Fixed` as it stands, or the adaptive one.
+    /// The radius that a rule compares with, m: `Fixed` unchanged, or the adaptive one.
     pub(super) fn radius_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
         match self {
             Self::Fixed(eps_m) => eps_m.get(),
@@ -83,7 +84,7 @@ impl ZoneSize {
         }
     }
 
-    /// The diagonal a rule compares with, m: `Fixed` as it stands, or twice the adaptive radius.
+    /// The diagonal that a rule compares with, m: `Fixed` unchanged, or twice the adaptive radius.
     pub(super) fn diagonal_m(&self, points: &[Lcdp], up_flow: Heading, fix_m: f64) -> f64 {
         match self {
             Self::Fixed(eps_m) => eps_m.get(),
@@ -92,7 +93,7 @@ impl ZoneSize {
     }
 
     /// # Errors
-    /// [`RobotError::Invalid`] when the bounds contradict each other.
+    /// [`RobotError::Invalid`] if the bounds contradict each other.
     pub(super) fn check(&self, field: &str) -> Result<(), RobotError> {
         let Self::Adaptive(a) = self else {
             return Ok(());
@@ -124,7 +125,7 @@ impl ZoneSize {
     }
 }
 
-/// 1.4826 times the median absolute deviation from the median; zero of nothing.
+/// 1.4826 times the median absolute deviation from the median; zero without values.
 fn robust_scale(values: Vec<f64>) -> f64 {
     let Some(middle) = median(values.clone()) else {
         return 0.0;
@@ -159,7 +160,7 @@ mod tests {
         // Median 2, deviations 2 1 0 1 98: median 1, so sigma = 1.4826; times sqrt(-2 ln 0.05) = 2.4477.
         let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 0.0);
         assert!((r - 1.482_602_2 * 2.447_746_8).abs() < 1e-6, "{r}");
-        // A fix that errs by 5 m is the greater.
+        // The error of a fix, 5 m, is the greater one.
         let r = a.radius_m(&across(&[0.0, 1.0, 2.0, 3.0, 100.0]), north, 5.0);
         assert!((r - 5.0 * 2.447_746_8).abs() < 1e-6, "{r}");
         // Bounds: nothing scattered, everything scattered; no point at all.

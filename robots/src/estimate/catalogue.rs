@@ -1,10 +1,11 @@
-//! The estimators a scenario can choose.
+//! The estimators that a scenario can choose.
 
 use world::catalogue::Entry;
 
-/// One row an estimator.
+/// One row per estimator.
 pub const CATALOGUE: &[Entry] = &[Entry {
     name: "DeadReckoning",
-    what: "Compass and Doppler log integrated, long-baseline fixes as jumps; flow as ground velocity plus relative water velocity, low-passed.",
+    what: "Integrates compass and Doppler log, jumps at long-baseline fixes; flow is ground velocity plus relative \
+        water velocity, low-passed.",
     source: "Pang 2009, sections 4 and 6",
 }];

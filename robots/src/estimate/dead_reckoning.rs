@@ -1,16 +1,16 @@
-//! Dead reckoning: compass and Doppler log integrated, long-baseline fixes as jumps, flow from the current profiler.
+//! Dead reckoning: integrates compass and Doppler log, jumps at long-baseline fixes, and takes the flow from the
+//! current profiler.
 //!
-//! *Source:* Pang 2009, section 4 (the REMUS dead-reckons on acoustic Doppler data; position updates
-//! from the long baseline are its navigation fixes) and section 6 (flow from the profiler).
+//! *Source:* Pang 2009, section 4 (the REMUS dead-reckons on acoustic Doppler data; position updates from the long
+//! baseline are its navigation fixes) and section 6 (flow from the profiler).
 //!
-//! *Parameters:* share of a fix taken over `fix_gain` 1 (a fix replaces the position, as it jumps in
-//! the paper); time constant of the flow's low-pass `flow_filter_s` 10 s (not published); `layer_aware`, none in the
-//! paper: an ADCP cell that lies in another water layer than the vehicle is not used (`layers.rs`).
+//! *Parameters:* share of a fix that is taken over, `fix_gain`, 1 (a fix replaces the position, as it jumps in the
+//! paper); time constant of the flow's low-pass filter, `flow_filter_s`, 10 s (not published); `layer_aware`, none in
+//! the paper: an ADCP cell in another water layer than the vehicle is not used (`layers.rs`).
 //!
-//! *Deviations:* none known; the vehicle's own filter is not published. Between two readings each
-//! quantity is held; the position is integrated by the trapezium rule. Flow =
-//! R · (ground velocity + water relative to the vehicle), R from the believed attitude: a heading
-//! error turns the flow, it does not add the vehicle's speed to it.
+//! *Deviations:* none known; the vehicle's own filter is not published. Between two readings each quantity is held;
+//! the position is integrated by the trapezium rule. Flow = R · (ground velocity + water relative to the vehicle),
+//! with R from the believed attitude: a heading error turns the flow, but does not add the vehicle's speed to it.
 
 use super::Start;
 use super::layers::{LayerAwareSpec, LayerWatch};
@@ -22,15 +22,15 @@ use world::clock::Clock;
 use world::math;
 use world::ranges::{Fraction, NonNegative};
 
-/// What a scenario may say of dead reckoning.
+/// Parameters of dead reckoning.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DeadReckoningSpec {
-    /// Share of the way to a fix that the position jumps.
+    /// Share of the distance to a fix by which the position jumps.
     pub fix_gain: Fraction,
-    /// Time constant of the flow's low-pass, s.
+    /// Time constant of the flow's low-pass filter, s.
     pub flow_filter_s: NonNegative,
-    /// Flow is taken from the vehicle's own water layer only, told by a CTD.
+    /// Take the flow only from the vehicle's own water layer, which a CTD tells.
     pub layer_aware: Option<LayerAwareSpec>,
 }
 
@@ -44,7 +44,7 @@ impl Default for DeadReckoningSpec {
     }
 }
 
-/// Dead reckoning at work.
+/// State of dead reckoning.
 #[derive(Clone, Debug)]
 pub struct DeadReckoning {
     fix_gain: f64,
@@ -54,7 +54,7 @@ pub struct DeadReckoning {
     depth_m: f64,
     altitude_m: Option<f64>,
     attitude: Attitude,
-    /// Newest ground velocity, and whether the log had bottom lock when it last reported.
+    /// Newest ground velocity, and whether the log had bottom lock in its last report.
     v_ground_body: Vector3<f64>,
     locked: bool,
     /// Velocity over ground in the step before (east, north), m/s; `None` before the first step.
@@ -89,7 +89,7 @@ impl DeadReckoning {
         }
     }
 
-    /// What is believed at the clock's time, after the readings of this step.
+    /// The estimate at the clock's time, after the readings of this step.
     pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
         self.take_in(readings);
         let R_WB = self.attitude.R_WB();
@@ -151,7 +151,7 @@ impl DeadReckoning {
         }
     }
 
-    /// A held ground velocity would show up as flow: without bottom lock none is measured.
+    /// Without bottom lock no flow is measured: a held ground velocity would show up as flow.
     fn measure_flow(&mut self, t_s: f64, readings: &Readings, R_WB: &UnitQuaternion<f64>) {
         let Some(adcp) = readings.adcp.filter(|a| a.valid && self.locked) else {
             return;

@@ -1,4 +1,4 @@
-//! The estimator a scenario chose.
+//! The estimator that a scenario chose.
 
 use super::{DeadReckoning, DeadReckoningSpec};
 use crate::handoff::{Estimate, Readings};
@@ -23,7 +23,7 @@ impl Default for EstimatorSpec {
 }
 
 impl EstimatorSpec {
-    /// It needs a CTD on board.
+    /// Whether it needs a CTD on board.
     #[must_use]
     pub fn needs_ctd(&self) -> bool {
         match self {
@@ -32,7 +32,7 @@ impl EstimatorSpec {
     }
 }
 
-/// What the vehicle was told of itself when it was launched.
+/// What the vehicle knows of its state at launch.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Start {
     /// Position (east, north), m.
@@ -43,7 +43,7 @@ pub struct Start {
     pub depth_m: f64,
 }
 
-/// An estimator at work.
+/// State of an estimator.
 #[derive(Component, Clone, Debug)]
 pub enum Estimator {
     /// Compass, Doppler log and long-baseline jumps.
@@ -61,7 +61,7 @@ impl Estimator {
         }
     }
 
-    /// What is believed at the clock's time, after the readings of this step.
+    /// The estimate at the clock's time, after the readings of this step.
     pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
         match self {
             Self::DeadReckoning(e) => e.step(clock, readings),
@@ -71,7 +71,7 @@ impl Estimator {
 
 #[cfg(test)]
 mod tests {
-    /// The types that a searcher is made of name nothing that exists, only what was read.
+    /// The types inside a searcher hold no true states, only readings.
     #[test]
     fn no_truth_reaches_the_estimate() {
         for (file, text) in [

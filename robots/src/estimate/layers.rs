@@ -1,17 +1,19 @@
-//! Which water layer a depth lies in: a density profile kept from what the vehicle itself passed through.
+//! Tells in which water layer a depth lies, from a density profile of the depths that the vehicle has passed.
 //!
-//! *Source:* Pang 2009, section 7: the upward profiler sometimes "was measuring the flow in the top layer instead of the
-//! bottom layer. Detecting and accommodating such events would require ... a conductivity, temperature, and depth (CTD)
-//! sensor with a fast response time". The paper gives no rule; this one is ours.
+//! *Source:* Pang 2009, section 7: the upward profiler sometimes "was measuring the flow in the top layer instead of
+//! the bottom layer. Detecting and accommodating such events would require ... a conductivity, temperature, and depth
+//! (CTD) sensor with a fast response time". The paper gives no rule; this one is ours.
 //!
-//! *Parameters:* two depths lie in different layers when their densities differ by more than `differs_kg_m3`, 0.5 kg/m³
-//! (an eighth of the step at Duck as its scenario has it: through a shared interface the velocity is then off by an
-//! eighth of the difference between the layers, 4 cm/s); bins of `bin_m` 0.25 m, a third of an interface's
-//! thickness; a bin not visited for `memory_s` 3600 s is forgotten, as internal waves and tide move the interface.
+//! *Parameters:* two depths lie in different layers if their densities differ by more than `differs_kg_m3`, 0.5 kg/m³
+//! (an eighth of the step in the scenario of Duck: the flow measured near an interface is then off by at most an
+//! eighth of the difference between the layers, 4 cm/s); bin size `bin_m`, 0.25 m, a third of the thickness of an
+//! interface; a bin not visited for `memory_s`, 3600 s, is forgotten, because internal waves and tide move the
+//! interface.
 //!
-//! *Deviations:* ours throughout. A flow measured in a layer that the vehicle has left is forgotten. Between two bins the profile is a straight line. Above the shallowest and below the
-//! deepest bin nothing is known, and what is not known is not refused: a vehicle that never was above an interface
-//! reads the wrong layer as it did before. A dive from the surface at the start is what makes the profile.
+//! *Deviations:* all of it is ours. When the vehicle leaves a layer, it forgets the flow measured there. Between two
+//! bins the profile is a straight line. Above the shallowest and below the deepest bin nothing is known, and an
+//! unknown depth is not refused: a vehicle that was never above an interface still uses the wrong layer. A dive from
+//! the surface at the start gives the profile.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -19,18 +21,19 @@ use std::collections::BTreeMap;
 use world::math;
 use world::ranges::Positive;
 
-/// A bin's density follows new readings with this time constant, s: noise of a reading against the way through a bin.
+/// Time constant with which a bin's density follows new readings, s: a compromise between noise and the time within a
+/// bin.
 const SMOOTH_S: f64 = 1.0;
 
-/// What a scenario may say of telling layers apart.
+/// Parameters of the layer test.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LayerAwareSpec {
-    /// Densities farther apart than this are of different layers, kg/m³.
+    /// Two densities farther apart than this belong to different layers, kg/m³.
     pub differs_kg_m3: Positive,
     /// Height of a bin of the profile, m.
     pub bin_m: Positive,
-    /// A bin not visited for so long is forgotten, s.
+    /// A bin not visited for this long is forgotten, s.
     pub memory_s: Positive,
 }
 
@@ -58,7 +61,7 @@ pub(super) struct LayerWatch {
     memory_s: f64,
     bins: BTreeMap<i64, Bin>,
     here: Option<f64>,
-    /// Density at the vehicle when the flow it believes in was measured.
+    /// Density at the vehicle when the believed flow was measured.
     measured_in: Option<f64>,
 }
 
@@ -74,7 +77,7 @@ impl LayerWatch {
         }
     }
 
-    /// Takes in a reading made at a depth.
+    /// Takes in a reading at a depth.
     pub(super) fn take_in(&mut self, t_s: f64, depth_m: f64, density_kg_m3: f64) {
         self.here = Some(density_kg_m3);
         let k = (depth_m / self.bin_m).floor() as i64;
@@ -92,7 +95,7 @@ impl LayerWatch {
         self.bins.retain(|_, b| b.visited_s >= oldest_s);
     }
 
-    /// Density at a depth by the profile, kg/m³; `None` where it is not known.
+    /// Density at a depth from the profile, kg/m³; `None` if it is not known.
     fn density(&self, depth_m: f64) -> Option<f64> {
         let at = depth_m / self.bin_m;
         let inside = self.bins.get(&(at.floor() as i64));
@@ -109,12 +112,12 @@ impl LayerWatch {
         }
     }
 
-    /// The flow was measured now.
+    /// Records that the flow has just been measured.
     pub(super) fn measured(&mut self) {
         self.measured_in = self.here;
     }
 
-    /// The vehicle has gone into another layer than the one whose flow it believes in.
+    /// Whether the vehicle has left the layer in which the believed flow was measured.
     pub(super) fn left_layer(&self) -> bool {
         match (self.here, self.measured_in) {
             (Some(here), Some(then)) => (here - then).abs() > self.differs_kg_m3,
@@ -122,7 +125,7 @@ impl LayerWatch {
         }
     }
 
-    /// The water at a depth is, by all that is known, of another layer than that at the vehicle.
+    /// Whether the water at a depth is known to belong to another layer than the water at the vehicle.
     pub(super) fn is_other(&self, depth_m: f64) -> bool {
         match (self.here, self.density(depth_m)) {
             (Some(here), Some(there)) => (here - there).abs() > self.differs_kg_m3,
@@ -181,7 +184,7 @@ mod tests {
         // Ten minutes at 3 m.
         (0..6100).for_each(|k| w.take_in(t_s + 0.1 * f64::from(k), 3.0, 1024.0));
         assert!(!w.is_other(1.0));
-        // The interface has gone up meanwhile.
+        // Meanwhile the interface has risen.
         let t_s = dive(&mut w, t_s + 610.0, 3.0, 0.3, 0.8);
         dive(&mut w, t_s, 0.3, 3.0, 0.8);
         assert!(w.is_other(0.4) && !w.is_other(1.6));

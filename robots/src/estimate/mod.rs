@@ -1,4 +1,4 @@
-//! Readings become what the vehicle believes. One file an estimator.
+//! Turns readings into what the vehicle believes. One file per estimator.
 
 mod catalogue;
 mod dead_reckoning;

@@ -1,4 +1,4 @@
-//! The estimate closed with real instruments: what drifts, what bounds it, whose flow it believes.
+//! The estimate with real instruments: what drifts, what bounds the drift, and from which layer the flow comes.
 
 #[cfg(test)]
 mod tests {
@@ -6,7 +6,7 @@ mod tests {
     use crate::handoff::Estimate;
     use crate::sense::camera::{Optics, OpticsSpec};
     use crate::sense::{
-        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, SensorSuite,
+        AdcpSpec, Around, CompassSpec, CtdSpec, DepthSpec, DvlSpec, LblSpec, OnBoard, SensorSuite,
         SensorsSpec,
     };
     use nalgebra::{Vector2, Vector3};
@@ -33,7 +33,7 @@ mod tests {
         }
     }
 
-    /// The same water with a density of its own in each layer.
+    /// The same water with a different density in each layer.
     struct Stratified;
     impl Flow for Stratified {
         fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
@@ -52,7 +52,7 @@ mod tests {
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
-        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 11, dt_s)).unwrap();
         let start = Start {
             position: START,
             heading: east,
@@ -65,7 +65,7 @@ mod tests {
         let mut e = DeadReckoning::new(&aware, start, dt_s);
         let mut clock = Clock::new(dt_s);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
-        // A dive to 3.6 m in 31 s, where the cell lies in the layer above; at 100 s on to 5 m.
+        // A dive to 3.6 m in 31 s, where the ADCP cell lies in the layer above; from 100 s on to 5 m.
         let mut believed = Vec::new();
         for _ in 0..5000 {
             let t = clock.t_s();
@@ -90,15 +90,15 @@ mod tests {
             believed.push(e.step(&clock, &said).flow.map(|f| f.velocity.y));
             clock.advance();
         }
-        // In the upper layer its flow, near the interface none, in the lower layer that one's; five times the low-passed
-        // noise, as below.
+        // In the upper layer its flow, near the interface none, in the lower layer the lower flow; five times the
+        // low-passed noise, as below.
         let at = |t_s: f64| believed[(t_s / dt_s) as usize];
         assert!((at(24.0).expect("measured") - 0.22).abs() < 0.0225 * 2.0);
         assert_eq!(at(90.0), None);
         assert!((at(190.0).expect("measured") + 0.11).abs() < 0.0225);
     }
 
-    /// An hour eastward at 2 m/s and 5 m depth or another, seen through real instruments.
+    /// An hour eastward at 2 m/s and a given depth, seen through real instruments.
     fn an_hour(lbl: Option<LblSpec>, depth_m: f64) -> Vec<(Vector2<f64>, Estimate)> {
         let spec = match lbl {
             Some(lbl) => instruments().with(lbl),
@@ -107,7 +107,7 @@ mod tests {
         let east = Heading::from_deg(90.0);
         let mounts = |_: &str| Some(Pose::level(Vector3::zeros(), east));
         let dt_s = 0.04;
-        let mut suite = SensorSuite::new(&spec, &mounts, "auv0", 11, dt_s).unwrap();
+        let mut suite = SensorSuite::new(&spec, &mounts, OnBoard::new("auv0", 11, dt_s)).unwrap();
         let start = Start {
             position: START,
             heading: east,
@@ -155,7 +155,7 @@ mod tests {
             .filter(|(_, e)| e.fix_jump_m() > 0.0)
             .map(|x| error(x).powi(2))
             .collect();
-        // Just after a fix the error is the fix's: 2 · 5² m² in the mean, five standard errors.
+        // Just after a fix the error is that of the fix: 2 · 5² m² in the mean, five standard errors.
         let n = after_fixes.len() as f64;
         let mean = after_fixes.iter().sum::<f64>() / n;
         assert!(

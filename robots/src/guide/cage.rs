@@ -4,17 +4,17 @@
 //!
 //! *Parameters*: width of the cage's edge, `cage_m`, m, 5; abort distance, `abort_outside_m`, m, 30.
 //!
-//! *Deviations*: eq. 12 takes out the component along N whatever its sign, which would also hold back a
-//! vehicle heading inward: here only an outward one (V·N > 0) is touched. Eq. 11 and 13 order north and
-//! east differently: here (east, north) throughout. In a corner both edges act. When nothing is left of
-//! the command (straight outward at the edge) the inward normal is taken.
+//! *Deviations*: eq. 12 removes the component along N whatever its sign, which would also hold back a vehicle heading
+//! inward: here only an outward component (V·N > 0) is changed. Eq. 11 and 13 order north and east differently: here
+//! the order is (east, north) throughout. In a corner both edges act. If nothing is left of the command (straight
+//! outward at the edge), the course is the inward normal.
 
-use crate::handoff::edges;
+use crate::places::edges;
 use nalgebra::Vector2;
 use world::area::Area;
 use world::units::Heading;
 
-/// What the cage says to a commanded course at `position`: the course to take.
+/// The course to take instead of a commanded course at `position`.
 pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m: f64) -> Heading {
     let (nearest_m, normal) = area.edge_distance(position);
     if nearest_m < 0.0 {
@@ -34,7 +34,7 @@ pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m
     Heading::of(left)
 }
 
-/// Farther outside than allowed.
+/// Whether a position is farther outside than allowed.
 pub(super) fn lost(position: Vector2<f64>, area: &Area, abort_outside_m: f64) -> bool {
     area.edge_distance(position).0 < -abort_outside_m
 }
@@ -64,7 +64,7 @@ mod tests {
         let p = Vector2::new(0.0, 547.0 - 2.5);
         let c = cage(Heading::from_deg(45.0), p, &area, 5.0);
         assert!((c.deg() - 63.434_949).abs() < 1e-5, "{}", c.deg());
-        // Heading inward is left alone.
+        // A course heading inward is not changed.
         let c = cage(Heading::from_deg(135.0), p, &area, 5.0);
         assert!((c.deg() - 135.0).abs() < 1e-9);
     }

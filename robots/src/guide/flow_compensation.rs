@@ -4,14 +4,15 @@
 //!
 //! *Parameters*: greatest speed through the water, `water_speed_limit_m_s`, m/s, 2.
 //!
-//! *Deviations*: the paper does not say what happens when |V_f| exceeds the limit. Here the course is
-//! kept and the largest speed over ground within the limit taken. When the flow across the course alone
-//! exceeds the limit no course can be kept, and the vehicle drives in the direction of V_f at the limit.
+//! *Deviations*: the paper does not say what happens if |V_f| exceeds the limit. Here the vehicle keeps the course
+//! and takes the largest speed over ground within the limit. If the flow across the course alone exceeds the limit,
+//! no course can be kept, and the vehicle drives in the direction of V_f at the limit.
 
 use nalgebra::Vector2;
 use world::units::Heading;
 
-/// Heading and speed (m/s) through the water for `speed_m_s` over ground along `course` in `flow` (m/s, where it goes).
+/// Heading and speed (m/s) through the water that give `speed_m_s` over ground along `course` in `flow` (m/s, where
+/// it goes).
 pub(super) fn compensate(
     course: Heading,
     speed_m_s: f64,
@@ -22,7 +23,7 @@ pub(super) fn compensate(
     let through_water = along * speed_m_s - flow;
     if through_water.norm() <= limit_m_s {
         let speed = through_water.norm();
-        // Drifting at the wished speed already: keep the nose on the course.
+        // If drift alone gives the wanted speed, keep the nose on the course.
         let heading = if speed > 1e-9 {
             Heading::of(through_water)
         } else {

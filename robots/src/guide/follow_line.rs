@@ -1,19 +1,19 @@
-//! Tracks a straight line, once its start has been reached with its heading.
+//! Tracks a straight line after its start has been reached with its heading.
 //!
 //! *Source*: Pang 2009, section 4.2, eq. 7-10.
 //!
-//! *Parameters*: gain K, `line_gain_deg_m`, °/m, 5.0; capture angle, `line_capture_deg`, °, 45 (so
-//! d1 = 45/K = 9 m); start radius R, `line_start_m`, m, 10; start angle θ, `line_start_angle_deg`, °, 15;
-//! end radius R, `arrive_m`, m, 10; overshoot R_L, `line_overshoot_m`, m (not printed), 10.
+//! *Parameters*: gain K, `line_gain_deg_m`, °/m, 5.0; capture angle, `line_capture_deg`, °, 45 (so d1 = 45/K = 9 m);
+//! start radius R, `line_start_m`, m, 10; start angle θ, `line_start_angle_deg`, °, 15; end radius R, `arrive_m`, m,
+//! 10; overshoot R_L, `line_overshoot_m`, m (not printed), 10.
 //!
-//! *Deviations*: eq. 8 is meant for |d| (as printed, a vehicle far right of the line would be given
-//! K · d without bound). The direction compared with θ is the course over ground, not the nose: across a
-//! flow the two differ by the crab angle, and a line could else never be entered.
+//! *Deviations*: eq. 8 is meant for |d| (as printed, a vehicle far right of the line would get K · d without bound).
+//! The direction compared with θ is the course over ground, not the heading: in a cross flow the two differ by the
+//! crab angle, and the vehicle could otherwise never enter a line.
 
 use nalgebra::Vector2;
 use world::units::Heading;
 
-/// The limits of the mode.
+/// Parameters of the mode.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LineLimits {
     pub(super) gain_rad_m: f64,
@@ -34,7 +34,7 @@ pub(super) struct FollowLine {
 }
 
 impl FollowLine {
-    /// A line; its ends must be apart.
+    /// A line; its ends must differ.
     pub(super) fn new(from: Vector2<f64>, to: Vector2<f64>, limits: LineLimits) -> Self {
         Self {
             from,
@@ -49,13 +49,13 @@ impl FollowLine {
         self.alpha
     }
 
-    /// Near enough to the start, in place and direction, to begin.
+    /// Whether the vehicle is near enough to the start, in place and direction, to begin.
     pub(super) fn entered(&self, position: Vector2<f64>, moving: Heading) -> bool {
         (position - self.from).norm() < self.limits.start_m
             && moving.turn_to(self.alpha).abs() < self.limits.start_angle_rad
     }
 
-    /// Distance off the line, positive to its left, m.
+    /// Distance from the line, positive to its left, m.
     fn off_m(&self, position: Vector2<f64>) -> f64 {
         let (v, a) = (position - self.from, self.alpha.unit());
         a.x * v.y - a.y * v.x
@@ -68,7 +68,7 @@ impl FollowLine {
         self.alpha.turned(turn)
     }
 
-    /// At the end (eq. 6) or past it (eq. 10).
+    /// Whether its end has been reached (eq. 6) or passed (eq. 10).
     pub(super) fn finished(&self, position: Vector2<f64>) -> bool {
         let v = position - self.to;
         v.norm() < self.limits.end_m || v.dot(&self.alpha.unit()) > self.limits.overshoot_m

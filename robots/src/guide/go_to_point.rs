@@ -4,15 +4,15 @@
 //!
 //! *Parameters*: arrival radius R, `arrive_m` (or the goal's own radius), m, 10.
 //!
-//! *Deviations*: eq. 4 is the arctangent of (current - target) without quadrant: here the four-quadrant
-//! direction of (target - current). A vehicle whose turning circle is wider than R can go round a point
-//! for ever: after a whole turn round it the course is held until twice R (or two turning radii) away.
+//! *Deviations*: eq. 4 is the arctangent of (current - target) without quadrant: here it is the four-quadrant
+//! direction of (target - current). A vehicle whose turning circle is wider than R could circle a point for ever:
+//! after a whole turn around it, the vehicle keeps its course until it is twice R (or two turning radii) away.
 
 use nalgebra::Vector2;
 use std::f64::consts::TAU;
 use world::units::Heading;
 
-/// State of a run to a point.
+/// State of going to a point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GoToPoint {
     point: Vector2<f64>,

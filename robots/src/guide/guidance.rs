@@ -23,7 +23,7 @@ use world::units::Heading;
 
 /// A line shorter than this has no direction, m.
 const SHORTEST_LINE_M: f64 = 0.01;
-/// Slower than this over ground the nose is taken for the course, m/s.
+/// At a slower speed over ground than this, the heading stands for the course, m/s.
 const SLOWEST_COURSE_M_S: f64 = 0.2;
 
 #[derive(Clone, Copy, Debug)]
@@ -47,7 +47,7 @@ pub struct Guidance {
 }
 
 impl Guidance {
-    /// Guidance without a goal yet.
+    /// A guidance without a goal.
     #[must_use]
     pub fn new(spec: &GuidanceSpec) -> Self {
         Self {
@@ -60,8 +60,8 @@ impl Guidance {
         }
     }
 
-    /// The command for this tick and how the goal stands. A new `goal.id` starts its manoeuvre afresh;
-    /// under the same id only a course may change.
+    /// The command for this tick and the state of the goal. A new `goal.id` restarts the manoeuvre; under the same id
+    /// only the course may change.
     pub fn step(
         &mut self,
         est: &Estimate,
@@ -170,7 +170,7 @@ impl Guidance {
             position: est.position,
             heading: moving,
         };
-        // The way to a line's start gives place to the line itself, in the same tick.
+        // When the line's start is reached, the line itself begins in the same tick.
         if let Mode::ToLine(follower, line) = &mut self.mode {
             let (course, over) = follower.step(at, goal.speed_m_s, dt_s);
             if !over && !line.entered(est.position, moving) {

@@ -1,4 +1,4 @@
-//! Goals become heading, speed and depth commands.
+//! Turns goals into commands of heading, speed and depth.
 
 mod cage;
 mod catalogue;

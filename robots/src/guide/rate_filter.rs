@@ -4,8 +4,8 @@
 //!
 //! *Parameters*: greatest heading rate, `heading_rate_deg_s`, °/s, 10.
 //!
-//! *Deviations*: the paper prints no filter; this one moves the command toward the wanted heading the
-//! short way round, by at most rate · dt a step, starting from the vehicle's heading.
+//! *Deviations*: the paper prints no filter. This one turns the command toward the wanted heading the short way, by
+//! at most rate · dt in a step, starting from the vehicle's heading.
 
 use world::units::Heading;
 

@@ -1,4 +1,4 @@
-//! What a scenario says about the guidance.
+//! What a scenario can set for the guidance.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -14,28 +14,28 @@ pub struct GuidanceSpec {
     #[serde(deserialize_with = "world::limits::vehicle_m_s")]
     #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub water_speed_limit_m_s: Positive,
-    /// R of eq. 6: arrived at a point, or at the end of a line, within this distance, m (Table 4: 10).
+    /// R of eq. 6: a point, or the end of a line, counts as reached within this distance, m (Table 4: 10).
     pub arrive_m: Positive,
     /// K of eq. 8, degrees of heading per metre off the line (Table 4: 5.0).
     pub line_gain_deg_m: Positive,
-    /// Greatest angle to the line while closing it, ° (eq. 8: 45).
+    /// Greatest angle to the line while approaching it, ° (eq. 8: 45).
     pub line_capture_deg: Positive,
     /// A line is entered within this distance of its start, m (section 4.2: R = 10).
     pub line_start_m: Positive,
     /// θ of section 4.2: a line is entered within this angle of its direction, ° (Fig. 3: 15).
     pub line_start_angle_deg: Positive,
-    /// R_L of eq. 10: a line is left when its end is overshot by more than this, m (not printed; R taken).
+    /// R_L of eq. 10: a line ends when the vehicle has overshot its end by more than this, m (not printed; R taken).
     pub line_overshoot_m: Positive,
-    /// R_m of section 4.3, m (not printed; a margin over the 11.5 m that 2 m/s at 10 °/s give).
+    /// R_m of section 4.3, m (not printed; the 11.5 m that 2 m/s at 10 °/s give, with a margin).
     #[serde(deserialize_with = "world::limits::turn_m")]
     #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
-    /// A Dubins path is planned anew when the vehicle is farther off it than this, m (not printed; just
-    /// under the 10 m of a navigation fix, so that a fix makes a new path and noise does not).
+    /// A Dubins path is planned again when the vehicle is farther from it than this, m (not printed; just under the
+    /// 10 m of a navigation fix, so that a fix causes a new path and noise does not).
     pub replan_m: Positive,
-    /// The cage turns the command from this distance to the edge on, m (eq. 12: 5).
+    /// The cage changes the command from this distance to the edge on, m (eq. 12: 5).
     pub cage_m: Positive,
-    /// Farther outside than this the mission is aborted, m (section 4.4: 30).
+    /// The mission is aborted farther outside the area than this, m (section 4.4: 30).
     pub abort_outside_m: Positive,
 }
 

@@ -1,11 +1,11 @@
-//! Where the source may be, as a robot believes: a grid of probabilities, with the numbers a planner asks for.
+//! A robot's belief about the source's place: a grid of probabilities, and numbers that planners need.
 
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use world::area::Area;
 
-/// A regular grid of cells, axes along the operating area's own (see [`BeliefGrid::centre`]).
+/// A regular grid of cells whose axes are those of the operating area (see [`BeliefGrid::centre`]).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BeliefGrid {
     /// Corner of the cell (0, 0, 0), world ENU, m.
@@ -19,8 +19,9 @@ pub struct BeliefGrid {
 }
 
 impl BeliefGrid {
-    /// `n` cells over an operating area, between two depths (m): first axis along the area's own, second to
-    /// the left of it, third upwards. With the axis towards the east they are east, north and up.
+    /// A grid of `n` cells over an operating area, between two depths (m). The first axis lies along the area's own
+    /// axis, the second points to the left of it, the third upwards. If the area's axis points east, they are east,
+    /// north and up.
     #[must_use]
     pub fn over(area: &Area, top_depth_m: f64, bottom_depth_m: f64, n: [usize; 3]) -> Self {
         let along = area.axis.unit();
@@ -114,7 +115,7 @@ impl BeliefGrid {
     }
 }
 
-/// What a map that follows odour from cell to cell says beyond the source, at one instant.
+/// What a map that follows odour from cell to cell knows besides the source, at one instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Odour {
     /// When, s.
@@ -123,9 +124,9 @@ pub struct Odour {
     pub grid: Arc<BeliefGrid>,
     /// Chance of detecting in each cell now.
     pub detection: Vec<f64>,
-    /// Cells that odour most likely took to the vehicle's cell, source first; empty where none leads there.
+    /// Cells through which odour most likely came to the vehicle's cell, source first; empty if no way leads there.
     pub came: Vec<usize>,
-    /// The vehicle's cell, then those of its path most likely to detect.
+    /// The vehicle's cell, then the cells of the path that most likely leads to a detection.
     pub walk: Vec<usize>,
 }
 
@@ -148,6 +149,6 @@ pub struct Belief {
     pub entropy_nat: f64,
     /// Size of the smallest set of cells with 95 % of the probability, m² (m³ in a map of the space).
     pub credible_95: f64,
-    /// What else it knows of the odour, by a map that follows it and was asked to say so.
+    /// What the map knows of the odour; only of a map that follows odour, and if the scenario asks for it.
     pub odour: Option<Arc<Odour>>,
 }

@@ -1,4 +1,4 @@
-//! What the guidance asks of the autopilot, and the autopilot of the actuators.
+//! What the guidance commands the autopilot, and the autopilot the actuators.
 
 use super::Vertical;
 use bevy_ecs::prelude::Component;
@@ -15,7 +15,7 @@ pub struct Setpoint {
     pub vertical: Vertical,
 }
 
-/// What the guidance hands to the actuate stage.
+/// What the guidance hands to the stage `actuate`.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub enum Command {
     /// For the autopilot.

@@ -1,13 +1,13 @@
 //! What a strategy decides in a tick.
 
-use super::{Goal, Layer, Lcdp, Regions};
+use super::{Goal, Layer, Regions};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
 use std::sync::Arc;
 use world::seeds;
 
-/// What the vehicle is doing, in the field's words.
+/// What the vehicle is doing, in the terms of the field.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Behaviour {
     /// Before the first decision.
@@ -23,19 +23,19 @@ pub enum Behaviour {
     TrackIn,
     /// Just lost the plume.
     TrackOut,
-    /// Looking round the points where it was lost.
+    /// Searching around the points where the plume was lost.
     Reacquire,
     /// Going home after the declaration, or giving up.
     GoHome,
     /// Mission over.
     Done,
-    /// On a planned path to where the source is believed.
+    /// On a planned path to the believed source.
     FollowPath,
     /// Turning away from an obstacle.
     Avoid,
     /// Passing over a declared place with sidescan and camera.
     Survey,
-    /// What a strategy of somebody else calls it, in the form of the names above: a-z, 0-9 and _.
+    /// A behaviour of a strategy from another crate, named like those above: a-z, 0-9 and _.
     Other(&'static str),
 }
 
@@ -46,7 +46,7 @@ impl Serialize for Behaviour {
 }
 
 impl Behaviour {
-    /// All behaviours of our own, for tables and legends.
+    /// All behaviours of this crate, for tables and legends.
     pub const ALL: [Behaviour; 12] = [
         Behaviour::Idle,
         Behaviour::OpenLoop,
@@ -82,7 +82,8 @@ impl Behaviour {
         }
     }
 
-    /// Those that occur: our own in the order of tables, then others in the order in which they come.
+    /// The different behaviours among `all`: those of this crate in the order of tables, then others in order of
+    /// appearance.
     #[must_use]
     pub fn seen(all: impl Iterator<Item = Behaviour>) -> Vec<Behaviour> {
         let mut seen: Vec<Behaviour> = Vec::new();
@@ -100,7 +101,7 @@ impl Behaviour {
         seen
     }
 
-    /// Its number in digests: its place in [`Self::ALL`], of others a hash of the name.
+    /// Its number in digests: its place in [`Self::ALL`]; for other behaviours a hash of the name.
     #[must_use]
     pub fn number(self) -> f64 {
         let own = Self::ALL.iter().position(|b| *b == self);
@@ -111,7 +112,7 @@ impl Behaviour {
     }
 }
 
-/// What instruments other than the nose say of a declared place.
+/// What instruments other than the chemical sensor say about a declared place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Verdict {
@@ -149,34 +150,14 @@ pub struct Evidence {
     pub reach_m: f64,
 }
 
-impl Evidence {
-    /// Of these points; there must be one at least.
-    #[must_use]
-    pub fn of<'a>(points: impl IntoIterator<Item = &'a Lcdp>) -> Self {
-        let all: Vec<&Lcdp> = points.into_iter().collect();
-        assert!(
-            !all.is_empty(),
-            "a declaration that rests on no point: its rule must ask for one at least"
-        );
-        let middle = all.iter().map(|p| p.position).sum::<Vector2<f64>>() / all.len() as f64;
-        let reach = |m: f64, p: &&Lcdp| m.max((p.position - middle).norm());
-        Self {
-            points: all.len() as u32,
-            since_s: all.iter().fold(f64::INFINITY, |t, p| t.min(p.t_s)),
-            middle_m: middle.into(),
-            reach_m: all.iter().fold(0.0, reach),
-        }
-    }
-}
-
-/// Rule of what is declared where a plume crosses the up-flow edge of a subregion.
+/// Rule name of a declaration made where a plume crosses the up-flow edge of a subregion.
 pub const UP_FLOW_EDGE: &str = "up_flow_edge";
 
 /// A declared source, or the place at which a plume was traced out of a subregion.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Declaration {
-    /// Number among the robot's declarations, from 0. A later one of the same number takes the earlier one's
-    /// place: the same source, looked at since.
+    /// Number among the robot's declarations, from 0. A later declaration of the same number replaces the earlier
+    /// one: it is the same source after an inspection.
     pub number: u32,
     /// When, s.
     pub t_s: f64,
@@ -184,18 +165,18 @@ pub struct Declaration {
     pub position: Vector2<f64>,
     /// By which rule.
     pub rule: &'static str,
-    /// Subregion of the mission in which it was made, from 0; `None` where the area is one.
+    /// Subregion of the mission in which it was made, from 0; `None` if the mission has no subregions.
     pub region: Option<u32>,
     /// What a look at it said.
     pub verdict: Verdict,
-    /// Where the sidescan has the source, as the vehicle believes (east, north), m.
+    /// Place of the source in the sidescan image, as the vehicle believes (east, north), m.
     pub surveyed: Option<Vector2<f64>>,
-    /// The points it rests on, where the rule is one on last detection points.
+    /// The points it rests on, if the rule uses last detection points.
     pub evidence: Option<Evidence>,
 }
 
 impl Declaration {
-    /// The first declaration of a mission in one area, not looked at.
+    /// The first declaration of a mission without subregions, before any inspection.
     #[must_use]
     pub fn first(t_s: f64, position: Vector2<f64>, rule: &'static str) -> Self {
         Self {
@@ -210,13 +191,13 @@ impl Declaration {
         }
     }
 
-    /// It says where a plume crosses a subregion's up-flow edge: the source is beyond it, not there.
+    /// Whether it marks where a plume crosses a subregion's up-flow edge: the source is beyond the edge, not there.
     #[must_use]
     pub fn at_edge(&self) -> bool {
         self.rule == UP_FLOW_EDGE
     }
 
-    /// Puts it among the earlier ones: in the place of one of its number, else at the end.
+    /// Adds it to the earlier ones; it replaces one of the same number.
     pub fn join(self, earlier: &mut Vec<Declaration>) {
         match earlier.iter_mut().find(|d| d.number == self.number) {
             Some(same) => *same = self,
@@ -244,11 +225,11 @@ pub struct Decision {
     pub goal: Goal,
     /// Newly declared in this tick.
     pub declared: Option<Declaration>,
-    /// Points where the plume was lost (east, north), m; changes seldom.
+    /// Points where the plume was lost (east, north), m; they change seldom.
     pub lost_points: Vec<Vector2<f64>>,
-    /// The path it means to take (ENU), m, the vehicle's place when it was planned first; empty without one.
+    /// The planned path (ENU), m, beginning with the vehicle's place at planning time; empty without a plan.
     pub planned: Arc<Vec<Vector3<f64>>>,
-    /// The subregions of the mission; none where the area is one.
+    /// The subregions of the mission; empty if it has none.
     pub regions: Regions,
     /// The layers of a subsumption planner, lowest first; empty for other strategies.
     pub layers: Arc<[Layer]>,

@@ -1,4 +1,4 @@
-//! What the vehicle believes: never the truth, and a type of its own so that they cannot be confused.
+//! What the vehicle believes. It is a type of its own so that nobody can confuse it with the truth.
 
 use super::{Belief, ChemicalReading, GuidanceStatus, RangeScan};
 use super::{Picture, SidescanPing};
@@ -21,7 +21,8 @@ pub struct Attitude {
 }
 
 impl Attitude {
-    /// Body axes (FLU) to world axes (ENU), as believed: a pitch of those axes is positive nose down.
+    /// Rotation from body axes (FLU) to world axes (ENU), as believed. A rotation about FLU's y is positive nose
+    /// down.
     #[must_use]
     pub fn R_WB(&self) -> UnitQuaternion<f64> {
         UnitQuaternion::from_euler_angles(self.roll_rad, -self.pitch_rad, self.heading.yaw())
@@ -31,7 +32,7 @@ impl Attitude {
 /// Believed flow at the vehicle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlowEstimate {
-    /// Velocity over ground (east, north), m/s; where the water goes.
+    /// Velocity over ground (east, north), m/s: where the water goes.
     pub velocity: Vector2<f64>,
     /// Age of the newest measurement in it, s.
     pub age_s: f64,
@@ -60,15 +61,15 @@ pub struct Estimate {
     pub position: Vector2<f64>,
     /// Depth below the still surface, m.
     pub depth_m: f64,
-    /// Height above the bed, m; `None` until the altimeter first heard the bed.
+    /// Height above the bed, m; `None` until the altimeter has heard the bed.
     pub altitude_m: Option<f64>,
     /// Attitude and rates.
     pub attitude: Attitude,
     /// Velocity over ground in body axes (FLU), m/s.
     pub v_ground_body: Vector3<f64>,
-    /// Flow at the vehicle; `None` until first measured.
+    /// Flow at the vehicle; `None` until it has been measured.
     pub flow: Option<FlowEstimate>,
-    /// How far a position fix moved the estimate (east, north), m, in the tick in which it came; else zero.
+    /// How far a position fix moved the estimate (east, north), m, in the tick of the fix; otherwise zero.
     pub fix_jump: Vector2<f64>,
 }
 
@@ -107,13 +108,13 @@ pub struct Observation {
     pub estimate: Estimate,
     /// Chemical reading, if the sensor reported in this tick.
     pub chemical: Option<ChemicalReading>,
-    /// How the guidance stands with the goal last given.
+    /// The guidance's progress towards the last goal.
     pub guidance: GuidanceStatus,
-    /// The operating area, known to the mission beforehand.
+    /// The operating area; the mission knows it beforehand.
     pub area: Area,
-    /// Where the vehicle was launched (its own first position), and where Go-Home leads.
+    /// Where the vehicle was launched (its own first position); Go-Home leads there.
     pub home: Vector2<f64>,
-    /// Where the source may be, if the robot keeps a map of it.
+    /// Belief about the source's place, if the robot keeps a map of it.
     pub belief: Option<Belief>,
     /// Forward ranging, if the sensor reported in this tick.
     pub ranging: Option<RangeScan>,
@@ -123,4 +124,10 @@ pub struct Observation {
     pub picture: Option<Picture>,
     /// Numbers of other instruments in this tick, by name.
     pub other: Vec<(&'static str, f64)>,
+}
+
+/// Whether the chemical sensor reported a detection in this tick.
+#[must_use]
+pub fn detects(seen: &Observation) -> bool {
+    seen.chemical.is_some_and(|c| c.detected)
 }

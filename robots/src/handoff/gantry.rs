@@ -1,8 +1,8 @@
-//! What passes between the parts of a gantry: probe samples, joint readings, and where the head is to go.
+//! What the parts of a gantry hand to each other: probe samples, joint readings, and where the head is to go.
 //!
-//! All positions are in the gantry's own frame: forward along x of its URDF's base (up-stream, as it is set up in a
-//! flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame:
-//! it knows neither the flume's coordinates nor the flow.
+//! All positions are in the gantry's own frame: forward along x of its URDF's base (up-stream in the usual set-up in
+//! a flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame: it knows
+//! neither the flume's coordinates nor the flow.
 
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
@@ -30,7 +30,7 @@ pub struct JointReadings {
     pub speed_m_s: Vector2<f64>,
     /// The commanded target is reached on both axes.
     pub arrived: bool,
-    /// A drive gave up against something in the way.
+    /// A drive gave up because something is in the way.
     pub blocked: bool,
 }
 
@@ -52,7 +52,7 @@ pub struct ProbeMount {
     pub offset_m: Vector3<f64>,
 }
 
-/// What a searcher may know of the machine it lives in.
+/// What a searcher may know of its machine.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GantryLayout {
     /// Travel of each axis (forward, left): least and greatest position, m.
@@ -63,7 +63,7 @@ pub struct GantryLayout {
     pub probes: Vec<ProbeMount>,
     /// Output range of the probes, V.
     pub range_v: [f64; 2],
-    /// Scans a second, Hz.
+    /// Scans per second, Hz.
     pub scan_hz: f64,
 }
 
@@ -127,17 +127,17 @@ pub struct GantryDecision {
     pub behaviour: GantryBehaviour,
     /// Counts the motion commands: a new number is a new command; 0 is none yet.
     pub id: u32,
-    /// Where the head's reference point is to go (forward, left), m.
+    /// Destination of the head's reference point (forward, left), m.
     pub target_m: Vector2<f64>,
-    /// With what speed of each axis (forward, left), m/s.
+    /// Speed of each axis (forward, left), m/s.
     pub speed_m_s: Vector2<f64>,
-    /// What it works with, for records and figures.
+    /// The tracker's state, for records and figures.
     pub working: TrackerState,
-    /// Set when the searcher stopped: true when it declared the source found, false when it gave up.
+    /// Set when the searcher has stopped: true if it declared the source found, false if it gave up.
     pub stopped: Option<bool>,
 }
 
-/// What the tracker's units hold now, for records and figures; a searcher that lacks a part leaves its default.
+/// Present state of the tracker's units, for records and figures. A searcher without such a unit leaves the default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrackerState {
     /// Dynamic threshold of each probe, V.

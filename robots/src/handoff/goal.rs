@@ -1,4 +1,4 @@
-//! What a strategy asks of the guidance, and what the guidance answers.
+//! What a strategy commands the guidance, and what the guidance answers.
 
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
@@ -13,14 +13,14 @@ pub enum Vertical {
     Depth(f64),
 }
 
-/// Horizontal part of a goal: P09's guidance modes, a plain course, or none.
+/// Horizontal part of a goal: the guidance modes of Pang 2009, a plain course, or none.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Manoeuvre {
     /// Head for a point (east, north); arrived within `radius_m`.
     GoToPoint {
         /// Destination, m.
         point: Vector2<f64>,
-        /// Arrival radius, m; `None`: the guidance's own.
+        /// Arrival radius, m; `None` for the guidance's own.
         radius_m: Option<f64>,
     },
     /// Reach the start with the line's heading, then track the line to its end.
@@ -53,10 +53,10 @@ pub enum Manoeuvre {
     },
 }
 
-/// A goal; the guidance starts a manoeuvre afresh when `id` changes.
+/// A goal; the guidance restarts the manoeuvre when `id` changes.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub struct Goal {
-    /// Number of the goal, growing by one with each new one.
+    /// Number of the goal; each new goal has the next number.
     pub id: u32,
     /// Horizontal part.
     pub manoeuvre: Manoeuvre,
@@ -67,7 +67,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// What stands before the first goal is given.
+    /// The goal before the first one is given.
     #[must_use]
     pub fn none_yet(vertical: Vertical, speed_m_s: f64) -> Self {
         Self {
@@ -89,6 +89,6 @@ pub struct GuidanceStatus {
     pub goal_id: u32,
     /// It has been reached.
     pub done: bool,
-    /// The cage gave the mission up: too far outside the area.
+    /// The guidance aborted the mission because the vehicle was too far outside the area.
     pub aborted: bool,
 }

@@ -1,4 +1,4 @@
-//! Who holds the vehicle among the layers of a subsumption planner, and whom it silences.
+//! State of the layers of a subsumption planner: which one controls the vehicle, and which ones it suppresses.
 
 use serde::Serialize;
 
@@ -11,9 +11,9 @@ pub enum LayerState {
     Silent,
     /// Its command moves the vehicle.
     Holds,
-    /// Asks for something, but a higher layer's command takes its place.
+    /// Asks for something, but the command of a higher layer replaces its own.
     Suppressed,
-    /// Its input is taken away by a higher layer: it does not even look.
+    /// A higher layer has taken its input away, so that it does nothing.
     Inhibited,
 }
 

@@ -1,4 +1,4 @@
-//! What the instruments said in this tick: `None` when one did not report.
+//! What the instruments reported in this tick; `None` if one did not report.
 
 use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
@@ -22,7 +22,7 @@ pub struct ChemicalReading {
 pub struct DvlReading {
     /// Velocity over ground in body axes (FLU), m/s.
     pub v_body_m_s: Vector3<f64>,
-    /// False when bottom lock was lost: the velocity is then not to be used.
+    /// False if bottom lock was lost: the velocity must then not be used.
     pub valid: bool,
 }
 
@@ -33,7 +33,7 @@ pub struct AdcpReading {
     pub v_body_m_s: Vector3<f64>,
     /// Height of the cell's middle above the vehicle (negative: below), m.
     pub above_m: f64,
-    /// False when the cell reaches past surface or bed.
+    /// False if the cell reaches beyond the surface or the bed.
     pub valid: bool,
 }
 
@@ -57,12 +57,12 @@ pub struct DepthReading {
     pub depth_m: f64,
 }
 
-/// Conductivity, temperature and depth, as far as they make the density.
+/// Conductivity, temperature and depth, reduced to what gives the density.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CtdReading {
     /// Density of the water, kg/m³.
     pub density_kg_m3: f64,
-    /// How far the instrument sits below the body's origin, m.
+    /// How far the instrument is below the body's origin, m.
     pub below_m: f64,
 }
 
@@ -87,18 +87,18 @@ pub struct LblFix {
 pub struct Beam {
     /// Direction in body axes (FLU), unit vector.
     pub dir_B: Vector3<f64>,
-    /// Way to what threw the sound back, m; `None` when nothing did within the range.
+    /// Distance to what reflected the sound, m; `None` if nothing did within the range.
     pub echo_m: Option<f64>,
 }
 
-/// One ping of the forward ranging; beams that dropped out are left out.
+/// One ping of the forward ranging, without beams that dropped out.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RangeScan {
     /// Place of the instrument in body axes (FLU), m.
     pub p_BS: Vector3<f64>,
     /// Its range, m.
     pub max_m: f64,
-    /// What its beams said.
+    /// Its beams.
     pub beams: Arc<[Beam]>,
 }
 
@@ -127,6 +127,6 @@ pub struct Readings {
     pub sidescan: Option<SidescanPing>,
     /// Camera.
     pub picture: Option<Picture>,
-    /// Numbers of instruments that none of the above is for, by name.
+    /// Readings of other instruments, by name.
     pub other: Vec<(&'static str, f64)>,
 }

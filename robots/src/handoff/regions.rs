@@ -13,13 +13,13 @@ pub enum RegionState {
     Waiting,
     /// Being searched.
     Searching,
-    /// What searched it came to its own end and declared nothing: free of sources, as far as the mission knows.
+    /// The strategy that searched it ended without a declaration: free of sources, as far as the mission knows.
     SourceFree,
-    /// The time for its search ran out and nothing was declared: whether a source is there is not known.
+    /// The time for its search ran out without a declaration: it may still hold a source.
     TimedOut,
     /// A source was declared by the strategy that searched it.
     Declared,
-    /// The plume was traced to its up-flow edge, and a source declared there.
+    /// The plume was traced to the up-flow edge, and a source was declared there.
     UpFlowEdge,
 }
 
@@ -37,7 +37,7 @@ impl RegionState {
         }
     }
 
-    /// The same for people.
+    /// The same, for reports.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
@@ -51,8 +51,8 @@ impl RegionState {
     }
 }
 
-/// Name of the `k`-th subregion, from 0, in the order of search: A to Z, then AA, AB and so on. Letters, so that it cannot be
-/// taken for the number of a declared source.
+/// Name of the `k`-th subregion, from 0, in the order of search: A to Z, then AA, AB and so on. It is made of letters
+/// so that nobody takes it for the number of a declared source.
 #[must_use]
 pub fn region_name(k: u32) -> String {
     let letter = char::from(b'A' + (k % 26) as u8);
@@ -75,12 +75,12 @@ pub struct Region {
     pub until_s: Option<f64>,
 }
 
-/// The subregions of a mission, in the order in which they are searched; none where the area is one.
+/// The subregions of a mission in the order of search; empty if the mission has none.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Regions {
     /// All of them.
     pub all: Arc<[Region]>,
-    /// Which one is being searched, from 0; `None` in a transit and after the last.
+    /// The one being searched, from 0; `None` in transit and after the last.
     pub now: Option<u32>,
 }
 

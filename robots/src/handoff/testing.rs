@@ -12,7 +12,7 @@ use world::ranges::{Finite, HeadingDeg, Positive};
 use world::terrain::Terrain;
 use world::units::Heading;
 
-/// 600 m north-south by 400 m east-west round the origin.
+/// An area of 600 m north-south by 400 m east-west around the origin.
 pub(crate) fn area() -> Area {
     Area {
         centre: Vector2::zeros(),
@@ -71,7 +71,7 @@ pub(crate) fn smelling(mut o: Observation, detected: bool) -> Observation {
     o
 }
 
-/// Property tests with the same cases in every run, and no files written beside the sources.
+/// Settings for property tests: the same cases in every run, and no files beside the sources.
 pub(crate) fn fixed(cases: u32) -> proptest::test_runner::Config {
     proptest::test_runner::Config {
         cases,
@@ -81,7 +81,7 @@ pub(crate) fn fixed(cases: u32) -> proptest::test_runner::Config {
     }
 }
 
-/// A block on the bed, its length along east.
+/// A block on the bed; its length lies along east.
 pub(crate) fn block(bed: &Terrain, id: &str, at: [f64; 2], size_m: [f64; 3]) -> Obstacle {
     let [x, y, z] = size_m.map(Positive::new);
     let spec = ObstacleSpec {
@@ -96,7 +96,8 @@ pub(crate) fn block(bed: &Terrain, id: &str, at: [f64; 2], size_m: [f64; 3]) -> 
     Obstacle::build(&spec, bed, Path::new(".")).expect("a legal block")
 }
 
-/// A vehicle without inertia: it turns at once to what it is told to steer, in water that moves. Its velocity over ground.
+/// Moves a vehicle without inertia, which takes a commanded heading at once, in moving water. Gives its velocity over
+/// ground.
 pub(crate) fn steered(e: &mut Estimate, set: &Setpoint, flow: Vector2<f64>) -> Vector2<f64> {
     let v = set.heading.unit() * set.water_speed_m_s + flow;
     let right = set.heading.turned(FRAC_PI_2).unit();

@@ -4,11 +4,11 @@
 //!
 //! *Parameters*: as `Pomdp`; the paper's S_ij is Wang & Pang's p of eq. 1.
 //!
-//! *Deviations*: reconstructed (the paper's own equations were not at hand): γ_ij = Π_l (1 − μ S_ij(l)) on
+//! *Deviations*: reconstructed (the paper's own equations were not available): γ_ij = Π_l (1 − μ S_ij(l)) on
 //! non-detection; on detection β_ij = Σ_l S_ij(l), normalised over the cells i; α_i ← α_i·β_ij or α_i·γ_ij,
-//! renormalised. So it differs from `Pomdp` only on a detection, in giving the sum over releases in the place
-//! of 1 − Π: the two are near each other where chances are small, and part near the vehicle, where the
-//! product saturates. With ε = `false_detection`: (1 − ε) β + ε / n. Else as `Pomdp`.
+//! renormalised. It differs from `Pomdp` only on a detection: there it uses the sum over releases instead of 1 − Π.
+//! The two are nearly equal where chances are small, and differ near the vehicle, where the product saturates. With ε
+//! = `false_detection`: (1 − ε) β + ε / n. Otherwise as `Pomdp`.
 
 use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
@@ -51,7 +51,7 @@ impl MapParams for BayesianSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Bayesian {
     with: Workings,
@@ -59,10 +59,10 @@ pub struct Bayesian {
 }
 
 impl Bayesian {
-    /// A mapper over a grid, all cells alike.
+    /// A mapper over a grid; all cells begin with the same probability.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without releases.
+    /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no release.
     pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let with = Workings::over_cells(spec, grid)?;
         Ok(Self {
@@ -86,7 +86,7 @@ impl Mapper for Bayesian {
             let (scale, floor) = if total > 0.0 {
                 ((1.0 - e) / total, e / likelihood.len() as f64)
             } else {
-                // No cell explains it: a false alarm, which says nothing.
+                // No cell explains the detection: a false alarm, which tells nothing.
                 (0.0, 1.0)
             };
             for l in likelihood {

@@ -13,36 +13,37 @@ use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
 
-/// A mapper: takes in an observation a tick, and believes.
+/// A mapper: takes in one observation per tick and holds a belief.
 pub trait Mapper: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &MapObservation);
-    /// What is believed now.
+    /// The present belief.
     fn belief(&self) -> &Belief;
 }
 
 /// Parameters of a mapper.
 pub trait MapParams: Spec {
-    /// The mapper, ready for its first tick; `rng` is the robot's own stream for its map.
+    /// Builds the mapper; `rng` is the robot's own stream for its map.
     ///
     /// # Errors
     /// [`RobotError::Invalid`], with the field below `map`.
     fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError>;
 
-    /// That its cells and its look-back are as many as a mapper can have, without making any.
+    /// Checks that the mapper can hold so many cells and such a look-back, without building anything.
     ///
     /// # Errors
     /// [`RobotError::Invalid`], with the field below `map`.
     fn check(&self, area: &Area) -> Result<(), RobotError>;
 
-    /// What it takes; paths below `map`.
+    /// Its memory and time; paths below `map`.
     fn cost(&self, _times: &Times) -> Cost {
         Cost::default()
     }
 }
 
 kind! {
-    /// The mappers a scenario can ask for.
+    /// Maps of where the source may be, which a robot updates from detections, silence and flow. Strategies that plan
+    /// on a map need one.
     pub MapSpec = Maps of MapParams {
         heading: "Source maps",
         rows: [PomdpSpec, BayesianSpec, HmmSpec, ParticleFilterSpec],

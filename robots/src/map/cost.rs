@@ -1,10 +1,11 @@
-//! What a map of where the source may be will hold and do, before it is made.
+//! Predicts the memory and time that a source map will take.
 //!
 //! *Source*: the mappers' own loops beside this file; unit costs measured as `world::cost` says.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: sets of releases are counted as if the flow were steady: each set then holds ages that differ by 0.8 κ.
+//! *Deviations*: sets of releases are counted as if the flow were steady: each set then holds ages that differ by 0.8
+//! κ.
 
 use super::hmm::HmmSpec;
 use super::spec::{GridSpec, TrajectorySpec};
@@ -12,23 +13,23 @@ use super::workings::CellsSpec;
 use world::cost::{Cost, Part, Times};
 use world::math;
 
-/// Memory of a cell: belief, its logarithm, likelihood, those of the frame and of the recording, bytes.
+/// Memory of a cell, bytes: belief, its logarithm, likelihood, and the copies for the frame and the recording.
 const CELL_BYTES: f64 = 80.0;
-/// Time of a cell or particle and a set of releases, s.
+/// Time for one cell or particle and one set of releases, s.
 const CELL_S: f64 = 1e-9;
 /// See above.
 pub(super) const PARTICLE_S: f64 = 2.7e-9;
-/// Time to gather a release, s, and memory of one, bytes.
+/// Time to gather a release, s, and its memory, bytes.
 const RELEASE: (f64, f64) = (20e-9, 80.0);
-/// Memory of a step of the chain, and of a level in it, bytes; time of a hop of a row's cell, s.
+/// Memory of a step of the chain, and of a level in it, bytes; time for a hop of a cell in a row, s.
 const STEP_BYTES: (f64, f64) = (400.0, 128.0);
 /// See above.
 const HOP_S: f64 = 0.5e-9;
-/// Most different hops of a step, as the chain is built.
+/// Most different hops of a step that the chain is built with.
 const HOPS: f64 = 9.0;
 
 impl GridSpec {
-    /// How many cells it asks for.
+    /// Number of cells.
     #[must_use]
     pub fn cells(&self) -> f64 {
         f64::from(self.along) * f64::from(self.across) * f64::from(self.vertical)
@@ -41,17 +42,17 @@ impl GridSpec {
 }
 
 impl TrajectorySpec {
-    /// Releases of the look-back `period_s` apart, and the sets that they are taken together to.
+    /// Number of releases in the look-back, `period_s` apart, and number of sets that they are merged into.
     fn releases(&self, period_s: f64) -> [f64; 2] {
         let all = self.lookback_s.get() / period_s;
         let grows = math::ln(1.0 + 0.8 * self.merge.get());
         let sets = 5.0 + 1.3 * math::ln(all.max(1.0)) / grows;
-        // Nothing taken together: no number.
+        // Nothing is merged: no number of sets.
         [all, if sets < all { sets } else { all }]
     }
 }
 
-/// What a mapper that weighs its cells by the kernel of the look-back takes, `each_s` for a set of releases.
+/// Cost of a mapper that weighs its cells by the kernel of the look-back, at `each_s` per set of releases.
 pub(super) fn by_kernel(
     grid: &GridSpec,
     way: &TrajectorySpec,
@@ -66,7 +67,7 @@ pub(super) fn by_kernel(
     let update = Part::new("update_period_s", what)
         .takes(updates * (sets * each_s + all * RELEASE.0))
         .by(period_s, -1.0);
-    let what = format!("{all:.1e} releases looked back at");
+    let what = format!("{all:.1e} releases in the look-back");
     let kept = Part::new("trajectory.release_period_s", what)
         .holds(all * RELEASE.1)
         .by(way.release_period_s.get(), -1.0);

@@ -1,13 +1,14 @@
 //! Size of the smallest set of cells that holds a share of the probability.
 //!
-//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section 2.8.
+//! *Source*: highest-density credible regions, Box & Tiao 1973, Bayesian Inference in Statistical Analysis, section
+//! 2.8.
 //!
 //! *Parameters*: the share.
 //!
-//! *Deviations*: whole cells: the last one is counted whole.
+//! *Deviations*: cells are whole: the last one is counted as a whole.
 
-/// How many cells, the most probable first, reach `share` of the total; by halving, so in time linear in
-/// the cells. `work` is scratch.
+/// How many cells, the most probable first, reach `share` of the total. It works by halving, in a time linear in the
+/// number of cells. `work` is scratch space.
 pub(super) fn cells(p: &[f64], share: f64, work: &mut Vec<f64>) -> usize {
     work.clear();
     work.extend_from_slice(p);
@@ -40,7 +41,7 @@ mod tests {
         assert_eq!(cells(&[0.1, 0.6, 0.3], 0.89, &mut work), 2);
         assert_eq!(cells(&[0.1, 0.6, 0.3], 0.95, &mut work), 3);
         assert_eq!(cells(&[1.0], 0.95, &mut work), 1);
-        // 1000 equal cells: 950, give or take the one on which rounding falls.
+        // 1000 equal cells: 950, plus or minus the one that rounding may add or remove.
         let even = vec![0.001; 1000];
         assert!(cells(&even, 0.95, &mut work).abs_diff(950) <= 1);
     }

@@ -1,14 +1,15 @@
-//! How much a reading counts for: chances of what the model leaves out, and readings that say the same twice.
+//! Weight of a reading: chances that the model leaves out, and readings that repeat each other.
 //!
-//! *Source*: chance ε of a false detection: Wang & Pang give none. Chance ν that dye is missed although the model has it
-//! there: gross-error model, Huber 1964, Ann. Math. Statist. 35, 73. Readings that are not independent: the likelihood to
-//! the power of their independent share, Miller & Dunson 2019, J. Am. Stat. Assoc. 114, 1113 (coarsened posterior).
+//! *Source*: chance ε of a false detection: Wang & Pang give none. Chance ν that dye is missed although the model has
+//! it there: gross-error model, Huber 1964, Ann. Math. Statist. 35, 73. Readings that are not independent: the
+//! likelihood to the power of their independent share, Miller & Dunson 2019, J. Am. Stat. Assoc. 114, 1113 (coarsened
+//! posterior).
 //!
-//! *Parameters*: ε `false_detection`; ν `missed`, 0; time τ for which the model's error lasts, `correlation_s`, s, 0.
+//! *Parameters*: ε `false_detection`; ν `missed`, 0; correlation time τ of the model's error, `correlation_s`, s, 0.
 //!
-//! *Deviations*: in the papers a map never doubts its model: γ, a product over hundreds of releases, may fall to
-//! 1e-280 in a second, and a source once crossed without a detection never comes back. Here γ ← ν + (1 − ν) γ, and an
-//! update counts for min(1, period / τ) of one. With ν = 0 and τ = 0, the defaults, all is as in the papers.
+//! *Deviations*: in the papers a map never doubts its model. γ is a product over hundreds of releases and may fall to
+//! 1e-280 in a second, so that a source that was once crossed without a detection never comes back. Here γ ← ν + (1 −
+//! ν) γ, and an update has the weight min(1, period / τ). The defaults ν = 0 and τ = 0 give the papers' rules.
 
 use super::spec::invalid;
 use crate::error::RobotError;
@@ -16,13 +17,14 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative};
 
-/// What the model of the plume is doubted for.
+/// How far the map doubts its model of the plume.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DoubtSpec {
-    /// Chance ν that dye is missed where the model has it for sure: gaps in the plume, and a plume beside its modelled place.
+    /// Chance ν that dye is missed where the model is sure of it: gaps in the plume, or a plume beside its modelled
+    /// place.
     pub missed: Fraction,
-    /// What is seen within this time counts once, τ, s; 0: each update is independent of the one before.
+    /// Correlation time τ, s: readings within this time count once. 0: each update is independent of the one before.
     pub correlation_s: NonNegative,
 }
 
@@ -35,13 +37,13 @@ impl Default for DoubtSpec {
     }
 }
 
-/// The same at work.
+/// The same, ready for updates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Evidence {
-    /// Chance of a detection where no dye is, ε.
+    /// Chance ε of a detection where there is no dye.
     pub epsilon: f64,
     missed: f64,
-    /// Share of an update that is news.
+    /// Share of an update that counts as new.
     pub share: f64,
 }
 
@@ -49,7 +51,7 @@ impl Evidence {
     /// For updates every `period_s`.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for an ε that would let a belief vanish, or a ν with which nothing says anything.
+    /// [`RobotError::Invalid`] if ε would let a belief vanish, or if ν leaves readings without any meaning.
     pub(super) fn new(
         epsilon: Fraction,
         doubt: &DoubtSpec,
@@ -78,17 +80,17 @@ impl Evidence {
         })
     }
 
-    /// Chance of no detection, where the model has it at `gamma`.
+    /// Chance of no detection where the model gives `gamma`.
     pub(super) fn none(&self, gamma: f64) -> f64 {
         self.missed + (1.0 - self.missed) * gamma
     }
 
-    /// Chance of a detection, where the model has that of none at `gamma`.
+    /// Chance of a detection where the model gives `gamma` for none.
     pub(super) fn some(&self, gamma: f64) -> f64 {
         self.epsilon + (1.0 - self.epsilon) * (1.0 - self.none(gamma))
     }
 
-    /// The model's chances of no detection made into likelihoods of what was seen.
+    /// Turns the model's chances of no detection into likelihoods of the observation.
     pub(super) fn weigh(&self, detected: bool, gamma: &mut [f64]) {
         for g in gamma {
             *g = if detected {
@@ -129,7 +131,7 @@ mod tests {
         let e = evidence(0.2, 8.0);
         assert_eq!(e.none(0.0), 0.2);
         assert_eq!(e.none(1.0), 1.0);
-        // Chances of the two outcomes, but for ε, still add up.
+        // The chances of the two outcomes, without ε, still add up to 1.
         assert!((e.none(0.4) + (e.some(0.4) - 1e-3) / (1.0 - 1e-3) - 1.0).abs() < 1e-15);
         assert_eq!(e.share, 0.125);
     }

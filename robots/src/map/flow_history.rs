@@ -1,21 +1,22 @@
-//! The flow the vehicle measured, summed over time: how far dye released then has drifted by now.
+//! The measured flow summed over time: how far dye released at an earlier time has drifted by now.
 //!
-//! *Source*: Pang & Farrell 2006 (displacement by the measured flow); Wang & Pang, section II-C, the
-//! s(t_l, t_k) of eq. 1.
+//! *Source*: Pang & Farrell 2006 (displacement by the measured flow); Wang & Pang, section II-C, the s(t_l, t_k) of
+//! eq. 1.
 //!
 //! *Parameters*: time between two remembered places, s; look-back h, s; `steady_before`.
 //!
 //! *Deviations*: in the paper nothing was released before the mission (its t_f is at least 0), so that dye met early
-//! on could only come from near by; with `steady_before` releases go back as far as the look-back, the flow before
-//! the first measurement being the mean of that measured since. The flow is integrated as it is measured (trapezoid), not at the release times only. It is
-//! the flow at the vehicle, taken to hold in the whole area, as in both papers.
+//! can only come from nearby. With `steady_before`, releases go back as far as the look-back, and the flow before the
+//! first measurement is the mean of the flow measured since. The flow is integrated at every measurement (trapezium
+//! rule), not only at the release times. It is the flow at the vehicle and is taken for the flow in the whole area,
+//! as in both papers.
 
 use std::collections::VecDeque;
 
-/// Slack in comparing times that are multiples of a step, s.
+/// Tolerance in comparing times that are multiples of a step, s.
 pub(super) const SLACK_S: f64 = 1e-6;
 
-/// Where dye in the water stood at a time: the sum of the measured flow until then.
+/// Position of dye in the water at a time: the sum of the measured flow until then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Mark {
     /// Time, s.
@@ -24,13 +25,13 @@ pub(super) struct Mark {
     pub s_m: [f64; 2],
 }
 
-/// Ring of marks, one a release.
+/// Ring of marks, one per release.
 #[derive(Clone, Debug)]
 pub(super) struct FlowHistory {
     period_s: f64,
     lookback_s: f64,
     steady_before: bool,
-    /// When and what was first measured.
+    /// Time and value of the first measurement.
     first: Option<(f64, [f64; 2])>,
     marks: VecDeque<Mark>,
     now: Option<(Mark, [f64; 2])>,
@@ -51,7 +52,7 @@ impl FlowHistory {
         }
     }
 
-    /// Takes in a measurement (grid's axes, m/s); without one the last is taken to hold.
+    /// Takes in a measurement (grid's axes, m/s); without one, the last measurement still holds.
     pub(super) fn record(&mut self, t_s: f64, flow: Option<[f64; 2]>) {
         let Some((last, v0)) = self.now else {
             if let Some(v) = flow {
@@ -71,7 +72,7 @@ impl FlowHistory {
         let v1 = flow.unwrap_or(v0);
         let s_m = [0, 1].map(|a| last.s_m[a] + 0.5 * (v0[a] + v1[a]) * dt);
         let now = Mark { t_s, s_m };
-        // Marks between the two, on the straight line: releases stay one period apart whatever the step.
+        // Marks between the two, on the straight line: releases stay one period apart for any step.
         let mut due = self.marks.back().map_or(t_s, |m| m.t_s) + self.period_s;
         let oldest = t_s - self.lookback_s - self.period_s;
         if due < oldest {
@@ -105,12 +106,12 @@ impl FlowHistory {
         self.pushed += 1;
     }
 
-    /// Marks ever made.
+    /// Number of all marks so far.
     pub(super) fn pushed(&self) -> u64 {
         self.pushed
     }
 
-    /// How many are remembered.
+    /// Number of remembered marks.
     #[cfg(test)]
     pub(super) fn len(&self) -> usize {
         self.marks.len()
@@ -132,7 +133,7 @@ impl FlowHistory {
         })
     }
 
-    /// (age, displacement since) of each release before now, youngest first.
+    /// Age and displacement of each release before now, youngest first.
     pub(super) fn releases(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
         let now = self.now.map(|(mark, _)| mark);
         let measured = self.marks.iter().rev().filter_map(move |m| {
@@ -143,7 +144,7 @@ impl FlowHistory {
         measured.chain(self.before())
     }
 
-    /// The same of releases before the first measurement.
+    /// The same for releases before the first measurement.
     fn before(&self) -> impl Iterator<Item = (f64, [f64; 2])> {
         let start = self.first.filter(|_| self.steady_before);
         let (period_s, lookback_s) = (self.period_s, self.lookback_s);
@@ -174,7 +175,7 @@ mod tests {
             h.record(f64::from(n) * 0.02, Some([0.5, -0.25]));
         }
         let releases: Vec<_> = h.releases().collect();
-        // Ages 1 to 10 s: the one of age 0 is not a release before now.
+        // Ages 1 to 10 s; a release of age 0 would not be before now.
         assert_eq!(releases.len(), 10);
         for (n, (age, s)) in releases.iter().enumerate() {
             assert!((age - (n as f64 + 1.0)).abs() < 1e-6);
@@ -225,7 +226,7 @@ mod tests {
         let mut h = FlowHistory::new(1.0, 50.0, true);
         for n in 0..=100 {
             let t = f64::from(n);
-            // 0 to 4 m/s in turn: 2 on the mean.
+            // 0 and 4 m/s in turn: 2 in the mean.
             h.record(t, Some([2.0 + 2.0 * world::math::sin(t / 2.0), 0.0]));
             let releases: Vec<_> = h.releases().collect();
             assert_eq!(releases.len(), 50);
@@ -235,7 +236,7 @@ mod tests {
                     .all(|w| (w[1].0 - w[0].0 - 1.0).abs() < 1e-9)
             );
             if n == 0 {
-                // The first measurement alone is known.
+                // Only the first measurement is known.
                 assert!(
                     releases
                         .iter()

@@ -1,14 +1,14 @@
-//! The chance that dye from each cell was met: Gaussians round the back-trajectory of the measured flow.
+//! The chance that dye from each cell was met: Gaussians around the back-trajectory of the measured flow.
 //!
 //! *Source*: Wang & Pang, eqs. 1–3, after Pang & Farrell 2006.
 //!
-//! *Parameters*: μ `mu`; σx, σy, σz, m/√s; look-back h, s; the cell's size Lx, Ly, Lz; u′, T, ours: see
+//! *Parameters*: μ `mu`; σx, σy, σz, m/√s; look-back h, s; the cell's size Lx, Ly, Lz; u′ and T are ours: see
 //! `TrajectorySpec::strayed_m2`.
 //!
-//! *Deviations*: the papers are plane; here there may be a third factor for the vertical, with mirror images
-//! in the map's upper and lower edge (surface and bed), and no vertical flow. A Gaussian ends seven standard
-//! deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
-//! `terms` and `releases`. Where the vehicle is: the middle of its cell, as in the paper.
+//! *Deviations*: the papers are two-dimensional. Here there may be a third factor for the vertical, with mirror
+//! images in the map's upper and lower edge (surface and bed), and no vertical flow. A Gaussian is cut off seven
+//! standard deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
+//! `terms` and `releases`. The vehicle's place is the middle of its cell, as in the paper.
 
 use super::flow_history::FlowHistory;
 use super::releases::Gatherer;
@@ -18,12 +18,12 @@ use crate::handoff::BeliefGrid;
 use std::sync::Arc;
 use world::math;
 
-/// Standard deviations at which a Gaussian ends.
+/// Standard deviations at which a Gaussian is cut off.
 const REACH: f64 = 7.0;
 /// √(2π).
 const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
 
-/// The kernel over a grid, aimed at the vehicle's place.
+/// The kernel over a grid, centred on the vehicle's place.
 #[derive(Clone, Debug)]
 pub(super) struct Kernel {
     grid: Arc<BeliefGrid>,
@@ -35,7 +35,7 @@ pub(super) struct Kernel {
 }
 
 impl Kernel {
-    /// A kernel that is not aimed yet.
+    /// A kernel before its first use.
     pub(super) fn new(grid: &Arc<BeliefGrid>, spec: &TrajectorySpec) -> Self {
         let horizontal = [grid.cell_m[0], grid.cell_m[1]];
         Self {
@@ -86,7 +86,7 @@ impl Kernel {
         }
     }
 
-    /// γ, the chance of not detecting, for a source in each cell.
+    /// γ, the chance of no detection, for a source in each cell.
     pub(super) fn not_detecting(&self, out: &mut [f64]) {
         self.terms.product(self.mu, out);
     }
@@ -128,7 +128,7 @@ impl Kernel {
         gamma
     }
 
-    /// Where it is aimed, in the grid's own axes, m.
+    /// The vehicle's place for which it was made, in the grid's own axes, m.
     pub(super) fn at(&self) -> [f64; 3] {
         self.at
     }
@@ -140,9 +140,9 @@ impl Kernel {
     }
 }
 
-/// Adds h/(√(2π) s)·exp(−x²/2s²) to a row of zeros, x the distance of each cell's middle from `peak`; cells
-/// are `h` apart, the first's middle at h/2. Answers with the cells reached. By ratios from the cell nearest
-/// the peak outwards: four exponentials a row, and an error under n²·1e-16.
+/// Adds h/(√(2π) s)·exp(−x²/2s²) to a row of zeros, where x is the distance of each cell's middle from `peak`; the
+/// cells are `h` wide and the first one's middle is at h/2. Returns the cells reached. It uses ratios from the cell
+/// nearest to the peak outwards: four exponentials per row, and an error under n²·1e-16.
 fn gaussian(row: &mut [f64], peak: f64, h: f64, s: f64) -> (usize, usize) {
     let n = row.len() as f64;
     let first = 0.5 * h - peak;

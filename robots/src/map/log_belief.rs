@@ -1,10 +1,10 @@
 //! A belief kept as logarithms, so that an hour of evidence neither underflows nor loses its sum.
 //!
-//! *Source*: Bayes' rule for a source that stays where it is: Wang & Pang, eqs. 4–6, first prior 1/mn.
+//! *Source*: Bayes' rule for a source that stays in place: Wang & Pang, eqs. 4–6, first prior 1/mn.
 //!
 //! *Parameters*: share of the credible area, 95 %.
 //!
-//! *Deviations*: the paper works with the probabilities themselves; a cell once at zero could then never
+//! *Deviations*: the paper works with the probabilities themselves; a cell that was once at zero could then never
 //! come back.
 
 use super::credible;
@@ -17,7 +17,7 @@ const CREDIBLE: f64 = 0.95;
 /// e to a power below this is zero in f64.
 const LN_ZERO: f64 = -745.0;
 
-/// Logarithms of the probabilities, and the belief they stand for.
+/// Logarithms of the probabilities, and the belief that they represent.
 #[derive(Clone, Debug)]
 pub(super) struct LogBelief {
     ln_p: Vec<f64>,
@@ -26,7 +26,7 @@ pub(super) struct LogBelief {
 }
 
 impl LogBelief {
-    /// All cells alike.
+    /// All cells with the same probability.
     pub(super) fn uniform(grid: &Arc<BeliefGrid>) -> Self {
         let n = grid.len();
         let mut new = Self {
@@ -59,13 +59,13 @@ impl LogBelief {
         &self.ln_p
     }
 
-    /// Says with the belief what else is known of the odour.
+    /// Attaches what is known of the odour to the belief.
     pub(super) fn say(&mut self, odour: Odour) {
         self.belief.odour = Some(Arc::new(odour));
     }
 
-    /// Takes in the likelihood of what was seen, a number of each cell (greater than zero; a common factor
-    /// does not matter), to the power of `share`.
+    /// Takes in the likelihood of an observation, one number per cell (greater than zero; a common factor does not
+    /// matter), to the power of `share`.
     pub(super) fn update(&mut self, t_s: f64, detected: bool, likelihood: &[f64], share: f64) {
         for (ln_p, l) in self.ln_p.iter_mut().zip(likelihood) {
             assert!(
@@ -80,7 +80,7 @@ impl LogBelief {
         self.normalise();
     }
 
-    /// Puts probabilities in the place of those it has (greater than or equal to zero, not all zero).
+    /// Replaces the probabilities by others (greater than or equal to zero, not all zero).
     pub(super) fn replace(&mut self, t_s: f64, detected: bool, mass: &[f64]) {
         for (ln_p, m) in self.ln_p.iter_mut().zip(mass) {
             *ln_p = math::ln(m.max(1e-300));
@@ -104,7 +104,7 @@ impl LogBelief {
         for (i, (p, ln_p)) in p.iter_mut().zip(&mut self.ln_p).enumerate() {
             *p *= scale;
             *ln_p -= ln_total;
-            // A cell of zero probability has no share in the entropy, whatever its logarithm.
+            // A cell of zero probability has no part in the entropy, whatever its logarithm.
             entropy -= *p * *ln_p;
             if *ln_p > highest {
                 (best, highest) = (i, *ln_p);
@@ -122,7 +122,7 @@ impl LogBelief {
     }
 }
 
-/// Sum in eight lanes: quick, and its error grows with an eighth of the cells.
+/// Sum in eight lanes: fast, and its error grows with an eighth of the cells.
 fn sum(p: &[f64]) -> f64 {
     let mut lanes = [0.0; 8];
     let chunks = p.chunks_exact(8);

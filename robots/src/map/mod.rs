@@ -1,7 +1,7 @@
-//! Where the source may be: mappers turn detections, and their absence, into a belief.
+//! Mappers turn detections, and their absence, into a belief about the source's place.
 //!
-//! One back-trajectory (`flow_history`, `releases`, `kernel`) serves all; each mapper's file says how it
-//! fuses what that gives.
+//! All mappers share one back-trajectory (`flow_history`, `releases`, `kernel`); each mapper's file says how it uses
+//! that.
 
 mod bayesian;
 mod catalogue;

@@ -1,18 +1,19 @@
-//! Source map by a particle filter: possible source positions, weighted by what was and was not smelt.
+//! Source map by a particle filter: possible source positions, weighted by detections and non-detections.
 //!
-//! *Source*: Li, Meng, Wang & Zeng 2011 (Autonomous Robots 30(3)); roughening: Gordon, Salmond & Smith 1993,
-//! eq. 15; systematic resampling: Kitagawa 1996.
+//! *Source*: Li, Meng, Wang & Zeng 2011 (Autonomous Robots 30(3)); roughening: Gordon, Salmond & Smith 1993, eq. 15;
+//! systematic resampling: Kitagawa 1996.
 //!
-//! *Parameters*: particles, 1000; `roughening` K, 0.2 (Gordon's); resampling when the effective number falls
-//! under `resample_below`, 0.5 of all; a detection that the particles explain with less than `lost_below`, 0.01,
-//! sends half of them back along its trajectory; μ, σ, h in `trajectory`; ε, `false_detection`.
+//! *Parameters*: particles, 1000; `roughening` K, 0.2 (Gordon's); the filter resamples when the effective number of
+//! particles falls below `resample_below`, 0.5 of all; if the particles give a detection a chance of less than
+//! `lost_below`, 0.01, half of them are drawn anew along its trajectory; μ, σ, h in `trajectory`; ε,
+//! `false_detection`.
 //!
-//! *Deviations*: reconstructed (the paper's own equations were not at hand): the likelihood is that of
-//! `Pomdp`, 1 − γ and γ by the back-trajectory, at each particle's own place in the place of a cell's middle;
-//! ε on either side (γ at least ε), so that weights never all vanish. Particles start evenly over the area.
-//! A set that cannot explain a detection has lost the source (none was near it when it was resampled): half are
-//! then drawn anew from the releases that could have been met, as Lenser & Veloso 2000 reset a lost robot.
-//! The belief on the grid is the weight of the particles in each cell, with the share ε spread over all.
+//! *Deviations*: reconstructed (the paper's own equations were not available): the likelihood is that of `Pomdp`, 1 −
+//! γ and γ by the back-trajectory, at each particle's own place instead of a cell's middle; ε on either side (γ at
+//! least ε), so that the weights never all vanish. Particles start evenly over the area. A set that cannot explain a
+//! detection has lost the source (no particle was near it at a resampling): half are then drawn anew from the
+//! releases that could have been met, as Lenser & Veloso 2000 reset a lost robot. The belief on the grid is the
+//! weight of the particles in each cell, with the share ε spread over all cells.
 
 use super::catalogue::{MapParams, Mapper};
 use super::cost::{PARTICLE_S, by_kernel};
@@ -40,23 +41,24 @@ const PARTICLES: (u32, u32) = (10, 100_000);
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct ParticleFilterSpec {
-    /// The cells of the belief made from the particles.
+    /// The cells of the belief that the particles give.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
     pub update_period_s: Positive,
-    /// Chance ε of a detection where no dye is; must be greater than 0.
+    /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
-    /// How many particles.
+    /// Number of particles.
     pub particles: u32,
-    /// Resample when the effective number is under this share of all.
+    /// Resample when the effective number is below this share of all.
     pub resample_below: Fraction,
-    /// The particles have lost the source when they give a detection that is made less than this chance.
+    /// The particles have lost the source if they give an actual detection a smaller chance than this.
     pub lost_below: Fraction,
-    /// Scatter after resampling, K: as a share of the particles' extent over their number's root.
+    /// Scatter after resampling, K: share of the particles' extent, divided by the d-th root of their number in d
+    /// dimensions.
     pub roughening: NonNegative,
 }
 
@@ -79,7 +81,7 @@ impl Default for ParticleFilterSpec {
 impl Listed for ParticleFilterSpec {
     const ENTRY: Entry = Entry {
         name: "ParticleFilter",
-        what: "particles of source positions, weighted by the chance of what was and was not smelt (reconstructed)",
+        what: "possible source positions as particles, weighted by detections and non-detections (reconstructed)",
         source: "Li, Meng, Wang & Zeng 2011, Autonomous Robots 30(3)",
     };
 }
@@ -110,7 +112,7 @@ impl MapParams for ParticleFilterSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct ParticleFilter {
     with: Workings,
@@ -124,10 +126,10 @@ pub struct ParticleFilter {
 }
 
 impl ParticleFilter {
-    /// A mapper with particles all over the grid.
+    /// A mapper whose particles are spread over the grid.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for a number of particles or a chance out of range.
+    /// [`RobotError::Invalid`] if the number of particles or a chance is out of range.
     pub fn new(
         spec: &ParticleFilterSpec,
         grid: BeliefGrid,
@@ -193,12 +195,12 @@ impl ParticleFilter {
         }
     }
 
-    /// Draws every other particle anew from the releases that may have been met; all weigh alike then.
+    /// Draws every other particle anew from the releases that may have been met; then all have the same weight.
     fn send_back(&mut self) {
         let releases: Vec<_> = self.with.watch.history.releases().collect();
         let (at, plane) = (self.kernel.at(), self.with.belief.belief().grid.n[2] == 1);
         for place in self.places.iter_mut().step_by(2) {
-            // Releases from outside the area cannot be: another is drawn, a few times.
+            // Releases outside the area are impossible: draw another one, a few times.
             for _ in 0..20 {
                 let pick = (self.rng.uniform() * releases.len() as f64) as usize;
                 let (age, s) = releases[pick.min(releases.len() - 1)];
@@ -261,7 +263,7 @@ impl ParticleFilter {
                 return 0.0;
             }
             let alive = self.places.iter().zip(&self.weights);
-            // Particles of no weight are not resampled and do not widen the extent.
+            // Particles without weight are not resampled and do not widen the extent.
             let xs = alive.filter(|(_, w)| **w > 1e-12).map(|(p, _)| p[axis]);
             let (lo, hi) = xs.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| {
                 (l.min(x), h.max(x))
@@ -283,7 +285,7 @@ impl ParticleFilter {
     }
 }
 
-/// A coordinate mirrored back into [0, extent].
+/// A coordinate reflected back into [0, extent].
 fn within(x: f64, extent: f64) -> f64 {
     let folded = x.rem_euclid(2.0 * extent);
     folded.min(2.0 * extent - folded)

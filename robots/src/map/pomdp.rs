@@ -3,12 +3,12 @@
 //! *Source*: Wang & Pang, section II-C, eqs. 1–6 (after Jiu, Chen, Deng & Pang 2019).
 //!
 //! *Parameters*: grid 40 × 25; μ, σx, σy, h in `trajectory` (the paper gives no values: ours); time unit, 1 s,
-//! `update_period_s`; chance of a false detection, `false_detection`, none in the paper; `doubt`, none in the paper: see
-//! `evidence`.
+//! `update_period_s`; chance of a false detection, `false_detection`, none in the paper; `doubt`, none in the paper:
+//! see `evidence`.
 //!
-//! *Deviations*: on a detection the factor is ε + (1 − ε)(1 − γ) with ε = `false_detection`, so that one false
-//! alarm where no cell can explain it leaves a belief; on none it is γ, as in the paper. Any detection within
-//! an update period counts as one. No update while the vehicle is outside the grid. Kernel: see `kernel`.
+//! *Deviations*: on a detection the factor is ε + (1 − ε)(1 − γ) with ε = `false_detection`, so that a belief remains
+//! after a false alarm that no cell can explain; on none it is γ, as in the paper. One or more detections within an
+//! update period count as one. There is no update while the vehicle is outside the grid. Kernel: see `kernel`.
 
 use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
@@ -51,7 +51,7 @@ impl MapParams for PomdpSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Pomdp {
     with: Workings,
@@ -59,10 +59,10 @@ pub struct Pomdp {
 }
 
 impl Pomdp {
-    /// A mapper over a grid, all cells alike.
+    /// A mapper over a grid; all cells begin with the same probability.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without releases.
+    /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no release.
     pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let with = Workings::over_cells(spec, grid)?;
         Ok(Self {

@@ -1,26 +1,25 @@
-//! Releases of the look-back, neighbours taken together as one Gaussian where that hardly changes the map.
+//! Releases of the look-back; neighbours are merged into one Gaussian where that hardly changes the map.
 //!
-//! *Source*: our own; the releases are those of Wang & Pang, eq. 2. A set of m releases (m a power of two)
-//! becomes one Gaussian with the mean of their displacements and, along each axis, the mean of their
-//! variances plus the variance of their displacements (mean, variance and mass are kept), raised to the m-th
-//! power in the product.
+//! *Source*: our own; the releases are those of Wang & Pang, eq. 2. A set of m releases (m a power of two) becomes
+//! one Gaussian with the mean of their displacements and, along each axis, the mean of their variances plus the
+//! variance of their displacements (mean, variance and mass are kept), raised to the m-th power in the product.
 //!
-//! *Parameters*: κ, `merge`, 0.3: root mean square of the displacements within a set, as a share of its
-//! youngest release's spread σ√Δt. With it also: ages within a set differ by at most 0.8 κ of the youngest,
-//! displacements along the two axes covary by at most κ²/30 of the product of the spreads (a Gaussian along
-//! the axes cannot show more), and no set is made where the chance of detection exceeds 0.25.
+//! *Parameters*: κ, `merge`, 0.3: root mean square of the displacements within a set, as a share of its youngest
+//! release's spread σ√Δt. It also sets further limits: ages within a set differ by at most 0.8 κ of the youngest,
+//! displacements along the two axes covary by at most κ²/30 of the product of the spreads (a Gaussian along the axes
+//! cannot represent more), and no set is made where the chance of detection exceeds 0.25.
 //!
-//! *Deviations*: with κ = 0 none. With κ = 0.3 the logarithm of the chance of not detecting, over the map, is
-//! off by at most 1 % of its largest value (`tests_kernel`: random flows; typical flows some 0.3 %).
+//! *Deviations*: none with κ = 0. With κ = 0.3 the logarithm of the chance of no detection is off by at most 1 % of
+//! its largest value over the map (`tests_kernel`: random flows; some 0.3 % in typical flows).
 
 use super::spec::TrajectorySpec;
 
-/// Chance of detection above which (1 − p)^m no longer stands for a product of different factors.
+/// Chance of detection above which (1 − p)^m can no longer replace a product of different factors.
 const MERGE_PEAK: f64 = 0.25;
 /// Largest set, as a power of two.
 const MOST_LOG2: u32 = 6;
 
-/// Releases that are treated as one.
+/// Releases that count as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Set {
     /// Their number is two to this power.
@@ -31,7 +30,7 @@ pub(super) struct Set {
     pub var_m2: [f64; 3],
 }
 
-/// Sums over the releases up to one, for the moments of any run of them.
+/// Sums over the releases up to one, which give the moments of any run of them.
 #[derive(Clone, Copy, Debug, Default)]
 struct Sums {
     age: f64,
@@ -90,7 +89,7 @@ impl Gatherer {
         let mut first = 0;
         let mut guess = 0;
         while first < self.ages.len() {
-            // The sets grow with age: begin with the size of the one before.
+            // The sets grow with age: start with the size of the one before.
             let mut log2 = guess;
             let mut set = self.set(first, log2);
             while set.is_none() {
@@ -108,7 +107,7 @@ impl Gatherer {
         }
     }
 
-    /// The 2^log2 releases from `first` as one, if they may be; a single one always may.
+    /// The 2^log2 releases from `first` as one set, if that is allowed; a single release always is.
     fn set(&self, first: usize, log2: u32) -> Option<Set> {
         let m = 1_usize << log2;
         let last = first + m - 1;
@@ -182,7 +181,7 @@ mod tests {
         let strayed = |age: f64| g.sets[age as usize - 1].var_m2[0] - 0.25 * age;
         assert!((strayed(2.0) / 0.0036 - 1.0).abs() < 0.02);
         assert!((strayed(3000.0) - 0.09 * 2950.0).abs() < 1e-6);
-        // Up and down there is none.
+        // In the vertical there is none.
         assert!((g.sets[2999].var_m2[2] - 7.5).abs() < 1e-9);
     }
 

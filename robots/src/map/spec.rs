@@ -1,4 +1,4 @@
-//! What all mappers are told: the grid, and how dye is believed to travel.
+//! Parameters common to all mappers: the grid, and the model of how dye travels.
 
 use super::flow_history::FlowHistory;
 use crate::error::RobotError;
@@ -10,25 +10,25 @@ use world::limits::shown;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
-/// Most cells a map may have: a million are 8 MB a table.
+/// Most cells of a map: a million take 8 MB per table.
 const MOST_CELLS: f64 = 1e6;
 /// Most releases a look-back may hold.
 const MOST_RELEASES: f64 = 100_000.0;
 
-/// The cells, over the operating area.
+/// The cells over the operating area.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[schemars(rename = "MapGridSpec")]
 #[serde(deny_unknown_fields, default)]
 pub struct GridSpec {
     /// Cells along the area's axis.
     pub along: u32,
-    /// Cells across it.
+    /// Cells across the area's axis.
     pub across: u32,
-    /// Cells from bottom to top; 1 is a map of the plane.
+    /// Cells from bottom to top; 1 for a map of the plane.
     pub vertical: u32,
     /// Upper edge of the map, m below the surface.
     pub top_depth_m: NonNegative,
-    /// Lower edge of the map, m below the surface; must be given for a map of the space.
+    /// Lower edge of the map, m below the surface; must be given for a map of space.
     pub bottom_depth_m: Option<Positive>,
 }
 
@@ -48,7 +48,7 @@ impl GridSpec {
     /// The grid over an area.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for no cells, too many, or a map of the space without its depths.
+    /// [`RobotError::Invalid`] if there are no or too many cells, or if a map of space lacks its depths.
     pub fn build(&self, area: &Area) -> Result<BeliefGrid, RobotError> {
         let n = [self.along, self.across, self.vertical];
         for (name, count) in ["along", "across", "vertical"].into_iter().zip(n) {
@@ -92,17 +92,17 @@ impl GridSpec {
     }
 }
 
-/// How dye is believed to travel from a source to the sensor.
+/// Model of how dye travels from a source to the sensor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct TrajectorySpec {
     /// Chance of detecting dye that is there, μ.
     pub mu: Fraction,
-    /// Spread of dye in a second along the area's axis, σx, m/√s.
+    /// Spread of dye in one second along the area's axis, σx, m/√s.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_x_m_rts: Positive,
-    /// The same across it, σy, m/√s.
+    /// The same across the axis, σy, m/√s.
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_y_m_rts: Positive,
@@ -110,16 +110,16 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_z_m_rts: Positive,
-    /// Standard deviation of the flow on the way from the flow at the vehicle, each horizontal axis, u′, m/s; 0: the flow is
-    /// the same everywhere, as in the papers.
+    /// Standard deviation, in each horizontal axis, of the flow along the way from the flow at the vehicle, u′, m/s;
+    /// 0: the flow is the same everywhere, as in the papers.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     #[schemars(transform = world::limits::schema::stream_m_s)]
     pub flow_error_m_s: NonNegative,
-    /// How long it lasts along a way, T, s.
+    /// Time for which a deviation lasts along a way, T, s.
     #[serde(deserialize_with = "world::limits::lasting_s")]
     #[schemars(transform = world::limits::schema::lasting_s)]
     pub flow_error_s: Positive,
-    /// Releases older than this are not looked at, h, s.
+    /// Look-back h, s: older releases are not considered.
     #[serde(deserialize_with = "world::limits::lasting_s")]
     #[schemars(transform = world::limits::schema::lasting_s)]
     pub lookback_s: Positive,
@@ -127,11 +127,11 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::lasting_s")]
     #[schemars(transform = world::limits::schema::lasting_s)]
     pub release_period_s: Positive,
-    /// Neighbouring releases are taken together while their places differ by less than this share of their
-    /// spread (root mean square); 0: never.
+    /// Neighbouring releases are merged while their places differ by less than this share of their spread (root mean
+    /// square); 0: never.
     pub merge: Fraction,
-    /// Releases before the mission count as well, in a flow as it was measured since; else the source is taken to have
-    /// begun with the mission, as the papers do.
+    /// Releases before the mission count as well, in the mean flow measured since. Otherwise the source is taken to
+    /// have begun with the mission, as in the papers.
     pub steady_before: bool,
 }
 
@@ -153,10 +153,10 @@ impl Default for TrajectorySpec {
 }
 
 impl TrajectorySpec {
-    /// Refuses what cannot be remembered.
+    /// Checks the look-back.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for a look-back of less than one release or of too many.
+    /// [`RobotError::Invalid`] if the look-back holds less than one release or too many.
     pub fn check(&self) -> Result<(), RobotError> {
         let (h, unit) = (self.lookback_s.get(), self.release_period_s.get());
         let releases = h / unit;
@@ -171,7 +171,7 @@ impl TrajectorySpec {
         Ok(())
     }
 
-    /// Refuses a look-back that is more than can be remembered in steps of `period_s`, given as `field`.
+    /// Checks that a look-back in steps of `period_s`, given as `field`, can be remembered.
     ///
     /// # Errors
     /// [`RobotError::Invalid`] with the least legal step.
@@ -194,8 +194,8 @@ impl TrajectorySpec {
         FlowHistory::new(period_s, self.lookback_s.get(), self.steady_before)
     }
 
-    /// Variance along each horizontal axis by the flow's error alone, at an age: 2 u′² T (Δt − T (1 − e^(−Δt/T))), m²
-    /// (Taylor 1921, Proc. London Math. Soc. 20, 196: dispersion by a velocity that lasts T).
+    /// Variance along each horizontal axis that the flow's error alone causes at an age: 2 u′² T (Δt − T (1 −
+    /// e^(−Δt/T))), m² (Taylor 1921, Proc. London Math. Soc. 20, 196: dispersion by a velocity that lasts T).
     #[must_use]
     pub fn strayed_m2(&self, age_s: f64) -> f64 {
         let (u, t) = (self.flow_error_m_s.get(), self.flow_error_s.get());

@@ -1,14 +1,14 @@
-//! Products and sums over releases, each a product of one factor an axis: what makes a map quick.
+//! Products and sums over releases, each a product of one factor per axis: this makes a map fast.
 //!
-//! *Source*: Wang & Pang, eq. 2, with the two exponentials of eq. 1 tabulated apart: (nx + ny + nz) values a
-//! release in the place of nx·ny·nz.
+//! *Source*: Wang & Pang, eq. 2, with the two exponentials of eq. 1 tabulated separately: (nx + ny + nz) values per
+//! release instead of nx·ny·nz.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: p of eq. 1 is a density times a cell's area and exceeds 1 for young releases in narrow
-//! plumes; it is taken as at most 1. A product is held at 1e-280 at least. Factors below 1e-13 are left out.
+//! *Deviations*: p of eq. 1 is a density times a cell's area and exceeds 1 for young releases in narrow plumes; it is
+//! limited to 1. A product is held at 1e-280 at least. Factors below 1e-13 are left out.
 
-/// A product goes no lower.
+/// Least value of a product.
 pub(super) const LEAST: f64 = 1e-280;
 /// Chances below this are taken as zero.
 const NEGLIGIBLE: f64 = 1e-13;
@@ -21,7 +21,7 @@ struct Term {
     reach: [(usize, usize); 3],
     /// Largest factor along the first axis.
     peak: f64,
-    /// Its chance may exceed 1.
+    /// Whether its chance may exceed 1.
     clamp: bool,
 }
 
@@ -43,7 +43,7 @@ impl Terms {
         }
     }
 
-    /// Forgets all terms, keeps the memory.
+    /// Forgets all terms, but keeps the memory.
     pub(super) fn clear(&mut self) {
         self.terms.clear();
         for table in &mut self.tables {
@@ -51,8 +51,7 @@ impl Terms {
         }
     }
 
-    /// Adds a term; `fill` writes the factors along an axis into a row of zeros and says which cells it
-    /// reaches.
+    /// Adds a term; `fill` writes the factors along an axis into a row of zeros and returns which cells it reaches.
     pub(super) fn add(
         &mut self,
         log2: u32,
@@ -118,7 +117,7 @@ impl Terms {
         });
     }
 
-    /// Row by row, so that a row stays in the nearest cache while all terms go over it.
+    /// Works row by row, so that a row stays in the nearest cache while all terms pass over it.
     fn rows(&self, out: &mut [f64], start: f64, each: impl Fn(&mut [f64], &[f64], f64, &Term)) {
         let [nx, ny, _] = self.n;
         for (index, row) in out.chunks_exact_mut(nx).enumerate() {

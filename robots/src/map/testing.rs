@@ -1,4 +1,4 @@
-//! What the mappers' tests share: the paper's area, eq. 1 and 2 written out, and a small plume to smell.
+//! Shared by the mappers' tests: the paper's area, eq. 1 and 2 written out, and a small plume.
 
 use super::flow_history::FlowHistory;
 use super::spec::TrajectorySpec;
@@ -25,7 +25,7 @@ pub(crate) fn grid(n: [usize; 3]) -> BeliefGrid {
     BeliefGrid::over(&paper_area(), 0.0, 10.0, n)
 }
 
-/// A history of a flow given over time, a step of 0.5 s.
+/// A history of a flow given as a function of time, in steps of 0.5 s.
 pub(crate) fn history(
     spec: &TrajectorySpec,
     upto_s: f64,
@@ -40,7 +40,7 @@ pub(crate) fn history(
     h
 }
 
-/// p of eq. 1, at most 1, for each release and each cell, written as it stands; plane maps.
+/// p of eq. 1, at most 1, for each release and each cell, as the paper writes it; plane maps.
 pub(crate) fn p_by_hand(
     grid: &BeliefGrid,
     spec: &TrajectorySpec,
@@ -65,7 +65,7 @@ pub(crate) fn p_by_hand(
         .collect()
 }
 
-/// Puffs from a point in a uniform flow with noise, and a vehicle that criss-crosses it.
+/// Puffs from a point in a uniform flow with noise, and a vehicle that criss-crosses the plume.
 pub(crate) struct ToyPlume {
     /// Source, m.
     pub source: Vector2<f64>,
@@ -90,7 +90,7 @@ impl ToyPlume {
         new
     }
 
-    /// A second: one puff more; all move with the flow and spread by 0.5 m/√s.
+    /// One second: one puff more; all puffs move with the flow and spread by 0.5 m/√s.
     pub(crate) fn drift(&mut self, t_s: f64) {
         self.puffs.push(self.source);
         let u = (self.flow)(t_s);
@@ -100,7 +100,7 @@ impl ToyPlume {
         self.puffs.retain(|p| p.norm() < 300.0);
     }
 
-    /// Whether a puff is in the same cell of 2.5 × 4 m as the vehicle, and noticed.
+    /// Whether a puff is in the same cell of 2.5 × 4 m as the vehicle, and is noticed.
     pub(crate) fn smell(&mut self, p: Vector2<f64>) -> bool {
         let same = |q: &Vector2<f64>| {
             (q.x / 2.5).floor() == (p.x / 2.5).floor() && (q.y / 4.0).floor() == (p.y / 4.0).floor()
@@ -109,7 +109,7 @@ impl ToyPlume {
         (0..near).any(|_| self.rng.uniform() < 0.9)
     }
 
-    /// What the vehicle sees after `t_s` seconds of a zig-zag that goes up the area and back.
+    /// The observation after `t_s` seconds of a zig-zag that goes up the area and back.
     pub(crate) fn seen(&mut self, t_s: f64) -> MapObservation {
         self.drift(t_s);
         let triangle = |x: f64| 1.0 - 2.0 * (x.rem_euclid(1.0) - 0.5).abs();

@@ -1,4 +1,4 @@
-//! Beliefs stay beliefs: sums, hours, memory, and no preferred place or direction.
+//! Beliefs stay beliefs: sums, hours of updates, memory, and no preferred place or direction.
 
 use super::bayesian::BayesianSpec;
 use super::catalogue::{MapSpec, Mapper};
@@ -83,7 +83,7 @@ fn assert_sound(mapper: &dyn Mapper, what: &str) {
 fn a_hundred_thousand_contradictory_updates_still_sum_to_one() {
     let (grid, trajectory) = small();
     for spec in all(&grid, &trajectory, 200) {
-        // The particle filter costs an exponential a particle and release: fewer of either.
+        // The particle filter takes one exponential per particle and release, so this test uses fewer of both.
         let spec = match spec.get::<ParticleFilterSpec>() {
             Some(p) => MapSpec::new(ParticleFilterSpec {
                 particles: 20,
@@ -159,12 +159,12 @@ fn numbers_of_a_map_by_hand() {
     b.update(1.0, true, &[1.0, 2.0, 4.0, 1.0], 1.0);
     let belief = b.belief();
     assert_eq!(belief.best, 2);
-    // 1/2 ln 2 + 1/4 ln 4 + 2/8 ln 8 = 1.75 ln 2; all four cells of 2500 m² are needed for 95 %.
+    // 1/2 ln 2 + 1/4 ln 4 + 2/8 ln 8 = 1.75 ln 2; 95 % needs all four cells of 2500 m².
     assert!((belief.entropy_nat - 1.75 * std::f64::consts::LN_2).abs() < 1e-12);
     assert!((belief.credible_95 - 10_000.0).abs() < 1e-9);
 }
 
-/// The filter's belief is Bayes' rule over the products written out, update by update.
+/// The filter's belief is Bayes' rule with the products written out, update by update.
 #[test]
 fn the_pomdp_map_equals_a_brute_force_product() {
     let (grid_spec, trajectory) = small();
@@ -186,7 +186,7 @@ fn the_pomdp_map_equals_a_brute_force_product() {
     for n in 0..40 {
         let mut seen = random_walk(&mut rng, n);
         if n == 0 {
-            // No reading yet: each update then has one reading of its own.
+            // No reading yet: then each update has one reading of its own.
             seen.detected = None;
         }
         mapper.step(&seen);
@@ -210,7 +210,8 @@ fn the_pomdp_map_equals_a_brute_force_product() {
             *b /= total;
         }
         for (a, b) in mapper.belief().p.iter().zip(&by_hand) {
-            // What lies past the kernel's reach, under 1e-9, against the chance of a false detection: 1e-6 a detection.
+            // The kernel leaves out what lies beyond its reach, under 1e-9; the chance of a false detection makes
+            // that 1e-6 per detection.
             assert!((a - b).abs() < 1e-5, "update {n}: {a} {b}");
         }
     }
@@ -222,7 +223,7 @@ fn neither_place_nor_direction_of_the_area_matters() {
     let trajectory = TrajectorySpec::default();
     let here = paper_area();
     let shift = Vector2::new(3000.0, -700.0);
-    // A turn of the axis from 90° to 30° is one of 60° to the left.
+    // Turning the axis from 90° to 30° is a turn of 60° to the left.
     let turn = Rotation2::new(60.0_f64.to_radians());
     let there = Area {
         centre: turn * here.centre + shift,

@@ -1,4 +1,4 @@
-//! The quick kernel against the paper's equations written out.
+//! The fast kernel against the paper's equations written out.
 
 use super::kernel::Kernel;
 use super::spec::TrajectorySpec;
@@ -51,14 +51,14 @@ proptest! {
         prop_assert_eq!(p.len(), 40);
         let exact = ln_gamma_by_hand(&p, mu);
         for i in 0..grid.len() {
-            // What lies past seven standard deviations is left out: 2.4e-11 of a release's peak, eq. 1's own peak.
+            // The kernel leaves out what lies beyond seven standard deviations: 2.4e-11 of a release's peak.
             let peak = |age: f64| grid.cell_m[0] * grid.cell_m[1] / (std::f64::consts::TAU * age * sx * sy);
             let cut: f64 = (1..=40).map(|age| 2.4e-11 * peak(f64::from(age))).sum();
             let e = math::exp(exact[i]);
             prop_assert!((gamma[i] - e).abs() <= cut + 1e-11, "{} {} {cut}", gamma[i], e);
             let by_hand: f64 = p.iter().map(|l| l[i]).sum();
             prop_assert!((sum[i] - by_hand).abs() <= cut + 1e-10, "{} {by_hand}", sum[i]);
-            // A particle in the middle of a cell is told the same.
+            // A particle in the middle of a cell gets the same result.
             let there = kernel.not_detecting_from(grid.local_centre(i));
             prop_assert!((there - e).abs() <= 2.0 * cut + 1e-11);
         }
@@ -103,8 +103,8 @@ fn merge_error(seed: u64, speed: f64, deg: f64, sigma: f64, wander: f64, cell: u
 
 #[test]
 fn a_map_of_one_layer_is_the_map_of_the_plane_and_layers_add_up_to_it() {
-    // Spread wide against a layer and narrow against the depth: the layers' factors then sum to 1 (midpoint
-    // rule for a Gaussian: error under 1e-9).
+    // Spread wide compared with a layer and narrow compared with the depth: the layers' factors then sum to 1
+    // (midpoint rule for a Gaussian: error under 1e-9).
     let flat = Arc::new(grid([12, 9, 1]));
     let deep = Arc::new(grid([12, 9, 20]));
     let spec = TrajectorySpec {

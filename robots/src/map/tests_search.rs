@@ -1,4 +1,4 @@
-//! Each mapper finds the source of a small plume that is not its own model.
+//! Each mapper finds the source of a small plume that differs from its own model.
 
 use super::spec::{GridSpec, TrajectorySpec};
 use super::testing::{ToyPlume, paper_area};

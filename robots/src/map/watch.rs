@@ -1,31 +1,31 @@
-//! What a mapper saw between two of its updates: the flow always, the dye if any reading met it.
+//! What a mapper observes between two of its updates: the flow always, and dye if any reading detected it.
 //!
-//! *Source*: Wang & Pang, section II-C: the vehicle is in a cell, and detects or does not, once a time unit.
+//! *Source*: Wang & Pang, section II-C: once in each time unit the vehicle is in a cell, and detects or does not.
 //!
 //! *Parameters*: time between two updates, s.
 //!
-//! *Deviations*: the sensor reports many times a time unit: one detection makes the unit one of detection, at the
-//! place of the last detection; else the place is that of the last reading.
+//! *Deviations*: the sensor reports many times in a time unit. One detection makes it a unit with a detection, at the
+//! place of the last detection; otherwise the place is that of the last reading.
 
 use super::flow_history::{FlowHistory, SLACK_S};
 use crate::handoff::BeliefGrid;
 use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 
-/// What a mapper sees in a tick: only what the vehicle measured and believes.
+/// What a mapper sees in a tick: only measured and estimated quantities.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MapObservation {
     /// Time, s.
     pub t_s: f64,
     /// Believed position, world ENU, m.
     pub p_W: Vector3<f64>,
-    /// Whether the chemical sensor detected; `None` when it did not report in this tick.
+    /// Whether the chemical sensor detected; `None` if it did not report in this tick.
     pub detected: Option<bool>,
     /// Flow measured at the vehicle (east, north), m/s.
     pub flow: Option<Vector2<f64>>,
 }
 
-/// One piece of evidence: the vehicle was in this cell, and dye was or was not.
+/// One piece of evidence: the vehicle was in this cell, with or without a detection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sighting {
     /// When, s.
@@ -36,10 +36,10 @@ pub(super) struct Sighting {
     pub detected: bool,
 }
 
-/// Gathers observations, and hands out a sighting each time an update is due.
+/// Gathers observations, and returns a sighting each time an update is due.
 #[derive(Clone, Debug)]
 pub(super) struct Watch {
-    /// The flow as measured.
+    /// The measured flow.
     pub history: FlowHistory,
     grid: Arc<BeliefGrid>,
     period_s: f64,
@@ -63,7 +63,7 @@ impl Watch {
     pub(super) fn see(&mut self, seen: &MapObservation) {
         let flow = (seen.flow).map(|v| [v.dot(&self.grid.axes[0]), v.dot(&self.grid.axes[1])]);
         self.history.record(seen.t_s, flow);
-        // A detection stands for the whole period, at the place where it was last made.
+        // A detection stands for the whole period, at the place of its last occurrence.
         match (seen.detected, self.pending) {
             (Some(true), _) | (Some(false), None | Some((false, _))) => {
                 self.pending = Some((seen.detected == Some(true), seen.p_W));
@@ -72,8 +72,8 @@ impl Watch {
         }
     }
 
-    /// Takes in an observation; a sighting when an update is due and there is something to go by: a reading,
-    /// inside the grid, and a flow.
+    /// Takes in an observation; returns a sighting if an update is due and there was a reading inside the grid, and a
+    /// flow.
     pub(super) fn step(&mut self, seen: &MapObservation) -> Option<Sighting> {
         self.see(seen);
         let next = *self.next_s.get_or_insert(seen.t_s + self.period_s);
@@ -85,7 +85,7 @@ impl Watch {
         self.take(seen.t_s)
     }
 
-    /// What was gathered, handed out once.
+    /// The gathered sighting, given out once.
     pub(super) fn take(&mut self, t_s: f64) -> Option<Sighting> {
         let (detected, p_W) = self.pending.take()?;
         self.history.releases().next()?;

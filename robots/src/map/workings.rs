@@ -1,4 +1,4 @@
-//! What every mapper over a grid is made of: a watch over what is seen, a belief, and how far what is seen is believed.
+//! The parts that every mapper over a grid has: a watch over observations, a belief, and the weight of evidence.
 //!
 //! *Source*: none of its own; see `watch`, `log_belief` and `evidence`.
 //!
@@ -24,13 +24,13 @@ use world::ranges::{Fraction, Positive};
 pub struct CellsSpec {
     /// The cells.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Time between two updates, s.
     pub update_period_s: Positive,
-    /// Chance ε of a detection where no dye is; must be greater than 0.
+    /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
 }
 
@@ -47,7 +47,7 @@ impl Default for CellsSpec {
 }
 
 impl CellsSpec {
-    /// That cells and look-back are as many as a mapper can have.
+    /// Checks that a mapper can hold so many cells and such a look-back.
     pub(super) fn check(&self, area: &Area) -> Result<(), RobotError> {
         self.grid.build(area)?;
         self.trajectory.check()
@@ -61,15 +61,15 @@ pub(super) struct Workings {
     pub watch: Watch,
     pub belief: LogBelief,
     pub evidence: Evidence,
-    /// A number of each cell, for an update.
+    /// One number per cell, for an update.
     pub likelihood: Vec<f64>,
 }
 
 impl Workings {
-    /// With a release every `release_s` and an update every `update_s`; all cells alike.
+    /// With a release every `release_s` and an update every `update_s`; all cells begin with the same probability.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for chances out of range, or a look-back without releases.
+    /// [`RobotError::Invalid`] if a chance is out of range, or if the look-back holds no release.
     pub(super) fn new(
         grid: BeliefGrid,
         trajectory: &TrajectorySpec,
@@ -88,7 +88,7 @@ impl Workings {
         })
     }
 
-    /// The same from the parameters that mappers by the kernel share.
+    /// The same, from the parameters that all mappers with the kernel share.
     ///
     /// # Errors
     /// As [`Workings::new`].

@@ -1,14 +1,16 @@
-//! A*: the cheapest way by length and clearance, smoothed to what the vehicle can follow; or the paper's own costs.
+//! A*: the cheapest way by length and clearance, smoothed so that the vehicle can follow it; or the paper's own
+//! costs.
 //!
 //! *Source*: Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968, IEEE Trans. Syst. Sci. Cybern. 4, 100.
 //!
 //! *Parameters*: `cost`, `Metric` or `Paper` (1000 in an obstacle cell, none elsewhere, Manhattan h, five moves); for
-//! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5); the share added to the cost
-//! beside a solid, `clearance_weight`, 2, falling to none at `clearance_m`, m, 4; the cost of a metre up or down in
-//! metres along, `climb`, 3 (a REMUS climbs at less than 20°).
+//! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5); the share added to the cost beside
+//! a solid, `clearance_weight`, 2, which falls to zero at `clearance_m`, m, 4; the cost of a metre up or down in
+//! horizontal metres, `climb`, 3 (a REMUS climbs at less than 20°).
 //!
-//! *Deviations*: eq. 8 gives free cells no cost, which makes the search greedy: it is kept under `Paper` (see
-//! `paper_cost.rs`), and the default is the length. See `search.rs` for the search, `smooth.rs` for what follows it.
+//! *Deviations*: eq. 8 gives free cells no cost, which makes the search greedy: `Paper` keeps it (see
+//! `paper_cost.rs`), and the default cost is the length. See `search.rs` for the search, `smooth.rs` for the
+//! smoothing.
 
 use super::catalogue::PlannerParams;
 use super::ends::Ends;
@@ -29,7 +31,8 @@ pub enum Cost {
     /// Length and clearance; 8 moves in the plane, 26 in space; smoothed.
     #[default]
     Metric,
-    /// The paper's: 1000 in obstacle cells, zero elsewhere; five moves relative to the heading; the plane only.
+    /// The paper's costs: 1000 in obstacle cells, zero elsewhere; five moves relative to the heading; only in the
+    /// plane.
     Paper,
 }
 
@@ -40,15 +43,15 @@ pub enum Cost {
 pub struct Params {
     /// Which costs.
     pub cost: Cost,
-    /// Turning radius the path is smoothed to, m.
+    /// Turning radius for which the path is smoothed, m.
     #[serde(deserialize_with = "world::limits::turn_m")]
     #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
     /// Share added to the cost of a step beside a solid; at most 3.9.
     pub clearance_weight: NonNegative,
-    /// Clearance over the hull's own at which nothing is added any more, m.
+    /// Clearance beyond the hull's own at which nothing is added any more, m.
     pub clearance_m: NonNegative,
-    /// Cost of a metre up or down, in metres along; from 1 to 20.
+    /// Cost of a metre up or down, in horizontal metres; from 1 to 20.
     pub climb: Positive,
 }
 
@@ -67,7 +70,8 @@ impl Default for Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "AStar",
-        what: "cheapest way by length and clearance, smoothed to the turning circle; the paper's costs on request",
+        what: "cheapest way by length and clearance, smoothed for the turning circle; on request with the paper's \
+            costs",
         source: "Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968",
     };
 }
@@ -86,7 +90,7 @@ impl PlannerParams for Params {
     }
 }
 
-/// The planner with the arrays it keeps.
+/// The planner with its arrays.
 #[derive(Clone, Debug)]
 pub struct AStar {
     costs: Costs,
@@ -98,7 +102,7 @@ pub struct AStar {
 
 impl AStar {
     /// # Errors
-    /// [`RobotError::Invalid`] when a weight is beyond what the costs can hold.
+    /// [`RobotError::Invalid`] if a weight is beyond what the costs can hold.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let wrong = |field: &str, says: &str, got: f64| RobotError::Invalid {
             field: format!("strategy.MapAndPlan.planner.AStar.{field}"),
@@ -136,13 +140,14 @@ impl Planner for AStar {
             .ends
             .resolve(room, |c| room.free(c), &start.p_W, goal)?;
         let (cells, _) = (self.search.run(room, e.start, e.goal, false))
-            .expect("cells of one component are joined by moves over faces: the flood and the search disagree, a fault of the planner");
+            .expect("cells of one component are joined by moves through faces: the flood fill and the search \
+                disagree, which is an error in the planner");
         let mut points: Vec<_> = cells.iter().map(|c| room.lattice().centre(*c)).collect();
         let plane_z = start.p_W.z;
         if room.plane() {
             points.iter_mut().for_each(|p| p.z = plane_z);
         }
-        // The start and, where it can be reached, the goal themselves in the place of their cells' middles.
+        // The start itself and, if it can be reached, the goal itself replace the middles of their cells.
         let own = *start;
         if !e.leaves_solid {
             points[0] = own.p_W;

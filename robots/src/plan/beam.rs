@@ -1,16 +1,17 @@
-//! Which part of a beam lies in a planner's room, so that the work of a beam does not grow with its range.
+//! Which part of a beam lies in a planner's room, so that the work for a beam does not grow with its range.
 //!
 //! *Source*: clipping of a line to a box, Liang & Barsky 1984, ACM Trans. Graph. 3, 1.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: a cell more than the room on every side, so that rounding leaves no part out.
+//! *Deviations*: the box is one cell larger than the room on every side, so that rounding leaves no part out.
 
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Which of the `steps` parts of a line (ENU, m) may lie in the grid; in one of a single layer at any height.
+/// Which of the `steps` parts of a line (ENU, m) may lie in the grid; the height does not matter in a grid of a
+/// single layer.
 pub(super) fn within(
     grid: &BeliefGrid,
     from: &Vector3<f64>,

@@ -9,36 +9,36 @@ use world::registry::Spec;
 
 /// Parameters of a planner.
 pub trait PlannerParams: Spec {
-    /// The planner.
+    /// Builds the planner.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when a parameter makes no sense.
+    /// [`RobotError::Invalid`] if a parameter makes no sense.
     fn build(&self) -> Result<Box<dyn Planner>, RobotError>;
 
-    /// That it fits the room that it shall plan in.
+    /// Checks that it fits the room in which it will plan.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when its steps are too small for the room's cells.
+    /// [`RobotError::Invalid`] if its steps are too small for the room's cells.
     fn check(&self, _cells: &BeliefGrid, _plane: bool) -> Result<(), RobotError> {
         Ok(())
     }
 
-    /// It plans in the plane only.
+    /// Whether it plans in the plane only.
     fn plane_only(&self) -> bool {
         false
     }
 
-    /// Clearance beyond the hull's own that it tells apart, m, and the field that says so.
+    /// Clearance beyond the hull's own up to which it distinguishes cells, m, and the field that sets it.
     fn reach(&self) -> (&'static str, f64);
 
-    /// What it takes beside the room, for so many plans over a way of a length, m; paths below `planner`.
+    /// Its cost besides the room, for so many plans over a way of a length, m; paths below `planner`.
     fn cost(&self, _way_m: f64, _plans: f64) -> Cost {
         Cost::default()
     }
 }
 
 kind! {
-    /// The planners a scenario can ask for.
+    /// Planners, which turn the map of the source and the charted obstacles into a path for the vehicle.
     pub PlannerSpec = Planners of PlannerParams {
         heading: "Planners",
         rows: [a_star::Params, potential_field::Params],

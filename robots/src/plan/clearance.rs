@@ -1,38 +1,40 @@
-//! Clearances of a box of cells from the solid cells round it, made anew in a time that does not grow with their number.
+//! Clearances of a box of cells from the solid cells around it, computed in a time that does not grow with the number
+//! of solid cells.
 //!
 //! *Source*: distance transform of sampled functions, one axis after the other: Felzenszwalb & Huttenlocher 2012,
 //! Theory of Computing 8, 415, section 2; Saito & Toriwaki 1994, Pattern Recognition 27, 1551.
 //!
 //! *Parameters*: reach, m; the cell's size.
 //!
-//! *Deviations*: a solid cell counts as solid as a whole, so that the distance along an axis is that to its nearer face.
-//! Nothing beyond the reach is told apart, so that each axis is searched over the reach alone.
+//! *Deviations*: a solid cell counts as solid as a whole, so that the distance along an axis is that to its nearer
+//! face. Distances beyond the reach are not distinguished, so that each axis is searched over the reach only.
 
 use crate::handoff::BeliefGrid;
 
-/// A box of cells: first and one past the last along each axis.
-pub(super) type Cells = [(usize, usize); 3];
+/// A box of cells: along each axis the first cell and the one after the last.
+pub(super) type CellBox = [(usize, usize); 3];
 
-/// Distance from a cell's middle to the nearer face of one `i` cells away along an axis with cells of `cell_m`, m.
+/// Distance from a cell's middle to the nearer face of the cell `i` cells away along an axis with cells of `cell_m`,
+/// m.
 pub(super) fn gap_m(cell_m: f64, i: usize) -> f64 {
     (i as f64 - 0.5).max(0.0) * cell_m
 }
 
-/// A box made wider by `span` cells on each side, within the lattice.
-pub(super) fn wider(b: Cells, span: [usize; 3], n: [usize; 3]) -> Cells {
+/// A box widened by `span` cells on each side, within the lattice.
+pub(super) fn wider(b: CellBox, span: [usize; 3], n: [usize; 3]) -> CellBox {
     [0, 1, 2].map(|a| (b[a].0.saturating_sub(span[a]), (b[a].1 + span[a]).min(n[a])))
 }
 
-/// How many cells a box has.
-pub(super) fn count(b: Cells) -> usize {
+/// Number of cells in a box.
+pub(super) fn count(b: CellBox) -> usize {
     b.iter().map(|(lo, hi)| hi - lo).product()
 }
 
-/// Shows each cell of box `b` its distance (m) from the nearest solid one, where that is less than `reach_m`; a solid
-/// cell itself is told −`inside_m`.
+/// Calls `show` for each cell of box `b` with its distance (m) from the nearest solid cell, if that is less than
+/// `reach_m`. A solid cell itself gets −`inside_m`.
 pub(super) fn for_each(
     g: &BeliefGrid,
-    b: Cells,
+    b: CellBox,
     span: [usize; 3],
     (reach_m, inside_m): (f64, f64),
     solid: &[bool],
@@ -40,7 +42,7 @@ pub(super) fn for_each(
 ) {
     let from = wider(b, span, g.n);
     let mut at = from;
-    let size = |c: Cells| c.map(|(lo, hi)| hi - lo);
+    let size = |c: CellBox| c.map(|(lo, hi)| hi - lo);
     let mut d2: Vec<f64> = Vec::with_capacity(count(from));
     for k in from[2].0..from[2].1 {
         for j in from[1].0..from[1].1 {
@@ -50,7 +52,7 @@ pub(super) fn for_each(
         }
     }
     for a in 0..3 {
-        // From the cells of `at` to those of `to`, narrowed to the box along this axis.
+        // From the cells of `at` to those of `to`, which are narrowed to the box along this axis.
         let mut to = at;
         to[a] = b[a];
         let gaps2: Vec<f64> = (0..=span[a])

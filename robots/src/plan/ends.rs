@@ -1,38 +1,38 @@
-//! Where a path can begin and end: the free cells nearest to what was asked.
+//! Where a path can begin and end: the free cells nearest to the wanted places.
 //!
 //! *Source*: connected components by flood fill (Rosenfeld & Pfaltz 1966, J. ACM 13, 471).
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: none. Where no corner is cut, cells joined by any move are joined over faces, so that the flood over
-//! faces tells what can be reached.
+//! *Deviations*: none. Where no corner may be cut, cells that are joined by any move are also joined through faces,
+//! so that the flood through faces tells what can be reached.
 
-use super::{NoPath, Room};
+use super::{NoPath, Revision, Room};
 use nalgebra::Vector3;
 
 /// The components of a room's free cells, kept until the room changes.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Ends {
     labels: Vec<u32>,
-    of: Option<u64>,
+    of: Option<Revision>,
     stack: Vec<u32>,
 }
 
 /// Resolved ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Resolved {
-    /// Free cell to begin in.
+    /// Free cell where the path begins.
     pub(super) start: usize,
     /// The start itself was not free.
     pub(super) leaves_solid: bool,
-    /// Free cell to end in, joined to the start.
+    /// Free cell where the path ends, joined to the start.
     pub(super) goal: usize,
-    /// The goal's own cell is that cell.
+    /// Whether that is the goal's own cell.
     pub(super) at_goal: bool,
 }
 
 impl Ends {
-    /// The ends of a path in `room`, whose cells are free where `open` says so.
+    /// The ends of a path in `room`; `open` tells which of its cells are free.
     pub(super) fn resolve(
         &mut self,
         room: &Room,
@@ -40,7 +40,7 @@ impl Ends {
         start: &Vector3<f64>,
         goal: &Vector3<f64>,
     ) -> Result<Resolved, NoPath> {
-        if self.of != Some(room.revision()) {
+        if self.of.as_ref() != Some(room.revision()) {
             self.label(room, &open);
         }
         let own = room.nearest_cell(start);
@@ -60,7 +60,7 @@ impl Ends {
         })
     }
 
-    /// The cell of a wanted component nearest to `p`, `own` before all others.
+    /// The cell of a wanted component nearest to `p`; `own` is preferred to all others.
     fn nearest(
         &self,
         room: &Room,
@@ -121,7 +121,7 @@ impl Ends {
                 }
             }
         }
-        self.of = Some(room.revision());
+        self.of = Some(room.revision().clone());
     }
 }
 

@@ -1,20 +1,21 @@
-//! Follows a path: the course towards a point some way ahead on it, and the height of that point.
+//! Follows a path: gives the course towards a point some way ahead on it, and the height of that point.
 //!
 //! *Source*: pure pursuit, Coulter 1992, CMU-RI-TR-92-01; enclosure-based steering of Fossen 2011, section 10.3.
 //!
-//! *Parameters*: way ahead, m.
+//! *Parameters*: look-ahead distance, m.
 //!
-//! *Deviations*: progress along the path never goes back. The point ahead of the end lies on the last leg, drawn out.
+//! *Deviations*: progress along the path never goes back. Beyond the end, the point ahead lies on the extended last
+//! leg.
 
 use super::Path;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use world::units::Heading;
 
-/// Progress is looked for this far ahead at most, m: a path that comes back to itself is not cut short.
+/// How far ahead progress is searched, m: a path that returns to itself must not be cut short.
 const WINDOW_M: f64 = 15.0;
 
-/// State of a run along a path.
+/// State of following a path.
 #[derive(Clone, Debug)]
 pub struct Follow {
     points: Arc<Vec<Vector3<f64>>>,
@@ -23,12 +24,12 @@ pub struct Follow {
     s_m: f64,
 }
 
-/// What to steer.
+/// What the vehicle must steer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steer {
     /// Course over ground.
     pub course: Heading,
-    /// Height to be at (z, m).
+    /// Height at which to move (z, m).
     pub z_m: f64,
     /// Horizontal distance off the path, m.
     pub off_m: f64,
@@ -37,7 +38,7 @@ pub struct Steer {
 }
 
 impl Follow {
-    /// At the beginning of a path.
+    /// At the start of a path.
     #[must_use]
     pub fn new(path: &Path, ahead_m: f64) -> Self {
         let mut upto_m = vec![0.0];
@@ -117,7 +118,7 @@ impl Follow {
         Heading::of(leg)
     }
 
-    /// The point after `s_m` metres (seen from above), beyond the end on the last leg drawn out.
+    /// The point after `s_m` metres (seen from above); beyond the end, on the extended last leg.
     fn at(&self, s_m: f64) -> Vector3<f64> {
         let n = self.points.len();
         let length = self.upto_m[n - 1];

@@ -1,4 +1,4 @@
-//! Planners: from where the vehicle is to where it wants to be, round what it knows to be solid. One file each.
+//! Planners: from the vehicle's place to a destination, around what the vehicle knows to be solid. One file each.
 
 mod a_star;
 mod beam;
@@ -9,6 +9,7 @@ mod follow;
 mod paper_cost;
 mod planner;
 mod potential_field;
+mod revision;
 mod room;
 mod search;
 mod smooth;
@@ -20,4 +21,5 @@ pub use catalogue::{PlannerParams, PlannerSpec, Planners};
 pub use follow::Follow;
 pub use planner::{From, NoPath, Path, Planner, Reach};
 pub use potential_field::{Params as PotentialFieldParams, PotentialField};
+pub use revision::Revision;
 pub use room::Room;

@@ -1,14 +1,16 @@
 //! The paper's A*: no cost in free cells, 1000 in obstacle cells, five moves relative to the heading.
 //!
-//! *Source*: Wang & Pang, section II-D, eq. 7-9 and the five directions: left, left-forward, forward, right-forward, right.
+//! *Source*: Wang & Pang, section II-D, eq. 7-9 and the five directions: left, left-forward, forward, right-forward,
+//! right.
 //!
 //! *Parameters*: 1000 for entering an obstacle cell (eq. 8); h the Manhattan distance in cells (eq. 9).
 //!
-//! *Deviations*: g adds up along the path (eq. 7 calls it the cost of the path). A state is a cell and the direction in which
-//! it was entered, so that five moves lose no way; of equal f the newest is taken first. Obstacle cells are those whose
-//! middle lies in a solid, without any inflation, and corners may be cut, as the paper says nothing of either. A goal in
-//! an obstacle, or beyond one that closes the room, gives the nearest free cell that can be reached; a start
-//! outside the room begins in the cell nearest to it.
+//! *Deviations*: g adds up along the path (eq. 7 calls it the cost of the path). A state is a cell and the direction
+//! in which it was entered, so that the five moves exclude no way; of states with equal f the newest is taken first.
+//! Obstacle cells are those whose middle lies in a solid, without inflation, and corners may be cut, because the
+//! paper mentions neither. If the goal lies in an obstacle, or beyond one that closes the room, the path leads to the
+//! nearest free cell that can be reached. If the start lies outside the room, the path begins in the cell nearest to
+//! it.
 
 use super::ends::Ends;
 use super::{From, NoPath, Path, Reach, Room};
@@ -27,7 +29,7 @@ const ROUND: [[isize; 2]; 8] = [
     [0, -1],
     [1, -1],
 ];
-/// Eighths of a turn to the left of the five moves, forward first.
+/// The five moves in eighths of a turn to the left, forward first.
 const FIVE: [usize; 5] = [0, 1, 7, 2, 6];
 /// Cost of entering an obstacle cell (eq. 8).
 const OBSTACLE: u32 = 1000;
@@ -119,7 +121,7 @@ impl FiveMoves {
         }
         states.reverse();
         let mut points = vec![start.p_W];
-        // The corners only: a cell entered and left in one direction is none.
+        // Keeps only the corners: a cell entered and left in the same direction is not one.
         for (k, state) in states.iter().enumerate().skip(usize::from(!leaves_solid)) {
             let straight = states.get(k + 1).is_some_and(|next| next % 8 == state % 8);
             if !straight || k == 0 {
@@ -146,7 +148,7 @@ impl FiveMoves {
     }
 }
 
-/// The start's direction in eighths of a turn of the grid, in cells rather than metres.
+/// The start's direction in eighths of a turn, measured in cells rather than metres.
 fn facing(room: &Room, start: &From) -> usize {
     let grid = room.lattice();
     let u = start.heading.unit();

@@ -1,10 +1,11 @@
 //! What a planner is asked and what it answers.
 //!
-//! *Source*: Wang & Pang, section II-D: a start (the vehicle's cell), a goal (the likeliest cell), a series of points.
+//! *Source*: Wang & Pang, section II-D: a start (the vehicle's cell), a goal (the likeliest cell), a series of
+//! points.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: the paper does not say what a planner answers that cannot reach its goal: see [`Reach`].
+//! *Deviations*: the paper does not say what a planner answers if it cannot reach its goal: see [`Reach`].
 
 use super::Room;
 use nalgebra::Vector3;
@@ -27,7 +28,7 @@ pub enum Reach {
     Goal,
     /// To the nearest free cell that can be reached, this far from the goal, m.
     Nearest(f64),
-    /// Into a minimum of the potential, this far from the goal, m.
+    /// Into a local minimum of the potential, this far from the goal, m.
     Caught(f64),
 }
 
@@ -38,9 +39,9 @@ pub struct Path {
     pub points: Vec<Vector3<f64>>,
     /// How far it leads.
     pub reach: Reach,
-    /// The start lay in a solid or too near to one: the first leg leads out and is not free.
+    /// The start lay in a solid or too near to one: the first leg leads out of it and is not free.
     pub leaves_solid: bool,
-    /// Tightest turn it asks for (radius, m): infinite on a straight path, zero at a sharp corner.
+    /// Radius of the tightest turn on the path, m: infinite on a straight path, zero at a sharp corner.
     pub tightest_m: f64,
 }
 
@@ -55,18 +56,19 @@ impl Path {
 /// Why there is no path at all.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoPath {
-    /// Not one cell is free.
+    /// No cell is free.
     #[error(
-        "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the margin smaller"
+        "no cell of the planner's room is free: obstacles, bed and the hull's margin fill it; make the cells or the \
+        margin smaller"
     )]
     Full,
 }
 
-/// A path planner: one room, one start, one goal, one answer; never a hang.
+/// A path planner: one room, one start, one goal, one answer. It always ends.
 pub trait Planner: Debug + Send + Sync {
     /// A path from `start` to `goal` (ENU, m).
     ///
     /// # Errors
-    /// When not one cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
+    /// If no cell of the room is free. A goal that cannot be reached is no error: see [`Reach`].
     fn plan(&mut self, room: &Room, start: &From, goal: &Vector3<f64>) -> Result<Path, NoPath>;
 }

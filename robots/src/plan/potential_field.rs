@@ -1,14 +1,17 @@
-//! Artificial potential field: downhill between the goal's pull and the solids' push, caught where they balance.
+//! Artificial potential field: moves downhill under the goal's attraction and the solids' repulsion; may be caught
+//! where they balance.
 //!
-//! *Source*: Khatib 1986, Int. J. Robotics Research 5, 90, as Pang & Zhu 2009 (IROS, 4375) use it to lead a plume-tracing
-//! robot to the likeliest cell; its local minimum behind an obstacle is what Wang & Pang (sections I and V) set A* against.
+//! *Source*: Khatib 1986, Int. J. Robotics Research 5, 90, as Pang & Zhu 2009 (IROS, 4375) use it to lead a
+//! plume-tracing robot to the likeliest cell; Wang & Pang (sections I and V) compare A* with its local minimum behind
+//! an obstacle.
 //!
-//! *Parameters*: `pull`, slope of the attraction, 1 per m, straight beyond `near_m`, 5 m, and a bowl within; `push`, η of the
-//! repulsion ½ η (1/ρ − 1/ρ₀)², 20; its reach `push_m`, ρ₀, m, 10; step of the descent, `step_m`, m, 0.5.
+//! *Parameters*: `pull`, slope of the attraction, 1 per m, constant beyond `near_m`, 5 m, and a bowl within; `push`,
+//! η of the repulsion ½ η (1/ρ − 1/ρ₀)², 20; its reach `push_m`, ρ₀, m, 10; step of the descent, `step_m`, m, 0.5.
 //!
-//! *Deviations*: Pang & Zhu's own constants are not known to us (reconstructed from Khatib's form). The descent is followed from
-//! the start to its end at every plan, rather than one step at a time. It ends at the goal, or, when thirty steps bring it
-//! no farther than three do, in a minimum: then the path ends there and says so.
+//! *Deviations*: Pang & Zhu's own constants are not known to us (reconstructed from Khatib's form). Every plan
+//! follows the descent from the start to its end, rather than one step at a time. The descent ends at the goal. It
+//! also ends if thirty steps bring it no farther than three should: then it is in a minimum, where the path ends and
+//! says so.
 
 use super::catalogue::PlannerParams;
 use super::{From, NoPath, Path, Planner, Reach, Room};
@@ -23,16 +26,16 @@ use world::limits::shown;
 use world::ranges::Positive;
 use world::registry::Listed;
 
-/// Steps over which progress is judged, and the steps that count as progress.
+/// Number of steps over which progress is judged, and the number of steps that count as progress.
 const JUDGED: (usize, f64) = (30, 3.0);
-/// Nearer to a solid than this the push grows no more, m.
+/// The repulsion grows no further when a solid is nearer than this, m.
 const NEAREST_M: f64 = 0.1;
-/// Most steps to the room's narrowest cell.
+/// Most steps per narrowest side of a cell.
 const STEPS_A_CELL: f64 = 20.0;
 /// Most steps for each cell side of the room's circumference.
 const STEPS: f64 = 8.0;
 
-/// Time of a step of a descent, s (see `world::cost`).
+/// Time for a step of a descent, s (see `world::cost`).
 const STEP_S: f64 = 300e-9;
 
 /// Parameters of the planner.
@@ -65,10 +68,11 @@ impl Default for Params {
 }
 
 impl Params {
-    /// That steps are no smaller than the room can tell apart: a descent of many more would only take time.
+    /// Checks that the steps are not much smaller than the room's cells: a descent of many more steps would only take
+    /// time.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] with the least step.
+    /// [`RobotError::Invalid`] with the least legal step.
     pub(super) fn fits(&self, cells: &BeliefGrid, plane: bool) -> Result<(), RobotError> {
         let axes = if plane { 2 } else { 3 };
         let sides = cells.cell_m[..axes].iter();
@@ -91,7 +95,7 @@ impl Params {
 impl Listed for Params {
     const ENTRY: Entry = Entry {
         name: "PotentialField",
-        what: "downhill between the goal's pull and the solids' push; caught in local minima",
+        what: "moves downhill under the goal's attraction and the solids' repulsion; can be caught in local minima",
         source: "Khatib 1986; Pang & Zhu 2009 (reconstructed)",
     };
 }
@@ -127,7 +131,7 @@ pub struct PotentialField {
 
 impl PotentialField {
     /// # Errors
-    /// [`RobotError::Invalid`] when a step is longer than what it shall feel.
+    /// [`RobotError::Invalid`] if a step is longer than the distances that it has to resolve.
     pub fn new(params: &Params) -> Result<Self, RobotError> {
         let (step, reach) = (params.step_m.get(), params.push_m.get());
         if step > reach / 2.0 {
@@ -242,7 +246,7 @@ impl Planner for PotentialField {
     }
 }
 
-/// The points a chain of steps turns at: others lie within a fifth of a step of the line.
+/// The points at which a chain of steps turns: all others lie within a fifth of a step of the line.
 fn thinned(way: &[Vector3<f64>], step_m: f64) -> Vec<Vector3<f64>> {
     let mut kept = vec![way[0]];
     let mut from = 0;

@@ -1,22 +1,22 @@
-//! The room a planner plans in: a grid of cells, each with its clearance from what is charted or was sensed.
+//! The room in which a planner plans: a grid of cells, each with its clearance from charted and sensed solids.
 //!
 //! *Source*: occupancy grids, Moravec & Elfes 1985, ICRA, 116 (evidence for and against each cell); inflation by the
 //! hull, Lozano-Pérez 1983, IEEE Trans. Comput. 32, 108.
 //!
-//! *Parameters*: hull radius with its margin, `hull_m`; clearance beyond which cells are not told apart, `reach_m`;
-//! evidence of an echo +2, of a beam that passed through −1, held within ±6; a cell counts as solid from +2 on, and
-//! as free again from −2 on.
+//! *Parameters*: hull radius with its margin, `hull_m`; clearance beyond which cells are not distinguished,
+//! `reach_m`; evidence of an echo +2, of a beam that passed through −1, held within ±6; a cell counts as solid from
+//! +2 on, and as free again from −2 on.
 //!
-//! *Deviations*: evidence is counted in whole numbers, not in logarithms of odds. A cell is free when every point of
-//! it is at least the hull's radius away from any solid, so that any line through free cells is free of collisions.
-//! A cell with an echo counts as solid as a whole. The searcher's chart is what the scenario hands it beforehand; all
-//! else comes from its own ranging, placed by its own navigation.
+//! *Deviations*: evidence is counted in whole numbers, not in logarithms of odds. A cell is free if every point of it
+//! is at least the hull's radius away from any solid, so that any line through free cells is free of collisions. A
+//! cell with an echo counts as solid as a whole. The scenario gives the searcher its chart; everything else comes
+//! from the searcher's own ranging, placed by its own navigation.
 
 use super::beam::within;
-use super::clearance::{self, Cells};
+use super::clearance::{self, CellBox};
+use super::revision::Revision;
 use crate::handoff::BeliefGrid;
 use nalgebra::Vector3;
-use std::sync::atomic::{AtomicU64, Ordering};
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
@@ -24,18 +24,10 @@ use world::terrain::Terrain;
 const ECHO: i8 = 2;
 /// Evidence at which a cell counts as solid.
 const SOLID: i8 = 2;
-/// Evidence at which a cell that was solid counts as free again: noise at a wall must not make it flicker.
+/// Evidence at which a solid cell counts as free again: noise at a wall must not make it flicker.
 const FREE: i8 = -2;
-/// Most evidence kept, either way.
+/// Greatest evidence kept, for or against.
 const MOST: i8 = 6;
-
-/// The last revision given out to any room of the process. Planners keep what they made of a room under its revision
-/// alone, so that no two rooms may share one; it is only ever compared, and no result depends on its value.
-static REVISION: AtomicU64 = AtomicU64::new(0);
-
-fn next_revision() -> u64 {
-    REVISION.fetch_add(1, Ordering::Relaxed) + 1
-}
 
 /// A grid of cells with clearances.
 #[derive(Clone, Debug)]
@@ -47,16 +39,16 @@ pub struct Room {
     charted_m: Vec<f32>,
     evidence: Vec<i8>,
     clearance_m: Vec<f32>,
-    /// Cells found solid, as flags and as a list.
+    /// Cells found to be solid, as flags and as a list.
     found: Vec<bool>,
     sensed: Vec<u32>,
-    /// Steps to the cells within reach of a solid one, with their middles' distances from it, m.
+    /// Steps to the cells within reach of a solid one, with the distances of their middles from it, m.
     round: Vec<([i32; 3], f32)>,
     /// How many cells the reach spans along each axis.
     span: [usize; 3],
-    /// Cells found free again, and the box of all that are to be made anew with them.
-    lifted: Vec<Cells>,
-    revision: u64,
+    /// Boxes around cells found to be free again, in which the clearances must be computed anew.
+    lifted: Vec<CellBox>,
+    revision: Revision,
 }
 
 impl Room {
@@ -86,12 +78,12 @@ impl Room {
             found: vec![false; cells],
             sensed: Vec::new(),
             lifted: Vec::new(),
-            revision: next_revision(),
+            revision: Revision::default(),
         }
     }
 
-    /// Puts charted solids into the room, and in a room of three dimensions bed and surface. `level` gives the height
-    /// (z, m) at which the vehicle moves over a place (east, north) in a room of the plane.
+    /// Adds charted solids to the room; in a room of three dimensions also bed and surface. In a room of the plane,
+    /// `level` gives the height (z, m) at which the vehicle moves over a place (east, north).
     pub fn chart(
         &mut self,
         solids: &Obstacles,
@@ -122,13 +114,13 @@ impl Room {
         self.refresh();
     }
 
-    /// What a beam from `from` said that ended at `to` (ENU, m): with an echo there, or with none on the way.
+    /// Takes in a beam from `from` that ended at `to` (ENU, m), with an echo there or without any.
     pub fn beam(&mut self, from: &Vector3<f64>, to: &Vector3<f64>, echo: bool) {
         let ends_in = echo.then(|| self.lattice.cell(to)).flatten();
         let mut passed = usize::MAX;
         let step = 0.5 * self.narrowest_m();
         let steps = ((to - from).norm() / step).floor() as usize;
-        // What lies beyond the room says nothing of it, however far the beam reaches.
+        // Parts of the beam beyond the room tell nothing of the room, however far the beam reaches.
         for k in within(&self.lattice, from, to, steps) {
             let p = from + (to - from) * (k as f64 / steps as f64);
             match self.lattice.cell(&p) {
@@ -151,7 +143,7 @@ impl Room {
             self.found[cell] = true;
             self.sensed.push(cell as u32);
             self.stamp(cell);
-            self.revision = next_revision();
+            self.revision = Revision::default();
         } else if now <= FREE && self.found[cell] {
             self.found[cell] = false;
             self.sensed.retain(|c| *c as usize != cell);
@@ -160,25 +152,25 @@ impl Room {
         }
     }
 
-    /// Brings the clearances up to date after cells were found free again; cheap when none was.
+    /// Updates the clearances after cells were found to be free again; cheap if there were none.
     pub fn refresh(&mut self) {
         let lifted = std::mem::take(&mut self.lifted);
         let Some(first) = lifted.first() else { return };
-        // All at once, unless that is more work than one after the other.
+        // All boxes at once, unless that is more work than one after the other.
         let whole = lifted.iter().fold(*first, |w, b| {
             [0, 1, 2].map(|a| (w[a].0.min(b[a].0), w[a].1.max(b[a].1)))
         });
-        let work = |b: &Cells| clearance::count(clearance::wider(*b, self.span, self.lattice.n));
+        let work = |b: &CellBox| clearance::count(clearance::wider(*b, self.span, self.lattice.n));
         if work(&whole) <= lifted.iter().map(work).sum() {
             self.clear(whole);
         } else {
             lifted.into_iter().for_each(|b| self.clear(b));
         }
-        self.revision = next_revision();
+        self.revision = Revision::default();
     }
 
-    /// Makes the clearances of a box of cells anew.
-    fn clear(&mut self, b: Cells) {
+    /// Computes the clearances of a box of cells anew.
+    fn clear(&mut self, b: CellBox) {
         for k in b[2].0..b[2].1 {
             for j in b[1].0..b[1].1 {
                 let row =
@@ -200,7 +192,7 @@ impl Room {
         );
     }
 
-    /// Takes a solid cell into the clearances of those round it.
+    /// Updates the clearances around a new solid cell.
     fn stamp(&mut self, solid: usize) {
         let at = self.lattice.place(solid).map(|v| v as i32);
         let n = self.lattice.n.map(|v| v as i32);
@@ -213,7 +205,7 @@ impl Room {
         }
     }
 
-    /// A map of the plane.
+    /// Whether it is a map of the plane.
     #[must_use]
     pub fn plane(&self) -> bool {
         self.lattice.n[2] == 1
@@ -225,20 +217,21 @@ impl Room {
         &self.lattice
     }
 
-    /// Stands for its clearances: equal only to itself and to copies of the room unchanged since, greater after every
-    /// change.
+    /// The state of its clearances, a new one after every change. A copy of the room has the same until either of the
+    /// two changes.
     #[must_use]
-    pub fn revision(&self) -> u64 {
-        self.revision
+    pub fn revision(&self) -> &Revision {
+        &self.revision
     }
 
-    /// How many cells were sensed to be solid.
+    /// Number of cells sensed to be solid.
     #[must_use]
     pub fn sensed(&self) -> usize {
         self.sensed.len()
     }
 
-    /// Distance of a cell's middle from the nearest solid, m; negative inside one, at most a little over the reach.
+    /// Distance of a cell's middle from the nearest solid, m; negative inside one, at most a little more than the
+    /// reach.
     #[must_use]
     pub fn clearance_m(&self, cell: usize) -> f64 {
         f64::from(self.clearance_m[cell])
@@ -250,19 +243,19 @@ impl Room {
         self.half_diagonal_m
     }
 
-    /// Clearance that makes a cell free, m: the hull's radius and half the cell's diagonal.
+    /// Clearance that a free cell needs, m: the hull's radius and half the cell's diagonal.
     #[must_use]
     pub fn needed_m(&self) -> f64 {
         self.hull_m + self.half_diagonal_m
     }
 
-    /// Every point of the cell is at least the hull's radius away from any solid.
+    /// Whether every point of the cell is at least the hull's radius away from any solid.
     #[must_use]
     pub fn free(&self, cell: usize) -> bool {
         self.clearance_m(cell) >= self.needed_m()
     }
 
-    /// The middle of the cell lies in a solid.
+    /// Whether the middle of the cell lies in a solid.
     #[must_use]
     pub fn solid(&self, cell: usize) -> bool {
         self.clearance_m(cell) < 0.0
@@ -276,7 +269,7 @@ impl Room {
         if self.plane() { flat } else { flat.min(c[2]) }
     }
 
-    /// The cell nearest to a point (ENU, m), also to one outside.
+    /// The cell nearest to a point (ENU, m), which may lie outside.
     #[must_use]
     pub fn nearest_cell(&self, p_W: &Vector3<f64>) -> usize {
         let g = &self.lattice;
@@ -289,7 +282,7 @@ impl Room {
         g.index(place)
     }
 
-    /// Whether all cells that a straight line (ENU, m) runs through hold to `open`.
+    /// Whether `open` is true for all cells that a straight line (ENU, m) passes.
     #[must_use]
     pub fn line(
         &self,
@@ -350,7 +343,7 @@ impl Room {
         true
     }
 
-    /// Whether a straight line (ENU, m) runs through free cells only.
+    /// Whether a straight line (ENU, m) passes only free cells.
     #[must_use]
     pub fn line_free(&self, a: &Vector3<f64>, b: &Vector3<f64>) -> bool {
         self.line(a, b, |cell| self.free(cell))

@@ -1,19 +1,19 @@
 //! A* over a room's free cells with metric costs: 8 moves in the plane, 26 in space, no corner cut.
 //!
-//! *Source*: A*: Hart, Nilsson & Raphael 1968, IEEE Trans. Syst. Sci. Cybern. 4, 100; bucket queue: Dial 1969, Commun.
-//! ACM 12, 632.
+//! *Source*: A*: Hart, Nilsson & Raphael 1968, IEEE Trans. Syst. Sci. Cybern. 4, 100; bucket queue: Dial 1969,
+//! Commun. ACM 12, 632.
 //!
-//! *Parameters*: cost of a metre along the vertical in metres along the horizontal, `climb`; share added to a step's
-//! cost in a cell at the least clearance, `weight`, falling straight to none at `soft_m` more than that.
+//! *Parameters*: cost of a vertical metre in horizontal metres, `climb`; share added to a step's cost in a cell at
+//! the least clearance, `weight`, which falls linearly to zero at `soft_m` more than that.
 //!
-//! *Deviations*: costs are whole numbers, 512 to the shortest side of a cell, each rounded up by at most two: the search
-//! is exact in them. The heuristic is the octile distance of the free grid: the longest diagonal as often as it
-//! helps, then the next, then straight. It is the cheapest way there without solids and without clearance
-//! costs (the length of a move is a submodular function of the axes it changes, so that the chain of diagonals
-//! attains the minimum); clearance only adds to costs, so it never overestimates, and it is consistent (rounded
-//! down, where costs are rounded up and one added), so that no cell is opened twice.
+//! *Deviations*: costs are whole numbers, 512 to the shortest side of a cell, each rounded up by at most two: the
+//! search is exact in them. The heuristic is the octile distance of the free grid: the longest diagonal as often as
+//! it helps, then the next one, then straight moves. It is the cheapest way without solids and without clearance
+//! costs (the length of a move is a submodular function of the axes that it changes, so that the chain of diagonals
+//! attains the minimum). Clearance only adds to costs, so the heuristic never overestimates. It is consistent
+//! (rounded down, where costs are rounded up and one added), so that no cell is opened twice.
 
-use super::Room;
+use super::{Revision, Room};
 
 /// Units of cost in the shortest side of a cell.
 const UNITS: f64 = 512.0;
@@ -36,17 +36,17 @@ pub(super) struct Costs {
 struct Move {
     step: isize,
     cost: u32,
-    /// Cells of the block between here and there, as bits of the 27 round a cell.
+    /// Cells of the block between both ends of the move, as bits of the 27 cells around a cell.
     needs: u32,
 }
 
-/// The search with its arrays, kept from plan to plan.
+/// The search with its arrays, kept between plans.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
     costs: Costs,
-    /// The room's revision that the arrays are of.
-    of: Option<u64>,
-    /// Cells with a border of blocked ones all round (in the plane: no layers above and below).
+    /// The room's revision from which the arrays were made.
+    of: Option<Revision>,
+    /// Cells with a border of blocked cells all around (in the plane: no layers above and below).
     n: [usize; 3],
     penalty: Vec<u8>,
     moves: Vec<Move>,
@@ -82,8 +82,8 @@ impl Search {
         self.opened
     }
 
-    /// Cheapest way from cell to cell, both free and joined, and its cost in units; the heuristic left out on request
-    /// (Dijkstra's search, for tests).
+    /// Cheapest way between two cells that are both free and joined, and its cost in units; `blind` leaves the
+    /// heuristic out (Dijkstra's search, for tests).
     pub(super) fn run(
         &mut self,
         room: &Room,
@@ -91,7 +91,7 @@ impl Search {
         goal: usize,
         blind: bool,
     ) -> Option<(Vec<usize>, u32)> {
-        if self.of != Some(room.revision()) {
+        if self.of.as_ref() != Some(room.revision()) {
             self.take_in(room);
         }
         let (s, t) = (self.padded(room, start), self.padded(room, goal));
@@ -188,7 +188,7 @@ impl Search {
         let dearest = dearest + (dearest * u32::from(BLOCKED)).div_ceil(PARTS);
         let buckets = (2 * dearest as usize + 2).next_power_of_two();
         self.buckets.resize_with(buckets, Vec::new);
-        self.of = Some(room.revision());
+        self.of = Some(room.revision().clone());
     }
 
     fn set_moves(&mut self, plane: bool) {
@@ -216,7 +216,7 @@ impl Search {
         }
     }
 
-    /// Which of the 27 cells round a cell (itself too) are free, as bits.
+    /// Which of the 27 cells around a cell (itself included) are free, as bits.
     #[inline]
     fn free_round(&self, cell: usize) -> u32 {
         let layer = self.n[0] * self.n[1];

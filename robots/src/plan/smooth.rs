@@ -1,14 +1,15 @@
-//! Makes of a chain of cells a path that a turning circle can follow: strings pulled tight, corners rounded.
+//! Turns a chain of cells into a path that a vehicle with a turning circle can follow: pulls it straight and rounds
+//! the corners.
 //!
 //! *Source*: string pulling by line of sight: Thorpe 1984, AAAI-84, 318 (path relaxation); rounding of corners by
 //! tangent arcs: Fossen 2011, Handbook of Marine Craft Hydrodynamics, section 10.3 (circular inscribed arcs).
 //!
 //! *Parameters*: turning radius, m; the costs of the search.
 //!
-//! *Deviations*: a string is pulled only where that costs no more than the cells it replaces, clearance included. An arc
-//! that would leave the free cells is made tighter, to a quarter of the radius at most, and then left a corner; the
-//! path says how tight its tightest turn is. The turn from the vehicle's own direction to the first leg is
-//! part of the path where one of the two turning circles is free; else the path begins with a corner.
+//! *Deviations*: a string is pulled only if that costs no more than the cells that it replaces, clearance included.
+//! An arc that would leave the free cells is made tighter, down to a quarter of the radius, and otherwise stays a
+//! corner; the path reports its tightest turn. The turn from the vehicle's own direction to the first leg is part of
+//! the path if one of the two turning circles is free; otherwise the path begins with a corner.
 
 use super::{From, Room};
 use crate::plan::search::Costs;
@@ -19,12 +20,12 @@ use world::units::{Heading, wrap_tau};
 
 /// Greatest angle between two chords of an arc, rad.
 const CHORD_RAD: f64 = 0.2;
-/// A turn smaller than this is none, rad.
+/// A turn smaller than this counts as none, rad.
 const STRAIGHT_RAD: f64 = 0.02;
-/// A pulled string may cost this much more than what it replaces: the cells' costs are not those of a line.
+/// How much more a pulled string may cost than what it replaces: the costs of cells are not exactly those of a line.
 const SLACK: f64 = 1.005;
 
-/// Cost of a straight line: its length, the vertical dearer, and more where clearance is small.
+/// Cost of a straight line: its length, with a higher price for the vertical and for small clearance.
 fn line_cost(room: &Room, costs: &Costs, a: &Vector3<f64>, b: &Vector3<f64>) -> f64 {
     let d = b - a;
     let length = (d.xy().norm_squared() + (costs.climb * d.z) * (costs.climb * d.z)).sqrt();
@@ -42,7 +43,7 @@ fn line_cost(room: &Room, costs: &Costs, a: &Vector3<f64>, b: &Vector3<f64>) -> 
     length * sum / n as f64
 }
 
-/// Leaves out the points that a free and no dearer straight line passes by.
+/// Leaves out the points that a free straight line can bypass at no higher cost.
 pub(super) fn pull(room: &Room, costs: &Costs, points: &[Vector3<f64>]) -> Vec<Vector3<f64>> {
     let mut upto = vec![0.0; points.len()];
     for k in 1..points.len() {
@@ -56,7 +57,7 @@ pub(super) fn pull(room: &Room, costs: &Costs, points: &[Vector3<f64>]) -> Vec<V
     let mut kept = vec![points[0]];
     let mut at = 0;
     while at < last {
-        // Twice as far as long as it goes, then halving towards the farthest that did.
+        // Twice as far as long as it works, then halving towards the farthest that worked.
         let (mut sure, mut span) = (at + 1, 2);
         let mut beyond = last + 1;
         while sure < last {
@@ -82,7 +83,8 @@ pub(super) fn pull(room: &Room, costs: &Costs, points: &[Vector3<f64>]) -> Vec<V
     kept
 }
 
-/// An arc from a point: chords round `centre`, turning by `angle` (clockwise positive), the height going straight to `z`.
+/// An arc from a point: chords around `centre`, turning by `angle` (clockwise positive); the height changes linearly
+/// to `z`.
 fn arc(start: Vector3<f64>, centre: Vector2<f64>, angle: f64, z: f64) -> Vec<Vector3<f64>> {
     let n = (angle.abs() / CHORD_RAD).ceil().max(1.0);
     let spoke = start.xy() - centre;
@@ -118,7 +120,7 @@ fn first_turn(
         if d <= radius_m {
             continue;
         }
-        // The course of the tangent: from the line to the centre by asin(r / d).
+        // The course of the tangent: the direction to the centre, turned by asin(r / d).
         let course = Heading::of(away).turned(turn * math::asin(radius_m / d));
         let angle = wrap_tau(turn * (course.rad() - start.heading.rad()));
         let angle = if TAU - angle < 1e-9 { 0.0 } else { angle };
@@ -137,7 +139,7 @@ fn first_turn(
     best.map(|(_, points)| points)
 }
 
-/// Rounds the corners; the path and the radius of its tightest turn, m.
+/// Rounds the corners; returns the path and the radius of its tightest turn, m.
 pub(super) fn round(
     room: &Room,
     start: &From,
@@ -175,7 +177,7 @@ pub(super) fn round(
             continue;
         }
         let tan = math::tan(turn.abs() / 2.0);
-        // Half of the next leg is left to the next corner.
+        // Half of the next leg is left for the next corner.
         let room_for = a.norm().min(b.norm() / 2.0) / tan;
         let mut r = radius_m.min(room_for);
         let mut rounded = false;

@@ -1,4 +1,4 @@
-//! What the planners' tests share.
+//! Shared by the planners' tests.
 
 use super::Room;
 use crate::handoff::BeliefGrid;
@@ -8,7 +8,7 @@ use world::obstacles::{Obstacle, Obstacles};
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
-/// Cells from the datum on, axes east and north, standing on a bed 8 m down.
+/// Cells from the datum on, with axes east and north, on a bed 8 m deep.
 pub(crate) fn lattice(n: [usize; 3], cell_m: [f64; 3]) -> BeliefGrid {
     BeliefGrid {
         corner: Vector3::new(0.0, 0.0, -8.0),

@@ -23,7 +23,7 @@ fn free(room: &Room, path: &Path) -> bool {
         .all(|w| room.line_free(&w[0], &w[1]))
 }
 
-/// A U open to the side the vehicle comes from.
+/// A U that is open to the vehicle's side.
 fn trap() -> Room {
     room(
         [100, 100, 1],
@@ -121,7 +121,7 @@ fn what_cannot_be_reached_has_a_defined_answer() {
 
 #[test]
 fn goes_over_a_reef_in_space_and_stays_off_bed_and_surface() {
-    // A wall from side to side, 4 m high on a bed 8 m down.
+    // A wall from side to side, 4 m high on a bed 8 m deep.
     let r = room(
         [60, 30, 16],
         [1.0, 1.0, 0.5],
@@ -162,7 +162,7 @@ fn replans_when_the_room_changes() {
 
 #[test]
 fn one_planner_serves_many_rooms() {
-    // As many changes and as many cells each: only what is in them differs.
+    // The same number of changes and of cells: only the contents differ.
     let wall = |east_m| {
         room(
             [60, 60, 1],
@@ -182,7 +182,7 @@ fn one_planner_serves_many_rooms() {
             assert_eq!(used.plan(&r, &start, &goal), fresh);
         }
     }
-    // Copies that went different ways: a wall of echoes in the one, somewhere else in the other.
+    // Copies that developed differently: a wall of echoes in one, another wall elsewhere in the other.
     let mut first = room([60, 60, 1], [1.0; 3], vec![]);
     let mut second = first.clone();
     assert_eq!(first.revision(), second.revision());

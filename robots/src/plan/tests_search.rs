@@ -13,7 +13,7 @@ const COSTS: Costs = Costs {
     soft_m: 4.0,
 };
 
-/// Bellman and Ford's way of the same costs: relaxes until nothing changes, knows no queue and no heuristic.
+/// Bellman-Ford with the same costs: relaxes until nothing changes, without queue and heuristic.
 fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
     let mut s = Search::new(costs);
     s.take_in(room);
@@ -84,7 +84,8 @@ proptest! {
         prop_assert!(opened <= search.opened());
         prop_assert_eq!(Some(cost), slow(&r, costs, s, t));
         prop_assert_eq!((way[0], way[way.len() - 1]), (s, t));
-        // Moves to neighbours only, over free cells, no corner cut: the line between the middles is free.
+        // Moves only to neighbours, through free cells, without cutting corners: the line between the middles is
+        // free.
         for w in way.windows(2) {
             let (p, q) = (r.lattice().place(w[0]), r.lattice().place(w[1]));
             prop_assert!((0..3).all(|k| p[k].abs_diff(q[k]) <= 1) && w[0] != w[1]);

@@ -1,16 +1,18 @@
-//! Acoustic Doppler current profiler: water relative to the vehicle in the first cell beyond the dead zone.
+//! Acoustic Doppler current profiler: velocity of the water relative to the vehicle, in the first cell beyond the
+//! dead zone.
 //!
-//! *Source:* Pang 2009, section 6 (up- and down-looking ADCP on the REMUS, dead zone about 0.75 m, so
-//! that it may read another layer than the one the vehicle is in); triangular weight of a depth cell
-//! and the side-lobe limit: RD Instruments, ADCP Principles of Operation: A Practical Primer (1996).
+//! *Source:* Pang 2009, section 6 (up- and down-looking ADCP on the REMUS, dead zone about 0.75 m, so that it may
+//! measure another layer than the one that the vehicle is in); triangular weight of a depth cell and the side-lobe
+//! limit: RD Instruments, ADCP Principles of Operation: A Practical Primer (1996).
 //!
-//! *Parameters:* `look` Up; rate `rate_hz` 1 Hz; dead zone `dead_zone_m` 0.75 m; cell `cell_m` 0.5 m;
-//! noise per axis `noise_m_s` 0.02 m/s (typical of an ensemble of some pings in cells of half a
-//! metre at 1200 kHz); beams `beam_angle_deg` 20° from the axis.
+//! *Parameters:* `look` Up; rate `rate_hz` 1 Hz; dead zone `dead_zone_m` 0.75 m; cell `cell_m` 0.5 m; noise per axis
+//! `noise_m_s` 0.02 m/s (typical of an ensemble of some pings in cells of half a metre at 1200 kHz); beams
+//! `beam_angle_deg` 20° from the axis.
 //!
-//! *Deviations:* one cell; the spread of the four beams is not resolved, the cell is read on the
-//! axis at three heights. Like the Doppler log's, the velocity is relative to the body's origin.
+//! *Deviations:* one cell; the spread of the four beams is not modelled, and the cell is sampled on the axis at three
+//! heights. As for the Doppler log, the velocity is relative to the body's origin.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -28,7 +30,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// Which way the instrument looks along the body's z axis.
+/// Direction in which the instrument looks along the body's z axis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Look {
     /// To the surface.
@@ -38,17 +40,17 @@ pub enum Look {
     Down,
 }
 
-/// What a scenario may say of the current profiler.
+/// Parameters of the current profiler.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AdcpSpec {
-    /// Where it looks.
+    /// Direction in which it looks.
     pub look: Look,
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Range without measurement, m.
     pub dead_zone_m: NonNegative,
-    /// Length of the cell behind it, m.
+    /// Length of the cell beyond it, m.
     pub cell_m: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
@@ -81,19 +83,7 @@ impl Listed for AdcpSpec {
 
 impl SensorParams for AdcpSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Adcp::new(
-            self,
-            on.place("adcp")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Adcp::new(self, on.place("adcp")?, &on.robot)?))
     }
 }
 
@@ -113,23 +103,17 @@ pub struct Adcp {
     dead_zone_m: f64,
     cell_m: f64,
     noise_m_s: f64,
-    /// Share of the way to a boundary that its side-lobe echo leaves usable.
+    /// Share of the distance to a boundary that the boundary's side-lobe echo leaves usable.
     usable: f64,
     rng: Stream,
 }
 
 impl Adcp {
-    /// A current profiler at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A current profiler at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the beam angle is not that of an instrument.
-    pub fn new(
-        spec: &AdcpSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step, or if the beam angle is out of range.
+    pub fn new(spec: &AdcpSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let angle = spec.beam_angle_deg.get();
         if !(0.0..60.0).contains(&angle) {
             return Err(RobotError::Invalid {
@@ -138,7 +122,7 @@ impl Adcp {
             });
         }
         Ok(Self {
-            every: super::tools::every("sensors.adcp.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.adcp.rate_hz", spec.rate_hz.get())?,
             p_BS,
             axis_B: match spec.look {
                 Look::Up => Vector3::z(),
@@ -148,7 +132,7 @@ impl Adcp {
             cell_m: spec.cell_m.get(),
             noise_m_s: spec.noise_m_s.get(),
             usable: math::cos(angle.to_radians()),
-            rng: Stream::new(seed, robot_id, "adcp"),
+            rng: on.stream("adcp"),
         })
     }
 
@@ -163,7 +147,7 @@ impl Adcp {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also when invalid, so that a lost cell does not shift the later ones.
+        // Drawn also if the cell is invalid, so that a lost cell does not change later numbers.
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let axis = truth.pose.R_WB * self.axis_B;
@@ -171,8 +155,8 @@ impl Adcp {
         let end_m = self.dead_zone_m + self.cell_m;
         let valid = water_along(below, &p, &axis).is_some_and(|way| end_m <= way * self.usable);
         let v_body_m_s = if valid {
-            // The cell weighs ranges by a triangle a cell length to either side of its middle:
-            // 1 : 2 : 1 at the half cells has the same mean and all but the same spread.
+            // The cell weighs ranges by a triangle that extends one cell length to either side of its middle: 1 : 2 :
+            // 1 at the half cells has the same mean and nearly the same spread.
             let water: Vector3<f64> = [(-0.5, 0.25), (0.0, 0.5), (0.5, 0.25)]
                 .map(|(cells, weight)| {
                     let at = p + axis * (middle_m + cells * self.cell_m);
@@ -182,7 +166,8 @@ impl Adcp {
                 .sum();
             assert!(
                 water.iter().all(|v| v.is_finite()),
-                "the flow at {p:?} is not a finite number: the water model or the vehicle's position broke before the ADCP"
+                "the flow at {p:?} is not a finite number: the water model or the vehicle's position broke before the \
+                ADCP"
             );
             truth.pose.R_WB.inverse() * water - truth.v_WB_B + noise
         } else {
@@ -196,8 +181,8 @@ impl Adcp {
     }
 }
 
-/// Way through the water along a beam axis to the surface or the bed, m; `None` out of the water or
-/// when the vehicle lies on its side.
+/// Distance through the water along a beam axis to the surface or the bed, m; `None` out of the water or if the
+/// vehicle lies on its side.
 fn water_along(below: &Below, p: &Vector3<f64>, axis: &Vector3<f64>) -> Option<f64> {
     const LEAST_COS: f64 = 0.5;
     if p.z >= 0.0 {
@@ -233,11 +218,16 @@ mod tests {
     }
 
     fn read(truth: Truth, look: Look) -> AdcpReading {
-        let mut a = Adcp::new(&spec(look, 0.0), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let mut a = Adcp::new(
+            &spec(look, 0.0),
+            Vector3::zeros(),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap();
         run(1, 0.02, |c| a.read(c, &truth, &TwoLayers, &bare(&BED)))[0]
     }
 
-    /// The water it finds: relative velocity and own velocity, in world axes.
+    /// Velocity of the water as the instrument finds it: relative velocity plus own velocity, in world axes.
     fn water(truth: Truth, look: Look) -> Vector3<f64> {
         let r = read(truth, look);
         assert!(r.valid, "{truth:?}");
@@ -252,11 +242,11 @@ mod tests {
 
     #[test]
     fn looking_up_it_reads_the_layer_beyond_its_dead_zone() {
-        // The cell spans 0.75 to 1.25 m above: wholly over the interface from 3.75 m depth up.
+        // The cell spans 0.75 to 1.25 m above: it is wholly above the interface at depths of up to 3.75 m.
         assert!((water(sailing(-3.6), Look::Up) - UPPER).norm() < 1e-12);
         assert!((water(sailing(-4.5), Look::Up) - LOWER).norm() < 1e-12);
         assert!((water(sailing(-3.6), Look::Down) - LOWER).norm() < 1e-12);
-        // With the interface in its middle it reads something between.
+        // With the interface in its middle, it gives a value in between.
         let mixed = water(sailing(-3.99), Look::Up).y;
         assert!(mixed > LOWER.y && mixed < UPPER.y, "{mixed}");
     }
@@ -271,7 +261,7 @@ mod tests {
 
     #[test]
     fn cells_that_reach_surface_or_bed_are_invalid() {
-        // Side lobes leave cos 20° of the way: 1.25 m need 1.33 m.
+        // Side lobes leave cos 20° of the distance: 1.25 m need 1.33 m.
         let valid = |z, look| read(sailing(z), look).valid;
         assert!(valid(-1.34, Look::Up) && !valid(-1.32, Look::Up));
         assert!(valid(-6.66, Look::Down) && !valid(-6.68, Look::Down));
@@ -283,7 +273,12 @@ mod tests {
 
     #[test]
     fn reads_once_a_second_with_its_noise() {
-        let mut a = Adcp::new(&spec(Look::Up, 0.02), Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let mut a = Adcp::new(
+            &spec(Look::Up, 0.02),
+            Vector3::zeros(),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap();
         let t = sailing(-5.0);
         let v = run(100_000, 0.02, |c| a.read(c, &t, &TwoLayers, &bare(&BED)));
         assert_eq!(v.len(), 2000);
@@ -300,7 +295,8 @@ mod tests {
             beam_angle_deg: Finite::new(75.0),
             ..Default::default()
         };
-        let e = Adcp::new(&bad, Vector3::zeros(), "a", 1, 0.02).expect_err("75 degrees");
+        let e =
+            Adcp::new(&bad, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("75 degrees");
         assert_eq!(
             e.to_string(),
             "sensors.adcp.beam_angle_deg: must be from 0 to below 60 degrees, got 75"

@@ -1,14 +1,14 @@
 //! Altimeter: height above the bed by an echo along the body's down axis.
 //!
-//! *Source:* echo sounders of coastal AUVs (500 kHz class: some centimetres of noise, blind below
-//! half a metre, some tens of metres of range); Pang 2009, section 6, flies at 1.5–2 m altitude.
+//! *Source:* echo sounders of coastal AUVs (500 kHz class: some centimetres of noise, blind below half a metre, some
+//! tens of metres of range); Pang 2009, section 6, flies at 1.5–2 m altitude.
 //!
-//! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to
-//! `max_range_m` 30 m.
+//! *Parameters:* rate `rate_hz` 5 Hz; noise `noise_m` 0.02 m; range from `min_range_m` 0.3 m to `max_range_m` 30 m.
 //!
-//! *Deviations:* a beam without width, which meets the bed or an obstacle before it. The slant range is turned
-//! into height with the vehicle's tilt, here without the tilt's small noise.
+//! *Deviations:* the beam has no width; it meets the bed, or an obstacle before it. The slant range is converted to
+//! height with the vehicle's tilt, here without the small noise of the tilt.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -24,11 +24,11 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the altimeter.
+/// Parameters of the altimeter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct AltimeterSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
@@ -63,18 +63,10 @@ impl Listed for AltimeterSpec {
 
 impl SensorParams for AltimeterSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Altimeter::new(
             self,
             on.place("altimeter")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 }
@@ -96,17 +88,11 @@ pub struct Altimeter {
 }
 
 impl Altimeter {
-    /// An altimeter at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// An altimeter at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the range is empty.
-    pub fn new(
-        spec: &AltimeterSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step, or if the range is empty.
+    pub fn new(spec: &AltimeterSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let range_m = spec.min_range_m.get()..=spec.max_range_m.get();
         if range_m.is_empty() {
             return Err(RobotError::Invalid {
@@ -115,11 +101,11 @@ impl Altimeter {
             });
         }
         Ok(Self {
-            every: super::tools::every("sensors.altimeter.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.altimeter.rate_hz", spec.rate_hz.get())?,
             p_BS,
             noise_m: spec.noise_m.get(),
             range_m,
-            rng: Stream::new(seed, robot_id, "altimeter"),
+            rng: on.stream("altimeter"),
         })
     }
 
@@ -133,7 +119,7 @@ impl Altimeter {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also without echo, so that a lost ping does not shift the later ones.
+        // Drawn also without an echo, so that a lost ping does not change later numbers.
         let noise = self.noise_m * self.rng.normal();
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
@@ -165,7 +151,12 @@ mod tests {
             noise_m: NonNegative::new(noise_m),
             ..Default::default()
         };
-        Altimeter::new(&spec, Vector3::new(0.0, 0.0, -0.1), "auv0", 1, 0.02).unwrap()
+        Altimeter::new(
+            &spec,
+            Vector3::new(0.0, 0.0, -0.1),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap()
     }
 
     fn read(t: Truth, bed: &Terrain) -> AltimeterReading {
@@ -192,7 +183,8 @@ mod tests {
         assert!(!read(nose_up(at(0.0, 0.0, -6.0), 70.0), &BED).valid);
     }
 
-    /// Nose up over a bed rising northward the beam, looking forward and down, hits where the bed is higher.
+    /// With the nose up over a bed that rises northward, the beam looks forward and down and hits the bed where it is
+    /// higher.
     #[test]
     fn on_a_slope_the_beam_ends_on_the_bed() {
         let slope = Terrain::Slope {
@@ -216,7 +208,7 @@ mod tests {
         use crate::plan::testing::block;
         use world::obstacles::Obstacles;
         let t = at(10.0, 10.0, -2.0);
-        // On a bed 8 m down, 4 m high: two metres of water less the hull's tenth.
+        // On a bed at 8 m depth, 4 m high: two metres of water less a tenth of a metre for the hull.
         let bed = Terrain::Level { depth_m: 8.0 };
         let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 4.0])]);
         let read = |obstacles: &Obstacles| {

@@ -2,7 +2,7 @@
 
 use world::catalogue::Entry;
 
-/// Those of a gantry.
+/// Instruments of a gantry.
 pub const PARTS: &[Entry] = &[Entry {
     name: "probes",
     what: "Conductivity probes of a gantry's head, scanned together: voltage with noise, quantisation, saturation.",

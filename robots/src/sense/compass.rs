@@ -1,13 +1,14 @@
 //! Compass and inertial unit: heading, roll, pitch and rates.
 //!
-//! *Source:* electronic compasses of the class of PNI's TCM2: heading within 1°, tilt within 0.2°;
-//! values typical of the class, the paper's vehicle being unspecified.
+//! *Source:* electronic compasses of the class of PNI's TCM2: heading within 1°, tilt within 0.2°; values typical of
+//! the class, because the paper does not specify its vehicle's compass.
 //!
-//! *Parameters:* rate `rate_hz` 25 Hz; heading noise `noise_deg` 0.3°; heading bias `bias_deg` 1.0°,
-//! the standard deviation of an angle drawn once a run; `tilt_noise_deg` 0.2°; `gyro_noise_deg_s` 0.1 °/s.
+//! *Parameters:* rate `rate_hz` 25 Hz; heading noise `noise_deg` 0.3°; heading bias `bias_deg` 1.0°, the standard
+//! deviation of an angle drawn once per run; `tilt_noise_deg` 0.2°; `gyro_noise_deg_s` 0.1 °/s.
 //!
 //! *Deviations:* the bias is the same on all headings; gyros have no bias.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::AttitudeReading;
@@ -21,15 +22,15 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the compass.
+/// Parameters of the compass.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CompassSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the heading noise, degrees.
     pub noise_deg: NonNegative,
-    /// Standard deviation of the heading bias, drawn once a run, degrees.
+    /// Standard deviation of the heading bias, drawn once per run, degrees.
     pub bias_deg: NonNegative,
     /// Standard deviation of the noise of roll and pitch, degrees.
     pub tilt_noise_deg: NonNegative,
@@ -59,13 +60,7 @@ impl Listed for CompassSpec {
 
 impl SensorParams for CompassSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Compass::new(self, robot_id, seed, dt_s)?))
+        Ok(Box::new(Compass::new(self, &on.robot)?))
     }
 }
 
@@ -87,20 +82,15 @@ pub struct Compass {
 }
 
 impl Compass {
-    /// A compass of the robot `robot_id`; its place does not matter.
+    /// A compass of the robot `on`; its place does not matter.
     ///
     /// # Errors
-    /// When the rate does not fit the step.
-    pub fn new(
-        spec: &CompassSpec,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
-        let mut rng = Stream::new(seed, robot_id, "compass");
+    /// If the rate does not fit the step.
+    pub fn new(spec: &CompassSpec, on: &OnBoard) -> Result<Self, RobotError> {
+        let mut rng = on.stream("compass");
         let bias_rad = spec.bias_deg.get().to_radians() * rng.normal();
         Ok(Self {
-            every: super::tools::every("sensors.compass.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.compass.rate_hz", spec.rate_hz.get())?,
             noise_rad: spec.noise_deg.get().to_radians(),
             bias_rad,
             tilt_noise_rad: spec.tilt_noise_deg.get().to_radians(),
@@ -119,7 +109,7 @@ impl Compass {
         Some(AttitudeReading {
             heading: truth.pose.heading().turned(turn),
             roll_rad: roll + self.tilt_noise_rad * self.rng.normal(),
-            // The world's FLU pitch is nose down positive, a vehicle's nose up.
+            // The pitch of the world's FLU axes is nose down positive, that of a vehicle nose up.
             pitch_rad: -pitch_down + self.tilt_noise_rad * self.rng.normal(),
             rates_rad_s: truth.w_WB_B + super::tools::normal3(&mut self.rng, self.gyro_noise_rad_s),
         })
@@ -134,7 +124,7 @@ mod tests {
     use world::units::Heading;
 
     fn compass(seed: u64) -> Compass {
-        Compass::new(&CompassSpec::default(), "auv0", seed, 0.02).unwrap()
+        Compass::new(&CompassSpec::default(), &OnBoard::new("auv0", seed, 0.02)).unwrap()
     }
 
     #[test]
@@ -182,7 +172,7 @@ mod tests {
             gyro_noise_deg_s: none,
             ..Default::default()
         };
-        let mut c = Compass::new(&exact, "auv0", 1, 0.02).unwrap();
+        let mut c = Compass::new(&exact, &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let mut t = at(0.0, 0.0, -5.0);
         // East, nose 15° up, right side 5° down.
         let (roll, pitch) = (5_f64.to_radians(), 15_f64.to_radians());

@@ -1,15 +1,17 @@
-//! Conductivity, temperature and depth: the density of the water at its mount, through a first-order response.
+//! Conductivity, temperature and depth: the density of the water at its mount, with a first-order response.
 //!
-//! *Source:* a pumped profiler for vehicles, Sea-Bird SBE 49 FastCAT (data sheet: 16 Hz, accuracies 0.0003 S/m and 0.002 °C);
-//! why a fast one is wanted: Pang 2009, sections 6 and 7 (the CTD on board "was not used due to its slow response time").
+//! *Source:* a pumped profiler for vehicles, Sea-Bird SBE 49 FastCAT (data sheet: 16 Hz, accuracies 0.0003 S/m and
+//! 0.002 °C); the need for a fast one: Pang 2009, sections 6 and 7 (the CTD on board "was not used due to its slow
+//! response time").
 //!
 //! *Parameters:* rate `rate_hz` 10 Hz; time constant `response_s` 0.1 s; noise `noise_kg_m3` 0.01 kg/m³. Density
-//! changes by about 7 kg/m³ for 1 S/m and 1 kg/m³ for 1 °C, so the accuracies amount to 0.003 kg/m³; the rest is for
-//! the mismatch of the two sensors' responses where conductivity and temperature change together.
+//! changes by about 7 kg/m³ for 1 S/m and 1 kg/m³ for 1 °C, so the accuracies amount to 0.003 kg/m³; the rest
+//! accounts for the different responses of the two sensors where conductivity and temperature change together.
 //!
-//! *Deviations:* the density itself is given, not conductivity and temperature: the water has no salt and heat of its
-//! own. The depth sensor's reading goes with it; this one measures none.
+//! *Deviations:* it reports the density itself, not conductivity and temperature, because the simulated water has no
+//! salt and heat of its own. The depth comes from the depth sensor; this instrument measures none.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::CtdReading;
@@ -26,11 +28,11 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the CTD.
+/// Parameters of the CTD.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CtdSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Time constant of its response, s.
     pub response_s: NonNegative,
@@ -58,19 +60,7 @@ impl Listed for CtdSpec {
 
 impl SensorParams for CtdSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Ctd::new(
-            self,
-            on.place("ctd")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Ctd::new(self, on.place("ctd")?, &on.robot)?))
     }
 }
 
@@ -85,7 +75,7 @@ impl Sensor for Ctd {
 pub struct Ctd {
     every: Every,
     p_BS: Vector3<f64>,
-    /// Share of the way to the density outside that the response keeps back from one reading to the next.
+    /// Share of the difference from the density outside that is left from one reading to the next.
     lag: f64,
     noise_kg_m3: f64,
     /// Density in the cell, kg/m³; `None` before the first reading.
@@ -94,22 +84,16 @@ pub struct Ctd {
 }
 
 impl Ctd {
-    /// A CTD at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A CTD at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step.
-    pub fn new(
-        spec: &CtdSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
-        let every = super::tools::every("sensors.ctd.rate_hz", spec.rate_hz.get(), dt_s)?;
+    /// If the rate does not fit the step.
+    pub fn new(spec: &CtdSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
+        let every = on.every("sensors.ctd.rate_hz", spec.rate_hz.get())?;
         let response_s = spec.response_s.get();
         Ok(Self {
             lag: if response_s > 0.0 {
-                math::exp(-every.period_s(dt_s) / response_s)
+                math::exp(-every.period_s(on.dt_s) / response_s)
             } else {
                 0.0
             },
@@ -117,7 +101,7 @@ impl Ctd {
             p_BS,
             noise_kg_m3: spec.noise_kg_m3.get(),
             inside: None,
-            rng: Stream::new(seed, robot_id, "ctd"),
+            rng: on.stream("ctd"),
         })
     }
 
@@ -127,12 +111,13 @@ impl Ctd {
             return None;
         }
         let p = truth.pose.point(self.p_BS);
-        // Out of the water the cell keeps what it holds.
+        // Out of the water the cell keeps its content.
         let p = Vector3::new(p.x, p.y, p.z.min(0.0));
         let outside = flow.density(&p, clock.t_s());
         assert!(
             outside.is_finite(),
-            "the density at {p:?} is not a finite number: the water model or the vehicle's position broke before the CTD"
+            "the density at {p:?} is not a finite number: the water model or the vehicle's position broke before the \
+            CTD"
         );
         let inside = outside + (self.inside.unwrap_or(outside) - outside) * self.lag;
         self.inside = Some(inside);
@@ -162,12 +147,13 @@ mod tests {
     #[test]
     fn reads_the_density_at_its_mount_with_its_noise() {
         let mount = Vector3::new(0.0, 0.0, 0.2);
-        let mut c = Ctd::new(&CtdSpec::default(), mount, "auv0", 1, 0.02).expect("10 Hz fit");
+        let mut c = Ctd::new(&CtdSpec::default(), mount, &OnBoard::new("auv0", 1, 0.02))
+            .expect("10 Hz fit");
         for (z, want) in [(-3.1, 1020.0), (-5.0, 1024.0)] {
             let t = at(0.0, 0.0, z);
             let all = run(30_000, 0.02, |k| c.read(k, &t, &TwoLayers));
             assert_eq!(all.len(), 6000);
-            // The first of them still tell of the layer before.
+            // The first of them still show the layer before.
             let got: Vec<f64> = all.iter().skip(20).map(|r| r.density_kg_m3).collect();
             assert_normal(&got, want, 0.01);
         }
@@ -180,7 +166,8 @@ mod tests {
             noise_kg_m3: NonNegative::new(0.0),
             ..Default::default()
         };
-        let mut c = Ctd::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).expect("10 Hz fit");
+        let mut c =
+            Ctd::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).expect("10 Hz fit");
         let read = |c: &mut Ctd, n: u64, z: f64| {
             let t = at(0.0, 0.0, z);
             let all = run(n, 0.02, |k| c.read(k, &t, &TwoLayers));
@@ -190,7 +177,7 @@ mod tests {
         // Five readings, half a second: 1 - 1/e of the 4 kg/m³.
         let want = 1020.0 + 4.0 * (1.0 - math::exp(-1.0));
         assert!((read(&mut c, 25, -4.0) - want).abs() < 1e-9);
-        // Held, not broken, above the surface.
+        // Above the surface the reading is held.
         assert!(read(&mut c, 1, 0.3) < want);
     }
 }

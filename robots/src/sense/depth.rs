@@ -1,11 +1,12 @@
-//! Depth: the pressure at its mount, as metres below the still surface; waves passing over are in it.
+//! Depth: the pressure at its mount, as metres below the still surface; it includes passing waves.
 //!
 //! *Source:* strain-gauge pressure sensors of coastal AUVs: 0.01 % of 100 m full scale.
 //!
 //! *Parameters:* rate `rate_hz` 25 Hz; noise `noise_m` 0.01 m.
 //!
-//! *Deviations:* the density profile is not turned into depth errors; the pressure of the vehicle's own motion is left out.
+//! *Deviations:* the density profile causes no depth errors; the pressure from the vehicle's own motion is left out.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::DepthReading;
@@ -21,11 +22,11 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the depth sensor.
+/// Parameters of the depth sensor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DepthSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise, m.
     #[serde(deserialize_with = "world::limits::error_m")]
@@ -52,19 +53,7 @@ impl Listed for DepthSpec {
 
 impl SensorParams for DepthSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Depth::new(
-            self,
-            on.place("depth")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Depth::new(self, on.place("depth")?, &on.robot)?))
     }
 }
 
@@ -84,22 +73,16 @@ pub struct Depth {
 }
 
 impl Depth {
-    /// A depth sensor at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A depth sensor at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step.
-    pub fn new(
-        spec: &DepthSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step.
+    pub fn new(spec: &DepthSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         Ok(Self {
-            every: super::tools::every("sensors.depth.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.depth.rate_hz", spec.rate_hz.get())?,
             p_BS,
             noise_m: spec.noise_m.get(),
-            rng: Stream::new(seed, robot_id, "depth"),
+            rng: on.stream("depth"),
         })
     }
 
@@ -125,7 +108,8 @@ mod tests {
     #[test]
     fn reads_the_depth_of_its_mount_with_its_noise() {
         let nose = Vector3::new(0.5, 0.0, 0.1);
-        let mut d = Depth::new(&DepthSpec::default(), nose, "auv0", 1, 0.02).unwrap();
+        let mut d =
+            Depth::new(&DepthSpec::default(), nose, &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let t = nose_up(at(0.0, 0.0, -5.0), 30.0);
         let v = run(20_000, 0.02, |c| d.read(c, &t, &Still));
         assert_eq!(v.len(), 10_000);
@@ -150,7 +134,7 @@ mod tests {
             noise_m: NonNegative::new(0.0),
             ..Default::default()
         };
-        let mut d = Depth::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).unwrap();
+        let mut d = Depth::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap();
         let v = run(101, 0.02, |c| d.read(c, &at(0.0, 0.0, -5.0), &Swell));
         assert!((v[0].depth_m - 5.05).abs() < 1e-12);
         assert!((v[50].depth_m - 5.25).abs() < 1e-12);

@@ -1,17 +1,18 @@
 //! Doppler velocity log: velocity over ground by bottom track.
 //!
-//! *Source:* Teledyne RD Instruments, Workhorse Navigator data sheet, 1200 kHz: single-ping
-//! standard deviation 3–4 mm/s at 1–3 m/s, long-term accuracy 0.2 %, altitude 0.5–30 m; the REMUS
-//! dead-reckons on such acoustic Doppler data: Pang 2009, section 4.
+//! *Source:* Teledyne RD Instruments, Workhorse Navigator data sheet, 1200 kHz: single-ping standard deviation 3–4
+//! mm/s at 1–3 m/s, long-term accuracy 0.2 %, altitude 0.5–30 m; the REMUS dead-reckons on such acoustic Doppler
+//! data: Pang 2009, section 4.
 //!
-//! *Parameters:* rate `rate_hz` 5 Hz; noise per axis `noise_m_s` 0.004 m/s; scale error
-//! `scale_error` 0.002, the standard deviation of a factor drawn once a run; bottom lock between
-//! `min_altitude_m` 0.5 m and `max_altitude_m` 30 m of slant range.
+//! *Parameters:* rate `rate_hz` 5 Hz; noise per axis `noise_m_s` 0.004 m/s; scale error `scale_error` 0.002, the
+//! standard deviation of a factor drawn once per run; bottom lock between `min_altitude_m` 0.5 m and `max_altitude_m`
+//! 30 m of slant range.
 //!
-//! *Deviations:* the four beams are one along the body's down axis, which decides bottom lock (lost
-//! beyond 60° of tilt). The velocity is that of the body's origin: the instrument's own turns with the
-//! vehicle are taken out with the gyros, as vehicles do, here without the gyros' small noise.
+//! *Deviations:* the four beams are replaced by one along the body's down axis, which decides bottom lock (lost
+//! beyond 60° of tilt). The velocity is that of the body's origin: the part caused by the instrument's place and the
+//! vehicle's rotation is removed with the gyros, as vehicles do, here without the small noise of the gyros.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::tools::Below;
 use crate::error::RobotError;
@@ -27,17 +28,17 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the Doppler log.
+/// Parameters of the Doppler log.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DvlSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Standard deviation of the noise on each axis, m/s.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     #[schemars(transform = world::limits::schema::stream_m_s)]
     pub noise_m_s: NonNegative,
-    /// Standard deviation of the relative scale error, drawn once a run.
+    /// Standard deviation of the relative scale error, drawn once per run.
     pub scale_error: NonNegative,
     /// Least range to the bed for bottom lock, m.
     pub min_altitude_m: NonNegative,
@@ -69,19 +70,7 @@ impl Listed for DvlSpec {
 
 impl SensorParams for DvlSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Dvl::new(
-            self,
-            on.place("dvl")?,
-            robot_id,
-            seed,
-            dt_s,
-        )?))
+        Ok(Box::new(Dvl::new(self, on.place("dvl")?, &on.robot)?))
     }
 }
 
@@ -103,17 +92,11 @@ pub struct Dvl {
 }
 
 impl Dvl {
-    /// A Doppler log at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A Doppler log at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the range is empty.
-    pub fn new(
-        spec: &DvlSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step, or if the range is empty.
+    pub fn new(spec: &DvlSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let lock_m = spec.min_altitude_m.get()..=spec.max_altitude_m.get();
         if lock_m.is_empty() {
             return Err(RobotError::Invalid {
@@ -121,10 +104,10 @@ impl Dvl {
                 problem: format!("must be at least min_altitude_m, {} m", lock_m.start()),
             });
         }
-        let mut rng = Stream::new(seed, robot_id, "dvl");
+        let mut rng = on.stream("dvl");
         let scale = 1.0 + spec.scale_error.get() * rng.normal();
         Ok(Self {
-            every: super::tools::every("sensors.dvl.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.dvl.rate_hz", spec.rate_hz.get())?,
             p_BS,
             noise_m_s: spec.noise_m_s.get(),
             scale,
@@ -138,7 +121,7 @@ impl Dvl {
         if !self.every.due(clock) {
             return None;
         }
-        // Drawn also without lock, so that a lost ping does not shift the later ones.
+        // Drawn also without lock, so that a lost ping does not change later numbers.
         let noise = super::tools::normal3(&mut self.rng, self.noise_m_s);
         let p = truth.pose.point(self.p_BS);
         let down = truth.pose.R_WB * -Vector3::z();
@@ -160,7 +143,12 @@ mod tests {
     use world::terrain::Terrain;
 
     fn dvl(spec: &DvlSpec, seed: u64) -> Dvl {
-        Dvl::new(spec, Vector3::new(0.0, 0.0, -0.1), "auv0", seed, 0.02).unwrap()
+        Dvl::new(
+            spec,
+            Vector3::new(0.0, 0.0, -0.1),
+            &OnBoard::new("auv0", seed, 0.02),
+        )
+        .unwrap()
     }
 
     fn moving(z: f64) -> Truth {
@@ -226,7 +214,7 @@ mod tests {
             max_altitude_m: Positive::new(0.2),
             ..Default::default()
         };
-        let e = Dvl::new(&spec, Vector3::zeros(), "a", 1, 0.02).expect_err("empty");
+        let e = Dvl::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02)).expect_err("empty");
         assert_eq!(
             e.to_string(),
             "sensors.dvl.max_altitude_m: must be at least min_altitude_m, 0.5 m"

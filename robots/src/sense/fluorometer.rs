@@ -1,16 +1,17 @@
 //! Fluorometer: dye concentration at its mount as a voltage, with response time, noise, quantisation and saturation.
 //!
-//! *Source:* Turner Designs Cyclops-7: 0–5 V for 0–10 µg/L rhodamine WT at gain ×100 (Sea-Bird
-//! application note 74); read at 10 Hz and thresholded at 4 % of full scale: Pang 2009, section 6.
+//! *Source:* Turner Designs Cyclops-7: 0–5 V for 0–10 µg/L rhodamine WT at gain ×100 (Sea-Bird application note 74);
+//! read at 10 Hz with a threshold of 4 % of full scale: Pang 2009, section 6.
 //!
-//! *Parameters:* rate `rate_hz` 10 Hz; full scale `full_scale_ug_l` 10 µg/L ↔ `full_scale_v` 5 V;
-//! threshold `threshold` 0.04 of full scale (0.2 V); time constant `response_s`; output noise
-//! `noise_v`, one standard deviation; converter `adc_bits` over full scale. The last three are not
-//! published for the vehicle: 0.2 s, 0.02 V and 12 bits, values typical of the type.
+//! *Parameters:* rate `rate_hz` 10 Hz; full scale `full_scale_ug_l` 10 µg/L ↔ `full_scale_v` 5 V; threshold
+//! `threshold` 0.04 of full scale (0.2 V); time constant `response_s`; output noise `noise_v`, one standard
+//! deviation; converter `adc_bits` over full scale. The last three are not published for the vehicle: 0.2 s, 0.02 V
+//! and 12 bits, values typical of the type.
 //!
-//! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ solved exactly with the
-//! concentration running straight between two samples. Power-up time and blank drift are left out.
+//! *Deviations:* none from a first-order instrument: dy/dt = (c − y)/τ is solved exactly for a concentration that is
+//! linear between two samples. Power-up time and blank drift are left out.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::ChemicalReading;
@@ -28,11 +29,11 @@ use world::registry::Listed;
 use world::seeds::Stream;
 use world::units::KG_M3_PER_UG_L;
 
-/// What a scenario may say of the fluorometer.
+/// Parameters of the fluorometer.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct FluorometerSpec {
-    /// Readings a second, Hz.
+    /// Readings per second, Hz.
     pub rate_hz: Positive,
     /// Concentration at full scale, µg/L.
     pub full_scale_ug_l: Positive,
@@ -65,25 +66,18 @@ impl Default for FluorometerSpec {
 impl Listed for FluorometerSpec {
     const ENTRY: Entry = Entry {
         name: "fluorometer",
-        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection threshold.",
+        what: "Dye concentration as a voltage: first-order response, noise, quantisation, saturation, detection \
+            threshold.",
         source: "Turner Designs Cyclops-7 (Sea-Bird application note 74); Pang 2009, section 6",
     };
 }
 
 impl SensorParams for FluorometerSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Fluorometer::new(
             self,
             on.place("fluorometer")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 }
@@ -109,7 +103,7 @@ pub struct Fluorometer {
     rng: Stream,
 }
 
-/// First-order response, exact for an input that runs straight between samples.
+/// First-order response, exact for an input that is linear between samples.
 #[derive(Clone, Debug)]
 struct Response {
     period_s: f64,
@@ -134,16 +128,14 @@ impl Response {
 }
 
 impl Fluorometer {
-    /// A fluorometer at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A fluorometer at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step or the converter has no or too many bits.
+    /// If the rate does not fit the step, or if the converter has no or too many bits.
     pub fn new(
         spec: &FluorometerSpec,
         p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
+        on: &OnBoard,
     ) -> Result<Self, RobotError> {
         if !(1..=24).contains(&spec.adc_bits) {
             return Err(RobotError::Invalid {
@@ -152,7 +144,7 @@ impl Fluorometer {
             });
         }
         let rate = spec.rate_hz.get();
-        let every = super::tools::every("sensors.fluorometer.rate_hz", rate, dt_s)?;
+        let every = on.every("sensors.fluorometer.rate_hz", rate)?;
         Ok(Self {
             every,
             p_BS,
@@ -162,11 +154,11 @@ impl Fluorometer {
             noise_v: spec.noise_v.get(),
             levels: f64::from((1_u32 << spec.adc_bits) - 1),
             response: Response {
-                period_s: every.period_s(dt_s),
+                period_s: every.period_s(on.dt_s),
                 tau_s: spec.response_s.get(),
                 state: None,
             },
-            rng: Stream::new(seed, robot_id, "fluorometer"),
+            rng: on.stream("fluorometer"),
         })
     }
 
@@ -184,7 +176,8 @@ impl Fluorometer {
         let c = dye.at(&p);
         assert!(
             c.is_finite(),
-            "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke before the fluorometer"
+            "the concentration at {p:?} is not a finite number: the plume model or the vehicle's position broke \
+            before the fluorometer"
         );
         let clean = self.response.next(c / self.full_scale_kg_m3) * self.full_scale_v;
         let noisy = clean + self.noise_v * self.rng.normal();
@@ -212,7 +205,12 @@ mod tests {
     }
 
     fn fluorometer(spec: FluorometerSpec) -> Fluorometer {
-        Fluorometer::new(&spec, Vector3::new(0.8, 0.0, 0.0), "auv0", 1, 0.02).unwrap()
+        Fluorometer::new(
+            &spec,
+            Vector3::new(0.8, 0.0, 0.0),
+            &OnBoard::new("auv0", 1, 0.02),
+        )
+        .unwrap()
     }
 
     fn quiet(response_s: f64) -> FluorometerSpec {
@@ -260,7 +258,7 @@ mod tests {
         }
     }
 
-    /// Against the response's differential equation in steps ten thousand times finer.
+    /// Compared with the response's differential equation in steps that are ten thousand times finer.
     #[test]
     fn responds_with_its_time_constant() {
         let (period, tau) = (0.1, 0.2);
@@ -277,7 +275,7 @@ mod tests {
                 let c = inputs[k - 1] + (inputs[k] - inputs[k - 1]) * share;
                 y += (c - y) / tau * period / f64::from(fine);
             }
-            // Half a step of the converter, and the fine integration's own 1e-4.
+            // Half a step of the converter, and the 1e-4 of the fine integration.
             let want = y * 0.5;
             assert!(
                 (got[k].volts - want).abs() < 0.5 * 5.0 / 4095.0 + 1e-4,
@@ -308,7 +306,9 @@ mod tests {
 
     #[test]
     fn impossible_instruments_are_refused() {
-        let new = |spec: FluorometerSpec| Fluorometer::new(&spec, Vector3::zeros(), "a", 1, 0.02);
+        let new = |spec: FluorometerSpec| {
+            Fluorometer::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
+        };
         let none = FluorometerSpec {
             adc_bits: 0,
             ..Default::default()
@@ -325,7 +325,7 @@ mod tests {
         let e = new(fast).expect_err("too fast").to_string();
         assert_eq!(
             e,
-            "sensors.fluorometer.rate_hz: 100 Hz is more than one reading a step; at most 50 Hz with steps of 0.02 s"
+            "sensors.fluorometer.rate_hz: 100 Hz is more than one reading per step; at most 50 Hz with steps of 0.02 s"
         );
     }
 }

@@ -1,14 +1,15 @@
-//! Long baseline: position fixes from acoustic transponders, seldom and coarse.
+//! Long baseline: position fixes from acoustic transponders, rare and coarse.
 //!
-//! *Source:* Pang 2009, section 4 (dead reckoning with periodic position updates from a long baseline
-//! of acoustic buoys, called navigation fixes) and section 5.6 (errors of about 10 m gather).
+//! *Source:* Pang 2009, section 4 (dead reckoning with periodic position updates from a long baseline of acoustic
+//! buoys, called navigation fixes) and section 5.6 (errors of about 10 m accumulate).
 //!
-//! *Parameters:* period `period_s` 30 s; noise of east and of north `noise_m` 5 m: two successive
-//! fixes are then off against each other by 2 · 5 m rms, the paper's 10 m; share of fixes that fail `dropout` 0.3.
-//! Period and drop-outs are not published.
+//! *Parameters:* period `period_s` 30 s; noise of east and of north `noise_m` 5 m: two successive fixes then differ
+//! by 2 · 5 m rms, the paper's 10 m; share of fixes that fail `dropout` 0.3. Period and drop-outs are not published.
 //!
-//! *Deviations:* errors are independent and round, travel time and the geometry of the buoys are left out.
+//! *Deviations:* errors are independent and the same in all directions; travel time and the geometry of the buoys are
+//! left out.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::LblFix;
@@ -23,7 +24,7 @@ use world::ranges::{Fraction, NonNegative, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// What a scenario may say of the long baseline.
+/// Parameters of the long baseline.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LblSpec {
@@ -57,13 +58,7 @@ impl Listed for LblSpec {
 
 impl SensorParams for LblSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
-        Ok(Box::new(Lbl::new(self, robot_id, seed, dt_s)?))
+        Ok(Box::new(Lbl::new(self, &on.robot)?))
     }
 }
 
@@ -83,27 +78,27 @@ pub struct Lbl {
 }
 
 impl Lbl {
-    /// A transceiver of the robot `robot_id`; fixes are those of the body's origin.
+    /// A transceiver of the robot `on`; its fixes are those of the body's origin.
     ///
     /// # Errors
-    /// When the period is shorter than a step.
-    pub fn new(spec: &LblSpec, robot_id: &str, seed: u64, dt_s: f64) -> Result<Self, RobotError> {
+    /// If the period is shorter than a step.
+    pub fn new(spec: &LblSpec, on: &OnBoard) -> Result<Self, RobotError> {
         let rate_hz = 1.0 / spec.period_s.get();
         Ok(Self {
-            every: super::tools::every("sensors.lbl.period_s", rate_hz, dt_s)?,
+            every: on.every("sensors.lbl.period_s", rate_hz)?,
             noise_m: spec.noise_m.get(),
             dropout: spec.dropout.get(),
-            rng: Stream::new(seed, robot_id, "lbl"),
+            rng: on.stream("lbl"),
         })
     }
 
-    /// The fix of this step, if one is due and comes through. The first is due a period after the
-    /// start: the vehicle sets out from a position it was given.
+    /// The fix of this step, if one is due and succeeds. The first is due one period after the start: the vehicle
+    /// starts from a given position.
     pub fn read(&mut self, clock: &Clock, truth: &Truth) -> Option<LblFix> {
         if clock.step == 0 || !self.every.due(clock) {
             return None;
         }
-        // All numbers are drawn for a failed fix too, so that the share of failures shifts nothing.
+        // All numbers are drawn for a failed fix too, so that the share of failures changes no later numbers.
         let heard = self.rng.uniform() >= self.dropout;
         let (east, north) = (self.rng.normal(), self.rng.normal());
         heard.then(|| LblFix {
@@ -119,7 +114,7 @@ mod tests {
 
     #[test]
     fn fixes_scatter_and_fail_as_specified() {
-        let mut l = Lbl::new(&LblSpec::default(), "auv0", 1, 0.5).unwrap();
+        let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 1, 0.5)).unwrap();
         let t = at(30.0, -40.0, -5.0);
         let tries = 10_000;
         let v = run(60 * tries + 1, 0.5, |c| l.read(c, &t));
@@ -131,12 +126,12 @@ mod tests {
         assert_normal(&axis(1), -40.0, 5.0);
     }
 
-    /// The paper's errors of about 10 m, as the move from one fix to the next.
+    /// The paper's errors of about 10 m, as the difference between successive fixes.
     #[test]
     fn successive_fixes_differ_by_ten_metres_rms() {
-        let mut l = Lbl::new(&LblSpec::default(), "auv0", 4, 0.5).unwrap();
+        let mut l = Lbl::new(&LblSpec::default(), &OnBoard::new("auv0", 4, 0.5)).unwrap();
         let v = run(600_000, 0.5, |c| l.read(c, &at(0.0, 0.0, -5.0)));
-        // Pairs that share no fix: squares are independent, their spread as large as their mean.
+        // Pairs that share no fix: the squares are independent, and their spread is as large as their mean.
         let squares: Vec<f64> = (v.chunks_exact(2))
             .map(|f| (f[1].position - f[0].position).norm_squared())
             .collect();
@@ -153,7 +148,7 @@ mod tests {
             dropout: Fraction::new(0.0),
             ..Default::default()
         };
-        let mut l = Lbl::new(&never_failing, "auv0", 1, 0.5).unwrap();
+        let mut l = Lbl::new(&never_failing, &OnBoard::new("auv0", 1, 0.5)).unwrap();
         let when = run(181, 0.5, |c| {
             l.read(c, &at(0.0, 0.0, -5.0)).map(|_| c.t_s())
         });

@@ -1,19 +1,20 @@
 //! Conductivity probes: salt concentration at each tip as a voltage, with noise, quantisation and saturation.
 //!
-//! *Source*: Webster, Volyanskyy & Weissburg 2012 (Bioinspir. Biomim. 7:036023), section 3: fast conductivity
-//! sensors (Precision Measurement Engineering) read at 20 Hz by a converter of -5 to 5 V.
+//! *Source*: Webster, Volyanskyy & Weissburg 2012 (Bioinspir. Biomim. 7:036023), section 3: fast conductivity sensors
+//! (Precision Measurement Engineering) read at 20 Hz by a converter of -5 to 5 V.
 //!
-//! *Parameters*: rate `rate_hz` 20 Hz; output range `range_v` -5 to 5 V; concentration at its top
-//! `full_scale_kg_m3` (not published), 4.7 kg/m³, a tenth of the 47 g/L released: the paper's floor of -4.98 V is
-//! then 2e-4 of the source, a fifth of the mean on the centreline 1 m away, so that spikes can be told at the
-//! 1.14 m where its trials began, and only undiluted effluent at the nozzle saturates; converter `adc_bits` 12 (not
-//! published), a step of 2.4 mV; white noise `noise_v` (not published), 4 mV, so that the floor, which is there to
-//! exclude noise, lies five deviations above clean water; time constant `response_s` 0, for 800 Hz of
-//! bandwidth (0.2 ms) is far below the 50 ms between scans.
+//! *Parameters*: rate `rate_hz` 20 Hz; output range `range_v` -5 to 5 V; concentration at its top `full_scale_kg_m3`
+//! (not published), 4.7 kg/m³, a tenth of the released 47 g/L. The paper's floor of -4.98 V is then 2e-4 of the
+//! source, a fifth of the mean on the centreline 1 m away. So spikes can be detected at the 1.14 m where its trials
+//! began, and only undiluted effluent at the nozzle saturates. Converter `adc_bits` 12 (not published), a step of 2.4
+//! mV; white noise `noise_v` (not published), 4 mV, so that the floor, whose purpose is to exclude noise, lies five
+//! deviations above clean water; time constant `response_s` 0, because 800 Hz of bandwidth (0.2 ms) is far below the
+//! 50 ms between scans.
 //!
-//! *Deviations*: the 0.5 mm of spatial resolution is taken as a point: it is less than the smallest eddies
-//! (0.83 mm) and far less than the smallest scale of a simulated plume, so averaging over it changes nothing.
+//! *Deviations*: the spatial resolution of 0.5 mm is taken as a point: it is less than the smallest eddies (0.83 mm)
+//! and far less than the smallest scale of a simulated plume, so averaging over it would change nothing.
 
+use super::on_board::OnBoard;
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeScan};
 use nalgebra::Vector3;
@@ -25,11 +26,11 @@ use world::math;
 use world::ranges::{Finite, NonNegative, Positive};
 use world::seeds::Stream;
 
-/// What a scenario may say of the probes.
+/// Parameters of the probes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ProbesSpec {
-    /// Scans a second, Hz.
+    /// Scans per second, Hz.
     pub rate_hz: Positive,
     /// Output in clean water and at full scale, V.
     pub range_v: [Finite; 2],
@@ -65,13 +66,14 @@ pub struct Probes {
     full_scale_kg_m3: f64,
     noise_v: f64,
     levels: f64,
-    /// Share of the way to a new input that is left after a scan's period, and the time constant over it.
+    /// Share of the step to a new input that is left after a scan's period, and the time constant divided by that
+    /// period.
     decay: f64,
     tau_periods: f64,
     channels: Vec<Channel>,
 }
 
-/// One probe: its own noise, and input and output at the latest scan (shares of full scale).
+/// One probe: its own noise, and its input and output at the latest scan (shares of full scale).
 #[derive(Clone, Debug)]
 struct Channel {
     rng: Stream,
@@ -79,18 +81,12 @@ struct Channel {
 }
 
 impl Probes {
-    /// Probes of these names on the robot `robot_id`, each with a random stream of its own.
+    /// Probes of these names on the robot `on`, each with a random stream of its own.
     ///
     /// # Errors
-    /// When there are none or too many, the rate does not fit the step, the range is empty or the converter
+    /// If there are none or too many, if the rate does not fit the step, if the range is empty or if the converter
     /// has no or too many bits.
-    pub fn new(
-        spec: &ProbesSpec,
-        names: &[String],
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    pub fn new(spec: &ProbesSpec, names: &[String], on: &OnBoard) -> Result<Self, RobotError> {
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: format!("probes{field}"),
             problem,
@@ -112,10 +108,10 @@ impl Probes {
                 format!("must rise from clean water to full scale, got {bottom_v} to {top_v} V");
             return Err(invalid(".range_v", problem));
         }
-        let every = super::tools::every("probes.rate_hz", spec.rate_hz.get(), dt_s)?;
-        let tau_periods = spec.response_s.get() / every.period_s(dt_s);
+        let every = on.every("probes.rate_hz", spec.rate_hz.get())?;
+        let tau_periods = spec.response_s.get() / every.period_s(on.dt_s);
         let channel = |name: &String| Channel {
-            rng: Stream::new(seed, robot_id, &format!("probe {name}")),
+            rng: on.stream(&format!("probe {name}")),
             latest: None,
         };
         Ok(Self {
@@ -135,7 +131,8 @@ impl Probes {
         })
     }
 
-    /// The scan of this step, if one is due; `tips` are the probes' places in the world (m), in the order of their names.
+    /// The scan of this step, if one is due; `tips` are the probes' places in the world (m), in the order of their
+    /// names.
     pub fn read(
         &mut self,
         clock: &Clock,
@@ -160,10 +157,11 @@ impl Probes {
             let c = dye.at(p);
             assert!(
                 c.is_finite(),
-                "the concentration at {p:?} is not a finite number: the plume model or the head's position broke before the probes"
+                "the concentration at {p:?} is not a finite number: the plume model or the head's position broke \
+                before the probes"
             );
             let input = c / self.full_scale_kg_m3;
-            // First order with the input running straight between two scans, exact.
+            // First order, exact for an input that is linear between two scans.
             let output = channel.latest.map_or(input, |(before, y)| {
                 let lag = (input - before) * self.tau_periods;
                 input - lag + (y - before + lag) * self.decay
@@ -182,7 +180,7 @@ mod tests {
     use super::super::testing::{assert_normal, run};
     use super::*;
 
-    /// Concentration growing to the left, kg/m³ for a metre, from nothing at y = 0.
+    /// Concentration that grows to the left, kg/m³ per metre, from zero at y = 0.
     struct Slope(f64);
     impl Concentration for Slope {
         fn at(&self, p: &Vector3<f64>) -> f64 {
@@ -195,7 +193,7 @@ mod tests {
     }
 
     fn probes(spec: &ProbesSpec, n: usize) -> Probes {
-        Probes::new(spec, &names(n), "gantry0", 1, 0.01).expect("legal")
+        Probes::new(spec, &names(n), &OnBoard::new("gantry0", 1, 0.01)).expect("legal")
     }
 
     fn tips(ys: &[f64]) -> Vec<Vector3<f64>> {
@@ -246,7 +244,7 @@ mod tests {
         // Correlation of two independent records: standard error 1/sqrt(n).
         let r = scans.iter().map(|s| s.volts[0] * s.volts[1]).sum::<f64>() / 20_000.0 / 0.01;
         assert!(r.abs() < 5.0 / 20_000f64.sqrt(), "correlated: {r}");
-        // Another probe beside it shifts nobody's numbers.
+        // Another probe beside it changes nobody's numbers.
         let mut alone = probes(&spec, 1);
         let first = run(100, 0.01, |c| alone.read(c, &tips(&[0.5]), &Slope(4.7)));
         assert!(
@@ -283,7 +281,8 @@ mod tests {
     #[test]
     fn impossible_probes_are_refused() {
         let new = |spec: &ProbesSpec, n| {
-            let e = Probes::new(spec, &names(n), "g", 1, 0.01).expect_err("impossible");
+            let e =
+                Probes::new(spec, &names(n), &OnBoard::new("g", 1, 0.01)).expect_err("impossible");
             e.to_string()
         };
         let ok = ProbesSpec::default();

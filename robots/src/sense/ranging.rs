@@ -1,15 +1,17 @@
-//! Forward ranging: a fan of sound beams that says how far the next solid or the bed is in each direction.
+//! Forward ranging: a fan of sound beams that measures the distance to the next solid or the bed in each direction.
 //!
-//! *Source:* multi-beam forward-looking sonar for obstacle avoidance and path planning of underwater vehicles: Petillot, Tena
-//! Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240.
+//! *Source:* multi-beam forward-looking sonar for obstacle avoidance and path planning of underwater vehicles:
+//! Petillot, Tena Ruiz & Lane 2001, IEEE J. Oceanic Eng. 26, 240.
 //!
-//! *Parameters:* pings a second `rate_hz` 2; `beams` 41 over `width_deg` 120°, in `rows` 1 over `height_deg` 20°; range from
-//! `min_range_m` 0.5 m to `max_range_m` 40 m; noise `noise_m` 0.1 m, one standard deviation; share of beams that
-//! drop out, `dropout`, 0.02. Values of the class, not of one instrument.
+//! *Parameters:* pings per second `rate_hz` 2; `beams` 41 over `width_deg` 120°, in `rows` 1 over `height_deg` 20°;
+//! range from `min_range_m` 0.5 m to `max_range_m` 40 m; noise `noise_m` 0.1 m, one standard deviation; share of
+//! beams that drop out, `dropout`, 0.02. Values of the class, not of one instrument.
 //!
-//! *Deviations:* beams without width, told apart in both directions; no side lobes and no echoes by way of the surface, which
-//! itself throws none back. A beam that drops out says nothing; one without echo says that the way is free.
+//! *Deviations:* beams have no width and are resolved in both directions; there are no side lobes and no echoes from
+//! or by way of the surface. A beam that drops out is not reported; a beam without an echo means that the way is
+//! free.
 
+use super::on_board::OnBoard;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
 use crate::handoff::Readings;
@@ -30,21 +32,21 @@ use world::terrain::Terrain;
 
 /// Most beams in a ping.
 const MOST: u32 = 1024;
-/// Step along a beam in looking for the bed, m, and halvings of the step that met it.
+/// Step of the search for the bed along a beam, m, and number of halvings of the step that met it.
 const BED_STEP: (f64, u32) = (0.5, 20);
 
-/// Time of a beam, of an obstacle on its way and of a metre that the bed is looked for, s (see `world::cost`).
+/// Time for a beam, for an obstacle on its way, and for a metre of the search for the bed, s (see `world::cost`).
 const BEAM_S: [f64; 3] = [0.5e-6, 0.15e-6, 30e-9];
 
-/// What a scenario may say of the ranging.
+/// Parameters of the ranging.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct RangingSpec {
-    /// Pings a second, Hz.
+    /// Pings per second, Hz.
     pub rate_hz: Positive,
     /// Beams side by side.
     pub beams: u32,
-    /// Angle from the outermost beam on the left to that on the right, °, at most 360.
+    /// Angle from the outermost beam on the left to the outermost on the right, °, at most 360.
     pub width_deg: NonNegative,
     /// Rows of beams, one above the other.
     pub rows: u32,
@@ -60,7 +62,7 @@ pub struct RangingSpec {
     #[serde(deserialize_with = "world::limits::error_m")]
     #[schemars(transform = world::limits::schema::error_m)]
     pub noise_m: NonNegative,
-    /// Share of the beams that say nothing.
+    /// Share of the beams that drop out.
     pub dropout: Fraction,
 }
 
@@ -90,18 +92,10 @@ impl Listed for RangingSpec {
 
 impl SensorParams for RangingSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Ranging::new(
             self,
             on.place("ranging")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 
@@ -109,7 +103,7 @@ impl SensorParams for RangingSpec {
         let beams = f64::from(self.beams) * f64::from(self.rows);
         let each_s = BEAM_S[0] + obstacles * BEAM_S[1] + self.max_range_m.get() * BEAM_S[2];
         let rate_hz = self.rate_hz.get();
-        let what = format!("{:.0} beams a second", beams * rate_hz);
+        let what = format!("{:.0} beams per second", beams * rate_hz);
         Cost::of(
             Part::new("rate_hz", what)
                 .takes(times.mission_s * rate_hz * beams * each_s)
@@ -138,17 +132,11 @@ pub struct Ranging {
 }
 
 impl Ranging {
-    /// A ranging at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A ranging at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step, or the fan cannot be.
-    pub fn new(
-        spec: &RangingSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step, or if the fan is out of range.
+    pub fn new(spec: &RangingSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.ranging.{field}"),
             problem,
@@ -196,14 +184,14 @@ impl Ranging {
             })
             .collect();
         Ok(Self {
-            every: super::tools::every("sensors.ranging.rate_hz", spec.rate_hz.get(), dt_s)?,
+            every: on.every("sensors.ranging.rate_hz", spec.rate_hz.get())?,
             p_BS,
             dirs_B,
             min_m,
             max_m,
             noise_m: spec.noise_m.get(),
             dropout: spec.dropout.get(),
-            rng: Stream::new(seed, robot_id, "ranging"),
+            rng: on.stream("ranging"),
         })
     }
 
@@ -221,7 +209,7 @@ impl Ranging {
         let from = truth.pose.point(self.p_BS);
         let mut beams = Vec::with_capacity(self.dirs_B.len());
         for dir_B in &self.dirs_B {
-            // Drawn for every beam, so that what is met shifts no later number.
+            // Drawn for every beam, so that the scene changes no later numbers.
             let (lost, noise) = (self.rng.uniform() < self.dropout, self.rng.normal());
             if lost {
                 continue;
@@ -250,7 +238,7 @@ impl Ranging {
     }
 }
 
-/// Way along a unit vector to the bed within `max_m`, m.
+/// Distance along a unit vector to the bed within `max_m`, m.
 fn way_to_bed(
     terrain: &Terrain,
     from: &Vector3<f64>,
@@ -261,7 +249,7 @@ fn way_to_bed(
         let p = from + dir * range;
         p.z - terrain.bed_z(p.x, p.y)
     };
-    // Over the whole beam no bed is higher than its ends' least depth allows: most beams end here.
+    // Over the whole beam the bed is no higher than the least depth at its ends allows: most beams end here.
     let lowest = from.z.min(from.z + dir.z * max_m);
     if lowest > -terrain.shallowest_m() {
         return None;

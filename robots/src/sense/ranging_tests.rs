@@ -25,7 +25,12 @@ fn pile(east_m: f64, north_m: f64) -> Obstacles {
 }
 
 fn ranging(spec: RangingSpec) -> Ranging {
-    Ranging::new(&spec, Vector3::new(0.8, 0.0, 0.0), "auv0", 1, 0.02).unwrap()
+    Ranging::new(
+        &spec,
+        Vector3::new(0.8, 0.0, 0.0),
+        &OnBoard::new("auv0", 1, 0.02),
+    )
+    .unwrap()
 }
 
 fn quiet() -> RangingSpec {
@@ -50,7 +55,7 @@ fn the_beam_ahead_meets_the_pile_and_the_others_pass_it() {
     let ahead = scan.beams[20];
     assert!((ahead.dir_B - Vector3::x()).norm() < 1e-12);
     assert!((ahead.echo_m.unwrap() - 18.7).abs() < 1e-9);
-    // Three degrees aside the line passes 0.98 m from the axis.
+    // Three degrees to the side the line passes 0.98 m from the axis.
     assert!(scan.beams.iter().filter(|b| b.echo_m.is_some()).count() == 1);
     // To the left of the body is west: a pile there echoes in the beams on the left.
     let west = ping(quiet(), &at(0.0, 0.0, -4.0), &pile(-8.0, 8.0), &BED);
@@ -122,7 +127,7 @@ fn beams_that_look_down_end_on_the_bed() {
 #[test]
 fn impossible_fans_are_refused() {
     let says = |spec: RangingSpec| {
-        Ranging::new(&spec, Vector3::zeros(), "a", 1, 0.02)
+        Ranging::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
             .expect_err("impossible")
             .to_string()
     };

@@ -1,22 +1,27 @@
-//! Sidescan sonar: at each ping the strength of the echo from either side by slant range, with water column, bottom, objects and the
-//! shadows behind them.
+//! Sidescan sonar: at each ping, the strength of the echo from either side by slant range, with water column, bottom,
+//! objects and their shadows.
 //!
-//! *Source:* the sonar equation for bottom reverberation with Lambert's law, S = μ + 10 log sin² γ (Lambert 1760, Photometria; Urick 1983,
-//! Principles of Underwater Sound, sections 8.2 and 8.11); what the picture shows, and that it is speckled: Blondel 2009, The Handbook
-//! of Sidescan Sonar, sections 2.3 and 4.2. Speckle: many scatterers in a cell make the amplitude Rayleigh, the intensity exponential.
+//! *Source:* the sonar equation for bottom reverberation with Lambert's law, S = μ + 10 log sin² γ (Lambert 1760,
+//! Photometria; Urick 1983, Principles of Underwater Sound, sections 8.2 and 8.11); contents and speckle of the
+//! picture: Blondel 2009, The Handbook of Sidescan Sonar, sections 2.3 and 4.2. Speckle: many scatterers in a cell
+//! make the amplitude Rayleigh, the intensity exponential.
 //!
-//! *Parameters:* pings a second `rate_hz` 10; slant range `range_m` 20 m in `samples` 400, the pulse's resolution; beam `beam_deg` 0.6° along the
-//! track, `aperture_deg` 50° up and down round an axis `tilt_deg` 20° below the horizontal (REMUS 100 carried a Marine Sonic of 600 or
-//! 900 kHz; class values, no data sheet was at hand); bed `bed_db` μ = −27 dB (Urick 1983, section 8.11: −27 to −29 dB fit many bottoms; sand
-//! in APL-UW TR 9407, section IV, lies near it at 10 to 40° and tens of kHz); obstacles by their own `surface.backscatter_db`; noise
-//! `floor_db` −60 dB: the backscatter strength whose echo from the greatest range equals the noise (thermal noise alone at 600 kHz
-//! gives −77 dB with 210 dB source level, 20 kHz bandwidth and 30 dB directivity; the rest is left to electronics and propeller);
-//! absorption `absorption_db_m` 0.17 dB/m (sea water at 600 kHz, 10 °C: François & Garrison 1982). `always` false: it pings only in a survey.
+//! *Parameters:* pings per second `rate_hz` 10; slant range `range_m` 20 m in `samples` 400, the pulse's resolution;
+//! beam `beam_deg` 0.6° along the track, `aperture_deg` 50° in the vertical about an axis `tilt_deg` 20° below the
+//! horizontal (REMUS 100 carried a Marine Sonic of 600 or 900 kHz; class values, because no data sheet was
+//! available); bed `bed_db` μ = −27 dB (Urick 1983, section 8.11: −27 to −29 dB fit many bottoms; sand in APL-UW TR
+//! 9407, section IV, lies near it at 10 to 40° and tens of kHz); obstacles by their own `surface.backscatter_db`;
+//! noise `floor_db` −60 dB: the backscatter strength whose echo from the greatest range equals the noise (thermal
+//! noise alone at 600 kHz gives −77 dB with 210 dB source level, 20 kHz bandwidth and 30 dB directivity; the rest is
+//! for electronics and propeller); absorption `absorption_db_m` 0.17 dB/m (sea water at 600 kHz, 10 °C: François &
+//! Garrison 1982). `always` false: it pings only during a survey.
 //!
-//! *Deviations:* the time-varied gain is exact, so that a bed of one strength differs with grazing angle and beam only; noise grows with
-//! it. Straight rays, no echo by way of the surface, no side lobes along the track, smooth bed without ripples. The ping is taken in an
-//! instant: in the 27 ms to 20 m and back a vehicle at 2 m/s moves 5 cm.
+//! *Deviations:* the time-varied gain is exact, so that a bed of one strength varies with grazing angle and beam
+//! only; noise grows with it. Rays are straight; there is no echo by way of the surface, no side lobe along the
+//! track, and the bed is smooth without ripples. The ping is instantaneous: in the 27 ms to 20 m and back a vehicle
+//! at 2 m/s moves 5 cm.
 
+use super::on_board::OnBoard;
 use super::sidescan_fan::Fan;
 use super::suite::{Around, Fitting, Sensor, SensorParams};
 use crate::error::RobotError;
@@ -43,16 +48,16 @@ const MOST: u32 = 4096;
 /// Speed of sound that limits the rate, m/s.
 const SOUND_M_S: f64 = 1500.0;
 
-/// Time of a sample, and of an obstacle on its way, s (see `world::cost`).
+/// Time for a sample, and for an obstacle on its way, s (see `world::cost`).
 const SAMPLE_S: [f64; 2] = [0.2e-6, 0.1e-6];
-/// Shares of a picture of a pass that are kept, bytes: at most so many lines, see `survey::waterfall`.
+/// Memory of the kept pictures of passes, bytes: the number of their lines is limited, see `survey::waterfall`.
 const PASSES_BYTES: f64 = 5e6;
 
-/// What a scenario may say of the sidescan sonar.
+/// Parameters of the sidescan sonar.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SidescanSpec {
-    /// Pings a second, Hz.
+    /// Pings per second, Hz.
     pub rate_hz: Positive,
     /// Greatest slant range, m.
     #[serde(deserialize_with = "world::limits::sonar_m")]
@@ -62,7 +67,7 @@ pub struct SidescanSpec {
     pub samples: u32,
     /// Width of the beam along the track, °.
     pub beam_deg: Positive,
-    /// Width of the beam up and down, to a half of the power one way, °.
+    /// Width of the beam in the vertical, to half of the one-way power, °.
     pub aperture_deg: Positive,
     /// Angle of the beam's axis below the horizontal, °.
     pub tilt_deg: NonNegative,
@@ -76,7 +81,7 @@ pub struct SidescanSpec {
     pub floor_db: Finite,
     /// Absorption, dB/m.
     pub absorption_db_m: NonNegative,
-    /// Pings all the time, not only while the vehicle surveys.
+    /// Whether it pings all the time, not only while the vehicle surveys.
     pub always: bool,
 }
 
@@ -107,18 +112,10 @@ impl Listed for SidescanSpec {
 
 impl SensorParams for SidescanSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         Ok(Box::new(Sidescan::new(
             self,
             on.place("sidescan")?,
-            robot_id,
-            seed,
-            dt_s,
+            &on.robot,
         )?))
     }
 
@@ -127,7 +124,7 @@ impl SensorParams for SidescanSpec {
         let samples = 2.0 * f64::from(self.samples) * rate_hz;
         let each_s = SAMPLE_S[0] + obstacles * SAMPLE_S[1];
         let used = if self.always { 1.0 } else { used };
-        let part = Part::new("rate_hz", format!("{samples:.0} samples a second"))
+        let part = Part::new("rate_hz", format!("{samples:.0} samples per second"))
             .holds(PASSES_BYTES)
             .takes(times.mission_s * used * samples * each_s)
             .by(rate_hz, 1.0);
@@ -153,27 +150,21 @@ pub struct Sidescan {
     every: Every,
     p_BS: Vector3<f64>,
     fan: Fan,
-    /// Noise of each sample, and what 0 dB is, as backscatter strengths.
+    /// Noise of each sample, and the reference of 0 dB, as backscatter strengths.
     noise: Vec<f64>,
     floor: f64,
     always: bool,
-    /// Strength of each sample before speckle, of the side at hand.
+    /// Strength of each sample of the present side, before speckle.
     echo: Vec<f64>,
     rng: Stream,
 }
 
 impl Sidescan {
-    /// A sidescan sonar at `p_BS` (body axes, m) of the robot `robot_id`.
+    /// A sidescan sonar at `p_BS` (body axes, m) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit range or step, or the beam cannot be.
-    pub fn new(
-        spec: &SidescanSpec,
-        p_BS: Vector3<f64>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit range or step, or if the beam is out of range.
+    pub fn new(spec: &SidescanSpec, p_BS: Vector3<f64>, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.sidescan.{field}"),
             problem,
@@ -207,7 +198,7 @@ impl Sidescan {
             floor * part * part * part * from_db(2.0 * spec.absorption_db_m.get() * (r - range_m))
         };
         Ok(Self {
-            every: super::tools::every("sensors.sidescan.rate_hz", rate_hz, dt_s)?,
+            every: on.every("sensors.sidescan.rate_hz", rate_hz)?,
             p_BS,
             fan: Fan {
                 range_m,
@@ -221,11 +212,11 @@ impl Sidescan {
             floor,
             always: spec.always,
             echo: vec![0.0; n],
-            rng: Stream::new(seed, robot_id, "sidescan"),
+            rng: on.stream("sidescan"),
         })
     }
 
-    /// The ping of this step, if one is due; `surveying`: the vehicle is on a survey.
+    /// The ping of this step, if one is due; `surveying` says whether the vehicle is on a survey.
     pub fn read(
         &mut self,
         clock: &Clock,
@@ -249,7 +240,8 @@ impl Sidescan {
                 &mut self.echo,
             );
             let heard = self.echo.iter().zip(&self.noise).map(|(echo, noise)| {
-                // Echo and noise are sums of many waves of random phase: the intensity of their sum is exponential.
+                // Echo and noise are sums of many waves of random phase, so the intensity of their sum is
+                // exponential.
                 let speckle = -math::ln(1.0 - self.rng.uniform());
                 let level = ((echo + noise) * speckle / self.floor).max(1e-15);
                 (10.0 / LN_10 * math::ln(level)) as f32

@@ -1,14 +1,16 @@
-//! The fan of rays of a sidescan sonar to one side: what comes back from each slant range.
+//! The fan of rays of a sidescan sonar to one side: the echo from each slant range.
 //!
-//! *Source:* energy from a surface element dA at range r under grazing angle γ: μ sin² γ dA / r⁴ (Urick 1983, sections 8.2 and 8.11); seen from
-//! the sonar the element fills the solid angle dΩ = dA sin γ / r² = Θ dψ. With the gain r³ of the time-varied amplifier and over a sample of
-//! length δr: μ sin γ r dψ / δr, which on a level bed is μ sin² ψ / cos ψ, Lambert's law with the area Θ r δr / cos ψ of a pulse on the bed.
+//! *Source:* energy from a surface element dA at range r under grazing angle γ: μ sin² γ dA / r⁴ (Urick 1983,
+//! sections 8.2 and 8.11); seen from the sonar the element fills the solid angle dΩ = dA sin γ / r² = Θ dψ. With the
+//! gain r³ of the time-varied amplifier and over a sample of length δr: μ sin γ r dψ / δr, which on a level bed is μ
+//! sin² ψ / cos ψ, Lambert's law with the area Θ r δr / cos ψ of a pulse on the bed.
 //!
-//! *Parameters:* see [`super::SidescanSpec`]. A ray for each sample that the bed reaches, more above where an obstacle is near
-//! (steps of [`ABOVE`]), three side by side across the beam there.
+//! *Parameters:* see [`super::SidescanSpec`]. There is one ray for each sample that the bed reaches. Where an
+//! obstacle is near, there are more above (steps of [`ABOVE`]), and three side by side across the beam.
 //!
-//! *Deviations:* a ray's energy is spread over the samples that its part of the surface covers, as if it were plane there: edges are sharp
-//! to a sample. The beam up and down is Gaussian with a floor of −40 dB; along the track it has edges.
+//! *Deviations:* a ray's energy is spread over the samples that its part of the surface covers, as if the surface
+//! were plane there: edges are sharp to a sample. The beam is Gaussian in the vertical with a floor of −40 dB; along
+//! the track it has sharp edges.
 
 use nalgebra::{UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -16,13 +18,13 @@ use world::math;
 use world::obstacles::{Obstacle, Obstacles};
 use world::terrain::Terrain;
 
-/// Rays above the bed's farthest: from this angle below the horizontal upwards (negative), in steps of, rad.
+/// Rays above the farthest ray to the bed: from this angle below the horizontal upwards (negative), in steps of, rad.
 const ABOVE: (f64, f64) = (-0.5, 0.005);
-/// Rays across the beam where an obstacle is near, in parts of its width.
+/// Rays across the beam where an obstacle is near, as shares of its width.
 const ACROSS: [f64; 3] = [-1.0 / 3.0, 0.0, 1.0 / 3.0];
-/// The beam passes this share of the power both ways at its least.
+/// Least share of the two-way power that the beam passes.
 const LEAST: f64 = 1e-4;
-/// A ray's part of a surface covers so many samples at most.
+/// Greatest number of samples that a ray's part of a surface covers.
 const WIDEST: f64 = 20.0;
 
 /// A fan to one side.
@@ -30,11 +32,11 @@ const WIDEST: f64 = 20.0;
 pub(super) struct Fan {
     /// Greatest range, m.
     pub(super) range_m: f64,
-    /// Samples over it.
+    /// Number of samples over the range.
     pub(super) samples: usize,
     /// Width along the track, rad.
     pub(super) beam_rad: f64,
-    /// Half the width up and down, rad.
+    /// Half the width in the vertical, rad.
     pub(super) half_aperture_rad: f64,
     /// Axis below the horizontal, rad.
     pub(super) tilt_rad: f64,
@@ -101,7 +103,8 @@ impl Fan {
         }
     }
 
-    /// Distance to the plane of the bed below within the plane of the fan, m, and by what angle it rises to the side, rad.
+    /// Distance within the plane of the fan to the plane of the bed below, m, and the angle by which it rises to the
+    /// side, rad.
     fn bed_below(&self, from: &Vector3<f64>, axes: &Axes, terrain: &Terrain) -> (f64, f64) {
         let Some(height) = terrain.ray(from, &axes.down, self.range_m) else {
             return (self.range_m, 0.0);
@@ -131,7 +134,7 @@ impl Fan {
         obstacles.0.iter().filter(meets).collect()
     }
 
-    /// One ray at `angle` below the horizontal, standing for a cell of `width` and a share of the beam.
+    /// One ray at `angle` below the horizontal; it represents a cell of `width` and a share of the beam.
     #[allow(clippy::too_many_arguments, reason = "a ray is all of these")]
     fn ray(
         &self,
@@ -174,11 +177,11 @@ impl Fan {
         deposit(echo, way / sample_m - half, way / sample_m + half, energy);
     }
 
-    /// Share of the power that the beam passes there and back.
+    /// Share of the two-way power that the beam passes.
     fn beam(&self, R_WB: &UnitQuaternion<f64>, dir: &Vector3<f64>) -> f64 {
         let below = math::asin((-R_WB.inverse_transform_vector(dir).z).clamp(-1.0, 1.0));
         let off = (below - self.tilt_rad) / self.half_aperture_rad;
-        // A half one way, a quarter both ways, at the aperture's edge.
+        // Half the power one way, a quarter both ways, at the aperture's edge.
         math::exp(-std::f64::consts::LN_2 * 2.0 * off * off).max(LEAST)
     }
 }
@@ -202,7 +205,7 @@ fn deposit(echo: &mut [f64], lo: f64, hi: f64, energy: f64) {
 fn axes(R_WB: &UnitQuaternion<f64>, port: bool) -> Axes {
     let ahead = R_WB * Vector3::x();
     let level = Vector3::z().cross(&ahead);
-    // A vehicle on its tail has no level side: its own will do.
+    // A vehicle that stands on its tail has no level side: then use its own.
     let left = if level.norm() > 1e-6 {
         level.normalize()
     } else {

@@ -17,7 +17,7 @@ fn block(east_m: f64, north_m: f64, bed: &Terrain) -> Obstacles {
 }
 
 fn sonar(spec: SidescanSpec) -> Sidescan {
-    Sidescan::new(&spec, Vector3::zeros(), "auv0", 1, 0.02).unwrap()
+    Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("auv0", 1, 0.02)).unwrap()
 }
 
 /// Mean strength (dB above the floor) of each sample to starboard over `pings`, by intensities.
@@ -63,7 +63,8 @@ fn a_level_bed_follows_lambert_behind_the_water_column() {
 
 #[test]
 fn a_block_is_bright_and_throws_a_shadow_of_the_right_length() {
-    // Heading north, starboard is east; its face at 9.5 m, its top edge a metre up, half as high as the sonar.
+    // Heading north, starboard is east; the block's face is at 9.5 m, its top edge a metre up, half as high as the
+    // sonar.
     let bare = mean(&low(), &Obstacles::default(), &BED, 100);
     let got = mean(&low(), &block(10.0, 0.0, &BED), &BED, 100);
     let slant = |ground: f64, up: f64| (ground * ground + (2.0 - up) * (2.0 - up)).sqrt();
@@ -78,14 +79,14 @@ fn a_block_is_bright_and_throws_a_shadow_of_the_right_length() {
     for k in sample(slant(10.5, 1.0)) + 3..400 {
         assert!(got[k] < bare[k] - 8.0, "{k}: {} under {}", got[k], bare[k]);
     }
-    // A block nearer by throws a shorter shadow: from 5.5 to 11 m, and the bed beyond is as ever.
+    // A nearer block has a shorter shadow: from 5.5 to 11 m, and the bed beyond is unchanged.
     let got = mean(&low(), &block(5.0, 0.0, &BED), &BED, 100);
     let dark = (sample(slant(5.5, 1.0)) + 2..400).filter(|k| got[*k] < bare[*k] - 6.0);
     let dark: Vec<_> = dark.collect();
     let end = *dark.last().unwrap() as f64 * 0.05;
     assert!((end - slant(11.0, 0.0)).abs() < 0.3, "{end}");
     assert!(dark.len() > 90, "{}", dark.len());
-    // Ahead of the beam and to port it is not met: the samples are the same, bit by bit.
+    // Ahead of the beam and to port it is not hit: the samples are the same, bit by bit.
     for away in [block(10.0, 3.0, &BED), block(-10.0, 0.0, &BED)] {
         assert_eq!(mean(&low(), &away, &BED, 100), bare);
     }
@@ -125,8 +126,8 @@ fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
     };
     let bare = mean(&low(), &Obstacles::default(), &slope, 400);
     let level = mean(&low(), &Obstacles::default(), &BED, 400);
-    // At 15 m the ray meets the rising bed at a greater angle: sin of asin(1.99 / 15) against 2 / 15 is the same, but seen
-    // below the horizontal it is 5.7 degrees higher up, in the upper half of the beam.
+    // At 15 m the ray meets the rising bed at a greater angle: sin of asin(1.99 / 15) against 2 / 15 is the same, but
+    // seen below the horizontal it is 5.7 degrees higher up, in the upper half of the beam.
     let k = 300;
     let off = |deg: f64| 6.0206 * ((deg - 20.0) / 25.0) * ((deg - 20.0) / 25.0);
     let want = off(7.6) - off(7.6 - 5.7);
@@ -135,7 +136,7 @@ fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
         "{} for {want}",
         bare[k] - level[k]
     );
-    // No gaps and no heaps: neighbouring samples differ by no more than speckle and the law's own fall.
+    // No gaps and no peaks: neighbouring samples differ by no more than speckle and the law's own decrease.
     for k in 60..399 {
         assert!((bare[k] - bare[k + 1]).abs() < 2.5, "{k}");
     }
@@ -167,7 +168,7 @@ fn off_a_survey_it_is_silent_unless_told() {
 #[test]
 fn what_cannot_be_is_refused() {
     let says = |spec: SidescanSpec| {
-        Sidescan::new(&spec, Vector3::zeros(), "a", 1, 0.02)
+        Sidescan::new(&spec, Vector3::zeros(), &OnBoard::new("a", 1, 0.02))
             .expect_err("impossible")
             .to_string()
     };

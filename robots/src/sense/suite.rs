@@ -1,6 +1,7 @@
-//! All instruments of a robot, read in one go.
+//! All instruments of a robot, read together.
 
 use super::camera::{CameraSpec, Optics};
+use super::on_board::OnBoard;
 use super::tools::Below;
 use super::{
     AdcpSpec, AltimeterSpec, CompassSpec, CtdSpec, DepthSpec, DvlSpec, FluorometerSpec, LblSpec,
@@ -18,27 +19,23 @@ use world::obstacles::Obstacles;
 use world::registry::{Kind, Row, Set, Spec, Takes};
 use world::terrain::Terrain;
 
-/// Share of a mission in which a vehicle surveys or looks with its camera, of one that does so at all.
+/// Share of a mission during which a vehicle surveys or uses its camera, if it does so at all.
 const SURVEYS: f64 = 0.05;
 
-/// Where an instrument is fitted.
+/// The place where an instrument is fitted.
 #[derive(Clone, Copy)]
 pub struct Fitting<'a> {
-    /// The pose in body axes of the vehicle's mount of a name.
+    /// The pose in body axes of a mount of the vehicle, by its name.
     pub mounts: &'a dyn Fn(&str) -> Option<Pose>,
-    /// Its name.
-    pub robot_id: &'a str,
-    /// Seed of the run.
-    pub seed: u64,
-    /// Step, s.
-    pub dt_s: f64,
+    /// The robot.
+    pub robot: OnBoard<'a>,
 }
 
 impl Fitting<'_> {
     /// The mount of a name.
     ///
     /// # Errors
-    /// When the vehicle has none.
+    /// If the vehicle has none.
     pub fn mount(&self, name: &str) -> Result<Pose, RobotError> {
         (self.mounts)(name).ok_or_else(|| RobotError::Invalid {
             field: format!("sensors.{name}"),
@@ -49,13 +46,13 @@ impl Fitting<'_> {
     /// Its place in body axes, m.
     ///
     /// # Errors
-    /// When the vehicle has none.
+    /// If the vehicle has none.
     pub fn place(&self, name: &str) -> Result<Vector3<f64>, RobotError> {
         self.mount(name).map(|pose| pose.p_WB)
     }
 }
 
-/// All that is there to be sensed in a step.
+/// Everything that can be sensed in a step.
 #[derive(Clone, Copy)]
 pub struct Around<'a> {
     /// Time.
@@ -68,11 +65,11 @@ pub struct Around<'a> {
     pub dye: &'a dyn Concentration,
     /// The bed.
     pub terrain: &'a Terrain,
-    /// What stands on it.
+    /// Solids in the water.
     pub obstacles: &'a Obstacles,
     /// Light in the water.
     pub optics: &'a Optics,
-    /// What the strategy asked for.
+    /// Requests of the strategy.
     pub asked: Asked,
 }
 
@@ -87,37 +84,39 @@ impl Around<'_> {
     }
 }
 
-/// An instrument at work. It draws from a stream of its own: `Stream::new(seed, robot_id, name)`.
+/// An instrument. It draws from a stream of its own: [`OnBoard::stream`].
 pub trait Sensor: std::fmt::Debug + Send + Sync {
-    /// Reads what is around it, and writes what it says in this step.
+    /// Reads its surroundings, and writes its readings of this step.
     fn sense(&mut self, around: &Around, readings: &mut Readings);
 }
 
-/// Parameters of an instrument; named as the field of `sensors`.
+/// Parameters of an instrument; their name is the field of `sensors`.
 pub trait SensorParams: Spec {
-    /// The instrument on a vehicle.
+    /// Builds the instrument on a vehicle.
     ///
     /// # Errors
-    /// When a mount is missing or the instrument cannot be as described.
+    /// If a mount is missing, or if a parameter is out of range.
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
 
-    /// What it takes among so many obstacles, asked for a share `used` of the mission; paths below its field.
+    /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
+    /// field.
     fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
         Cost::default()
     }
 }
 
-/// The instruments a scenario can fit to a robot.
+/// The instruments that a scenario can fit to a robot.
 #[derive(Clone, Copy, Debug)]
 pub enum Sensors {}
 
-/// The instruments on board; one left out is not there.
+/// The instruments on board; those not named are missing.
 pub type SensorsSpec = Set<Sensors>;
 
 impl Kind for Sensors {
     type Spec = dyn SensorParams;
     const NAME: &'static str = "SensorsSpec";
     const HEADING: &'static str = "Sensors";
+    const WHAT: &'static str = "Instruments of a robot, each under its name. A robot has those that are given, and no others.";
 
     fn built_in() -> Vec<Row<Self>> {
         vec![
@@ -142,7 +141,8 @@ impl<S: SensorParams + 'static> Takes<S> for Sensors {
     }
 }
 
-/// What instruments take among so many obstacles; paths below `sensors`. `looks`: whether the strategy asks for sidescan or pictures.
+/// Memory and time of the instruments among so many obstacles; paths below `sensors`. `looks` says whether the
+/// strategy uses sidescan or camera.
 #[must_use]
 pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times) -> Cost {
     let mut cost = Cost::default();
@@ -154,7 +154,7 @@ pub fn cost(sensors: &SensorsSpec, obstacles: usize, looks: bool, times: &Times)
     cost
 }
 
-/// What the strategy asked of the instruments in the step before.
+/// Requests of the strategy to the instruments in the step before.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Asked {
     /// A picture.
@@ -177,29 +177,22 @@ impl From<&Decision> for Asked {
 pub struct SensorSuite(Vec<Box<dyn Sensor>>);
 
 impl SensorSuite {
-    /// The instruments of `spec`. `mounts` gives the pose in body axes of the vehicle's mount of a
-    /// name (that of the instrument; compass and baseline need none).
+    /// The instruments of `spec`. `mounts` gives the pose in body axes of a mount of the vehicle by its name (that of
+    /// the instrument; compass and baseline need none).
     ///
     /// # Errors
-    /// When a mount is missing or an instrument cannot be as described.
+    /// If a mount is missing, or if an instrument's parameter is out of range.
     pub fn new(
         spec: &SensorsSpec,
         mounts: &dyn Fn(&str) -> Option<Pose>,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
+        robot: OnBoard,
     ) -> Result<Self, RobotError> {
-        let on = Fitting {
-            mounts,
-            robot_id,
-            seed,
-            dt_s,
-        };
+        let on = Fitting { mounts, robot };
         let all = spec.iter().map(|s| s.build(&on));
         all.collect::<Result<_, _>>().map(Self)
     }
 
-    /// What the instruments say in this step.
+    /// The readings of all instruments in this step.
     pub fn read(&mut self, around: &Around) -> Readings {
         let mut readings = Readings::default();
         for sensor in &mut self.0 {
@@ -241,7 +234,7 @@ mod tests {
                 world::units::Heading::from_deg(90.0),
             ))
         };
-        let mut suite = SensorSuite::new(spec, &mounts, robot_id, 1, 0.02).unwrap();
+        let mut suite = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
         let t = at(0.0, 0.0, -5.0);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
@@ -293,7 +286,7 @@ mod tests {
             }
             assert!(readings(&spec, "auv0") == want, "without {name}");
         }
-        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and what came through of 3 fixes.
+        // 100 s at 10, 5, 1, 25, 25, 10, 5, 2 and 1 Hz, and the successful ones of 3 fixes.
         let fixes = whole.iter().filter(|r| r.lbl.is_some()).count();
         assert_eq!(
             lost,
@@ -314,10 +307,12 @@ mod tests {
             (name != "adcp")
                 .then(|| Pose::level(Vector3::zeros(), world::units::Heading::from_deg(0.0)))
         };
-        let e = SensorSuite::new(&all(), &none, "auv0", 1, 0.02).expect_err("no adcp mount");
+        let e = SensorSuite::new(&all(), &none, OnBoard::new("auv0", 1, 0.02))
+            .expect_err("no adcp mount");
         assert_eq!(
             e.to_string(),
-            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the sensor out"
+            "sensors.adcp: the vehicle has no mount \"adcp\": add a link of that name to its URDF, or leave the \
+            sensor out"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! What the instruments' tests share: a vehicle, a clock that runs, and the statistics of noise.
+//! Shared by the instruments' tests: a vehicle, a running clock, and the statistics of noise.
 
 use super::tools::Below;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -28,7 +28,7 @@ pub(super) fn nose_up(mut truth: Truth, angle_deg: f64) -> Truth {
     truth
 }
 
-/// Collects what `read` says in `steps` steps of `dt_s`.
+/// Collects the results of `read` in `steps` steps of `dt_s`.
 pub(super) fn run<T>(steps: u64, dt_s: f64, mut read: impl FnMut(&Clock) -> Option<T>) -> Vec<T> {
     let mut clock = Clock::new(dt_s);
     let mut said = Vec::new();

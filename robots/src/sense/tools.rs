@@ -1,29 +1,9 @@
-//! What several instruments need: rates that fit the step, and the way along a beam to the bed.
+//! Shared by several instruments: noise, and the distance along a beam to the bed.
 
-use crate::error::RobotError;
 use nalgebra::Vector3;
-use world::clock::Every;
 use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
-
-/// Steps between two readings at `rate_hz`.
-///
-/// # Errors
-/// When the instrument would have to read more than once in a step.
-pub(super) fn every(field: &str, rate_hz: f64, dt_s: f64) -> Result<Every, RobotError> {
-    // A thousandth of slack: 1 / 0.02 is not exactly 50.
-    if rate_hz * dt_s > 1.001 {
-        return Err(RobotError::Invalid {
-            field: field.to_owned(),
-            problem: format!(
-                "{rate_hz} Hz is more than one reading a step; at most {} Hz with steps of {dt_s} s",
-                1.0 / dt_s
-            ),
-        });
-    }
-    Ok(Every::period(1.0 / rate_hz, dt_s))
-}
 
 /// Three independent normal numbers of one standard deviation.
 pub(super) fn normal3(rng: &mut Stream, std: f64) -> Vector3<f64> {
@@ -36,20 +16,20 @@ pub(super) fn normal3(rng: &mut Stream, std: f64) -> Vector3<f64> {
 pub struct Below<'a> {
     /// The bed.
     pub terrain: &'a Terrain,
-    /// What stands on it or hangs above.
+    /// Solids on the bed or above it.
     pub obstacles: &'a Obstacles,
 }
 
-/// Way from `from` (ENU, m) along the unit vector `dir` to the bed or an obstacle before it, m; `None` when the beam does
-/// not point down steeply enough (less than 60° from the vertical) to count on an echo.
+/// Distance from `from` (ENU, m) along the unit vector `dir` to the bed or an obstacle before it, m; `None` if the
+/// beam does not point down steeply enough (less than 60° from the vertical) to expect an echo.
 pub(super) fn range_down(below: &Below, from: &Vector3<f64>, dir: &Vector3<f64>) -> Option<f64> {
     let terrain = below.terrain;
     const STEEPEST_TILT_COS: f64 = 0.5;
     if -dir.z < STEEPEST_TILT_COS {
         return None;
     }
-    // Walk down to the bed under the present end of the beam: on slopes far gentler than the
-    // beam each pass shrinks the miss by slope × tan(tilt).
+    // Moves down to the bed below the present end of the beam: on slopes far gentler than the beam, each pass reduces
+    // the error by slope × tan(tilt).
     const PASSES: usize = 8;
     let mut range = 0.0;
     for _ in 0..PASSES {

@@ -9,7 +9,8 @@ use super::subsumption::SubsumptionSpec;
 use world::kind;
 
 kind! {
-    /// The strategies a scenario can ask for.
+    /// Strategies, which decide what a robot does from launch to the end of its mission. Most combine behaviours and a
+    /// declaration rule, each chosen by name.
     pub StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
         rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec],

@@ -8,16 +8,17 @@
 
 use super::spec::{Strategy, StrategyParams};
 use crate::behave::TimeTable;
+use crate::behave::{Behave, Stride};
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, PlumeMemory, Setting,
-    Stride, Vertical,
+    Behaviour, Decision, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
 };
+use crate::memory::PlumeMemory;
 use world::catalogue::Entry;
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// The time table.
+/// Parameters: the time table.
 pub type OpenLoopSpec = crate::behave::TimeTableParams;
 
 impl Listed for OpenLoopSpec {
@@ -49,7 +50,7 @@ pub struct OpenLoop {
 
 impl OpenLoop {
     /// # Errors
-    /// [`RobotError::Invalid`] when the table's times are not in order.
+    /// [`RobotError::Invalid`] if the table's times are not in order.
     pub fn new(spec: &OpenLoopSpec) -> Result<Self, RobotError> {
         Ok(Self {
             table: TimeTable::new(spec)?,
@@ -96,7 +97,7 @@ impl Strategy for OpenLoop {
     }
 }
 
-/// A direct goal; its depth and speed are what the vehicle has, and nobody steers by them.
+/// A direct goal; its depth and speed are the vehicle's present ones, and nothing uses them.
 fn direct(id: u32, manoeuvre: Manoeuvre, seen: &Observation) -> Goal {
     Goal {
         id,

@@ -1,4 +1,4 @@
-//! What a scenario says about the strategy.
+//! What a scenario can say about the strategy.
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
@@ -11,34 +11,34 @@ use world::ranges::{NonNegative, Positive};
 use world::registry::Spec;
 use world::seeds::Stream;
 
-/// A strategy: sees an observation a tick and decides what to ask of the guidance.
+/// A strategy: takes one observation per tick and decides what to command the guidance.
 pub trait Strategy: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision;
 }
 
-/// Parameters of a strategy, and what they say of it before it is built.
+/// Parameters of a strategy, and what they tell before it is built.
 pub trait StrategyParams: Spec {
-    /// The strategy, ready for its first tick.
+    /// Builds the strategy.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when fields contradict each other.
+    /// [`RobotError::Invalid`] if fields contradict each other.
     fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError>;
 
-    /// That what it plans in is no more than a planner can have, without making any of it.
+    /// Checks that a planner can hold the strategy's room, without building any of it.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when it is.
+    /// [`RobotError::Invalid`] if it cannot.
     fn check(&self, _setting: &Setting) -> Result<(), RobotError> {
         Ok(())
     }
 
-    /// It looks for a source: it wants a chemical sensor and a flow, and something to find.
+    /// Whether it looks for a source: it then needs a chemical sensor, a flow estimate, and something to find.
     fn searches(&self) -> bool {
         true
     }
 
-    /// It needs a forward ranging on board.
+    /// Whether it needs a forward ranging on board.
     fn needs_ranging(&self) -> bool {
         false
     }
@@ -48,27 +48,27 @@ pub trait StrategyParams: Spec {
         [false; 2]
     }
 
-    /// The heights and speeds that it will ask for.
+    /// The heights and speeds that it will command.
     fn wishes(&self) -> Wishes {
         Wishes::default()
     }
 
-    /// Most declarations of it that can stand at the end: what it rejects itself does not.
+    /// Most declarations of it that can remain at the end; those that it rejects itself do not remain.
     fn declares_at_most(&self) -> usize {
         usize::from(self.searches())
     }
 
-    /// Its decisions name subregions.
+    /// Whether its decisions name subregions.
     fn has_regions(&self) -> bool {
         false
     }
 
-    /// Its decisions name layers.
+    /// Whether its decisions name layers.
     fn has_layers(&self) -> bool {
         false
     }
 
-    /// What it takes; paths below `strategy`.
+    /// Its memory and time; paths below `strategy`.
     fn cost(&self, _area: &Area, _depth_m: f64, _obstacles: usize, _times: &Times) -> Cost {
         Cost::default()
     }

@@ -1,11 +1,12 @@
-//! What a strategy will ask of its vehicle, as far as its parameters tell: heights, speeds, how much it declares.
+//! What a strategy will demand of its vehicle, as far as its parameters tell: heights, speeds, number of
+//! declarations.
 
 use super::spec::VerticalSpec;
 use super::survey::{AfterDeclaration, SurveySpec};
 use crate::handoff::Vertical;
 use world::ranges::Positive;
 
-/// Heights and speeds, each with the path of its field from the strategy's block.
+/// Heights and speeds, each with the path of its field below the strategy.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wishes {
     /// Altitudes and depths.
@@ -15,7 +16,7 @@ pub struct Wishes {
 }
 
 impl Wishes {
-    /// Those of a mission at one speed and height.
+    /// The demands of a mission at one speed and height.
     pub(super) fn mission(speed_m_s: Positive, vertical: VerticalSpec) -> Self {
         Self {
             verticals: vec![("vertical".to_string(), vertical.into())],
@@ -23,7 +24,7 @@ impl Wishes {
         }
     }
 
-    /// And those of a survey, by its field.
+    /// With those of a survey, by its field.
     pub(super) fn survey(mut self, path: &str, survey: &SurveySpec) -> Self {
         let passes = [
             ("sidescan", survey.sidescan.as_ref().map(|s| s.altitude_m)),
@@ -38,7 +39,7 @@ impl Wishes {
         self
     }
 
-    /// And those of what follows a declaration.
+    /// With those of what follows a declaration.
     pub(super) fn after(self, after: &AfterDeclaration) -> Self {
         match after {
             AfterDeclaration::Survey(survey) => self.survey("after_declaration", survey),
@@ -46,7 +47,7 @@ impl Wishes {
         }
     }
 
-    /// As those of a strategy within another, by its field.
+    /// The same as demands of a strategy within another one, below its field.
     pub(super) fn within(self, path: &str) -> Self {
         Self {
             verticals: (self.verticals.into_iter())

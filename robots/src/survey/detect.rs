@@ -1,28 +1,30 @@
-//! Objects on the bed in a sidescan's picture: a bright return, and behind it, as seen from the sonar, its shadow.
+//! Objects on the bed in a sidescan picture: a bright return with its shadow behind it, as seen from the sonar.
 //!
-//! *Source:* matched filter of highlight and shadow with a threshold by the background's own statistics: Dobeck, Hyland & Smedley 1997, Proc.
-//! SPIE 3079, 90; what makes a highlight and a shadow one object, and its height from the shadow, H = h L / (g + L) for a shadow of length L behind an
-//! edge at g: Reed, Petillot & Bell 2003, IEEE J. Oceanic Eng. 28, 90; layover: Blondel 2009, section 4.2.
+//! *Source:* matched filter of highlight and shadow with a threshold by the background's own statistics: Dobeck,
+//! Hyland & Smedley 1997, Proc. SPIE 3079, 90; which highlight and shadow belong to one object, and its height from
+//! the shadow, H = h L / (g + L) for a shadow of length L behind an edge at g: Reed, Petillot & Bell 2003, IEEE J.
+//! Oceanic Eng. 28, 90; layover: Blondel 2009, section 4.2.
 //!
-//! *Parameters:* see [`DetectSpec`]; none of them is printed in a form that carries over. `contrast` 12 is what the tests ask for: no false
-//! alarm in 0.3 square kilometres of speckle, and a block of a metre in a pass of 60 m.
+//! *Parameters:* see [`DetectSpec`]; none of them is printed in a form that can be taken over. `contrast` 12 meets
+//! the tests: no false alarm in 0.3 square kilometres of speckle, and a block of a metre found in a pass of 60 m.
 //!
-//! *Deviations:* levels in dB over the median of their distance's cells, in units of its spread (1.4826 times the median deviation), so that
-//! beam, slope and noise need not be known. Windows are rectangles of [`LENGTHS_M`] by [`WIDTHS_M`] with a shadow of [`SHADOWS_M`]. The object's
-//! place is the middle of its highlight, set right for the layover of its top.
+//! *Deviations:* levels are in dB over the median of the cells at the same distance, in units of their spread (1.4826
+//! times the median deviation), so that beam, slope and noise need not be known. Windows are rectangles of
+//! [`LENGTHS_M`] by [`WIDTHS_M`] with a shadow of [`SHADOWS_M`]. The object's place is the middle of its highlight,
+//! corrected for the layover of its top.
 
 use super::{DetectSpec, Row, Waterfall};
 use nalgebra::Vector2;
 
-/// Lengths along the track, widths across and lengths of shadow that are tried, m.
+/// Lengths along the track, widths across it and lengths of shadow that are tried, m.
 const LENGTHS_M: [f64; 3] = [0.5, 1.0, 2.0];
 const WIDTHS_M: [f64; 3] = [0.5, 1.0, 2.0];
 const SHADOWS_M: [f64; 3] = [1.0, 2.0, 4.0];
-/// Fewest lines of a picture that have a background.
+/// Least number of lines of a picture from which a background can be estimated.
 const FEWEST: usize = 20;
-/// Rounds in which height and layover of an object are made to agree; each leaves about a half of the miss.
+/// Rounds in which height and layover of an object are made consistent; each halves the error.
 const ROUNDS: u32 = 8;
-/// The median deviation of a normal number is this part of its standard deviation.
+/// Ratio of the standard deviation of a normal number to its median deviation.
 const MEDIAN_TO_STD: f64 = 1.4826;
 
 /// An object in the picture of a pass.
@@ -32,17 +34,17 @@ pub struct Object {
     pub place: Vector2<f64>,
     /// Highlight over shadow, standard errors of the background.
     pub contrast: f64,
-    /// Heard to port.
+    /// Whether it was heard to port.
     pub port: bool,
-    /// Way along the track, m.
+    /// Distance along the track, m.
     pub along_m: f64,
     /// Distance from the track, m.
     pub ground_m: f64,
     /// Size along the track, m.
     pub length_m: f64,
-    /// Size across it, m.
+    /// Size across the track, m.
     pub width_m: f64,
-    /// Height above the bed by the length of its shadow, m; at least that where the shadow reaches out of the range.
+    /// Height above the bed from the length of its shadow, m; a lower bound if the shadow reaches beyond the range.
     pub height_m: f64,
 }
 
@@ -59,12 +61,12 @@ pub fn detect(picture: &Waterfall, spec: &DetectSpec) -> Vec<Object> {
     found
 }
 
-/// One side's levels over the background, dB, with sums over rectangles.
+/// One side's levels above the background, dB, with sums over rectangles.
 struct Side {
     port: bool,
     rows: usize,
     columns: usize,
-    /// dB over the background; zero where nothing was heard.
+    /// dB above the background; zero where nothing was heard.
     over_db: Vec<f64>,
     /// Spread of each column, dB; not a number where nothing was heard.
     spread_db: Vec<f64>,
@@ -72,7 +74,7 @@ struct Side {
     sums: [Vec<f64>; 2],
 }
 
-/// Lines and columns of a rectangle, ends left out.
+/// Lines and columns of a rectangle, without their ends.
 #[derive(Clone, Copy)]
 struct Window {
     rows: (usize, usize),
@@ -106,7 +108,7 @@ impl Side {
                     .map(|l| f64::from(l[k]))
                     .filter(|v| v.is_finite()),
             );
-            // A change of height moves the strip below the vehicle that nothing is heard of.
+            // A change of height moves the blind strip below the vehicle.
             if column.len() < FEWEST.max(rows / 2) {
                 continue;
             }
@@ -210,7 +212,8 @@ impl Side {
             }
             let bright = self.grown(light);
             let shade = self.shade(bright, heard);
-            // The highlight with its surroundings and shadow is one thing, whatever windows fit parts of it.
+            // The highlight with its surroundings and shadow is one object, although other windows may fit parts of
+            // it.
             let (apron, aside) = (cells(1.0), lines(1.0));
             taken.push(Window {
                 rows: (bright.rows.0.saturating_sub(aside), bright.rows.1 + aside),
@@ -228,7 +231,8 @@ impl Side {
         objects
     }
 
-    /// The window fitted to its highlight: sides move out while the line beyond is at least half as bright, in if it is not.
+    /// The window fitted to its highlight: a side moves out while the line beyond is at least half as bright, and in
+    /// if it is not.
     fn grown(&self, mut w: Window) -> Window {
         let half = 0.5 * self.mean(0, w);
         let line = |i: usize, w: &Window| {
@@ -273,7 +277,8 @@ impl Side {
         w
     }
 
-    /// The shadow behind a highlight: as far out as the cells are nearer to its darkness than to the bed.
+    /// The shadow behind a highlight: it reaches outward as long as the cells are nearer to its darkness than to the
+    /// bed.
     fn shade(&self, light: Window, heard: usize) -> Window {
         let from = light.columns.1.min(heard - 1);
         let column = |k: usize| {
@@ -303,7 +308,7 @@ impl Side {
         (contrast, light, shade): (f64, Window, Window),
     ) -> Object {
         let (rows, cell): (&[Row], f64) = (picture.rows(), picture.cell_m());
-        // The middle by brightness along the track: the beam is as wide as a cell or two there.
+        // The middle by brightness along the track: the beam is one or two cells wide there.
         let (mut weight, mut middle) = (0.0, 0.0);
         for i in light.rows.0..light.rows.1 {
             for k in light.columns.0..light.columns.1 {
@@ -325,7 +330,8 @@ impl Side {
             metres(shade.columns.1),
         );
         let h = row.height_m;
-        // Its top is nearer to the sonar than the bed below it: a return at ground range g by the bed comes from farther off.
+        // Its top is nearer to the sonar than the bed below it: a return at ground range g on a flat bed comes from
+        // farther off.
         let from_top = |ground: f64, high: f64| {
             let up = (h - high).max(0.0);
             (ground * ground + h * h - up * up).max(0.0).sqrt()

@@ -19,7 +19,8 @@ fn a_block_is_found_where_it_is_on_either_side_near_and_far() {
         );
         assert_eq!(found.len(), 1, "{across}: {found:?}");
         let o = &found[0];
-        // The line's place is that of its end: along the track a cell and a half, across the layover of its top.
+        // The line's place is that of its end: one and a half cells along the track; across it the layover of its
+        // top.
         let off = o.place - Vector2::new(across, 30.0);
         assert!(off.x.abs() < 0.6 && off.y.abs() < 0.6, "{across}: {o:?}");
         assert_eq!(o.port, across < 0.0);
@@ -30,14 +31,15 @@ fn a_block_is_found_where_it_is_on_either_side_near_and_far() {
 
 #[test]
 fn speckle_alone_gives_no_object_in_a_third_of_a_square_kilometre() {
-    // A pass of 1 km images 38 m across less the strip below: 8 of them are 0.3 square kilometres. None in these bounds the
-    // rate below 10 in a square kilometre with 95 % (-ln 0.05 = 3 events expected); a survey images 0.007.
+    // A pass of 1 km images 38 m across without the strip below: 8 of them are 0.3 square kilometres. No false alarm
+    // in them bounds the rate below 10 in a square kilometre with 95 % (-ln 0.05 = 3 events expected); a survey
+    // images 0.007.
     let spec = DetectSpec::default();
     let found: usize = (0..8)
         .map(|seed| detect(&fly(&Bed::bare(seed), 1000.0), &spec).len())
         .sum();
     assert_eq!(found, 0);
-    // The threshold is what keeps it so: with a lower one and no demands on dB speckle does come through.
+    // The threshold is the reason: with a lower one and no demands on dB, speckle does pass.
     let eager = DetectSpec {
         contrast: world::ranges::Positive::new(3.5),
         highlight_db: world::ranges::Positive::new(0.5),

@@ -1,24 +1,24 @@
-//! Objects of several passes that are one.
+//! Merges objects of several passes that are the same.
 //!
 //! *Source:* mean of repeated fixes, weighted by the square of their contrast.
 //!
-//! *Parameters:* `merge_m`, m: the navigation's jumps move an object by some 10 m between two passes.
+//! *Parameters:* `merge_m`, m: jumps of the navigation move an object by some 10 m between two passes.
 //!
 //! *Deviations:* none. The strongest object gathers those near it, then the strongest of the rest does.
 
 use super::Object;
 use nalgebra::Vector2;
 
-/// An object with all that was seen of it.
+/// An object with all its sightings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Found {
     /// Believed place (east, north), m.
     pub place: Vector2<f64>,
     /// Contrast of all sightings together, standard errors.
     pub contrast: f64,
-    /// How many sightings.
+    /// Number of sightings.
     pub sightings: u32,
-    /// Height above the bed by the strongest sighting's shadow, m.
+    /// Height above the bed from the strongest sighting's shadow, m.
     pub height_m: f64,
 }
 

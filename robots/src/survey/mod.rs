@@ -1,4 +1,4 @@
-//! What a sidescan's pings show: lines of a picture of the bed, and the objects on it.
+//! Turns a sidescan's pings into lines of a picture of the bed, and finds the objects in it.
 
 mod catalogue;
 mod detect;

@@ -1,24 +1,24 @@
-//! What a scenario says of the search for objects in a sidescan's picture.
+//! Parameters of the search for objects in a sidescan picture.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
-/// When a bright return with a shadow behind it is an object.
+/// When a bright return with a shadow behind it counts as an object.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct DetectSpec {
     /// Least contrast of highlight over shadow, in standard errors of the bed's own speckle.
     pub contrast: Positive,
-    /// The highlight is at least this much over the bed round it, dB.
+    /// The highlight is at least this much above the bed around it, dB.
     pub highlight_db: Positive,
-    /// The shadow is at least this much under it, dB.
+    /// The shadow is at least this much below the bed around it, dB.
     pub shadow_db: Positive,
     /// Least width and length of the highlight, m.
     pub least_m: Positive,
     /// Greatest width and length of it, m.
     pub most_m: Positive,
-    /// Objects of two passes nearer to each other than this are one, m: fixes of the navigation come in between.
+    /// Objects of two passes nearer to each other than this are the same, m; navigation fixes occur between passes.
     pub merge_m: Positive,
 }
 

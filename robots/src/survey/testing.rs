@@ -14,7 +14,7 @@ const RANGE_M: f64 = 20.0;
 /// Height of the sonar, m.
 pub(super) const HEIGHT_M: f64 = 3.0;
 
-/// A bed with blocks: along the track and to starboard (negative: port) of it, size, height, m.
+/// A bed with blocks. Of each block: place along the track and to starboard (negative: port), size, height, m.
 pub(super) struct Bed {
     pub(super) blocks: Vec<(Vector2<f64>, f64, f64)>,
     /// Bright patches without height: middle and size, m.
@@ -31,7 +31,7 @@ impl Bed {
         }
     }
 
-    /// Strength of the echo from slant range `r` at `along` to a side (sign), as a factor over the noise.
+    /// Strength of the echo from slant range `r` at `along` on a side (sign), as a factor of the noise.
     fn strength(&self, along: f64, sign: f64, r: f64) -> f64 {
         if r <= HEIGHT_M {
             return 1e-3;
@@ -54,7 +54,7 @@ impl Bed {
             let up = HEIGHT_M - high;
             let slant = |g: f64, h: f64| (g * g + h * h).sqrt();
             if r > slant(near, up) && r < slant(far, up) {
-                // Rock, 17 dB over the sand, met at half a right angle or less.
+                // Rock, 17 dB above the sand, met at 45 degrees or less.
                 s = 2000.0 * 50.0 * 0.2;
             } else if r >= slant(far, up) && ground < far * HEIGHT_M / up {
                 s = 0.0;

@@ -1,14 +1,14 @@
-//! Pings in a row: the picture that a pass of a sidescan makes, by ground range, with the believed place of every line.
+//! The picture that a pass of a sidescan makes: lines of pings by ground range, each with its believed place.
 //!
-//! *Source:* slant-range correction on a flat bottom, g = √(r² − h²), and angle-varying gain: Blondel 2009, The Handbook of Sidescan Sonar,
-//! section 4.2.
+//! *Source:* slant-range correction on a flat bottom, g = √(r² − h²), and angle-varying gain: Blondel 2009, The
+//! Handbook of Sidescan Sonar, section 4.2.
 //!
-//! *Parameters:* `cell_m`, size of a cell along and across the track, m; 0.25 here: a metre-sized object fills 4 by 4 cells, and a cell
-//! 10 m off holds five samples of each of its pings.
+//! *Parameters:* `cell_m`, size of a cell along and across the track, m; 0.25 here: a metre-sized object fills 4 by 4
+//! cells, and a cell 10 m away holds five samples of each of its pings.
 //!
-//! *Deviations:* the height above the bed is the altimeter's, not the first return's. The gain is Lambert's law for a level bed; what
-//! it leaves (the beam's pattern, a slope) is a matter of the cell's distance, and [`super::detect`] takes it out. A line's place is
-//! the one believed at its end.
+//! *Deviations:* the height above the bed is the altimeter's, not that of the first return. The gain is Lambert's law
+//! for a level bed. What it does not correct (the beam's pattern, a slope) depends on the cell's distance, and
+//! [`super::detect`] removes it. A line's place is the believed place at its end.
 
 use crate::handoff::{Estimate, SidescanPing};
 use nalgebra::Vector2;
@@ -20,9 +20,9 @@ use world::units::Heading;
 const MOST: usize = 20_000;
 /// Most numbers of a picture: those many lines at a range of 25 m.
 const MOST_NUMBERS: usize = 4_000_000;
-/// A line is full when the vehicle has gone this part of a cell: pings some 0.2 m apart make a line each.
+/// A line is full when the vehicle has moved by this part of a cell: pings some 0.2 m apart make one line each.
 const FULL: f64 = 0.75;
-/// Half-width of the strip below the vehicle that is left out, in heights above the bed.
+/// Half-width of the strip left out below the vehicle, in heights above the bed.
 const BLIND: f64 = 0.3;
 
 /// A line of the picture: both sides by ground range, nearest first.
@@ -30,7 +30,7 @@ const BLIND: f64 = 0.3;
 pub struct Row {
     /// Time, s.
     pub t_s: f64,
-    /// Way along the track, m.
+    /// Distance along the track, m.
     pub along_m: f64,
     /// Believed place of the sonar (east, north), m.
     pub place: Vector2<f64>,
@@ -40,7 +40,7 @@ pub struct Row {
     pub height_m: f64,
     /// Believed height of the bed below it (negative: below the still surface), m.
     pub bed_z: f64,
-    /// To port, dB; not a number below the vehicle and beyond the range.
+    /// Port side, dB; not a number below the vehicle and beyond the range.
     pub port_db: Vec<f32>,
     /// To starboard.
     pub starboard_db: Vec<f32>,
@@ -70,10 +70,10 @@ impl Row {
 pub struct Waterfall {
     cell_m: f64,
     rows: Vec<Row>,
-    /// Way made, m, and when it was last added to, s.
+    /// Distance covered, m, and when it was last added to, s.
     along_m: f64,
     last_s: Option<f64>,
-    /// Sums of intensities and their number by side and cell since the last line.
+    /// Sums of intensities and their number, by side and cell, since the last line.
     sums: [Vec<(f64, u32)>; 2],
     begun_m: f64,
 }
@@ -113,7 +113,7 @@ impl Waterfall {
         &self.rows
     }
 
-    /// Takes in a ping with what the vehicle believed of itself; nothing without a height above the bed.
+    /// Takes in a ping with the vehicle's estimate; ignores it without a height above the bed.
     pub fn push(&mut self, ping: &SidescanPing, estimate: &Estimate) {
         let Some(altitude_m) = estimate.altitude_m.filter(|a| *a > 0.0) else {
             return;
@@ -188,14 +188,14 @@ mod tests {
     fn lines_lie_a_cell_apart_and_the_bed_is_even() {
         let w = fly(&Bed::bare(1), 40.0);
         let rows = w.rows();
-        // A ping each 0.2 m makes a line.
+        // One ping every 0.2 m makes a line.
         assert!((rows.len() as f64 - 200.0).abs() < 2.0, "{}", rows.len());
         assert!((w.line_m() - 0.2).abs() < 1e-9);
         for pair in rows.windows(2) {
             assert!((pair[1].along_m - pair[0].along_m - 0.2).abs() < 1e-9);
             assert!((pair[1].place - pair[0].place).norm() - 0.2 < 1e-6);
         }
-        // Lambert's fall taken out, near and far are alike: mean of 200 lines of five looks each.
+        // After removing Lambert's fall, near and far are alike: mean of 200 lines of five looks each.
         let mean = |k: usize| {
             rows.iter()
                 .map(|r| f64::from(r.starboard_db[k]))

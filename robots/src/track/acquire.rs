@@ -1,19 +1,19 @@
-//! Data acquisition unit: turns a scan into signals above clean water, and knows where each probe sits.
+//! Data acquisition unit: turns a scan into signals above clean water, and knows the place of each probe.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Fig. 7 (data acquisition unit), Fig. 6.
 //!
 //! *Parameters*: none of its own; range of the output and places of the probes come from the machine.
 //!
-//! *Deviations*: signals are counted from the bottom of the range (-5 V in clean water) from here on, so that
-//! ratios of signals are ratios of concentrations; the paper does not say how it forms 30 % of a voltage that
-//! may be negative. The steering probes are the leftmost and the rightmost, whatever their names.
+//! *Deviations*: from here on, signals are counted from the bottom of the range (-5 V in clean water), so that ratios
+//! of signals are ratios of concentrations; the paper does not say how it forms 30 % of a voltage that may be
+//! negative. The steering probes are the leftmost and the rightmost, whatever their names.
 
 use super::data::{Sample, Spike};
 use crate::error::RobotError;
 use crate::handoff::{GantryLayout, JointReadings, MAX_PROBES, ProbeScan};
 use nalgebra::Vector2;
 
-/// Least distance across between the steering probes, m: below it they smell the same filament.
+/// Least distance across between the steering probes, m: probes nearer than this smell the same filament.
 const APART_M: f64 = 1e-3;
 
 /// The unit.
@@ -31,7 +31,7 @@ impl Acquisition {
     /// The unit of a machine.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when the machine has no two probes apart across the stream, or too many.
+    /// [`RobotError::Invalid`] if the machine has no two probes that are apart across the stream, or too many probes.
     pub fn new(layout: &GantryLayout) -> Result<Self, RobotError> {
         let invalid = |problem: String| RobotError::Invalid {
             field: "tracker.probes".into(),
@@ -40,7 +40,7 @@ impl Acquisition {
         let n = layout.probes.len();
         if !(2..=MAX_PROBES).contains(&n) {
             return Err(invalid(format!(
-                "bilateral steering needs 2 to {MAX_PROBES} probes, the head has {n}"
+                "bilateral steering needs 2 to {MAX_PROBES} probes; the head has {n}"
             )));
         }
         let offsets_m: Vec<_> = layout.probes.iter().map(|p| p.offset_m.xy()).collect();
@@ -55,7 +55,7 @@ impl Acquisition {
         }
         if offsets_m[left].y - offsets_m[right].y < APART_M {
             return Err(invalid(
-                "no two probes lie apart across the stream: bilateral steering needs a left and a right one"
+                "no two probes are apart across the stream: bilateral steering needs a left and a right one"
                     .into(),
             ));
         }
@@ -67,7 +67,7 @@ impl Acquisition {
         })
     }
 
-    /// How many probes there are.
+    /// Number of probes.
     #[must_use]
     pub fn count(&self) -> usize {
         self.offsets_m.len()
@@ -101,7 +101,7 @@ impl Acquisition {
         }
     }
 
-    /// A spike of `probe` seen in the sample `of`.
+    /// A spike of `probe` in the sample `of`.
     #[must_use]
     pub fn spike(&self, of: &Sample, probe: usize) -> Spike {
         Spike {
@@ -141,7 +141,7 @@ mod tests {
         let e = Acquisition::new(&one).expect_err("one").to_string();
         assert_eq!(
             e,
-            "tracker.probes: bilateral steering needs 2 to 8 probes, the head has 1"
+            "tracker.probes: bilateral steering needs 2 to 8 probes; the head has 1"
         );
         let mut line = layout();
         for p in &mut line.probes {

@@ -1,16 +1,17 @@
 //! Decision unit, up-stream motion: whether the present step's spikes allow another step up-stream.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`StepRule`); Page et al. 2011a (J. Exp. Biol.
-//! 214:1498) as summed up there in section 2.2: a spike above the threshold at the antennules moves the animal up-stream,
-//! in a binary fashion (`Gated`).
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`StepRule`); Page et al. 2011a (J. Exp.
+//! Biol. 214:1498) as summed up there in section 2.2: a spike above the threshold at the antennules moves the animal
+//! up-stream, in a binary fashion (`Gated`).
 //!
 //! *Parameters*: `StepRule`: present magnitude over the previous one `ratio`, 1 (0.9 and 1.1 were tried in the
 //! paper); prediction error `prediction_error`, a share of the prediction, 0.02; whether that error has a sign,
-//! `signed`, true: the paper defines it as "predicted value minus the average spike magnitude" and means a perceived loss
-//! by a large one, so that more than predicted is no error. `Gated`: least number of spikes in the step, `spikes`, 1.
+//! `signed`, true: the paper defines it as "predicted value minus the average spike magnitude" and takes a large one
+//! for a perceived loss, so that a magnitude above the prediction is no error. `Gated`: least number of spikes in the
+//! step, `spikes`, 1.
 //!
-//! *Deviations*: "exceeds" is taken strictly, so that no signal never beats no signal; the first step after a
-//! sweep, which has nothing before it, goes on if it has any spike. `Gated` is not in the paper's tracker.
+//! *Deviations*: "exceeds" is taken strictly, so that no signal never exceeds no signal. The first step after a sweep
+//! has no previous one; it allows another step if it has any spike. `Gated` is not in the paper's tracker.
 
 use super::data::StepRecord;
 use schemars::JsonSchema;
@@ -24,7 +25,7 @@ use world::ranges::{NonNegative, Positive};
 pub enum AdvanceSpec {
     /// More than before, or as predicted.
     StepRule(StepRule),
-    /// Any spikes at all: odour-gated rheotaxis.
+    /// Any spike: odour-gated rheotaxis.
     Gated(Gated),
 }
 
@@ -40,9 +41,9 @@ impl Default for AdvanceSpec {
 pub struct StepRule {
     /// The present magnitude must exceed this share of the previous one.
     pub ratio: Positive,
-    /// Else the prediction error must be below this share of the prediction.
+    /// Otherwise the prediction error must be below this share of the prediction.
     pub prediction_error: NonNegative,
-    /// More than predicted counts as no error.
+    /// Whether more than predicted counts as no error.
     pub signed: bool,
 }
 
@@ -73,7 +74,7 @@ impl Default for Gated {
 }
 
 impl AdvanceSpec {
-    /// Whether the step allows to go on up-stream.
+    /// Whether the step allows another one up-stream.
     #[must_use]
     pub fn allows(&self, step: &StepRecord) -> bool {
         match self {

@@ -1,15 +1,17 @@
-//! Relative position/data builder: the map of where which spikes were met; says where a sweep smelled most.
+//! Relative position/data builder: maps where spikes were met, and finds the place of a sweep with the strongest
+//! smell.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (relative position/data builder), section 5: the
-//! tracker "returns to the identified location of the greatest peak concentration".
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (relative position/data builder), section
+//! 5: the tracker "returns to the identified location of the greatest peak concentration".
 //!
-//! *Parameters*: `SweepSpec`: length of a sweep `span_m`, m (not published), 0.6: what 3 cm/s covers in the 20 s it
-//! takes; place `best`, `Peak` (the paper's) or `Centroid`, the mean place of the sweep's spikes weighted by magnitude,
-//! which one stray filament cannot move far; empty sweeps in a row before giving up `empty_sweeps` (not published), 3.
+//! *Parameters*: `SweepSpec`: length of a sweep `span_m`, m (not published), 0.6: 3 cm/s times the 20 s that it
+//! takes; place `best`, `Peak` (the paper's) or `Centroid`, the mean place of the sweep's spikes weighted by
+//! magnitude, which one stray filament cannot move far; empty sweeps in a row before giving up `empty_sweeps` (not
+//! published), 3.
 //!
-//! *Deviations*: a spike's place is its probe's tip, not the middle of the head: there the water was. The sweep runs over
-//! the middle of the travel, from the left to the right. Of the long-term memory only what the decision
-//! unit asks for is kept: the present sweep and the most up-stream spikes.
+//! *Deviations*: the place of a spike is that of its probe's tip, not the middle of the head. The sweep runs over the
+//! middle of the travel, from left to right. Of the long-term memory, only what the decision unit needs is kept: the
+//! present sweep and the most up-stream spikes.
 
 use super::data::Spike;
 use nalgebra::Vector2;
@@ -38,7 +40,7 @@ pub struct SweepSpec {
 pub enum Best {
     /// That of the greatest spike.
     Peak,
-    /// The mean place of all, weighted by magnitude.
+    /// The mean place of all spikes, weighted by magnitude.
     Centroid,
 }
 
@@ -56,12 +58,12 @@ impl Default for SweepSpec {
 #[derive(Clone, Debug)]
 pub struct DataBuilder {
     best: Best,
-    /// Spikes of the sweep: how many, sum of magnitudes, sum of magnitude times place across, the greatest.
+    /// Spikes of the sweep: number, sum of magnitudes, sum of magnitude times place across, the greatest.
     spikes: usize,
     sum: f64,
     moment: f64,
     greatest: Option<Spike>,
-    /// Places of the most up-stream spikes, the most up-stream first.
+    /// Places of the most up-stream spikes, most up-stream first.
     up_stream: Vec<Vector2<f64>>,
 }
 
@@ -108,7 +110,7 @@ impl DataBuilder {
         self.spikes
     }
 
-    /// Where across the stream the sweep smelled most, m; `None` when it smelled nothing.
+    /// The place across the stream with the strongest smell of the sweep, m; `None` without any spike.
     #[must_use]
     pub fn best_left_m(&self) -> Option<f64> {
         let greatest = self.greatest?;
@@ -118,7 +120,7 @@ impl DataBuilder {
         })
     }
 
-    /// Middle across the stream of the `n` most up-stream spikes, m; `None` with fewer.
+    /// Middle across the stream of the `n` most up-stream spikes, m; `None` if there are fewer.
     #[must_use]
     pub fn trail_end_left_m(&self, n: usize) -> Option<f64> {
         let first = self.up_stream.get(..n)?;
@@ -161,7 +163,7 @@ mod tests {
             b.add(&at(x, 1.0 - x, 1.0));
         }
         b.begin_sweep();
-        // Of 0.99, 0.98, 0.97 and so on, each at 1 minus that.
+        // The spikes at 0.99, 0.98, 0.97 and so on; each lies at 1 minus that across.
         for (n, middle) in [(1, 0.01), (3, 0.02), (KEPT, 0.085)] {
             let got = b.trail_end_left_m(n).expect("kept");
             assert!((got - middle).abs() < 1e-12, "{n}: {got}");

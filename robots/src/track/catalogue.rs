@@ -2,11 +2,11 @@
 
 use world::catalogue::Entry;
 
-/// Units of the tracker that can be chosen, named as in RON; those without a choice follow from them.
+/// Units of the tracker that can be chosen, with their names in RON; the other units follow from them.
 pub const UNITS: &[Entry] = &[
     Entry {
         name: "sweep",
-        what: "relative position/data builder: where a full sweep smelled most, Peak or Centroid",
+        what: "relative position/data builder: the place of the strongest smell in a full sweep, Peak or Centroid",
         source: "Webster et al. 2012, sections 4 and 5",
     },
     Entry {

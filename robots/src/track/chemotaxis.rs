@@ -1,13 +1,14 @@
 //! Gradient climbing with two sides: steps along and across the stream toward the greater averaged concentration.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), sections 2.1 and 6.2, which argue against it: klinotaxis
-//! along, tropotaxis across (Russell et al. 2003, Robot. Auton. Syst. 45:83). The baseline of the tracker.
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), sections 2.1 and 6.2, which argue against it:
+//! klinotaxis along, tropotaxis across (Russell et al. 2003, Robot. Auton. Syst. 45:83). It is the baseline for the
+//! tracker.
 //!
-//! *Parameters*: step `step_m`, 0.1 along and 0.05 across, and speeds 0.061 and 0.03 m/s, those of the tracker, so that
-//! only the rule differs; averaging time at rest `average_s`, 1.86, likewise; turns back without a
-//! new greatest average that make a maximum, `turns`, 3.
+//! *Parameters*: step `step_m`, 0.1 along and 0.05 across, and speeds 0.061 and 0.03 m/s, those of the tracker, so
+//! that only the rule differs; averaging time at rest `average_s`, 1.86, likewise; number of reversals without a new
+//! greatest average that make a maximum, `turns`, 3.
 //!
-//! *Deviations*: it does not sweep: it starts where it stands, up-stream. A blocked motion counts as a fall of
+//! *Deviations*: it does not sweep: it starts up-stream from its place. A blocked motion counts as a fall of
 //! concentration.
 
 use super::acquire::Acquisition;
@@ -36,7 +37,7 @@ pub struct ChemotaxisSpec {
     pub speed_m_s: [Positive; 2],
     /// Averaging time at rest, s.
     pub average_s: Positive,
-    /// Turns back without a new greatest average that make a maximum.
+    /// Reversals without a new greatest average that make a maximum.
     pub turns: NonZeroUsize,
 }
 
@@ -74,7 +75,7 @@ pub struct Chemotaxis {
     speed_m_s: Vector2<f64>,
     average_s: f64,
     turns: usize,
-    /// Scans at rest, and the sums of all probes, of the left one and of the right one, V.
+    /// Scans at rest, and the sums over all probes, the left one and the right one, V.
     scans: usize,
     sums: [f64; 3],
     before_v: Option<f64>,
@@ -89,7 +90,7 @@ impl Chemotaxis {
     /// The searcher on a machine, before its first tick.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when the head has no two sides or a step is longer than the travel.
+    /// [`RobotError::Invalid`] if the head has no two sides, or if a step is longer than the travel.
     pub fn new(spec: &ChemotaxisSpec, layout: &GantryLayout) -> Result<Self, RobotError> {
         for (i, step) in spec.step_m.iter().enumerate() {
             let [least, greatest] = layout.travel_m[i];
@@ -122,7 +123,7 @@ impl Chemotaxis {
         })
     }
 
-    /// The average is formed: the next step, or the end.
+    /// The average is complete: the next step, or the end.
     fn next(&mut self, t_s: f64, here: Vector2<f64>, blocked: bool) {
         let n = self.scans.max(1) as f64;
         let [mean, left, right] = self.sums.map(|s| s / n);

@@ -38,7 +38,7 @@ fn sweeps_climbs_and_steers() {
         *behaviour == B::StepUp && (to.y - from.y).abs() > 0.04 && to.x - from.x > 0.09
     });
     assert!(diagonal, "no diagonal step");
-    // Steps take what the paper's take, 3.5 s, along the stream.
+    // Steps along the stream take as long as the paper's, 3.5 s.
     let straight = r
         .log
         .windows(2)
@@ -65,7 +65,7 @@ fn clean_water_ends_in_giving_up() {
     }
 }
 
-/// A wall with an end in the way: the head goes round it, and reports no source behind a closed one.
+/// A wall with a free end in the way: the head goes round it. Behind a closed wall it reports no source.
 #[test]
 fn a_wall_is_passed_or_reported() {
     let steady = |t: f64, p: Vector3<f64>| (5.0 * t).rem_euclid(1.0) * (1.0 + p.x);
@@ -95,7 +95,7 @@ fn a_wall_is_passed_or_reported() {
 proptest! {
     #![proptest_config(crate::handoff::testing::fixed(24))]
 
-    /// Whatever the probes read, the rig finds every target within the travel and every number finite.
+    /// With arbitrary probe signals, every target lies within the travel and every number is finite.
     #[test]
     fn arbitrary_signals_leave_the_head_in_its_travel(seed in 0..1000u64, arm in 0..3usize) {
         let spec = [CrabSpec::default(), CrabSpec::adaptive(), CrabSpec {
@@ -111,7 +111,7 @@ proptest! {
     }
 }
 
-/// Pulses of one scan, more often and stronger toward a source on the left: twice a second 30 cm before it.
+/// Pulses of one scan, more frequent and stronger toward a source on the left: twice a second 30 cm before it.
 fn pulses(t: f64, p: Vector3<f64>) -> f64 {
     let (dx, dy) = ((SOURCE_M.x - p.x).max(0.05), p.y - SOURCE_M.y);
     let every = (20.0 * dx / 0.6).round() as u64;
@@ -128,14 +128,14 @@ fn stops_where_spikes_come_twice_a_second() {
     let mut r = rig(&CrabSpec::default(), 1);
     r.run(LIMIT_S, pulses);
     assert_eq!(r.stopped(), Some(true));
-    // 3.5 s count to one spike, 0.29 Hz: from 1.71 Hz on (35 cm) it may stop, and must at the first step beyond 2.29 Hz
-    // (26 cm), at latest 10 cm on.
+    // Within 3.5 s one spike makes 0.29 Hz: from 1.71 Hz on (35 cm) it may stop, and it must at the first step beyond
+    // 2.29 Hz (26 cm), at the latest 10 cm farther on.
     let d = distance(&r);
     assert!((0.16..0.351).contains(&d), "{d} m");
     assert_eq!(r.log.last().map(|l| l.1), Some(B::Done));
 }
 
-/// Each part of the paper's future work changes the track when it alone is switched on.
+/// Each part of the paper's future work changes the track if it alone is switched on.
 #[test]
 fn each_adaptive_part_works_alone() {
     let (plain, all) = (CrabSpec::default(), CrabSpec::adaptive());
@@ -150,10 +150,10 @@ fn each_adaptive_part_works_alone() {
     let stopping = with(|s, a| s.stop = a.stop);
     let gated = with(|s, a| s.advance = a.advance);
     assert!(base.log != steered.log && base.log != gated.log);
-    // The same up to the first return: then the fast one is there sooner.
+    // Both are the same up to the first return; then the fast one arrives sooner.
     let first_step = |r: &Rig| r.log.iter().find(|l| l.1 == B::StepUp).expect("a step").0;
     assert!(first_step(&fast) < first_step(&base) - 5.0);
-    // Where the plume passes below the probes the fixed rule finds no end, the other does.
+    // Where the plume passes below the probes, the fixed rule finds no end; the other one does.
     assert_eq!(
         (base.stopped(), stopping.stopped()),
         (Some(false), Some(true))
@@ -161,7 +161,7 @@ fn each_adaptive_part_works_alone() {
     assert!(distance(&stopping) < 0.3);
 }
 
-/// Of 30 trials 27 are expected within 30 cm (55 of 60 in other plumes); three standard errors of 30 are 5 less.
+/// Of 30 trials 27 are expected within 30 cm (55 of 60 in other plumes); three standard errors for 30 are 5 fewer.
 #[test]
 fn the_adaptive_tracker_stops_near_the_source() {
     let near = |seed: &u64| {

@@ -1,12 +1,12 @@
-//! Motion command generator: numbers the commands, keeps them within the travel, and knows how far one has come.
+//! Motion command generator: numbers the commands, keeps them within the travel, and measures their progress.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Fig. 7 (motion command generator).
 //!
-//! *Parameters*: travel and greatest speeds of the machine; `ANSWER_S`, 0.1 s, the time after a command before the drives'
-//! "arrived" or "blocked" is taken as an answer to it (two scans).
+//! *Parameters*: travel and greatest speeds of the machine; `ANSWER_S`, 0.1 s, the time after a command before the
+//! drives' "arrived" or "blocked" counts as an answer to it (two scans).
 //!
-//! *Deviations*: targets beyond the travel are cut off at its end; the paper does not say what its tracker did
-//! there. A drive that gave up counts as arrived where it stands.
+//! *Deviations*: targets beyond the travel are cut off at its end; the paper does not say what its tracker did there.
+//! A drive that gave up counts as arrived at its present place.
 
 use crate::handoff::{GantryBehaviour, GantryDecision, GantryLayout, JointReadings, TrackerState};
 use nalgebra::Vector2;
@@ -14,17 +14,17 @@ use nalgebra::Vector2;
 /// Time before the drives answer to a new command, s.
 const ANSWER_S: f64 = 0.1;
 
-/// How far the present command has come.
+/// Progress of the present command.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Progress {
-    /// Time since the head came to rest, s, if it did.
+    /// Time since the head came to rest, s; `None` while it moves.
     pub rest_s: Option<f64>,
     /// Time of motion left at the commanded speed, s.
     pub to_go_s: f64,
     /// A drive gave up.
     pub blocked: bool,
-    /// Where the next command starts from (forward, left): the target; before
-    /// the first command or after a block, the head's place, m.
+    /// Start of the next command (forward, left), m: the last target; before the first command or after a block, the
+    /// head's place.
     pub here_m: Vector2<f64>,
 }
 
@@ -43,7 +43,7 @@ pub struct MotionCommand {
 }
 
 impl MotionCommand {
-    /// No command yet.
+    /// Before the first command.
     #[must_use]
     pub fn new(layout: &GantryLayout) -> Self {
         let max_speed_m_s = Vector2::from(layout.max_speed_m_s);
@@ -77,7 +77,7 @@ impl MotionCommand {
     ) {
         assert!(
             target_m.x.is_finite() && target_m.y.is_finite(),
-            "the decision unit asks for {target_m:?}: not a place"
+            "the decision unit asks for {target_m:?}, which is not a place"
         );
         self.behaviour = behaviour;
         self.id += 1;
@@ -88,7 +88,7 @@ impl MotionCommand {
         self.blocked = false;
     }
 
-    /// How far the present command has come.
+    /// Progress of the present command.
     pub fn progress(&mut self, t_s: f64, joints: &JointReadings) -> Progress {
         if t_s - self.since_s >= ANSWER_S - 1e-9 {
             self.blocked |= joints.blocked;
@@ -111,7 +111,7 @@ impl MotionCommand {
         }
     }
 
-    /// The standing command as a decision; before the first one it holds where the head is.
+    /// The present command as a decision; before the first one it holds the head in place.
     #[must_use]
     pub fn decision(
         &self,

@@ -1,4 +1,4 @@
-//! The blue-crab tracker: the eight units of the flow chart, one after the other, each scan and each tick.
+//! The blue-crab tracker: the eight units of the flow chart, one after the other, in each scan and each tick.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Fig. 7.
 //!
@@ -29,7 +29,8 @@ use world::seeds::Stream;
 impl Listed for CrabSpec {
     const ENTRY: Entry = Entry {
         name: "Crab",
-        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike frequency",
+        what: "blue-crab tracker: sweep, step up-stream on rising spikes, cast, bilateral steering, stop by spike \
+            frequency",
         source: "Webster et al. 2012, section 4, Fig. 7",
     };
 }
@@ -60,7 +61,7 @@ impl CrabTracker {
     /// The tracker on a machine, before its first tick.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when the machine cannot do what the tracker asks of it.
+    /// [`RobotError::Invalid`] if the machine cannot do what the tracker needs.
     pub fn new(spec: &CrabSpec, layout: &GantryLayout) -> Result<Self, RobotError> {
         let acquisition = Acquisition::new(layout)?;
         let rules = spec.rules(layout)?;

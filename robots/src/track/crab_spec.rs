@@ -1,4 +1,4 @@
-//! What a scenario may say of the blue-crab tracker: its units, each replaceable, and what a machine must be able to do.
+//! Parameters of the blue-crab tracker: its units, each replaceable, and what a machine must be able to do.
 
 use super::advance::{self, AdvanceSpec};
 use super::builder::{KEPT, SweepSpec};
@@ -61,8 +61,8 @@ impl Default for CrabSpec {
 }
 
 impl CrabSpec {
-    /// The tracker with the paper's future work, adaptive speed, contrast threshold and stopping frequency, and moved
-    /// up-stream by any spike, as continuous motion leaves no step long enough to compare averages.
+    /// The tracker with the paper's future work: adaptive speed, contrast threshold and stopping frequency. Any spike
+    /// moves it up-stream, because continuous motion leaves no step that is long enough to compare averages.
     #[must_use]
     pub fn adaptive() -> Self {
         Self {
@@ -74,10 +74,10 @@ impl CrabSpec {
         }
     }
 
-    /// What the decision unit works with on a machine.
+    /// The decision unit's rules for a machine.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when steps, sweep or speeds are more than the machine has.
+    /// [`RobotError::Invalid`] if steps, sweep or speeds exceed what the machine has.
     pub(super) fn rules(&self, layout: &GantryLayout) -> Result<Rules, RobotError> {
         let most = |field: &str, value: f64, most: f64, what: &str| {
             if value <= most {

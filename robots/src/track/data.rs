@@ -1,4 +1,4 @@
-//! What the tracker's units pass to each other.
+//! What the tracker's units hand to each other.
 
 use crate::handoff::MAX_PROBES;
 use nalgebra::Vector2;
@@ -10,11 +10,11 @@ pub struct Sample {
     pub t_s: f64,
     /// Where the head's reference point was (forward, left), m.
     pub head_m: Vector2<f64>,
-    /// How fast it moved (forward, left), m/s.
+    /// Its speed (forward, left), m/s.
     pub speed_m_s: Vector2<f64>,
     /// Signal of each probe above the bottom of its range, V.
     pub above_v: [f64; MAX_PROBES],
-    /// How many probes there are.
+    /// Number of probes.
     pub count: usize,
 }
 
@@ -53,7 +53,7 @@ impl Tally {
         self.greatest_v = self.greatest_v.max(magnitude_v);
     }
 
-    /// This and another one together.
+    /// The sum of this tally and another one.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {
         Self {
@@ -75,7 +75,7 @@ impl Tally {
     }
 }
 
-/// What the short-term history says of the period since the previous decision.
+/// What the short-term history knows of the period since the previous decision.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepRecord {
     /// Its length, s.
@@ -84,7 +84,7 @@ pub struct StepRecord {
     pub spikes: usize,
     /// Weighted mean magnitude of the spikes, V; zero without spikes.
     pub mean_v: f64,
-    /// The same in the period before; `None` in the first.
+    /// The same in the period before; `None` in the first one.
     pub previous_v: Option<f64>,
     /// What the predictor expected of this period, V.
     pub predicted_v: Option<f64>,

@@ -1,15 +1,15 @@
 //! Decision unit: sweep, go to the best place, step up-stream, cast to both sides, sweep again, stop.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (decision unit), Fig. 9; the rules it asks
-//! (pace, up-stream motion, steering, stopping) are in files of their own.
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (decision unit), Fig. 9; its rules (pace,
+//! up-stream motion, steering, stopping) are in files of their own.
 //!
-//! *Parameters*: step `step_m`, m, 0.1 along and 0.05 across; motions that may be blocked in a row before it gives up
+//! *Parameters*: step `step_m`, m, 0.1 along and 0.05 across; number of blocked motions in a row before it gives up
 //! `blocked_limit` (ours), 6: thirty centimetres aside; length of a sweep from the data builder.
 //!
-//! *Deviations*: where the contrast is naught a coin decides the first side of a cast. A blocked motion counts as done
-//! where the head stands; if it led up-stream the next goes to the side, that of the contrast first, and stays on that side
-//! until the way is free. At the up-stream end of the travel without a stop the search has failed. A
-//! neighbouring place is judged as any other step. None of these is in the paper.
+//! *Deviations*: if the contrast is zero, a coin decides the first side of a cast. A blocked motion counts as done at
+//! the head's place. If it led up-stream, the next motion goes to the side, first to that of the contrast, and stays
+//! on that side until the way is free. If the head reaches the up-stream end of the travel without a stop, the search
+//! has failed. A neighbouring place is judged as any other step. None of these is in the paper.
 
 use super::advance::AdvanceSpec;
 use super::builder::DataBuilder;
@@ -22,10 +22,10 @@ use crate::handoff::GantryBehaviour;
 use nalgebra::Vector2;
 use world::seeds::Stream;
 
-/// Less than this is no motion, m.
+/// A shorter motion than this counts as none, m.
 const STILL_M: f64 = 1e-3;
 
-/// What the unit works with.
+/// The rules and limits of the unit.
 #[derive(Clone, Debug)]
 pub struct Rules {
     /// Step (forward, left), m.
@@ -57,19 +57,19 @@ pub enum Ask {
     Stop(bool),
 }
 
-/// What the short-term history is to do with an answer.
+/// What the short-term history does after an answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Memory {
     /// Go on collecting.
     Keep,
-    /// A step ended: it becomes the previous one.
+    /// A step has ended: it becomes the previous one.
     Next,
     /// Nothing to compare with.
     Forget,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Stage {
+enum TrackPhase {
     Start,
     ToLeftmost,
     Sweeping,
@@ -93,14 +93,14 @@ pub struct DecisionUnit {
     rules: Rules,
     /// Stopping.
     pub stop: StopRule,
-    stage: Stage,
+    phase: TrackPhase,
     cast: Option<Cast>,
     empty: usize,
     blocked: usize,
     dodge: Option<f64>,
-    /// The plume was followed at least one step.
+    /// Whether the plume was followed for at least one step.
     followed: bool,
-    /// Spikes of the sides (left, right) since the head last moved aside, and that place across, m.
+    /// Spikes on the sides (left, right) since the head last moved aside, and its place across at that time, m.
     gathered: [Tally; 2],
     lane_m: f64,
 }
@@ -112,7 +112,7 @@ impl DecisionUnit {
         Self {
             rules,
             stop,
-            stage: Stage::Start,
+            phase: TrackPhase::Start,
             cast: None,
             empty: 0,
             blocked: 0,
@@ -129,7 +129,7 @@ impl DecisionUnit {
         self.pull(step).contrast
     }
 
-    /// Where the contrast pulls, by this step or all on this lane.
+    /// The side to which the contrast pulls, from this step or from all steps on this lane.
     fn pull(&self, step: &StepRecord) -> Pull {
         if !self.rules.contrast.gathers() {
             return self.rules.contrast.pull(step);
@@ -148,7 +148,7 @@ impl DecisionUnit {
         self.rules.pace.speed_m_s(0)
     }
 
-    /// The next motion, when one is due, and what the history is to do.
+    /// The next motion, if one is due, and what the history must do.
     pub fn next(
         &mut self,
         at: &Progress,
@@ -157,22 +157,22 @@ impl DecisionUnit {
         rng: &mut Stream,
     ) -> Option<(Ask, Memory)> {
         let rest = at.rest_s.is_some();
-        match self.stage {
-            Stage::Start => Some(self.sweep(at)),
-            Stage::ToLeftmost if rest => {
+        match self.phase {
+            TrackPhase::Start => Some(self.sweep(at)),
+            TrackPhase::ToLeftmost if rest => {
                 map.begin_sweep();
-                self.stage = Stage::Sweeping;
+                self.phase = TrackPhase::Sweeping;
                 let end = Vector2::new(at.here_m.x, self.rules.sweep_left_m[1]);
                 let speed = self.rules.pace.sweep_m_s(self.followed);
                 Some((Ask::Go(GantryBehaviour::Sweep, end, speed), Memory::Forget))
             }
-            Stage::Sweeping if rest => Some(self.swept(at, step, map)),
-            Stage::ToBest if rest => {
+            TrackPhase::Sweeping if rest => Some(self.swept(at, step, map)),
+            TrackPhase::ToBest if rest => {
                 self.stop.swept();
                 Some((self.up(at.here_m, 0.0, step.spikes), Memory::Forget))
             }
-            Stage::Last if rest => Some(self.end(true)),
-            Stage::Step { up } if self.rules.pace.over(at.rest_s, at.to_go_s, step.spikes) => {
+            TrackPhase::Last if rest => Some(self.end(true)),
+            TrackPhase::Step { up } if self.rules.pace.over(at.rest_s, at.to_go_s, step.spikes) => {
                 Some(self.stepped(up, at, step, map, rng))
             }
             _ => None,
@@ -180,13 +180,13 @@ impl DecisionUnit {
     }
 
     fn end(&mut self, found: bool) -> (Ask, Memory) {
-        self.stage = Stage::Done(found);
+        self.phase = TrackPhase::Done(found);
         (Ask::Stop(found), Memory::Keep)
     }
 
-    /// To the leftmost place, for a full sweep.
+    /// Moves to the leftmost place, for a full sweep.
     fn sweep(&mut self, at: &Progress) -> (Ask, Memory) {
-        self.stage = Stage::ToLeftmost;
+        self.phase = TrackPhase::ToLeftmost;
         self.cast = None;
         let start = Vector2::new(at.here_m.x, self.rules.sweep_left_m[0]);
         let speed = self.rules.pace.speed_m_s(0);
@@ -205,7 +205,7 @@ impl DecisionUnit {
         }
         if let Some(left_m) = map.best_left_m() {
             self.empty = 0;
-            self.stage = Stage::ToBest;
+            self.phase = TrackPhase::ToBest;
             let best = Vector2::new(at.here_m.x, left_m);
             return (Ask::Go(GantryBehaviour::ToBest, best, speed), Memory::Keep);
         }
@@ -216,7 +216,7 @@ impl DecisionUnit {
         self.sweep(at)
     }
 
-    /// A step has ended, which led up-stream or only aside.
+    /// A step has ended that led up-stream or only aside.
     fn stepped(
         &mut self,
         up: bool,
@@ -277,10 +277,10 @@ impl DecisionUnit {
         (self.aside(at.here_m.x, left_m, step.spikes), Memory::Next)
     }
 
-    /// The trail has ended: across to its middle, to stop there.
+    /// The trail has ended: moves across to its middle, to stop there.
     fn trail_end(&mut self, forward_m: f64, n: usize, map: &DataBuilder) -> Option<(Ask, Memory)> {
         let place = Vector2::new(forward_m, map.trail_end_left_m(n)?);
-        self.stage = Stage::Last;
+        self.phase = TrackPhase::Last;
         let speed = self.rules.pace.speed_m_s(n);
         Some((Ask::Go(GantryBehaviour::ToBest, place, speed), Memory::Keep))
     }
@@ -289,20 +289,20 @@ impl DecisionUnit {
         if self.rules.end_m - here.x < STILL_M {
             return self.end(false).0;
         }
-        self.stage = Stage::Step { up: true };
+        self.phase = TrackPhase::Step { up: true };
         let by = Vector2::new(self.rules.step_m.x, side * self.rules.step_m.y);
         let speed = self.rules.pace.speed_m_s(spikes);
         Ask::Go(GantryBehaviour::StepUp, here + by, speed)
     }
 
     fn aside(&mut self, forward_m: f64, left_m: f64, spikes: usize) -> Ask {
-        self.stage = Stage::Step { up: false };
+        self.phase = TrackPhase::Step { up: false };
         let speed = self.rules.pace.speed_m_s(spikes);
         let place = Vector2::new(forward_m, left_m);
         Ask::Go(GantryBehaviour::Cast, place, speed)
     }
 
-    /// Something is in the way up-stream: to the side.
+    /// There is an obstacle up-stream: moves to the side.
     fn dodge(&mut self, at: &Progress, step: &StepRecord, pull: &Pull, rng: &mut Stream) -> Ask {
         self.cast = None;
         let [least, greatest] = self.rules.across_m;
@@ -321,7 +321,7 @@ impl DecisionUnit {
     }
 }
 
-/// The side of the contrast, however small; of none, a coin's.
+/// The side of the contrast, however small; without contrast, a coin's.
 fn first_side(pull: &Pull, rng: &mut Stream) -> f64 {
     if pull.contrast != 0.0 {
         pull.contrast.signum()

@@ -1,4 +1,4 @@
-//! The decision unit, driven by hand.
+//! The decision unit, driven with steps written by hand.
 
 use super::*;
 use crate::handoff::GantryBehaviour as B;
@@ -44,7 +44,7 @@ impl Hand {
         ask
     }
 
-    /// The head after a sweep whose best place is `left_m`, one step up-stream of it.
+    /// The head one step up-stream of the best place, `left_m`, of a sweep.
     fn swept(mut self, left_m: f64) -> Self {
         assert!(is(
             self.ask(StepRecord::default(), false),
@@ -85,7 +85,7 @@ fn is(ask: Ask, behaviour: B, x: f64, y: f64) -> bool {
     matches!(ask, Ask::Go(b, to, _) if b == behaviour && (to - Vector2::new(x, y)).norm() < 1e-9)
 }
 
-/// A step with means (left, right), better or worse than the one before.
+/// A step with means (left, right) that is better or worse than the one before.
 fn step(better: bool, left: f64, right: f64) -> StepRecord {
     let tally = |v: f64| {
         let mut t = Tally::default();
@@ -107,7 +107,7 @@ fn step(better: bool, left: f64, right: f64) -> StepRecord {
 fn sweeps_goes_to_the_best_place_and_up() {
     let mut h = Hand::new(&CrabSpec::default()).swept(0.12);
     assert!(is(h.ask(step(true, 1.0, 1.0), false), B::StepUp, 0.4, 0.12));
-    // Thirty per cent between the sides: diagonal.
+    // Thirty per cent difference between the sides: diagonal.
     assert!(is(h.ask(step(true, 1.0, 0.5), false), B::StepUp, 0.5, 0.17));
     assert!(is(h.ask(step(true, 0.1, 0.5), false), B::StepUp, 0.6, 0.12));
 }
@@ -124,7 +124,7 @@ fn the_adaptive_contrast_gathers_until_it_suffices() {
         right: Tally::default(),
         ..step(true, 1.0, 0.0)
     };
-    // One spike a step on the left only: 1, 1.41, 1.73 standard errors.
+    // One spike per step, on the left only: 1, 1.41, 1.73 standard errors.
     assert!(is(h.ask(left, false), B::StepUp, 0.4, 0.0));
     assert!(is(h.ask(left, false), B::StepUp, 0.5, 0.0));
     assert!(is(h.ask(left, false), B::StepUp, 0.6, 0.05));
@@ -178,7 +178,7 @@ fn goes_round_what_blocks_it_or_gives_up() {
     assert!(is(h.ask(step(true, 0.1, 0.9), false), B::StepUp, 0.4, 0.10));
     // Free: steering is back.
     assert!(is(h.ask(step(true, 0.1, 0.9), false), B::StepUp, 0.5, 0.05));
-    // At the wall of the travel it turns to the other side.
+    // At the end of the travel it turns to the other side.
     h.here = Vector2::new(0.5, 0.5);
     assert!(is(h.ask(step(true, 1.0, 0.1), true), B::Cast, 0.5, 0.45));
     let mut h = Hand::new(&CrabSpec::default()).swept(0.0);

@@ -1,15 +1,16 @@
-//! Short-term input-output history analyser: what the spikes since the previous decision say, beside the period before.
+//! Short-term input-output history analyser: summarises the spikes since the previous decision, and the period
+//! before.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Fig. 7: average spike magnitude over "the
 //! period since the previous step", with "greater weighting" of the centre probe.
 //!
-//! *Parameters*: weight of a centre probe's spike beside one of a steering probe `centre_weight` (not published), 2:
-//! the least whole number that is "greater", with which the one centre probe counts as much as the two sides together;
-//! where the average begins, `since`, `Decision`: the paper's words, so that spikes met on the way count; `Arrival`
-//! takes only those at rest.
+//! *Parameters*: weight of a spike of the centre probe relative to one of a steering probe, `centre_weight` (not
+//! published), 2: the least whole number that is "greater", with which the one centre probe counts as much as the two
+//! sides together; start of the average, `since`, `Decision`: the paper's words, so that spikes met in motion count;
+//! `Arrival` takes only those at rest.
 //!
-//! *Deviations*: the average runs over spikes, not over seconds: a period with few but strong spikes must
-//! compare by magnitude, which the decision rule is about; how often they come is the stop rule's.
+//! *Deviations*: the average runs over spikes, not over seconds. The decision rule compares magnitudes, so a period
+//! with few but strong spikes must count by their magnitude; how often spikes come matters to the stop rule.
 
 use super::data::{Spike, StepRecord, Tally};
 use crate::handoff::MAX_PROBES;
@@ -60,7 +61,7 @@ pub struct History {
 }
 
 impl History {
-    /// The unit, for steering probes of these numbers.
+    /// The unit, with the numbers of the steering probes.
     #[must_use]
     pub fn new(spec: &HistorySpec, left: usize, right: usize) -> Self {
         Self {
@@ -119,13 +120,13 @@ impl History {
         }
     }
 
-    /// Begins a new step, of which the predictor expects `predicted_v`.
+    /// Begins a new step; the predictor expects `predicted_v` of it.
     pub fn next(&mut self, t_s: f64, predicted_v: Option<f64>) {
         self.previous_v = Some(self.record(t_s).mean_v);
         self.begin(t_s, predicted_v);
     }
 
-    /// Begins anew, with nothing to compare with (after a sweep).
+    /// Starts afresh, with nothing to compare with (after a sweep).
     pub fn forget(&mut self, t_s: f64, predicted_v: Option<f64>) {
         self.previous_v = None;
         self.begin(t_s, predicted_v);

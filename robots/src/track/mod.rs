@@ -1,4 +1,4 @@
-//! Searchers of a gantry: the blue-crab tracker, one file a unit, and a baseline.
+//! Searchers of a gantry: the blue-crab tracker, one file per unit, and a baseline.
 
 pub mod acquire;
 pub mod advance;

@@ -1,18 +1,19 @@
 //! Decision unit, pace: how fast the head moves and when a step is over.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 3 (6.1 cm/s along, 3 cm/s across), Fig. 9 (a step
-//! takes 3.5 s, the sweep 20 s); section 7 (situation-dependent speed is its future work); section 6.1: animals keep
-//! 10 cm/s or more, "speed is regulated by odorant pulse arrival rate".
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 3 (6.1 cm/s along, 3 cm/s across), Fig. 9 (a
+//! step takes 3.5 s, the sweep 20 s); section 7 (situation-dependent speed is its future work); section 6.1: animals
+//! keep 10 cm/s or more, "speed is regulated by odorant pulse arrival rate".
 //!
-//! *Parameters*: `Fixed`: speeds `forward_m_s` 0.061, `left_m_s` 0.03; time at rest before a decision `dwell_s`, 1.86 s:
-//! what the 1.64 s of a 10 cm step leave of 3.5 s. `Adaptive`: least and greatest forward speed `least_m_s` 0.061 (the
-//! fixed one), `most_m_s` 0.15 (the gantry's own limit), across `left_m_s` 0.15; sweep `sweep_m_s` 0.03, as Fixed, since
-//! where to begin is worth the time, and `reacquire_m_s` 0.1 later, the animals' speed; spikes that suffice for a decision `enough`, 2: one says that the
-//! head is in the plume, two can agree on a side; longest time at rest `dwell_s`, 1.86; how
-//! long before the end of a motion the next is decided, `lead_s`, 0.1 s (two scans), so that the head does not stop.
+//! *Parameters*: `Fixed`: speeds `forward_m_s` 0.061, `left_m_s` 0.03; time at rest before a decision `dwell_s`, 1.86
+//! s: 3.5 s less the 1.64 s of a 10 cm step. `Adaptive`: least and greatest forward speed `least_m_s` 0.061 (the
+//! fixed one), `most_m_s` 0.15 (the gantry's own limit), across `left_m_s` 0.15; first sweep `sweep_m_s` 0.03, as in
+//! Fixed, because a good start is worth the time, and later sweeps `reacquire_m_s` 0.1, the animals' speed; number of
+//! spikes that is enough for a decision `enough`, 2: one shows that the head is in the plume, two can agree on a
+//! side; longest time at rest `dwell_s`, 1.86; time before the end of a motion at which the next one is decided,
+//! `lead_s`, 0.1 s (two scans), so that the head does not stop.
 //!
-//! *Deviations*: in `Adaptive` the speed grows straight with the spikes of the last step up to `enough`; with
-//! enough of them the next step follows without rest, with fewer the head waits for them, at most `dwell_s`.
+//! *Deviations*: in `Adaptive` the speed grows linearly with the spikes of the last step up to `enough`. With enough
+//! of them the next step follows without rest; with fewer the head waits for them, at most `dwell_s`.
 
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -26,7 +27,7 @@ use world::ranges::{NonNegative, Positive};
 pub enum PaceSpec {
     /// The same speeds and rest for every step.
     Fixed(Fixed),
-    /// Faster with more spikes, no rest when they suffice.
+    /// Faster with more spikes, no rest if there are enough.
     Adaptive(Adaptive),
 }
 
@@ -43,7 +44,7 @@ impl Default for PaceSpec {
 pub struct Fixed {
     /// Speed along the stream, m/s.
     pub forward_m_s: Positive,
-    /// Speed across it, m/s.
+    /// Speed across the stream, m/s.
     pub left_m_s: Positive,
     /// Time at rest before a decision, s.
     pub dwell_s: NonNegative,
@@ -66,7 +67,7 @@ impl Default for Fixed {
 pub struct Adaptive {
     /// Forward speed without spikes, m/s.
     pub least_m_s: Positive,
-    /// Forward speed with enough of them, m/s.
+    /// Forward speed with enough spikes, m/s.
     pub most_m_s: Positive,
     /// Speed across the stream, m/s.
     pub left_m_s: Positive,
@@ -74,11 +75,11 @@ pub struct Adaptive {
     pub sweep_m_s: Positive,
     /// Speed of later sweeps, m/s.
     pub reacquire_m_s: Positive,
-    /// Spikes in a step that suffice for a decision.
+    /// Number of spikes in a step that is enough for a decision.
     pub enough: NonZeroUsize,
     /// Longest time at rest, s.
     pub dwell_s: NonNegative,
-    /// How long before the end of a motion the next is decided, s.
+    /// How long before the end of a motion the next one is decided, s.
     pub lead_s: NonNegative,
 }
 
@@ -98,7 +99,7 @@ impl Default for Adaptive {
 }
 
 impl PaceSpec {
-    /// Speeds (forward, left) of the step that follows one with so many spikes, m/s.
+    /// Speeds (forward, left) of the step after one with so many spikes, m/s.
     #[must_use]
     pub fn speed_m_s(&self, spikes: usize) -> Vector2<f64> {
         match self {
@@ -123,7 +124,8 @@ impl PaceSpec {
         }
     }
 
-    /// Whether a step is over: `rest_s` since the head came to rest, if it did; `to_go_s` of motion left; its `spikes`.
+    /// Whether a step is over: `rest_s` is the time since the head came to rest, if it did; `to_go_s` the time of
+    /// motion left; `spikes` those of the step.
     #[must_use]
     pub fn over(&self, rest_s: Option<f64>, to_go_s: f64, spikes: usize) -> bool {
         match self {

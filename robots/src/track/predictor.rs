@@ -1,12 +1,12 @@
-//! Spike characteristics predictor: from a few seconds of memory, the spike magnitude of the next step.
+//! Spike characteristics predictor: predicts the spike magnitude of the next step from a few seconds of memory.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4: "short-term (2-10 s) memory data to predict
-//! the characteristics of a one-step-ahead measurement"; the form is not published.
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4: "short-term (2-10 s) memory data to
+//! predict the characteristics of a one-step-ahead measurement"; the form is not published.
 //!
 //! *Parameters*: `Mean` (default): memory `memory_s`, s, 2-10 in the paper, 5: the geometric middle, one and a half
-//! steps of 3.5 s. The mean, because in so short a record (some ten spikes, each spread as much as its mean) a
-//! trend is mostly noise. `Trend`: least squares through the memory, looked up `ahead_s` after its end, 1.75 s: the
-//! middle of the coming step; not below zero.
+//! steps of 3.5 s. The default is the mean because a trend is mostly noise in so short a record (some ten spikes,
+//! each spread as much as its mean). `Trend`: least squares through the memory, evaluated `ahead_s` after its end,
+//! 1.75 s: the middle of the coming step; not below zero.
 //!
 //! *Deviations*: none known.
 

@@ -1,11 +1,12 @@
-//! Spike frequency over a window, of one probe or several; spikes met while moving up-stream can be counted as at rest.
+//! Spike frequency over a window, of one probe or several. Spikes met while moving up-stream can be counted as at
+//! rest.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4: frequency of spikes; window not published.
 //!
 //! *Parameters*: see the stop rules.
 //!
-//! *Deviations*: a head moving up-stream with speed v in water of speed U meets (U + v) / U times the spikes of a head at
-//! rest; with a `drift` (U as assumed, m/s) seconds are counted that many times.
+//! *Deviations*: a head moving up-stream with speed v in water of speed U meets (U + v) / U times the spikes of a
+//! head at rest; with a `drift` (the assumed U, m/s) the seconds are multiplied by that factor.
 
 use super::data::{Sample, Spike};
 use crate::handoff::MAX_PROBES;
@@ -32,7 +33,7 @@ pub struct RateWindow {
     drift_m_s: Option<f64>,
     probes: usize,
     spikes: VecDeque<(f64, usize)>,
-    /// Scans: time, s; seconds it stands for, at rest.
+    /// Scans: time, s; and the seconds at rest that it counts for.
     scans: VecDeque<(f64, f64)>,
     latest_s: Option<f64>,
 }
@@ -77,7 +78,7 @@ impl RateWindow {
         self.spikes.push_back((spike.t_s, spike.probe));
     }
 
-    /// Spikes a second, Hz; zero until the window is half full.
+    /// Spikes per second, Hz; zero until the window is half full.
     #[must_use]
     pub fn hz(&self) -> f64 {
         let seconds: f64 = self.scans.iter().map(|s| s.1).sum();

@@ -1,4 +1,4 @@
-//! What a scenario says about a gantry's searcher.
+//! Parameters of a gantry's searcher.
 
 use super::chemotaxis::ChemotaxisSpec;
 use super::crab_spec::CrabSpec;
@@ -8,7 +8,7 @@ use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
 
-/// A gantry's searcher: sees an observation a tick and decides where the head is to go.
+/// A gantry's searcher: takes one observation per tick and decides where the head is to go.
 pub trait GantryStrategy: std::fmt::Debug + Send + Sync {
     /// One tick.
     fn step(&mut self, seen: &GantryObservation, rng: &mut Stream) -> GantryDecision;
@@ -16,15 +16,15 @@ pub trait GantryStrategy: std::fmt::Debug + Send + Sync {
 
 /// Parameters of a gantry's searcher.
 pub trait GantryStrategyParams: Spec {
-    /// The searcher on a machine, ready for its first tick.
+    /// Builds the searcher for a machine.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] when the machine cannot do what the searcher asks of it.
+    /// [`RobotError::Invalid`] if the machine cannot do what the searcher needs.
     fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError>;
 }
 
 kind! {
-    /// The searchers of a gantry that a scenario can ask for.
+    /// Searchers that move a gantry's head by what its probes read.
     pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
         heading: "Searchers of a gantry (gantries: tracker)",
         rows: [CrabSpec, ChemotaxisSpec],

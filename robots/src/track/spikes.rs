@@ -2,10 +2,10 @@
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4, Figs. 7 and 8 (spike record analyzer).
 //!
-//! *Parameters*: none; the threshold is the threshold analyser's.
+//! *Parameters*: none; the threshold comes from the threshold analyser.
 //!
-//! *Deviations*: none. A spike is known one scan late, when its right neighbour is seen. Two equal samples at a
-//! top are no spike, as the definition has it: it asks for smaller neighbours.
+//! *Deviations*: none. A spike is known one scan late, when its right neighbour has been seen. Two equal samples at a
+//! top are no spike: the definition asks for smaller neighbours.
 
 use super::data::Sample;
 use crate::handoff::MAX_PROBES;
@@ -18,7 +18,7 @@ pub struct SpikeAnalyser {
 }
 
 impl SpikeAnalyser {
-    /// Takes a sample; the sample before it, with the probes on which that one is a local maximum.
+    /// Takes a sample; returns the sample before it, with the probes on which that one is a local maximum.
     pub fn next(&mut self, now: &Sample) -> Option<(Sample, [bool; MAX_PROBES])> {
         let (before, middle) = (self.before, self.middle);
         (self.before, self.middle) = (middle, Some(*now));

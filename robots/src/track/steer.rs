@@ -1,17 +1,18 @@
-//! Decision unit, steering: to which side the contrast between the leftmost and the rightmost probe pulls.
+//! Decision unit, steering: the side to which the contrast between the leftmost and the rightmost probe pulls.
 //!
 //! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`Fixed`: minimum percentage difference in
 //! peak concentration, 30 %) and section 7 (adaptive specification of the contrast threshold is its future work).
 //!
-//! *Parameters*: `Fixed`: least contrast `threshold`, 0.3; contrast of `of`: `MeanPeak`, the mean of the step's spike
-//! magnitudes, or `GreatestPeak`; the paper says "peak concentration" and, of the step, "average recorded peak", hence
-//! the mean. `Adaptive`: the difference in standard errors `errors`, 1.5: more than a
-//! lone spike (1) or two alike on one side (1.41) can give, so that at least three in accord steer.
+//! *Parameters*: `Fixed`: least contrast `threshold`, 0.3; quantity `of` which the contrast is formed: `MeanPeak`,
+//! the mean of the step's spike magnitudes, or `GreatestPeak`; the paper says "peak concentration" and, of the step,
+//! "average recorded peak", hence the mean. `Adaptive`: the difference in standard errors `errors`, 1.5: more than a
+//! lone spike (1) or two equal ones on one side (1.41) can give, so that at least three that agree are needed to
+//! steer.
 //!
-//! *Deviations*: the percentage is taken of the larger side, (left - right) / larger, as it stays finite when one
-//! side has nothing. `Adaptive` compares sums of magnitudes, in which both rate and strength count, and takes their
-//! error from the same spikes: of a sum over a Poisson number of spikes the variance is the expected sum of squares. It
-//! gathers spikes since the head last moved aside, so that few spikes steer late and not never.
+//! *Deviations*: the percentage refers to the larger side, (left - right) / larger, because that stays finite if one
+//! side has nothing. `Adaptive` compares sums of magnitudes, which contain both rate and strength, and takes their
+//! error from the same spikes: the variance of a sum over a Poisson number of spikes is the expected sum of squares.
+//! It gathers spikes since the head last moved aside, so that few spikes steer late rather than never.
 
 use super::data::{StepRecord, Tally};
 use schemars::JsonSchema;
@@ -45,7 +46,7 @@ pub struct Fixed {
     pub of: Peak,
 }
 
-/// What stands for a side's peak concentration.
+/// What represents a side's peak concentration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Peak {
     /// Mean magnitude of the step's spikes.
@@ -68,7 +69,7 @@ impl Default for Fixed {
 #[schemars(rename = "AdaptiveContrast")]
 #[serde(deny_unknown_fields, default)]
 pub struct Adaptive {
-    /// Least difference, in standard errors of it.
+    /// Least difference, in its standard errors.
     pub errors: Positive,
 }
 
@@ -85,12 +86,12 @@ impl Default for Adaptive {
 pub struct Pull {
     /// Contrast, left positive, -1 to 1.
     pub contrast: f64,
-    /// 1 to the left, -1 to the right, 0 when the contrast is not enough.
+    /// 1 to the left, -1 to the right, 0 if the contrast is too small.
     pub side: f64,
 }
 
 impl ContrastSpec {
-    /// Whether the spikes since the head last moved aside count, not only the step's.
+    /// Whether it uses the spikes since the head last moved aside, not only those of the step.
     #[must_use]
     pub fn gathers(&self) -> bool {
         matches!(self, Self::Adaptive(_))
@@ -179,7 +180,7 @@ mod tests {
         // One spike against none: one standard error. Four: two.
         assert_eq!(rule.pull(&step(&[1.0], &[])).side, 0.0);
         assert_eq!(rule.pull(&step(&[1.0; 4], &[])).side, 1.0);
-        // The same ratio of sides, three to one, convinces with many spikes and not with few.
+        // The same ratio of sides, three to one, is enough with many spikes and not with few.
         assert_eq!(rule.pull(&step(&[1.0; 3], &[1.0])).side, 0.0);
         assert_eq!(rule.pull(&step(&[1.0; 12], &[1.0; 4])).side, 1.0);
         // One huge spike is no evidence.

@@ -1,23 +1,25 @@
-//! Decision unit, stopping: when the frequency of spikes says that the source is near.
+//! Decision unit, stopping: when the frequency of spikes shows that the source is near.
 //!
-//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`SpikeRate`: 2 Hz, from trials with animals) and
-//! section 7 (adaptive specification of the threshold frequency is its future work); sampling of a plume by a moving
-//! head: its section 2.2.
+//! *Source*: Webster et al. 2012 (Bioinspir. Biomim. 7:036023), section 4 (`SpikeRate`: 2 Hz, from trials with
+//! animals) and section 7 (adaptive specification of the threshold frequency is its future work); sampling of a plume
+//! by a moving head: its section 2.2.
 //!
-//! *Parameters*: `SpikeRate`: `hz` 2; window `window_s` (not published), 3.5 s, a step, as all characteristics are
-//! formed over a step; whose spikes `count` (not published), `Greatest`: the rule was read from the record of
-//! single sensors, and the one nearest to the plume's core tells most. `Experience`: the threshold is `factor` times the
-//! frequency of the first `reference_steps` steps after the sweep, 2.5 times and 3: with widths that grow as the
-//! square root of distance, filaments pass 2.5 times as often at a sixth of the distance; kept between `least_hz` 1 (one
-//! spike a second is no plume's core) and `most_hz` 4, well below the 6.7 Hz at which white noise has tops in a record
-//! of 20 Hz; `drift_m_s`, 0.05, the water's speed assumed when spikes met in motion are counted as at rest; window and
-//! count as above; `trail_end`, true: an empty sweep after the plume was followed means that the source is near:
-//! dye is met only down-stream of it, and passes below the probes just before it; the head goes across to the middle of the
-//! `points` most up-stream spikes (3, so that no single top of noise decides) and stops, without going back, for the
-//! source is not down-stream of spikes. The sweep is spared when the silence alone is proof: at the frequency met on
-//! the way `silence` spikes should have come and none did, 7: exp(-7), one in a thousand, were they independent.
+//! *Parameters*: `SpikeRate`: `hz` 2; window `window_s` (not published), 3.5 s, one step, because all characteristics
+//! are formed over a step; whose spikes `count` (not published), `Greatest`: the rule was derived from records of
+//! single sensors, and the probe nearest to the plume's core tells most. `Experience`: the threshold is `factor`
+//! times the frequency of the first `reference_steps` steps after the sweep, 2.5 times and 3: if the widths grow as
+//! the square root of distance, filaments pass 2.5 times as often at a sixth of the distance; it is kept between
+//! `least_hz` 1 (one spike per second is no plume's core) and `most_hz` 4, well below the 6.7 Hz at which white noise
+//! has maxima in a record of 20 Hz; `drift_m_s`, 0.05, the assumed speed of the water when spikes met in motion are
+//! counted as at rest; window and count as above.
 //!
-//! *Deviations*: `Experience` is ours throughout. The end of the trail rests on what the flow makes certain: dye is never
+//! `trail_end`, true: an empty sweep after a followed plume means that the source is near, because dye is met only
+//! down-stream of it, and passes below the probes just before it. The head moves across to the middle of the `points`
+//! most up-stream spikes (3, so that no single maximum of noise decides) and stops. It does not go back, because the
+//! source is not down-stream of spikes. No sweep is needed if the silence alone is proof: at the frequency met on the
+//! way `silence` spikes should have come and none did, 7: exp(-7) is one in a thousand if spikes are independent.
+//!
+//! *Deviations*: all of `Experience` is ours. The end of the trail rests on a certainty of the flow: dye is never
 //! up-stream of its source.
 
 use super::data::{Sample, Spike};
@@ -33,7 +35,7 @@ use world::ranges::Positive;
 pub enum StopSpec {
     /// A fixed frequency of spikes.
     SpikeRate(SpikeRate),
-    /// A frequency relative to what the tracker met first, and the end of the trail.
+    /// A frequency relative to the first steps, and the end of the trail.
     Experience(Experience),
 }
 
@@ -49,7 +51,7 @@ impl Default for StopSpec {
 pub struct SpikeRate {
     /// Threshold frequency, Hz.
     pub hz: Positive,
-    /// Over this time, s.
+    /// Length of the window, s.
     pub window_s: Positive,
     /// Whose spikes.
     pub count: Count,
@@ -65,29 +67,29 @@ impl Default for SpikeRate {
     }
 }
 
-/// Parameters of the frequency relative to experience.
+/// Parameters of the frequency relative to the first steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Experience {
-    /// Threshold over the frequency met first.
+    /// Threshold divided by the frequency of the first steps.
     pub factor: Positive,
-    /// Steps over which that frequency is averaged.
+    /// Number of steps over which that frequency is averaged.
     pub reference_steps: NonZeroUsize,
     /// Least threshold, Hz.
     pub least_hz: Positive,
     /// Greatest threshold, Hz.
     pub most_hz: Positive,
-    /// Speed of the water assumed when spikes met in motion are counted as at rest, m/s.
+    /// Assumed speed of the water when spikes met in motion are counted as at rest, m/s.
     pub drift_m_s: Positive,
-    /// Over this time, s.
+    /// Length of the window, s.
     pub window_s: Positive,
     /// Whose spikes.
     pub count: Count,
-    /// An empty sweep after a followed plume ends the search.
+    /// Whether an empty sweep after a followed plume ends the search.
     pub trail_end: bool,
-    /// Spikes expected in a silence that proves the end of the trail.
+    /// Number of spikes expected during a silence that proves the end of the trail.
     pub silence: Positive,
-    /// How many of the most up-stream spikes mark the end of the trail.
+    /// Number of most up-stream spikes that mark the end of the trail.
     pub points: NonZeroUsize,
 }
 
@@ -114,17 +116,17 @@ impl Default for Experience {
 pub struct StopRule {
     spec: StopSpec,
     window: RateWindow,
-    /// Steps judged and the sum of their frequencies, Hz, up to the number of reference.
+    /// Number of judged steps, up to the number of reference steps, and the sum of their frequencies, Hz.
     reference: (usize, f64),
-    /// Spikes of all probes and seconds of the steps judged, up to the latest spike.
+    /// Spikes of all probes and seconds of the judged steps, up to the latest spike.
     met: (usize, f64),
-    /// Seconds at the latest scan: all since the first judgement, and those since the latest spike.
+    /// Seconds at the latest scan: since the first judgement, and since the latest spike.
     latest_s: Option<f64>,
     silent_s: f64,
 }
 
 impl StopRule {
-    /// The unit with nothing met yet.
+    /// The unit before the first scan.
     #[must_use]
     pub fn new(spec: &StopSpec) -> Self {
         let window = match spec {
@@ -165,7 +167,7 @@ impl StopRule {
         self.window.hz()
     }
 
-    /// Whether the source is near; asked once at the end of each step.
+    /// Whether the source is near; called once at the end of each step.
     pub fn near(&mut self) -> bool {
         let hz = self.window.hz();
         match &self.spec {
@@ -184,12 +186,12 @@ impl StopRule {
         }
     }
 
-    /// A sweep has ended: what was met on the way across it is no measure of the plume's core.
+    /// A sweep has ended: the spikes met on it are no measure of the plume's core.
     pub fn swept(&mut self) {
         (self.met, self.silent_s) = ((0, 0.0), 0.0);
     }
 
-    /// The same as [`Self::trail_end`] when the silence since the latest spike is proof enough without a sweep.
+    /// The same as [`Self::trail_end`], if the silence since the latest spike is proof enough without a sweep.
     #[must_use]
     pub fn silent(&self) -> Option<usize> {
         let StopSpec::Experience(p) = &self.spec else {
@@ -201,7 +203,8 @@ impl StopRule {
         proof.then(|| self.trail_end()).flatten()
     }
 
-    /// How many of the most up-stream spikes mark the source once a sweep in a followed plume was empty; `None`: none do.
+    /// How many of the most up-stream spikes mark the source after an empty sweep in a followed plume; `None` without
+    /// such a sweep.
     #[must_use]
     pub fn trail_end(&self) -> Option<usize> {
         match &self.spec {
@@ -216,7 +219,7 @@ mod tests {
     use super::super::testing::{sample, spike};
     use super::*;
 
-    /// Whether the rule stops after each of several steps of 3.5 s with so many spikes a second on probe 0.
+    /// Whether the rule stops after each of several steps of 3.5 s with so many spikes per second on probe 0.
     fn stops(spec: &StopSpec, hz: &[f64]) -> Vec<bool> {
         let mut rule = StopRule::new(spec);
         let mut t = 0.0;
@@ -250,7 +253,8 @@ mod tests {
     #[test]
     fn the_threshold_follows_what_was_met_first() {
         let spec = StopSpec::Experience(Experience::default());
-        // 2.5 times 1 Hz; in a richer plume 2.5 times 1.4 Hz; in a poor one the least; never beyond the most.
+        // 2.5 times 1 Hz; in a richer plume 2.5 times 1.4 Hz; in a poor one the least threshold; never above the
+        // greatest.
         assert_eq!(
             stops(&spec, &[1.0, 1.0, 1.0, 2.0, 3.0]),
             [false, false, false, false, true]

@@ -1,4 +1,4 @@
-//! What the tracker's tests share: a machine, hand-made records, a head that obeys, a plume of puffs.
+//! Shared by the tracker's tests: a machine, records written by hand, a head that follows commands, a plume of puffs.
 
 use super::data::{Sample, Spike};
 use super::spec::GantryStrategy;
@@ -66,7 +66,7 @@ pub(super) fn spike(t_s: f64, probe: usize, magnitude_v: f64) -> Spike {
 /// Length of a tick, s.
 const DT_S: f64 = 0.01;
 
-/// A head that goes where it is told, at the commanded speeds, up to a wall if there is one.
+/// A head that moves to its target at the commanded speeds, up to a wall if there is one.
 pub(super) struct Rig {
     strategy: Box<dyn GantryStrategy>,
     layout: GantryLayout,
@@ -78,9 +78,9 @@ pub(super) struct Rig {
     noise: Stream,
     /// Where the head cannot be.
     pub(super) wall: fn(Vector2<f64>) -> bool,
-    /// First decision of each command: time, s, behaviour, target, m, where the head was, m.
+    /// First decision of each command: time, s, behaviour, target, m, and the head's place, m.
     pub(super) log: Vec<(f64, GantryBehaviour, Vector2<f64>, Vector2<f64>)>,
-    /// Way of the head since the first step up-stream, m.
+    /// Distance moved by the head since the first step up-stream, m.
     pub(super) way_m: f64,
 }
 
@@ -130,7 +130,8 @@ impl Rig {
         Some((first.0, first.3))
     }
 
-    /// Runs until the searcher stops, at most `seconds`; `above_v(t, tip)` is a probe's clean signal, V above the bottom.
+    /// Runs until the searcher stops, at most `seconds`; `above_v(t, tip)` is a probe's noiseless signal, V above the
+    /// bottom.
     pub(super) fn run(&mut self, seconds: f64, mut above_v: impl FnMut(f64, Vector3<f64>) -> f64) {
         let end = self.tick + (seconds / DT_S).round() as u64;
         while self.tick < end && self.stopped().is_none() {
@@ -208,15 +209,15 @@ impl Rig {
     }
 }
 
-/// Water's speed, m/s; puffs a second; source (forward, left, up), m.
+/// Speed of the water, m/s; puffs per second; source (forward, left, up), m.
 const DRIFT_M_S: f64 = 0.05;
 const PUFFS_HZ: f64 = 12.0;
 pub(super) const SOURCE_M: Vector3<f64> = Vector3::new(1.34, 0.03, 0.038);
 
 /// A plume of puffs that drift down-stream, meander together and apart, and grow.
 ///
-/// Spread by the eddy diffusivities of an open channel of 20 cm at 5 cm/s, 8.3e-5 m²/s across and 3.7e-5 up; half of the
-/// variance is shared by neighbours (e-fold in a second); the release is that of a 4.2 mm nozzle, a puff for each
+/// Spread by the eddy diffusivities of an open channel of 20 cm at 5 cm/s, 8.3e-5 m²/s across and 3.7e-5 up; half of
+/// the variance is shared by neighbours (e-fold in a second); the release is that of a 4.2 mm nozzle, a puff for each
 /// 4.2 mm of water.
 pub(super) struct Puffs {
     /// Of each puff: normal numbers along, across, up.

@@ -7,11 +7,11 @@
 //! `memory_s` (not published), 10 s, the upper end of the paper's short-term memory; which spikes are averaged,
 //! `over` (not published), those above the floor: the floor is applied first and "thereafter" the average is formed,
 //! and an average of accepted spikes alone would never come down in weaker water; whether each probe has its own
-//! average, `each_probe` (not published), true: the paper's Fig. 8 judges one record by its own threshold.
-//! `Level`: a constant `level_v`, for comparison.
+//! average, `each_probe` (not published), true: the paper's Fig. 8 judges one record by its own threshold. `Level`: a
+//! constant `level_v`, for comparison.
 //!
-//! *Deviations*: the running average forgets with time (e-fold in `memory_s`), not with the number of spikes:
-//! an old average must not outlive a loss of the plume.
+//! *Deviations*: the running average decays with time (e-fold in `memory_s`), not with the number of spikes: an old
+//! average must not outlive a loss of the plume.
 
 use super::data::Spike;
 use crate::handoff::MAX_PROBES;
@@ -44,11 +44,11 @@ pub struct HalfMean {
     pub floor_v: Finite,
     /// Threshold as a share of the average.
     pub share: Fraction,
-    /// Time in which the average forgets, s.
+    /// Time constant with which the average decays, s.
     pub memory_s: Positive,
     /// Which local maxima are averaged.
     pub over: Averaged,
-    /// Each probe has its own average; else all share one.
+    /// Whether each probe has its own average; otherwise all share one.
     pub each_probe: bool,
 }
 
@@ -89,7 +89,7 @@ impl Default for Level {
     }
 }
 
-/// A mean that forgets: weights and weighted sum, as of the latest spike.
+/// A mean that decays: weights and weighted sum at the latest spike.
 #[derive(Clone, Copy, Debug, Default)]
 struct Running {
     t_s: f64,

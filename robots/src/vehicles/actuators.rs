@@ -11,7 +11,7 @@ use super::hydrodynamics::Actuators;
 use crate::handoff::ActuatorCommand;
 
 impl Actuators {
-    /// Within what the vehicle's actuators can do.
+    /// The nearest state that the vehicle's actuators can reach.
     pub(super) fn limited(self, c: &Coefficients) -> Self {
         let fin = c.fin_limit_rad;
         Self {
@@ -21,7 +21,7 @@ impl Actuators {
         }
     }
 
-    /// What is asked of them, limited unless the limits act on the state.
+    /// The commanded state, limited unless the limits act on the state.
     pub(super) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
         let asked = Self {
             rudder_rad: command.rudder_rad,
@@ -35,7 +35,7 @@ impl Actuators {
         }
     }
 
-    /// Rate of change towards what is asked, 1/s of each.
+    /// Rate of change of each towards the command, per second.
     pub(super) fn rate(&self, asked: &Self, c: &Coefficients) -> Self {
         Self {
             rudder_rad: (asked.rudder_rad - self.rudder_rad) / c.fin_lag_s,
@@ -44,7 +44,7 @@ impl Actuators {
         }
     }
 
-    /// Moved by a rate for `h` seconds.
+    /// The state after `h` seconds at a rate.
     pub(super) fn moved(&self, rate: &Self, h: f64) -> Self {
         Self {
             rudder_rad: self.rudder_rad + rate.rudder_rad * h,

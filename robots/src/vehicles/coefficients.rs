@@ -32,16 +32,16 @@ use world::units::GRAVITY_M_S2;
 /// A set of hull parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum ParameterSet {
-    /// What the simulator ships: the published set without its quirks.
+    /// The default: the published set without its quirks.
     #[default]
     #[serde(rename = "remus100")]
     Remus100,
-    /// The published set, quirk by quirk, to compare with its trajectories.
+    /// The published set with its quirks, to compare with its trajectories.
     #[serde(rename = "reference")]
     Reference,
 }
 
-/// Where the propeller's inflow comes from.
+/// The speed that the propeller's inflow is taken from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inflow {
     /// Speed over ground (as first published).
@@ -52,16 +52,16 @@ pub enum Inflow {
     Axial,
 }
 
-/// All numbers of a hull. Frames FRD, moments about the centre of buoyancy CO.
+/// All numbers of a hull. Frames are FRD, moments are about the centre of buoyancy CO.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coefficients {
     /// Length, m.
     pub length_m: f64,
     /// Diameter, m.
     pub diameter_m: f64,
-    /// Density of the water the hull is ballasted for, kg/m³.
+    /// Density of the water for which the hull is ballasted, kg/m³.
     pub ballast_density_kg_m3: f64,
-    /// Mass, kg: that of the water displaced, unless a URDF gives another.
+    /// Mass, kg: that of the displaced water, unless a URDF gives another one.
     pub mass_kg: f64,
     /// Displaced volume, m³.
     pub volume_m3: f64,
@@ -73,7 +73,7 @@ pub struct Coefficients {
     pub added: [f64; 6],
     /// Linear damping, diagonal, at rest, N s/m and N m s.
     pub damping: [f64; 6],
-    /// Which of the linear damping fades as exp(−3 U_r).
+    /// Which of the linear damping coefficients fade as exp(−3 U_r).
     pub damping_fades: [bool; 3],
     /// Reference area of hull lift and drag, m².
     pub area_m2: f64,
@@ -89,15 +89,15 @@ pub struct Coefficients {
     pub cross_flow: f64,
     /// Stations of the cross-flow integral: x (m), length dx (m), the same for all.
     pub stations_m: (Vec<f64>, f64),
-    /// Cross-flow in sway and heave (true) or in sway only.
+    /// Cross-flow drag in sway and heave (true) or in sway only.
     pub cross_flow_both: bool,
     /// Area of a pair of fins, m².
     pub fin_area_m2: f64,
-    /// Where the fins are, x, m.
+    /// Place of the fins along the hull, x, m.
     pub fin_x_m: f64,
     /// Lift slopes of rudder and stern plane, 1/rad.
     pub fin_slope: [f64; 2],
-    /// Fins feel the water at the fin (true) or their deflection only.
+    /// Fins feel the water at the fin (true) or only their own deflection.
     pub fin_incidence: bool,
     /// Propeller diameter, m.
     pub propeller_m: f64,
@@ -111,7 +111,7 @@ pub struct Coefficients {
     pub thrust: [f64; 2],
     /// Torque coefficient at rest and its slope by advance ratio.
     pub torque: [f64; 2],
-    /// Where the propeller's inflow comes from.
+    /// The speed that the propeller's inflow is taken from.
     pub inflow: Inflow,
     /// Current turned by yaw only (quirk) or by the whole attitude.
     pub current_by_yaw_only: bool,
@@ -283,8 +283,8 @@ impl Coefficients {
     }
 }
 
-/// Cross-flow drag coefficient interpolated in Hoerner's table at B/2T = 0.5, with the digits that
-/// the published derivatives have in them.
+/// Cross-flow drag coefficient interpolated in Hoerner's table at B/2T = 0.5, with the digits that the published
+/// derivatives contain.
 const HOERNER_AT_HALF: f64 = 1.197_728_834_355_83;
 
 #[cfg(test)]

@@ -13,10 +13,10 @@
 //!
 //! *Parameters:* [`Coefficients`].
 //!
-//! *Deviations:* of the shipped set from the published one: the table in `coefficients.rs`. In both
-//! the entries of C_A that make the Munk moment are zero, as published: with it the hull is
-//! unstable, and the published drag and lift were fitted without it. Hull lift of the shipped set is
-//! slope · sin α cos α (slender bodies: Munk 1924) instead of slope · α, which pushes a hull lying
+//! *Deviations:* the table in `coefficients.rs` compares the default set with the published one. In both,
+//! the entries of C_A that make the Munk moment are zero, as published: with that moment the hull is
+//! unstable, and the published drag and lift were fitted without it. Hull lift of the default set is
+//! slope · sin α cos α (slender bodies: Munk 1924) instead of slope · α, which pushes a hull that lies
 //! across the current forwards. A hull partly out of the water keeps its added mass; every other
 //! water force falls with the share under water.
 
@@ -25,7 +25,7 @@ use nalgebra::{Matrix3, Matrix6, Rotation3, Vector3, Vector6};
 use world::math;
 use world::units::GRAVITY_M_S2;
 
-/// Actuators as they stand.
+/// State of the actuators.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Actuators {
     /// Rudder, positive turns to starboard, rad.
@@ -36,9 +36,9 @@ pub struct Actuators {
     pub rpm: f64,
 }
 
-/// Water round the hull, ENU.
+/// Water around the hull, ENU.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Water {
+pub(super) struct HullWater {
     /// Velocity at CO, m/s.
     pub(super) u_W: Vector3<f64>,
     /// ∂u_i/∂x_j, 1/s.
@@ -60,8 +60,8 @@ pub(super) struct Hydrodynamics {
     inverse_mass: Matrix6<f64>,
 }
 
-/// FLU to FRD and back: y and z change sign, of angular vectors too (a half turn about x). A zero becomes +0:
-/// the published model starts from it, and in a following current atan2(±0, −u) is ±π.
+/// FLU to FRD and back: y and z change sign, also of angular vectors (a half turn about x). A zero becomes +0: the
+/// published model starts from it, and in a following current atan2(±0, −u) is ±π.
 fn flip(v: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, 0.0 - v.y, 0.0 - v.z)
 }
@@ -80,7 +80,7 @@ impl Hydrodynamics {
         R_WB: &Rotation3<f64>,
         v: &Vector3<f64>,
         w: &Vector3<f64>,
-        water: &Water,
+        water: &HullWater,
         actuators: &Actuators,
     ) -> (Vector3<f64>, Vector3<f64>) {
         let c = &self.c;
@@ -109,7 +109,7 @@ impl Hydrodynamics {
             let a_water = to_body(&(water.rate_W + water.gradient_W * water.u_W));
             current_rate = -w.cross(&current) + a_hull;
             force += a_water * (water.density_kg_m3 * c.volume_m3 * water.wet);
-            // M_RB a_u: it has a moment too, as the centre of gravity is not CO.
+            // M_RB a_u also has a moment, because the centre of gravity is not CO.
             force -= a_hull * c.mass_kg;
             moment -= Vector3::new(0.0, 0.0, c.z_g_m).cross(&(a_hull * c.mass_kg));
             along = to_body(&(water.gradient_W * R_WB.matrix().column(0)));
@@ -124,7 +124,7 @@ impl Hydrodynamics {
         force += f * water.wet;
         moment += m * water.wet;
 
-        // Weight at CG, buoyancy at the middle of what is under water.
+        // Weight at CG, buoyancy at the middle of the part under water.
         let weight = c.mass_kg * GRAVITY_M_S2;
         let buoyancy = water.density_kg_m3 * c.volume_m3 * GRAVITY_M_S2 * water.wet;
         force += down * (weight - buoyancy);
@@ -151,7 +151,7 @@ impl Hydrodynamics {
         (w.cross(&l), v.cross(&l) + w.cross(&h))
     }
 
-    /// τ − C_A(ν_r)ν_r − D ν_r: everything the water does to a wholly wet hull.
+    /// τ − C_A(ν_r)ν_r − D ν_r: all forces of the water on a fully submerged hull.
     pub(super) fn water_forces(
         &self,
         v_ground: &Vector3<f64>,
@@ -198,7 +198,7 @@ impl Hydrodynamics {
         )
     }
 
-    /// Lift and drag of the hull by its incidence α, C_D = C_D0 + C_L²/(π e AR).
+    /// Lift and drag of the hull from its incidence α, C_D = C_D0 + C_L²/(π e AR).
     fn hull_lift_and_drag(&self, v: &Vector3<f64>, speed: f64, rho: f64) -> Vector3<f64> {
         let c = &self.c;
         let pressure = 0.5 * rho * speed * speed * c.area_m2;
@@ -306,7 +306,7 @@ impl Hydrodynamics {
         };
         let D = c.propeller_m;
         let D4 = D * D * D * D;
-        // Astern the curves are taken at rest.
+        // Astern, the curves' values at rest are used.
         let advance = if n > 0.0 {
             c.wake_share * inflow / D
         } else {

@@ -1,12 +1,12 @@
-//! The hull's accelerations against the published model's, and effect by effect.
+//! The hull's accelerations against those of the published model, one effect after the other.
 
 use super::coefficients::{Coefficients, Inflow, ParameterSet};
-use super::hydrodynamics::{Actuators, Hydrodynamics, Water};
+use super::hydrodynamics::{Actuators, HullWater, Hydrodynamics};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
 
-fn still() -> Water {
-    Water {
+fn still() -> HullWater {
+    HullWater {
         u_W: Vector3::zeros(),
         gradient_W: Matrix3::zeros(),
         rate_W: Vector3::zeros(),
@@ -37,7 +37,7 @@ fn published_derivatives() {
                 .map(|s| s.parse().expect("a number"))
                 .collect();
             let to_current = world::units::Heading::from_rad(n[1]).unit() * n[0];
-            let water = Water {
+            let water = HullWater {
                 u_W: Vector3::new(to_current.x, to_current.y, 0.0),
                 ..still()
             };

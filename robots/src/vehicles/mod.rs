@@ -2,6 +2,7 @@
 
 mod actuators;
 mod coefficients;
+mod files;
 mod gantry;
 mod hydrodynamics;
 #[cfg(test)]
@@ -19,6 +20,7 @@ mod urdf_tests;
 mod vehicle;
 
 pub use coefficients::{Coefficients, Inflow, ParameterSet};
+pub use files::{Files, InMemory};
 pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
 pub use hydrodynamics::Actuators;
 pub use spec::{CATALOGUE, RemusSpec, VehicleSpec};

@@ -1,15 +1,14 @@
-//! One step of a hull's equation of motion, pose, velocity and actuators together.
+//! One step of a hull's equation of motion: pose, velocity and actuators together.
 //!
 //! *Source:* classical fourth-order Runge-Kutta on (p, quaternion, ν, actuators).
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* the water is sampled once a step and taken linear in space and time over it. Unless the
-//! parameter set turns the current by yaw only, the step is done in axes moving with the water
-//! sampled: a uniform current then changes nothing but the drift, to the last bits (Galilean
-//! invariance).
+//! *Deviations:* the water is sampled once per step and taken as linear in space and time during it. Unless the
+//! parameter set turns the current by yaw only, the step is done in axes that move with the sampled water: a uniform
+//! current then changes nothing but the drift, to the last bits (Galilean invariance).
 
-use super::hydrodynamics::{Actuators, Hydrodynamics, Water};
+use super::hydrodynamics::{Actuators, HullWater, Hydrodynamics};
 use super::surface;
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use world::fields::WaterSample;
@@ -37,7 +36,7 @@ impl State {
 }
 
 impl Hydrodynamics {
-    /// State and actuators one step on.
+    /// State and actuators after one step.
     pub(super) fn advance(
         &self,
         truth: &Truth,
@@ -59,7 +58,7 @@ impl Hydrodynamics {
             actuators: *actuators,
         };
         let residue = sample.velocity - carried;
-        // What a point carried along sees of the water's change.
+        // The change of the water that a point carried along with it experiences.
         let rate_W = sample.rate + sample.gradient * carried;
 
         let rate = |s: &State, t: f64| {
@@ -71,7 +70,7 @@ impl Hydrodynamics {
                 s.p.z + carried.z * t,
                 R_WB.matrix()[(2, 0)],
             );
-            let water = Water {
+            let water = HullWater {
                 u_W: residue + sample.gradient * (s.p - start.p) + rate_W * t,
                 gradient_W: sample.gradient,
                 rate_W,

@@ -1,11 +1,11 @@
-//! What a scenario says of a vehicle.
+//! Parameters of a vehicle.
 
 use super::coefficients::ParameterSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
 
-/// Which vehicle.
+/// The vehicle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum VehicleSpec {
@@ -25,16 +25,17 @@ impl Default for VehicleSpec {
 pub struct RemusSpec {
     /// Hull parameters: `remus100` or `reference`.
     pub parameters: ParameterSet,
-    /// URDF file, relative to the scenario file; `None`: the one built in.
+    /// URDF file, relative to the scenario file; `None`: the built-in one.
     pub urdf: Option<String>,
 }
 
-/// Vehicles that a scenario can ask for.
+/// Vehicles and gantries that a scenario can choose.
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "Remus100",
         what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
-        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI 2001",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI \
+            2001",
     },
     Entry {
         name: "CrabGantry",

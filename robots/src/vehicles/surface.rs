@@ -1,18 +1,18 @@
-//! How much of a hull is under water when it comes near the surface.
+//! How much of a hull is under water near the surface.
 //!
-//! *Source:* hydrostatics of a prolate spheroid cut into slices, each wet in proportion to how much of its
-//! diameter is below z = 0.
+//! *Source:* hydrostatics of a prolate spheroid cut into slices, each wet in proportion to how much of its diameter
+//! is below z = 0.
 //!
 //! *Parameters:* length and diameter of the hull.
 //!
-//! *Deviations:* the wetted share of a round slice is taken linear in its draught (at most 6 % of the
-//! slice off); no waves at the surface.
+//! *Deviations:* the wetted share of a round slice is taken as linear in its draught (an error of at most 6 % of the
+//! slice); no waves at the surface.
 
 /// Slices along the hull.
 const SLICES: usize = 10;
 
-/// Share of the volume under water and where its middle is along the hull (m), for a hull whose
-/// centre is at height `z_m` and whose nose points up by sine `climb`.
+/// Share of the volume under water, and its middle along the hull (m), for a hull whose centre is at height `z_m` and
+/// whose nose points up with sine `climb`.
 pub(super) fn wet(length_m: f64, diameter_m: f64, z_m: f64, climb: f64) -> (f64, f64) {
     let half = length_m / 2.0;
     if z_m + half * climb.abs() + diameter_m / 2.0 <= 0.0 {

@@ -1,4 +1,4 @@
-//! The speed that a vehicle makes at full ahead.
+//! The speed of a vehicle at full ahead.
 
 use super::vehicle::Vehicle;
 use crate::handoff::ActuatorCommand;
@@ -15,8 +15,8 @@ const STEP_S: f64 = 0.02;
 const WATER_KG_M3: f64 = 1025.0;
 
 impl Vehicle {
-    /// Greatest speed through still water with the propeller at `rpm` or at its own limit, m/s: where thrust and drag
-    /// balance, found by running the vehicle's own equation from rest.
+    /// Greatest speed through still water with the propeller at `rpm`, or at its own limit, m/s: where thrust and
+    /// drag balance, found by running the vehicle's own equation of motion from rest.
     #[must_use]
     pub fn top_speed_m_s(&self, rpm: f64) -> f64 {
         let mut vehicle = self.clone();
@@ -35,7 +35,7 @@ impl Vehicle {
         let mut top: f64 = 0.0;
         for _ in 0..(RUN_UP_S / STEP_S) as u32 {
             truth = vehicle.step(&truth, &water, &ahead, STEP_S);
-            // On its line: a heel or a turn would cost speed that a helm would not lose.
+            // Held on its line: a heel or a turn would cost speed that a helmsman would not lose.
             truth.pose = level;
             truth.v_WB_B = Vector3::new(truth.v_WB_B.x, 0.0, 0.0);
             truth.w_WB_B = Vector3::zeros();
@@ -47,15 +47,14 @@ impl Vehicle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{RemusSpec, VehicleSpec};
+    use super::super::{InMemory, RemusSpec, VehicleSpec};
     use super::*;
-    use std::path::Path;
 
-    /// Full ahead a REMUS 100 of the published model makes some 2.5 m/s: 1000 rpm for 1.674 m/s, 1525 rpm at most.
+    /// At full ahead a REMUS 100 of the published model makes some 2.5 m/s: 1000 rpm for 1.674 m/s, 1525 rpm at most.
     #[test]
     fn full_ahead_follows_from_thrust_and_drag() {
         let remus = VehicleSpec::Remus100(RemusSpec::default());
-        let vehicle = Vehicle::load(&remus, Path::new("")).unwrap();
+        let vehicle = Vehicle::load(&remus, &InMemory::default()).unwrap();
         let cruise = vehicle.top_speed_m_s(1000.0);
         assert!((cruise - 1.674).abs() < 0.05, "{cruise}");
         let top = vehicle.top_speed_m_s(1e6);

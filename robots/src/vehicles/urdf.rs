@@ -1,22 +1,21 @@
-//! Reads a vehicle's URDF: mass, collision shapes, and where its instruments sit.
+//! Reads a vehicle's URDF: mass, collision shapes, and the places of its instruments.
 //!
 //! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint`.
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* the first link without a parent is the body; moving parts (fins, propeller) do not move, their
+//! *Deviations:* the first link without a parent is the body; moving parts (fins, propeller) do not move, and their
 //! forces are in the hydrodynamics. Cylinders and capsules lie along z.
 
 use super::coefficients::Coefficients;
 use super::urdf_mass::Ballast;
-use super::urdf_parts::{check_tree, finite, joined, parse, place, pose_of, root, shape};
+use super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use crate::error::RobotError;
 use std::collections::BTreeMap;
-use std::path::Path;
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// What a URDF says of a vehicle.
+/// Contents of a vehicle's URDF.
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
     /// Collision shapes in body axes.
@@ -25,23 +24,20 @@ pub(super) struct Hull {
     pub(super) links: BTreeMap<String, Pose>,
     /// The hydrodynamic parameters with its mass.
     pub(super) coefficients: Coefficients,
-    /// Where its mass is not that of the parameters.
+    /// Where its mass differs from that of the parameters.
     pub(super) told: Vec<String>,
 }
 
 /// Links that a vehicle with a rudder, a stern plane and a propeller must have.
 const NEEDED: [&str; 3] = ["rudder", "stern_plane", "propeller"];
 
-/// No part of a hull of some 1.6 m lies further from its middle, m.
+/// No part of a hull of some 1.6 m may lie farther from its middle than this, m.
 const FURTHEST_M: f64 = 10.0;
 
-/// Reads URDF text; `path` is for messages and for mesh files beside it.
-pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, RobotError> {
-    let fail = |problem: String| RobotError::File {
-        path: path.display().to_string(),
-        problem,
-    };
-    let robot = parse(text).map_err(fail)?;
+/// Reads the text of a URDF and the mesh files that it names.
+pub(super) fn read(urdf: &UrdfText, c: &Coefficients) -> Result<Hull, RobotError> {
+    let fail = |problem: String| urdf.fault(problem);
+    let robot = parse(&urdf.text).map_err(fail)?;
     check_tree(&robot).map_err(fail)?;
     let body = root(&robot).map_err(fail)?;
     let links = place(&robot, &body.name).map_err(fail)?;
@@ -57,8 +53,7 @@ pub(super) fn read(text: &str, path: &Path, c: &Coefficients) -> Result<Hull, Ro
         let pose = &links[&link.name];
         for (i, collision) in link.collision.iter().enumerate() {
             let place = format!("link \"{}\", collision {}", link.name, i + 1);
-            let beside = path.parent().unwrap_or(Path::new(""));
-            let shape = shape(&collision.geometry, beside)
+            let shape = shape(&collision.geometry, urdf)
                 .map_err(|problem| fail(format!("{place}: {problem}")))?;
             finite(&collision.origin, &place).map_err(fail)?;
             let at = joined(pose, &pose_of(&collision.origin));

@@ -1,12 +1,12 @@
-//! The mass that a vehicle's URDF gives, and what of it the equation of motion takes.
+//! The mass that a vehicle's URDF gives, and what the equation of motion takes from it.
 //!
 //! *Source:* parallel-axis theorem over all links with a mass, joints at zero.
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* hydrodynamic parameters were fitted to one hull, so mass, inertia and height of the centre of
-//! gravity may differ from theirs by 1 % and are then used as they are; a centre of gravity off the hull's axis and products of
-//! inertia within 1 % are left out. Both is told.
+//! *Deviations:* hydrodynamic parameters were fitted to one hull. So mass, inertia and height of the centre of
+//! gravity may differ from theirs by 1 %, and the URDF's values are then used. A centre of gravity off the hull's
+//! axis, and products of inertia, within 1 % are left out. Both are reported.
 
 use super::coefficients::Coefficients;
 use super::urdf_parts::{finite, joined, pose_of};
@@ -16,9 +16,9 @@ use urdf_rs::Robot;
 use world::frames::Pose;
 use world::units::GRAVITY_M_S2;
 
-/// By how much mass and inertia may differ from the hydrodynamic parameters.
+/// Greatest relative difference of mass and inertia from the hydrodynamic parameters.
 const MASS_TOLERANCE: f64 = 0.01;
-/// By how much they differ in a file with eight digits; that is no difference.
+/// Relative difference that rounding to eight digits in a file can cause; it counts as none.
 const ROUNDING: f64 = 1e-6;
 
 /// Mass, centre of gravity and inertia of a vehicle, FLU.
@@ -75,10 +75,10 @@ impl Ballast {
         })
     }
 
-    /// The parameters with this mass, and what is to be told of it.
+    /// The parameters with this mass, and what must be reported about it.
     ///
     /// # Errors
-    /// If it is not that of the hull for which the parameters are.
+    /// If it is not the mass of the hull for which the parameters are.
     pub(super) fn put_into(
         &self,
         body: &str,
@@ -105,14 +105,15 @@ impl Ballast {
             let have = inertia[(row, column)];
             if !near(want.x + have, want.x) {
                 return Err(format!(
-                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull without"
+                    "link \"{body}\": {axis} is {have} kg m2, but the hydrodynamic parameters are for a hull with zero"
                 ));
             }
         }
         let [x, y, z] = [self.p_BG.x, self.p_BG.y, self.p_BG.z];
         if !near(c.z_g_m + x, c.z_g_m) || !near(c.z_g_m + y, c.z_g_m) {
             return Err(format!(
-                "link \"{body}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters have it under the middle"
+                "link \"{body}\": the centre of gravity is at x = {x} m, y = {y} m, but the hydrodynamic parameters \
+                have it under the middle"
             ));
         }
         if !near(-z, c.z_g_m) {
@@ -150,14 +151,16 @@ impl Ballast {
             if differs(have, want) {
                 used.inertia_kg_m2[k] = have;
                 told.push(format!(
-                    "{axis} is {have} kg m2 by its URDF, {want:.5} kg m2 by the hydrodynamic parameters: the URDF's is used"
+                    "{axis} is {have} kg m2 by its URDF, {want:.5} kg m2 by the hydrodynamic parameters: the URDF's \
+                    is used"
                 ));
             }
         }
         if differs(-self.p_BG.z, c.z_g_m) {
             used.z_g_m = -self.p_BG.z;
             told.push(format!(
-                "the centre of gravity is {} m low by its URDF, {} m by the hydrodynamic parameters: the URDF's is used",
+                "the centre of gravity is {} m low by its URDF, {} m by the hydrodynamic parameters: the URDF's is \
+                used",
                 used.z_g_m, c.z_g_m
             ));
         }
@@ -171,7 +174,7 @@ impl Ballast {
         ] {
             if have.abs() > ROUNDING * scale {
                 told.push(format!(
-                    "{what} is {have} {unit} by its URDF: left out, the equation of motion has none"
+                    "{what} is {have} {unit} by its URDF: ignored, because the equation of motion has none"
                 ));
             }
         }

@@ -1,4 +1,4 @@
-//! What every reader of a URDF needs: text to links and joints, poses, shapes, files.
+//! What every reader of a URDF needs: its text, links and joints, poses, shapes.
 //!
 //! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint`.
 //!
@@ -6,43 +6,87 @@
 //!
 //! *Deviations:* none.
 
+use super::files::Files;
 use super::mesh;
 use crate::error::RobotError;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use urdf_rs::{Geometry, Link, Robot};
-use world::files;
 use world::frames::Pose;
 use world::physics::Shape;
 
 /// Longest file read, bytes: a robot is text of some kilobytes.
 const LONGEST: u64 = 16 << 20;
 
-/// Text and path of a URDF beside the scenario, or of the one built in.
-pub(super) fn open(
-    file: Option<&str>,
-    base_dir: &Path,
-    built_in: (&str, &str),
-) -> Result<(String, PathBuf), RobotError> {
-    let Some(name) = file else {
-        let (name, text) = built_in;
-        return Ok((text.into(), PathBuf::from(format!("built-in {name}"))));
-    };
-    let path = base_dir.join(name);
-    match files::read_text(&path, LONGEST) {
-        Ok(text) => Ok((text, path)),
-        Err(e) => Err(RobotError::File {
-            path: path.display().to_string(),
-            problem: e.to_string(),
-        }),
+/// The text of a URDF, and where it and its meshes come from.
+pub(super) struct UrdfText<'a> {
+    /// The text.
+    pub(super) text: String,
+    /// Path for messages.
+    path: String,
+    /// Folder of the URDF; names of mesh files are relative to it.
+    folder: &'a Path,
+    files: &'a dyn Files,
+}
+
+impl<'a> UrdfText<'a> {
+    /// The URDF that a scenario names, or the one built in, given as its name and text.
+    pub(super) fn open(
+        name: Option<&'a str>,
+        files: &'a dyn Files,
+        built_in: (&str, &str),
+    ) -> Result<Self, RobotError> {
+        let Some(name) = name.map(Path::new) else {
+            let (name, text) = built_in;
+            return Ok(Self {
+                text: text.into(),
+                path: format!("built-in {name}"),
+                folder: Path::new(""),
+                files,
+            });
+        };
+        let path = files.path(name).display().to_string();
+        match files.text(name, LONGEST) {
+            Ok(text) => Ok(Self {
+                text,
+                path,
+                folder: name.parent().unwrap_or(Path::new("")),
+                files,
+            }),
+            Err(problem) => Err(RobotError::File { path, problem }),
+        }
+    }
+
+    /// A problem in this file.
+    pub(super) fn fault(&self, problem: String) -> RobotError {
+        RobotError::File {
+            path: self.path.clone(),
+            problem,
+        }
+    }
+
+    /// Corners of a mesh file beside the URDF.
+    fn mesh(&self, name: &str) -> Result<Vec<Vector3<f64>>, String> {
+        mesh::points(&self.folder.join(name), self.files)
     }
 }
 
-/// Links and joints; every joint has its links.
+/// A text as if it stood in a file of that path, with the given files beside it.
+#[cfg(test)]
+pub(super) fn as_file<'a>(text: &str, path: &str, files: &'a dyn Files) -> UrdfText<'a> {
+    UrdfText {
+        text: text.into(),
+        path: path.into(),
+        folder: Path::new(""),
+        files,
+    }
+}
+
+/// Parses links and joints, and checks that the links of every joint exist.
 pub(super) fn parse(text: &str) -> Result<Robot, String> {
     let robot = urdf_rs::read_from_string(text).map_err(|e| {
-        // The reader of XML says of all these only that it finds nothing.
+        // In all these cases the XML reader reports only that it finds nothing.
         let why = if !text.contains("<robot") {
             "there is no <robot> in it".to_string()
         } else if !text.contains("</robot>") {
@@ -62,21 +106,21 @@ pub(super) fn parse(text: &str) -> Result<Robot, String> {
     Ok(robot)
 }
 
-/// The first link that hangs on no other.
+/// The first link that is no joint's child.
 pub(super) fn root(robot: &Robot) -> Result<&Link, String> {
     let is_child = |l: &Link| robot.joints.iter().any(|j| j.child.link == l.name);
     robot
         .links
         .iter()
         .find(|l| !is_child(l))
-        .ok_or_else(|| "every link is the child of a joint: there is no body".into())
+        .ok_or_else(|| "every link is the child of a joint, so there is no body".into())
 }
 
-/// Pose of every link that hangs on `body`, joints at zero.
+/// Pose of every link connected to `body`, with joints at zero.
 pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>, String> {
     let mut links = BTreeMap::new();
     links.insert(body.to_string(), pose_of(&urdf_rs::Pose::default()));
-    // Each round places at least one link more, or the rest does not hang on the body.
+    // Each round places at least one more link, unless the rest is not connected to the body.
     for _ in &robot.joints {
         for joint in &robot.joints {
             if let Some(parent) = links.get(&joint.parent.link).copied() {
@@ -88,11 +132,12 @@ pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>,
     Ok(links)
 }
 
-/// Every link but one is the child of exactly one joint, names are unique, numbers finite.
+/// Checks that every link but one is the child of exactly one joint, that names are unique, and that numbers are
+/// finite.
 pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     for (i, link) in robot.links.iter().enumerate() {
         if robot.links[..i].iter().any(|l| l.name == link.name) {
-            return Err(format!("link \"{}\" is there twice", link.name));
+            return Err(format!("link \"{}\" occurs twice", link.name));
         }
     }
     let base = &root(robot)?.name;
@@ -116,7 +161,7 @@ pub(super) fn check_tree(robot: &Robot) -> Result<(), String> {
     }
 }
 
-/// That an `<origin>` is made of numbers.
+/// Checks that an `<origin>` consists of finite numbers.
 pub(super) fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> {
     let all = origin.xyz.iter().chain(origin.rpy.iter());
     match all.into_iter().find(|v| !v.is_finite()) {
@@ -125,8 +170,8 @@ pub(super) fn finite(origin: &urdf_rs::Pose, whose: &str) -> Result<(), String> 
     }
 }
 
-/// A collision shape; mesh files are looked for in the folder `beside`.
-pub(super) fn shape(geometry: &Geometry, beside: &Path) -> Result<Shape, String> {
+/// A collision shape of a URDF.
+pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, String> {
     let positive = |v: f64, what: &str| {
         if v > 0.0 && v.is_finite() {
             Ok(v)
@@ -156,8 +201,8 @@ pub(super) fn shape(geometry: &Geometry, beside: &Path) -> Result<Shape, String>
         },
         Geometry::Mesh { filename, scale } => {
             let file = filename.strip_prefix("file://").unwrap_or(filename);
-            let points = mesh::points(&beside.join(file))
-                .map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
+            let points =
+                (urdf.mesh(file)).map_err(|problem| format!("mesh \"{filename}\": {problem}"))?;
             let scale = scale.map_or(Vector3::repeat(1.0), |s| Vector3::from(s.0));
             let hull = Shape::Hull {
                 points_m: points.iter().map(|p| p.component_mul(&scale)).collect(),
@@ -179,7 +224,7 @@ pub(super) fn pose_of(p: &urdf_rs::Pose) -> Pose {
     }
 }
 
-/// `inner`, given in the axes of `outer`, in those in which `outer` is given.
+/// Converts `inner`, given in the axes of `outer`, to the axes in which `outer` is given.
 pub(super) fn joined(outer: &Pose, inner: &Pose) -> Pose {
     Pose {
         p_WB: outer.point(inner.p_WB),

@@ -1,18 +1,20 @@
-//! What a wrong URDF is told.
+//! Reads URDFs of vehicles, and checks the messages for wrong ones.
 
 use super::coefficients::{Coefficients, ParameterSet};
+use super::files::InMemory;
 use super::spec::{RemusSpec, VehicleSpec};
 use super::urdf::{Hull, read};
+use super::urdf_parts::as_file;
 use super::vehicle::Vehicle;
 use nalgebra::Vector3;
-use std::path::Path;
 use world::physics::Shape;
 
 const GOOD: &str = include_str!("../../urdf/remus100.urdf");
 
 fn parse(text: &str) -> Result<Hull, String> {
     let c = Coefficients::of(ParameterSet::Remus100);
-    read(text, Path::new("/no/such/place/auv.urdf"), &c).map_err(|e| e.to_string())
+    let files = InMemory::default();
+    read(&as_file(text, "/no/such/place/auv.urdf", &files), &c).map_err(|e| e.to_string())
 }
 
 fn fails(from: &str, to: &str) -> String {
@@ -22,7 +24,7 @@ fn fails(from: &str, to: &str) -> String {
 
 #[test]
 fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Vehicle::load(&VehicleSpec::default(), Path::new(".")).expect("built in");
+    let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
     let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
     assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
     for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
@@ -50,11 +52,8 @@ fn a_missing_file_is_named() {
         urdf: Some("none.urdf".into()),
         ..RemusSpec::default()
     });
-    let error = Vehicle::load(&spec, Path::new("/no/such/place")).expect_err("no file");
-    assert_eq!(
-        error.to_string(),
-        "/no/such/place/none.urdf: No such file or directory (os error 2)"
-    );
+    let error = Vehicle::load(&spec, &InMemory::default()).expect_err("no file");
+    assert_eq!(error.to_string(), "none.urdf: there is no such file");
 }
 
 #[test]
@@ -97,11 +96,11 @@ fn what_is_no_tree_is_told() {
     };
     assert_eq!(
         with("<link name=\"rudder\"/>"),
-        "link \"rudder\" is there twice"
+        "link \"rudder\" occurs twice"
     );
     assert_eq!(
         with(&joint("round", "rudder", "base_link")),
-        "every link is the child of a joint: there is no body"
+        "every link is the child of a joint, so there is no body"
     );
     let ring = format!(
         "<link name=\"a\"/><link name=\"b\"/>{}{}",
@@ -151,11 +150,11 @@ fn wrong_masses_are_told() {
     );
     assert_eq!(
         fails("ixz=\"0\"", "ixz=\"1\""),
-        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull without"
+        "/no/such/place/auv.urdf: link \"base_link\": ixz is 1 kg m2, but the hydrodynamic parameters are for a hull with zero"
     );
 }
 
-/// A mass within 1 % of the parameters' is the vehicle's: it weighs that much, and `check` says so.
+/// A mass within 1 % of the parameters' is the vehicle's: it has that weight, and `check` reports it.
 #[test]
 fn a_mass_within_the_tolerance_is_used_and_told() {
     let heavy = |text: &str| parse(text).expect("within 1 %");
@@ -189,9 +188,10 @@ fn a_mass_within_the_tolerance_is_used_and_told() {
         hull.told,
         [
             "iyy is 4.05 kg m2 by its URDF, 4.02777 kg m2 by the hydrodynamic parameters: the URDF's is used",
-            "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is used",
-            "x of the centre of gravity is 0.0001 m by its URDF: left out, the equation of motion has none",
-            "ixy is 0.0005 kg m2 by its URDF: left out, the equation of motion has none",
+            "the centre of gravity is 0.0201 m low by its URDF, 0.02 m by the hydrodynamic parameters: the URDF's is \
+            used",
+            "x of the centre of gravity is 0.0001 m by its URDF: ignored, because the equation of motion has none",
+            "ixy is 0.0005 kg m2 by its URDF: ignored, because the equation of motion has none",
         ]
     );
 }
@@ -216,12 +216,12 @@ fn masses_of_all_links_add_up() {
     );
     let hull = with("0.005").expect("a small fin");
     assert!((hull.coefficients.mass_kg - 31.034385).abs() < 1e-12);
-    // 0.005 kg 0.8 m behind the middle, less what that moves the centre of gravity.
+    // 0.005 kg 0.8 m behind the middle, less the effect of the moved centre of gravity.
     let more = hull.coefficients.inertia_kg_m2.z - 4.0277693;
     assert!((more - 0.005 * 0.64).abs() < 1e-5, "{more}");
 }
 
-/// The weight is the URDF's: left alone under water, the vehicle comes to sink as fast as its drag lets it.
+/// The weight is the URDF's: left alone under water, the heavier vehicle sinks.
 #[test]
 fn a_heavier_hull_sinks() {
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
@@ -234,21 +234,18 @@ fn a_heavier_hull_sinks() {
         rate: Vector3::zeros(),
         density_kg_m3: 1026.0,
     };
-    let dir = std::env::temp_dir().join(format!("rheotaxis-heavy-{}", std::process::id()));
-    std::fs::create_dir_all(&dir).expect("a directory");
     let sinks = |kg: &str| {
         let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
-        std::fs::write(dir.join("auv.urdf"), text).expect("a file");
+        let files = InMemory::default().with("auv.urdf", text.as_bytes());
         let spec = VehicleSpec::Remus100(RemusSpec {
             urdf: Some("auv.urdf".into()),
             ..RemusSpec::default()
         });
-        let mut vehicle = Vehicle::load(&spec, &dir).expect("a vehicle");
+        let mut vehicle = Vehicle::load(&spec, &files).expect("a vehicle");
         let command = crate::handoff::ActuatorCommand::default();
         vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
     };
     let (neutral, heavy) = (sinks("31.029385"), sinks("31.2"));
-    std::fs::remove_dir_all(&dir).expect("cleaned up");
     assert!(neutral.abs() < 1e-9, "{neutral}");
     let c = Coefficients::of(ParameterSet::Remus100);
     let expected = -(31.2 - c.mass_kg) * world::units::GRAVITY_M_S2 / (31.2 + c.added[2]);
@@ -263,7 +260,7 @@ fn wrong_geometry_is_told() {
     let hull = "<capsule radius=\"0.095\" length=\"1.41\"/>";
     assert_eq!(
         fails(hull, "<mesh filename=\"hull.stl\"/>"),
-        "/no/such/place/auv.urdf: link \"base_link\", collision 1: mesh \"hull.stl\": No such file or directory (os error 2)"
+        "/no/such/place/auv.urdf: link \"base_link\", collision 1: mesh \"hull.stl\": there is no such file"
     );
     assert_eq!(
         fails(hull, "<sphere radius=\"-1\"/>"),
@@ -279,21 +276,20 @@ fn wrong_geometry_is_told() {
 
 #[test]
 fn a_mesh_beside_the_urdf_becomes_a_hull() {
-    let dir = std::env::temp_dir().join(format!("rheotaxis-urdf-{}", std::process::id()));
-    std::fs::create_dir_all(&dir).expect("a directory");
     let obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
-    std::fs::write(dir.join("hull.obj"), obj).expect("a file");
     let text = GOOD.replace(
         "<capsule radius=\"0.095\" length=\"1.41\"/>",
         "<mesh filename=\"hull.obj\" scale=\"2 2 2\"/>",
     );
-    std::fs::write(dir.join("auv.urdf"), text).expect("a file");
+    // The mesh lies beside the URDF, not beside the scenario.
+    let files = InMemory::default()
+        .with("hulls/auv.urdf", text.as_bytes())
+        .with("hulls/hull.obj", obj.as_bytes());
     let spec = VehicleSpec::Remus100(RemusSpec {
-        urdf: Some("auv.urdf".into()),
+        urdf: Some("hulls/auv.urdf".into()),
         ..RemusSpec::default()
     });
-    let vehicle = Vehicle::load(&spec, &dir).expect("a vehicle with a mesh");
-    std::fs::remove_dir_all(&dir).expect("cleaned up");
+    let vehicle = Vehicle::load(&spec, &files).expect("a vehicle with a mesh");
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
         Vector3::zeros(),
         world::units::Heading::from_deg(0.0),

@@ -1,20 +1,20 @@
 //! A vehicle: hull, instruments' places, actuators and its equation of motion.
 
 use super::coefficients::Coefficients;
+use super::files::Files;
 use super::hydrodynamics::{Actuators, Hydrodynamics};
 use super::spec::VehicleSpec;
 use super::urdf::{self, Hull};
-use super::urdf_parts;
+use super::urdf_parts::UrdfText;
 use crate::error::RobotError;
 use crate::handoff::ActuatorCommand;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Matrix6, Vector3, Vector6};
-use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
 
-/// The REMUS's URDF as built in.
+/// The built-in URDF of the REMUS.
 const REMUS100: &str = include_str!("../../urdf/remus100.urdf");
 
 /// A vehicle and the state of its actuators; pose and velocity belong to the physics.
@@ -26,13 +26,16 @@ pub struct Vehicle {
 }
 
 impl Vehicle {
-    /// Reads what a scenario in `base_dir` asks for.
-    pub fn load(spec: &VehicleSpec, base_dir: &Path) -> Result<Self, RobotError> {
+    /// Builds the vehicle that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or if the URDF is wrong or does not fit the hydrodynamic parameters.
+    pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
         let VehicleSpec::Remus100(remus) = spec;
         let coefficients = Coefficients::of(remus.parameters);
         let built_in = ("remus100.urdf", REMUS100);
-        let (text, path) = urdf_parts::open(remus.urdf.as_deref(), base_dir, built_in)?;
-        let hull = urdf::read(&text, &path, &coefficients)?;
+        let text = UrdfText::open(remus.urdf.as_deref(), files, built_in)?;
+        let hull = urdf::read(&text, &coefficients)?;
         Ok(Self {
             dynamics: Hydrodynamics::new(hull.coefficients.clone()),
             hull,
@@ -46,25 +49,25 @@ impl Vehicle {
         &self.dynamics.c
     }
 
-    /// Where the URDF's mass is not that of the hydrodynamic parameters, and what is done about it.
+    /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
     #[must_use]
     pub fn told(&self) -> &[String] {
         &self.hull.told
     }
 
-    /// Where an instrument (a link of the URDF) sits, in body axes.
+    /// Pose of an instrument (a link of the URDF), in body axes.
     #[must_use]
     pub fn mount(&self, name: &str) -> Option<Pose> {
         self.hull.links.get(name).copied()
     }
 
-    /// Fins and propeller as they stand.
+    /// Present state of fins and propeller.
     #[must_use]
     pub fn actuators(&self) -> Actuators {
         self.actuators
     }
 
-    /// Sets fins and propeller: a beginning, not a motion.
+    /// Sets the state of fins and propeller at a start.
     pub fn set_actuators(&mut self, actuators: Actuators) {
         self.actuators = actuators;
     }
@@ -84,7 +87,7 @@ impl Vehicle {
         }
     }
 
-    /// Where the vehicle gets in `dt_s` if it touches nothing, for `Physics::push`; moves the actuators.
+    /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`; also moves the actuators.
     pub fn step(
         &mut self,
         truth: &Truth,

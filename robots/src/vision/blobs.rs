@@ -22,7 +22,8 @@ pub struct Blob {
     pub high_px: [u32; 2],
 }
 
-/// The patches of the pixels above 0, the largest first, of equal ones the one that begins higher up and farther left.
+/// The patches of the pixels above 0, largest first; of patches of equal size, the one that begins higher up and
+/// farther left.
 #[must_use]
 pub fn blobs(mask: &GrayImage) -> Vec<Blob> {
     let (w, h) = mask.dimensions();

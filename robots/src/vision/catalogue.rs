@@ -1,4 +1,4 @@
-//! What `rheotaxis list` says of the eyes.
+//! The entries of `rheotaxis list` about looking at pictures.
 
 use world::catalogue::Entry;
 
@@ -6,7 +6,8 @@ use world::catalogue::Entry;
 pub const CATALOGUE: &[Entry] = &[
     Entry {
         name: "verifier",
-        what: "Whether a picture shows a source giving off dye: enough dye that is redder than the rest, and a darker body that it touches",
+        what: "Whether a picture shows a source giving off dye: enough dye that is redder than the rest, and a darker \
+            body next to it",
         source: "ours, on the parts found by Tian et al. 2013, section 5",
     },
     Entry {
@@ -16,12 +17,13 @@ pub const CATALOGUE: &[Entry] = &[
     },
     Entry {
         name: "delta1, delta2, edges",
-        what: "Clusters of the passes' colour patterns: those near the one nearest the reference are kept",
+        what: "Clusters of the passes' colour patterns: keeps those near the one that is nearest to the reference",
         source: "Tian et al. 2013, section 5, two criteria; Floyd 1962",
     },
     Entry {
         name: "dehaze, give_back",
-        what: "Against haze: slow changes taken out and each colour brought to the whole range first; what dropped plume patterns took goes back",
+        what: "Against haze: first removes slow changes and stretches each colour to the whole range; returns the \
+            pixels of dropped plume patterns",
         source: "ours; histogram stretching as Iqbal et al. 2007",
     },
 ];

@@ -1,32 +1,33 @@
-//! Which colour patterns of a group belong together: those near the one nearest the reference.
+//! Which colour patterns of a group belong together: those near the pattern that is nearest to the reference.
 //!
 //! *Source*: Tian et al. 2013, section 5, the two criteria for clustering (pivot distance, Floyd's shortest paths).
 //!
-//! *Parameters*: how much farther from the reference than the pivot, δ₁, `delta1`, 40; how far from the pivot along the graph, δ₂,
-//! `delta2`, 45; levels.
+//! *Parameters*: how much farther from the reference than the pivot, δ₁, `delta1`, 40; how far from the pivot along
+//! the graph, δ₂, `delta2`, 45; levels.
 //!
-//! *Deviations*: the paper does not say how long its graph's edges are ("based on the distances between the CPs in terms of the given
-//! reference color"). Ours joins all patterns that the first criterion leaves, either by the distance of their colours
-//! (`edges: Colours`) or by the difference of their distances to the reference (`edges: Reference`). Both obey the triangle inequality, so
-//! the shortest way is the straight one and Floyd's algorithm finds nothing shorter. With the paper's numbers neither adds to the
-//! first criterion what it should: a later pattern differs from the pivot by 74 levels or more in some channel, or it would have
-//! been taken with it, so that δ₂ = 45 drops every one (`Colours`); or the way is Δ₁ itself, which δ₁ = 40 has limited already
-//! (`Reference`).
+//! *Deviations*: the paper does not say how long its graph's edges are ("based on the distances between the CPs in
+//! terms of the given reference color"). Ours joins all patterns that the first criterion leaves, either by the
+//! distance of their colours (`edges: Colours`) or by the difference of their distances to the reference (`edges:
+//! Reference`). Both obey the triangle inequality, so the shortest way is the straight one and Floyd's algorithm
+//! finds nothing shorter. With the paper's numbers neither of them adds what it should to the first criterion. With
+//! `Colours`, a later pattern differs from the pivot by 74 levels or more in some channel (otherwise it would have
+//! been taken with the pivot), so that δ₂ = 45 drops every one. With `Reference`, the way is Δ₁ itself, which δ₁ = 40
+//! has already limited.
 
 use super::{ColourSpec, Edges, Pattern, distance};
 use serde::Serialize;
 
-/// What becomes of a colour pattern.
+/// Fate of a colour pattern.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fate {
-    /// The one nearest the reference.
+    /// The pattern nearest to the reference.
     Pivot,
-    /// Belongs to the pivot's group; its shortest way to it, levels.
+    /// Belongs to the pivot's group; its shortest way to the pivot, levels.
     Kept(f64),
-    /// Farther from the reference than the pivot by this, more than δ₁; levels.
+    /// Farther from the reference than the pivot by this, which is more than δ₁; levels.
     OffReference(f64),
-    /// This far from the pivot, more than δ₂; levels.
+    /// This far from the pivot, which is more than δ₂; levels.
     OffPivot(f64),
 }
 
@@ -38,7 +39,7 @@ impl Fate {
     }
 }
 
-/// The fate of each pattern of a group, which share their reference.
+/// The fate of each pattern of a group with a common reference.
 #[must_use]
 pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
     let order = |a: &usize, b: &usize| patterns[*a].distance.total_cmp(&patterns[*b].distance);
@@ -69,7 +70,7 @@ pub fn fates(patterns: &[Pattern], spec: &ColourSpec) -> Vec<Fate> {
     (0..patterns.len()).map(fate).collect()
 }
 
-/// Lengths of the shortest ways between `n` nodes (Floyd 1962), infinite where there is none; an edge may be missing.
+/// Lengths of the shortest ways between `n` nodes (Floyd 1962), infinite if there is none; edges may be missing.
 #[must_use]
 pub fn shortest_paths(n: usize, edge: impl Fn(usize, usize) -> Option<f64>) -> Vec<Vec<f64>> {
     let mut d: Vec<Vec<f64>> = (0..n)
@@ -112,7 +113,7 @@ mod tests {
     #[test]
     fn by_hand() {
         let spec = ColourSpec::default();
-        // 55, 85 and 105 from RED; the last but one 60 from the pivot; then one that keeps both.
+        // 55, 85 and 105 from RED; the last but one 60 from the pivot; then one within both limits.
         let group = [[200, 0, 0], [255, 85, 0], [150, 0, 0], [180, 20, 20]].map(pattern);
         let got = fates(&group, &spec);
         assert_eq!(got[0], Fate::Pivot);
@@ -131,7 +132,7 @@ mod tests {
         }
     }
 
-    /// Limits belong to the group ("greater than" drops): 40 farther from the reference, 45 from the pivot.
+    /// A pattern at a limit stays ("greater than" drops): 40 farther from the reference, 45 from the pivot.
     #[test]
     fn limits_are_kept() {
         let spec = ColourSpec::default();
@@ -148,7 +149,8 @@ mod tests {
         assert_eq!(fates(&[pattern([0, 255, 255])], &spec), [Fate::Pivot]);
     }
 
-    /// The paper's two patterns of Fig. 11: as printed 295 and 296 from RED and 60 apart; read as blue, green, red 152 and 207 from it.
+    /// The paper's two patterns of Fig. 11: as printed 295 and 296 from RED and 60 apart; read as blue, green, red
+    /// 152 and 207 from RED.
     #[test]
     fn the_papers_second_pattern_stays_by_one_reading_only() {
         let by = |edges: Edges, group: [[u8; 3]; 2]| {
@@ -167,7 +169,8 @@ mod tests {
         }
     }
 
-    /// By the difference of the distances to RED two colours 74 apart stay together, three 20 apart each fall out at the limit.
+    /// By the difference of the distances to RED, two colours 74 apart stay together; three colours 20 apart each are
+    /// dropped at the limit.
     #[test]
     fn edges_by_the_reference_are_differences_of_distances() {
         let spec = ColourSpec {
@@ -188,7 +191,7 @@ mod tests {
         );
     }
 
-    /// The shortest way by trying every one that visits no node twice.
+    /// The shortest way, found by trying every way that visits no node twice.
     fn brute(d: &[Vec<Option<f64>>], at: usize, to: usize, seen: &mut Vec<bool>) -> f64 {
         if at == to {
             return 0.0;

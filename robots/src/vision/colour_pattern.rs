@@ -1,27 +1,27 @@
-//! The colour in a picture that lies nearest a reference colour.
+//! The colour in a picture that is nearest to a reference colour.
 //!
 //! *Source*: Tian et al. 2013, section 5, GetCP; references RED (255, 0, 0) and DARK-BLUE (0, 0, 128).
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: white, the paper's "default color" of what is not there, is passed over; in a picture with nothing else there is no
-//! pattern. As printed, GetCP would give white itself once all that is left lies farther from the reference than white does,
-//! and the passes would go on taking what has been taken. Of equal distances the first pixel in rows from the top left wins (the
-//! paper's strict "<").
+//! *Deviations*: white, the paper's "default color" for "nothing there", is skipped; in a picture with nothing else
+//! there is no pattern. As printed, GetCP would return white itself once everything left lies farther from the
+//! reference than white does, and the passes would go on taking pixels that have been taken. Of pixels at equal
+//! distances the first one wins, in rows from the top left (the paper's strict "<").
 
 use image::RgbImage;
 use serde::Serialize;
 
-/// The colour of what is not there.
+/// The colour that means "nothing there".
 pub const WHITE: [u8; 3] = [255; 3];
 
-/// A colour that what is looked for resembles.
+/// The colour that the target resembles.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Reference {
-    /// Of the dye: (255, 0, 0).
+    /// The dye's: (255, 0, 0).
     Red,
-    /// Of the source: halfway between black and blue, (0, 0, 128).
+    /// The source's: halfway between black and blue, (0, 0, 128).
     DarkBlue,
 }
 
@@ -66,7 +66,7 @@ fn squared(a: [u8; 3], b: [u8; 3]) -> u32 {
     d[0] * d[0] + d[1] * d[1] + d[2] * d[2]
 }
 
-/// The pixel's colour nearest the reference; `None` where all is white.
+/// The pixel colour nearest to the reference; `None` if all pixels are white.
 #[must_use]
 pub fn nearest(image: &RgbImage, reference: Reference) -> Option<Pattern> {
     let to = reference.rgb();

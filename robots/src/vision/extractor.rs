@@ -4,10 +4,11 @@
 //!
 //! *Parameters*: threshold ε, `epsilon`, 80 (called δ in the text); the sets' own (`membership.rs`).
 //!
-//! *Deviations*: none in what is taken. Since the sets fall and rise with |x| and Negative and Positive are the complement of Zero,
-//! min and max over the channels are both those of the channel that differs most: Δρ_F depends on max |dif| alone, and a table
-//! of 256 entries is the whole extractor. With the paper's parameters it takes the colours within 73 levels of the pattern in every
-//! channel, a cube: the fuzzy metric orders colours, but its threshold is a crisp one.
+//! *Deviations*: none in the result. The sets fall and rise with |x|, and Negative and Positive are the complement of
+//! Zero, so min and max over the channels are both those of the channel that differs most: Δρ_F depends on max |dif|
+//! alone, and a table of 256 entries is the whole extractor. With the paper's parameters it takes the colours within
+//! 73 levels of the pattern in every channel, a cube: the fuzzy metric orders colours, but its threshold is a crisp
+//! one.
 
 use super::{ColourSpec, Inference};
 
@@ -19,7 +20,7 @@ pub struct Extractor {
 }
 
 impl Extractor {
-    /// Of the parameters.
+    /// The extractor with these parameters.
     #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         let inference = Inference::new(spec);
@@ -43,7 +44,7 @@ impl Extractor {
         self.taken[greatest(pixel, pattern)]
     }
 
-    /// The greatest difference in a channel that is still taken, levels; `None` if not even an equal colour is.
+    /// The greatest difference in a channel that is still taken, levels; `None` if not even an equal colour is taken.
     #[must_use]
     pub fn reach(&self) -> Option<u8> {
         self.taken.iter().rposition(|t| *t).map(|d| d as u8)
@@ -76,7 +77,7 @@ mod tests {
         assert!(!e.takes([100, 100, 100], [26, 100, 100]));
     }
 
-    /// ε = ρ_M/3 is the difference of equal colours: "below" leaves them out.
+    /// ε = ρ_M/3 is the difference of equal colours: "below" excludes them.
     #[test]
     fn a_threshold_as_low_as_the_least_difference_takes_nothing() {
         let spec = ColourSpec {

@@ -1,12 +1,13 @@
-//! How different two colours are to the fuzzy rules: three channel differences in, one number Δρ_F out.
+//! How different two colours are by the fuzzy rules: from three channel differences to one number Δρ_F.
 //!
 //! *Source*: Tian et al. 2013, section 5, the two rules, eq. 12 (weights) and 13 (centroid).
 //!
 //! *Parameters*: those of the sets (`membership.rs`).
 //!
-//! *Deviations*: none. The paper's "are Zero" joins the channels by min, its "is Negative or Positive" by max, a rule cuts its
-//! output set at its weight, and the envelope's centroid is taken exactly: the envelope is a chain of straight lines, over each of
-//! which the trapezium and Simpson's rule integrate it and its first moment without error.
+//! *Deviations*: none. The paper's "are Zero" joins the channels by min, its "is Negative or Positive" by max; a rule
+//! cuts its output set at its weight. The envelope's centroid is computed exactly: the envelope is a chain of
+//! straight lines, over each of which the trapezium rule and Simpson's rule integrate it and its first moment without
+//! error.
 
 use super::{ColourSpec, Differences, Outputs};
 
@@ -18,7 +19,7 @@ pub struct Inference {
 }
 
 impl Inference {
-    /// With the sets of the parameters.
+    /// The rules with the sets of these parameters.
     #[must_use]
     pub fn new(spec: &ColourSpec) -> Self {
         Self {
@@ -61,7 +62,7 @@ impl Inference {
         };
         for pair in self.outputs.knees(w_m, w_u).windows(2) {
             let [a, b] = [pair[0], pair[1]];
-            // Wide sets overlap: where they cross the envelope bends.
+            // Wide sets overlap: the envelope bends where they cross.
             let (da, db) = (matched(a) - unmatched(a), matched(b) - unmatched(b));
             if da * db < 0.0 {
                 let cross = a + (b - a) * da / (da - db);
@@ -93,7 +94,7 @@ mod tests {
         assert!((got - want).abs() < 1e-9, "{got} against {want}");
     }
 
-    /// Equal colours: all of the triangle Matched, centroid ρ_M/3. Colours far apart: all of Unmatched.
+    /// Equal colours: the whole triangle Matched, centroid ρ_M/3. Colours far apart: the whole of Unmatched.
     #[test]
     fn ends_are_the_centroids_of_the_triangles() {
         let f = papers();
@@ -109,9 +110,9 @@ mod tests {
         near(papers().difference([0.0, 117.5, 0.0]), 127.5);
     }
 
-    /// 68 levels: w_m = 0.8, w_u = 0.2. A triangle of base ρ and height 1 cut at w has the area ρ(w − w²/2) and, about its
-    /// high end, the first moment ρ²(w(1 − w)²/2 + w²/2 − w³/3). Matched: 20·0.48 = 9.6 and
-    /// 400·(0.016 + 0.32 − 0.1706667) = 66.1333; Unmatched: 20·0.18 = 3.6 and 400·(0.064 + 0.02 − 0.0026667) = 32.5333 from 255.
+    /// 68 levels: w_m = 0.8, w_u = 0.2. A triangle of base ρ and height 1 cut at w has the area ρ(w − w²/2) and,
+    /// about its high end, the first moment ρ²(w(1 − w)²/2 + w²/2 − w³/3). Matched: 20·0.48 = 9.6 and 400·(0.016 +
+    /// 0.32 − 0.1706667) = 66.1333; Unmatched: 20·0.18 = 3.6 and 400·(0.064 + 0.02 − 0.0026667) = 32.5333 from 255.
     #[test]
     fn one_value_by_hand() {
         let want = (66.133_333_333 + 255.0 * 3.6 - 32.533_333_333) / 13.2;
@@ -127,8 +128,9 @@ mod tests {
         near(w_u, 0.5);
     }
 
-    /// The paper's two colour patterns of its Fig. 11 differ by (50, 30, 12), which its own parameters call alike: the second
-    /// would have been taken with the first. The figure was not made with what is printed.
+    /// The paper's two colour patterns of its Fig. 11 differ by (50, 30, 12), which its own parameters count as
+    /// alike: the second would have been taken with the first. So the figure was not made with the printed
+    /// parameters.
     #[test]
     fn the_papers_second_pattern_would_have_been_taken_with_the_first() {
         let d = [156.0 - 106.0, 136.0 - 106.0, 243.0 - 231.0];

@@ -1,18 +1,18 @@
-//! Takes out of a picture what changes slowly over it: the veil's gradient, uneven light, the lens's fall-off.
+//! Removes from a picture what changes slowly over it: the veil's gradient, uneven light, the lens's fall-off.
 //!
-//! *Source*: shading correction by a polynomial of second order, colour by colour (Russ 2011, The Image Processing Handbook, 6th ed., ch. 4);
-//! ours here, not in Tian et al. 2013.
+//! *Source*: shading correction by a polynomial of second order, colour by colour (Russ 2011, The Image Processing
+//! Handbook, 6th ed., ch. 4); ours here, not in Tian et al. 2013.
 //!
 //! *Parameters*: a least-squares fit of 1, x, y, x², xy, y² to some [`SAMPLES`] pixels of even spacing.
 //!
-//! *Deviations*: the fit is subtracted and the mean put back. Levels end at 0 and 254, so that nothing becomes the white of what is not
-//! there; white stays white and is not fitted to.
+//! *Deviations*: the fit is subtracted and the mean put back. Levels end at 0 and 254, so that nothing becomes white,
+//! which means "nothing there"; white stays white and takes no part in the fit.
 
 use super::colour_pattern::WHITE;
 use image::{Rgb, RgbImage};
 use nalgebra::{Matrix6, Vector6};
 
-/// Pixels fitted to, about.
+/// Approximate number of pixels for the fit.
 const SAMPLES: usize = 20_000;
 /// Greatest level.
 const TOP: f64 = 254.0;
@@ -22,7 +22,7 @@ const TOP: f64 = 254.0;
 pub fn levelled(picture: &RgbImage) -> RgbImage {
     let (w, h) = picture.dimensions();
     let there = (picture.pixels()).filter(|p| p.0 != WHITE).count();
-    // A stride that shares no factor with the width would be as good; the odd one keeps off single columns of even widths.
+    // An odd stride avoids sampling the same columns again and again in pictures of even width.
     let stride = (there / SAMPLES).max(1) | 1;
     let terms = |x: u32, y: u32| {
         let u = f64::from(2 * x + 1) / f64::from(w) - 1.0;
@@ -42,7 +42,7 @@ pub fn levelled(picture: &RgbImage) -> RgbImage {
     if n == 0.0 {
         return picture.clone();
     }
-    // Thin pictures leave terms undetermined: those are left out.
+    // Thin pictures leave some terms undetermined: these are left out.
     let Ok(inverse) = squares.pseudo_inverse(1e-9 * n) else {
         return picture.clone();
     };

@@ -1,11 +1,11 @@
-//! How far a colour difference is Negative, Zero or Positive, and a result Matched or Unmatched.
+//! Membership of a colour difference in Negative, Zero and Positive, and of a result in Matched and Unmatched.
 //!
 //! *Source*: Tian et al. 2013, section 5, eq. 7-11, Fig. 10.
 //!
-//! *Parameters*: knees of the input sets α₁, `alpha1`, 35, and α₂, `alpha2`, 200; width of Matched ρ_M, `rho_m`, 20, from
-//! which ρ_U = 255 − ρ_M; all levels of 8 bits.
+//! *Parameters*: knees of the input sets α₁, `alpha1`, 35, and α₂, `alpha2`, 200; width of Matched ρ_M, `rho_m`, 20,
+//! from which ρ_U = 255 − ρ_M; all in levels of 8 bits.
 //!
-//! *Deviations*: slips of the print are put right so that the sets are those of Fig. 10a: eq. 7's last interval ends at 255
+//! *Deviations*: misprints are corrected so that the sets are those of Fig. 10a: eq. 7's last interval ends at 255
 //! (printed −255); the falling side of eq. 8 is (α₂ − x)/(α₂ − α₁) (printed (x − α₁)/(α₂ − α₁), which rises).
 
 use super::ColourSpec;
@@ -49,7 +49,7 @@ impl Differences {
     }
 }
 
-/// The output sets over 0 to 255, and what is left of them when a rule's weight cuts them.
+/// The output sets over 0 to 255, and what remains of them when a rule's weight cuts them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Outputs {
     rho_m: f64,
@@ -82,7 +82,7 @@ impl Outputs {
         self.matched(TOP - x)
     }
 
-    /// Places between which both sets, cut at `w_m` and `w_u`, are straight lines, in order.
+    /// Places, in order, between which both sets, cut at `w_m` and `w_u`, are straight lines.
     #[must_use]
     pub fn knees(&self, w_m: f64, w_u: f64) -> [f64; 6] {
         let mut at = [
@@ -138,7 +138,7 @@ mod tests {
     }
 
     proptest! {
-        /// What the look-up table rests on: not Zero is Negative or Positive, whatever the knees.
+        /// The look-up table relies on this: not Zero is Negative or Positive, for any knees.
         #[test]
         fn zero_is_the_complement_of_the_other_two(
             x in -255.0_f64..=255.0, a1 in 0.0_f64..200.0, more in 1.0_f64..55.0,

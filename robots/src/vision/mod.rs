@@ -1,4 +1,4 @@
-//! What a picture shows: dye and source by their colours, and whether that verifies a declared source.
+//! Finds dye and source in a picture by their colours, and decides whether that verifies a declared source.
 
 mod blobs;
 mod catalogue;

@@ -1,15 +1,17 @@
-//! Passes over a picture: each takes the colours alike to one pattern; towards red they are the dye, then towards dark blue the source.
+//! Passes over a picture. Each takes the colours similar to one pattern: towards red they are the dye, then towards
+//! dark blue the source.
 //!
 //! *Source*: Tian et al. 2013, section 5, FuzzyColorSeg and the iteration of Fig. 11.
 //!
-//! *Parameters*: passes towards RED, `plume_passes`, 3; towards DARK-BLUE on what they leave, `source_passes`, 4; those of the
-//! extractor and of the clusters.
+//! *Parameters*: passes towards RED, `plume_passes`, 3; passes towards DARK-BLUE on the rest, `source_passes`, 4;
+//! those of the extractor and of the clusters.
 //!
-//! *Deviations*: white pixels are never taken, since white means "nothing there" (`colour_pattern.rs`); passes end early when nothing
-//! is left. The paper unites all passes and then clusters their patterns; both unions can be had here. With `give_back`, ours, the
-//! pixels of plume patterns that the clusters drop go back into the picture before the source is looked for: a dark body lies nearer
-//! RED than green or blue water does, so the second or third pass takes it where the first has taken all dye. With `dehaze`, ours,
-//! the passes see the picture levelled and stretched (`level.rs`, `stretch.rs`).
+//! *Deviations*: white pixels are never taken, because white means "nothing there" (`colour_pattern.rs`); passes end
+//! early when nothing is left. The paper unites all passes and then clusters their patterns; both unions are
+//! available here. With `give_back`, ours, the pixels of plume patterns that the clusters drop return to the picture
+//! before the search for the source: a dark body is nearer to RED than green or blue water is, so the second or third
+//! pass takes it when the first has taken all dye. With `dehaze`, ours, the passes see the picture levelled and
+//! stretched (`level.rs`, `stretch.rs`).
 
 use super::clusters::{Fate, fates};
 use super::colour_pattern::{Pattern, Reference, WHITE, nearest};
@@ -19,7 +21,7 @@ use super::{ColourSpec, Extractor};
 use image::{GrayImage, Luma, Rgb, RgbImage};
 use serde::Serialize;
 
-/// What a pass looks for.
+/// Target of a pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Target {
@@ -30,7 +32,7 @@ pub enum Target {
 }
 
 impl Target {
-    /// The colour it resembles.
+    /// The colour that it resembles.
     #[must_use]
     pub fn reference(self) -> Reference {
         match self {
@@ -45,7 +47,7 @@ impl Target {
 pub struct Pass {
     /// Its number, from 1.
     pub number: u8,
-    /// What it looked for.
+    /// Its target.
     pub target: Target,
     /// The colour pattern it found.
     pub pattern: Pattern,
@@ -55,18 +57,18 @@ pub struct Pass {
     pub fate: Fate,
 }
 
-/// A picture taken apart.
+/// A segmented picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Segmentation {
-    /// The passes in order; fewer than asked for if nothing was left.
+    /// The passes in order; fewer than configured if nothing was left.
     pub passes: Vec<Pass>,
-    /// The picture as the passes saw it: as it is, or dehazed.
+    /// The picture as the passes saw it: unchanged, or dehazed.
     pub seen: RgbImage,
-    /// For each pixel the number of the pass that took it; 0 if none did.
+    /// For each pixel, the number of the pass that took it; 0 if none did.
     pub labels: GrayImage,
 }
 
-/// Takes a picture of any size apart.
+/// Segments a picture of any size.
 #[must_use]
 pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
     let extractor = Extractor::new(spec);
@@ -112,7 +114,7 @@ pub fn segment(picture: &RgbImage, spec: &ColourSpec) -> Segmentation {
     }
 }
 
-/// One application of the extractor (FCE): turns what the pattern takes white, labels and counts it.
+/// One application of the extractor (FCE): makes the pixels that the pattern takes white, labels and counts them.
 fn take(
     extractor: &Extractor,
     pattern: [u8; 3],
@@ -131,7 +133,7 @@ fn take(
     taken
 }
 
-/// Puts what dropped patterns took back into the picture.
+/// Returns the pixels of dropped patterns to the picture.
 fn give_back(seen: &RgbImage, passes: &[Pass], left: &mut RgbImage, labels: &mut GrayImage) {
     let pixels = left.pixels_mut().zip(labels.pixels_mut());
     for ((pixel, label), was) in pixels.zip(seen.pixels()) {
@@ -144,7 +146,8 @@ fn give_back(seen: &RgbImage, passes: &[Pass], left: &mut RgbImage, labels: &mut
 }
 
 impl Segmentation {
-    /// Whether each pixel belongs to the target: 255 or 0. Of all passes, or of those only whose patterns stayed in the group.
+    /// Whether each pixel belongs to the target: 255 or 0. Counts all passes, or only those whose patterns stayed in
+    /// the group.
     #[must_use]
     pub fn mask(&self, target: Target, of_group: bool) -> GrayImage {
         let mut belongs = [0_u8; 256];
@@ -170,7 +173,7 @@ impl Segmentation {
         self.on_white(|label| label == number)
     }
 
-    /// What all passes left, on white (the last I_U).
+    /// What all passes left over, on white (the last I_U).
     #[must_use]
     pub fn left(&self) -> RgbImage {
         self.on_white(|label| label == 0)

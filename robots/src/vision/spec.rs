@@ -1,4 +1,5 @@
-//! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns and of what makes a picture verify a source.
+//! Parameters of the fuzzy colour extractor, of the clusters of its colour patterns, and of the verification of a
+//! source by a picture.
 
 use crate::error::RobotError;
 use schemars::JsonSchema;
@@ -22,23 +23,24 @@ pub struct ColourSpec {
     pub epsilon: Positive,
     /// Passes towards RED, whose union is the plume.
     pub plume_passes: u8,
-    /// Passes towards DARK-BLUE on what they leave, whose union is the source.
+    /// Passes towards DARK-BLUE on the rest, whose union is the source.
     pub source_passes: u8,
-    /// A colour pattern may be so much farther from its reference than the nearest one (δ₁), levels.
+    /// How much farther from its reference than the nearest pattern a colour pattern may be (δ₁), levels.
     pub delta1: NonNegative,
-    /// A colour pattern may be so far from the nearest one, by the shortest way over the others (δ₂), levels.
+    /// How far from the nearest pattern a colour pattern may be, by the shortest way over the others (δ₂), levels.
     pub delta2: NonNegative,
     /// What joins two patterns in the graph of the shortest ways.
     pub edges: Edges,
-    /// Whether pixels of dropped plume patterns go back into the picture before the source is looked for; the paper's stay taken.
+    /// Whether pixels of dropped plume patterns return to the picture before the search for the source; in the paper
+    /// they stay taken.
     pub give_back: bool,
-    /// Whether what changes slowly over the picture is first taken out and each colour brought to the whole range of levels; the paper's
-    /// passes see the picture as it is.
+    /// Whether slow changes over the picture are first removed and each colour is brought to the whole range of
+    /// levels; the paper's passes see the unchanged picture.
     pub dehaze: bool,
 }
 
 impl ColourSpec {
-    /// The paper's with what hazy pictures need: dehazed, and dropped patterns given back.
+    /// The paper's parameters with what hazy pictures need: dehazed, and dropped patterns given back.
     #[must_use]
     pub fn for_haze() -> Self {
         Self {
@@ -78,7 +80,7 @@ impl Default for ColourSpec {
 }
 
 impl ColourSpec {
-    /// Whether the parameters go together.
+    /// Checks that the parameters agree.
     ///
     /// # Errors
     /// Names the field below `path` and its legal range.
@@ -92,7 +94,7 @@ impl ColourSpec {
         }
     }
 
-    /// The first field that does not go with the others, and what would.
+    /// The first field that contradicts the others, and what would be legal.
     #[must_use]
     pub fn fault(&self) -> Option<(&'static str, String)> {
         let (a1, a2) = (self.alpha1.get(), self.alpha2.get());
@@ -122,21 +124,24 @@ impl ColourSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct VerifierSpec {
-    /// The extractor. Without it the paper's with `give_back` and `dehaze`; with it what it does not name is the paper's.
+    /// The extractor. If not given: the paper's with `give_back` and `dehaze`. If given: fields that it does not name
+    /// have the paper's values.
     pub colours: ColourSpec,
     /// Least share of the picture that must have the dye's colours.
     pub least_dye: Positive,
-    /// Least difference of the share of red in the light, (R, G, B sum to 1), of dye and the rest of the picture.
+    /// Least difference between the dye's mean share of red in the light (R, G, B sum to 1) and that of the rest of
+    /// the picture.
     pub least_redness: Positive,
     /// Least share of the picture that the source's patch must fill.
     pub least_source: Positive,
-    /// Least contrast by which the patch must be darker than what surrounds it: 1 is black.
+    /// Least contrast by which the patch must be darker than its surroundings: 1 is black.
     pub least_contrast: Positive,
-    /// Greatest share of the picture that the dye may fill: what is everywhere stands out from nothing.
+    /// Greatest share of the picture that the dye may fill: dye that is everywhere cannot be told from its
+    /// background.
     pub most_dye: Fraction,
     /// Greatest share that the patch may fill.
     pub most_source: Fraction,
-    /// Greatest way from the patch to the nearest dye, as a share of the picture's diagonal.
+    /// Greatest distance from the patch to the nearest dye, as a share of the picture's diagonal.
     pub reach: Fraction,
 }
 
@@ -156,7 +161,7 @@ impl Default for VerifierSpec {
 }
 
 impl VerifierSpec {
-    /// Whether the parameters go together.
+    /// Checks that the parameters agree.
     ///
     /// # Errors
     /// Names the field below `path` and its legal range.

@@ -1,13 +1,15 @@
-//! Brings each colour of a picture to the whole range of levels, so that a hazy picture has the contrasts that the extractor's levels mean.
+//! Brings each colour of a picture to the whole range of levels, so that a hazy picture has the contrasts that the
+//! extractor's levels assume.
 //!
-//! *Source*: histogram stretching of underwater pictures, channel by channel (Iqbal, Salam, Osman & Talib 2007, IAENG Int. J. Computer
-//! Science 34(2)); ours here, not in Tian et al. 2013, whose levels are absolute: through a veil of scattered light all colours of a
-//! picture lie within the 73 levels that one pattern takes.
+//! *Source*: histogram stretching of underwater pictures, channel by channel (Iqbal, Salam, Osman & Talib 2007, IAENG
+//! Int. J. Computer Science 34(2)); ours here, not in Tian et al. 2013, whose levels are absolute: through a veil of
+//! scattered light all colours of a picture lie within the 73 levels that one pattern takes.
 //!
-//! *Parameters*: levels below which and above which 1 % of the pixels lie become 0 and 254; a colour is spread by a factor of 8 at most, so
-//! that noise stays noise.
+//! *Parameters*: the levels below which and above which 1 % of the pixels lie become 0 and 254; a colour is spread by
+//! a factor of 8 at most, so that noise stays noise.
 //!
-//! *Deviations*: none known. 255 is left out, so that nothing becomes the white of what is not there; what is white stays white.
+//! *Deviations*: none known. 255 is left out, so that nothing becomes white, which means "nothing there"; white stays
+//! white.
 
 use super::colour_pattern::WHITE;
 use image::{Rgb, RgbImage};
@@ -38,7 +40,7 @@ pub fn stretched(picture: &RgbImage) -> RgbImage {
     out
 }
 
-/// What becomes of each level of a colour.
+/// New value of each level of a colour.
 fn curve(count: &[u64; 256], all: u64) -> [u8; 256] {
     let beyond = (BEYOND * all as f64) as u64;
     let end = |levels: [usize; 256]| {
@@ -53,7 +55,7 @@ fn curve(count: &[u64; 256], all: u64) -> [u8; 256] {
     let high = end(std::array::from_fn(|l| 255 - l));
     let span = high - low;
     let factor = (TOP / span.max(1.0)).min(MOST);
-    // Where the factor is limited the middle of the colour becomes the middle of the range.
+    // Where the factor is limited, the middle of the colour becomes the middle of the range.
     let from = low - (TOP / factor - span).max(0.0) / 2.0;
     std::array::from_fn(|l| ((l as f64 - from) * factor).clamp(0.0, TOP).round() as u8)
 }
@@ -96,7 +98,7 @@ mod tests {
         assert_eq!(stretched(&white), white);
     }
 
-    /// Of 200 pixels two are let go at either end.
+    /// Of 200 pixels, two are clipped at either end.
     #[test]
     fn a_hundredth_lies_beyond_either_end() {
         let mut pixels = vec![[100, 100, 100]; 100];

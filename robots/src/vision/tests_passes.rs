@@ -12,8 +12,8 @@ fn numbers(s: &Segmentation) -> Vec<u8> {
     s.labels.pixels().map(|p| p.0[0]).collect()
 }
 
-/// Dye, body and water lie more than 73 levels apart in some channel: the first pass towards red takes the dye, the second what is
-/// next nearest red. Distances to RED: dye 101, body 253, water 286.
+/// Dye, body and water lie more than 73 levels apart in some channel: the first pass towards red takes the dye, the
+/// second the colour next nearest to red. Distances to RED: dye 101, body 253, water 286.
 #[test]
 fn by_hand() {
     let p = picture(3, &[DYE, BODY, WATER, WATER, DYE, WATER]);
@@ -34,7 +34,7 @@ fn by_hand() {
         s.taken_by(1),
         picture(3, &[DYE, WHITE, WHITE, WHITE, DYE, WHITE])
     );
-    // With the paper's three passes red goes on to the body and the water, and nothing is left for the source; the
+    // With the paper's three passes red takes also the body and the water, and nothing is left for the source; the
     // clusters then drop both.
     let s = segment(&p, &ColourSpec::default());
     assert_eq!(numbers(&s), [1, 2, 3, 3, 1, 3]);
@@ -51,7 +51,7 @@ fn by_hand() {
     assert_eq!(kept, [255, 0, 0, 0, 255, 0]);
 }
 
-/// Given back, the body is the first thing that dark blue finds, and the water the second, which the clusters drop.
+/// Given back, the body is the first thing that dark blue finds; the water is the second, and the clusters drop it.
 #[test]
 fn what_the_clusters_drop_can_be_given_back() {
     let p = picture(3, &[DYE, BODY, WATER, WATER, DYE, WATER]);
@@ -83,7 +83,7 @@ fn pictures_with_next_to_nothing_in_them() {
 }
 
 proptest! {
-    /// Every pixel that is not white is taken once at most, and the label says by the first pattern that takes it.
+    /// Every pixel that is not white is taken at most once, and its label names the first pattern that takes it.
     #[test]
     fn labels_are_the_first_pattern_that_takes_a_pixel(
         pixels in proptest::collection::vec(any::<[u8; 3]>(), 24),
@@ -104,7 +104,8 @@ proptest! {
         prop_assert_eq!(labelled, s.passes.iter().map(|p| p.pixels).sum::<u64>());
     }
 
-    /// Towards a reference patterns only go away from it: what is nearest has been taken. So the first is the pivot.
+    /// Towards a reference, patterns only move away from it, because the nearest have been taken. So the first is the
+    /// pivot.
     #[test]
     fn patterns_go_away_from_their_reference(
         pixels in proptest::collection::vec(any::<[u8; 3]>(), 60),

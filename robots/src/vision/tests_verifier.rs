@@ -1,4 +1,4 @@
-//! Painted pictures whose verdict is plain.
+//! Painted pictures with an obvious verdict.
 
 use super::*;
 use image::{Rgb, RgbImage};
@@ -58,8 +58,8 @@ fn pictures_with_next_to_nothing_in_them_verify_nothing() {
     }
 }
 
-/// The same scene twice as large has the same shares, so the same verdict; without levelling, whose fit sees other pixels, to the last bit
-/// but rounding.
+/// The same scene twice as large has the same shares, so the same verdict. Without levelling, whose fit sees other
+/// pixels, only rounding differs.
 #[test]
 fn size_does_not_matter() {
     let small = painted(&[([60, 50, 80, 20], DYE), ([40, 50, 20, 30], BODY)]);

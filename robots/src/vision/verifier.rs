@@ -1,17 +1,19 @@
-//! Whether a picture shows a source giving off dye: the colours of both, and a dark body that stands in the dye.
+//! Whether a picture shows a source giving off dye: the colours of both, and a dark body in the dye.
 //!
-//! *Source*: Tian et al. 2013, section 5: plume and source are what the passes extract. When a picture verifies a declaration is
-//! ours, since a nearest colour can be found in any picture and the paper names no test.
+//! *Source*: Tian et al. 2013, section 5: plume and source are what the passes extract. The rule by which a picture
+//! verifies a declaration is ours, because a nearest colour can be found in any picture and the paper names no test.
 //!
-//! *Parameters*: those of the extractor, `colours`. The dye must fill `least_dye` of the picture, at most `most_dye`, and be redder than the
-//! rest by `least_redness`; the source is a connected patch of its colours that fills from `least_source` to `most_source`, is darker than its
-//! surroundings by `least_contrast` and has dye within `reach` of the picture's diagonal. Of several patches the best is taken.
+//! *Parameters*: those of the extractor, `colours`. The dye must fill `least_dye` of the picture, at most `most_dye`,
+//! and be redder than the rest by `least_redness`. The source is a connected patch of its colours that fills from
+//! `least_source` to `most_source`, is darker than its surroundings by `least_contrast` and has dye within `reach` of
+//! the picture's diagonal. Of several patches the best counts.
 //!
-//! *Deviations*: see Source. The score is the least of the four quantities that have a lower limit, each over its limit, and 0 where
-//! another limit is broken; a picture verifies from 1 on, so that a sweep of the score sweeps the four limits together. Redness and
-//! contrast are measured in the picture as it was taken, or, with `colours.dehaze`, levelled but not stretched. The limits were
-//! set on rendered scenes that no reported figure uses: their proportions on 48 (`rheotaxis score-vision --seed 101 --scenes 48`), their common
-//! size on 120 (`--seed 2 --scenes 120`), where all but one picture without a source have scores below 0.94 of it.
+//! *Deviations*: see Source. The score is the least of the four quantities that have a lower limit, each divided by
+//! its limit, and 0 if another limit is broken. A picture verifies from 1 on, so that a sweep of the score sweeps the
+//! four limits together. Redness and contrast are measured in the original picture, or, with `colours.dehaze`, in the
+//! levelled but not stretched one. The limits were set on rendered scenes that no reported figure uses: their
+//! proportions on 48 (`rheotaxis score-vision --seed 101 --scenes 48`), their common size on 120 (`--seed 2 --scenes
+//! 120`), where all but one picture without a source have scores below 0.94 of it.
 
 use super::blobs::{Blob, blobs};
 use super::level::levelled;
@@ -25,13 +27,13 @@ use serde::Serialize;
 pub struct Sighting {
     /// Whether it shows a source giving off dye.
     pub verified: bool,
-    /// How clearly: 1 is enough.
+    /// How clearly; 1 is enough.
     pub score: f64,
-    /// What it lacks most, if not verified.
+    /// What it lacks most, if it is not verified.
     pub lacks: Option<Lack>,
     /// Share of the picture that has the dye's colours.
     pub dye_share: f64,
-    /// By how much the dye is redder than the rest: difference of the mean shares of red.
+    /// How much redder the dye is than the rest: difference of the mean shares of red.
     pub redness: f64,
     /// Share of the picture that has the source's colours.
     pub source_share: f64,
@@ -39,9 +41,9 @@ pub struct Sighting {
     pub source: Option<Blob>,
     /// Share of the picture that it fills.
     pub patch_share: f64,
-    /// By how much it is darker than what surrounds it, as a share.
+    /// How much darker it is than its surroundings, as a share.
     pub contrast: f64,
-    /// Way from the patch to the nearest dye, as a share of the picture's diagonal; `None` without either.
+    /// Distance from the patch to the nearest dye, as a share of the picture's diagonal; `None` if either is missing.
     pub gap: Option<f64>,
     /// The passes with their colour patterns, kept or dropped.
     pub passes: Vec<Pass>,
@@ -53,11 +55,11 @@ pub struct Sighting {
 pub enum Lack {
     /// Too little of the dye's colours.
     Dye,
-    /// They are no redder than the rest, or everywhere.
+    /// They are no redder than the rest, or are everywhere.
     Redness,
     /// No patch of the source's colours that is large enough.
     Source,
-    /// It is no darker than what surrounds it, or everywhere.
+    /// It is no darker than its surroundings, or is everywhere.
     Contrast,
     /// No dye near it.
     Contact,
@@ -107,7 +109,7 @@ impl Verifier {
         (parts, sighting)
     }
 
-    /// What a picture shows whose dye and dark bodies are known, however they were found.
+    /// The verdict on a picture whose dye and dark bodies are known, however they were found.
     #[must_use]
     pub fn weigh(&self, picture: &RgbImage, dye: &GrayImage, body: &GrayImage) -> Sighting {
         if self.spec.colours.dehaze {
@@ -181,7 +183,7 @@ impl Verifier {
     }
 }
 
-/// Patches looked at, the largest first.
+/// Number of patches considered, largest first.
 const MOST_PATCHES: usize = 12;
 
 /// A patch that may be the source.
@@ -199,7 +201,7 @@ fn least(grades: &[(Lack, f64)]) -> (Lack, f64) {
         .expect("there are some")
 }
 
-/// Share of red in a pixel's light as recorded; of black a third.
+/// Share of red in a pixel's recorded light; a third for black.
 fn red(p: [u8; 3]) -> f64 {
     let [r, g, b] = p.map(f64::from);
     (r + 1.0) / (r + g + b + 3.0)
@@ -209,7 +211,7 @@ fn brightness(p: [u8; 3]) -> f64 {
     p.into_iter().map(f64::from).sum()
 }
 
-/// Mean share of red in the mask less that outside it; 0 where either is empty.
+/// Mean share of red inside the mask less that outside it; 0 if either is empty.
 fn redness(picture: &RgbImage, mask: &GrayImage) -> f64 {
     let (mut sum, mut n) = ([0.0; 2], [0_u64; 2]);
     for (pixel, m) in picture.pixels().zip(mask.pixels()) {

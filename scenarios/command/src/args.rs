@@ -1,10 +1,12 @@
-//! What the command can be asked.
+//! The command line: its subcommands, their arguments and their help.
 
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
+use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
+use super::version;
 use clap::{Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -14,11 +16,14 @@ use std::str::FromStr;
 #[command(
     name = "rheotaxis",
     version,
+    long_version = version::long(),
     about = "Simulates underwater vehicles that trace a chemical plume to its source",
     long_about = "Simulates underwater vehicles that trace a chemical plume to its source.\n\n\
-        A scenario file (RON) says where, in which water, what is released, who searches and when it \
-        counts as found. A run steps it all, shows its progress, publishes live state over zenoh, and \
-        leaves a folder with a recording, tables, figures and a one-page report.",
+        A scenario is a text file (RON). It describes the place, the water, the chemical sources, the vehicles that \
+        search, and when the mission counts as a success. `rheotaxis run` simulates it. While it runs, it shows its \
+        progress and publishes live state over zenoh. Afterwards its folder holds a recording, tables, figures and a \
+        one-page report.\n\n\
+        To begin, run a scenario that comes with the program, then copy and change it: see the examples below.",
     after_help = EXAMPLES,
     after_long_help = AFTER,
     max_term_width = 100
@@ -27,7 +32,7 @@ pub struct Args {
     /// What to do.
     #[command(subcommand)]
     pub command: Command,
-    /// Memory that one run may take, such as 500M or 16G: a scenario that needs more is refused before it starts.
+    /// Memory that one run may use, such as 500M or 16G. A scenario that needs more is refused before it starts.
     #[arg(
         long,
         global = true,
@@ -52,22 +57,23 @@ fn bytes(s: &str) -> Result<f64, String> {
 }
 
 const EXAMPLES: &str =
-    "`rheotaxis help COMMAND` or `--help` says more, with examples and exit codes.";
+    "`rheotaxis COMMAND --help` explains a command; `rheotaxis --help` has examples.";
 
 const AFTER: &str = "\
 Examples:
-  rheotaxis run duck_st                 the main scenario, as it comes with the program
-  rheotaxis init duck_st mine.ron       a copy to change
-  rheotaxis check mine.ron              what is wrong with it: file, line, column, legal range
-  rheotaxis run mine.ron --seed 7       run it, into runs/mine-7/
-  rheotaxis list sensors                what a scenario can ask for, each with its source
-  rheotaxis explain water.currents      what a field means: unit, range, default
+  rheotaxis run uniform_channel         run a small scenario that comes with the program
+  rheotaxis run duck_st                 run the main one: a REMUS traces a plume at Duck
+  rheotaxis init duck_st mine.ron       write a copy of it to change
+  rheotaxis check mine.ron              list all mistakes, with line, column and legal range
+  rheotaxis run mine.ron --seed 7       run it; the results are in runs/mine-7/
+  rheotaxis list sensors                list what a scenario can use, with sources
+  rheotaxis explain water.currents      explain a field: unit, range, default, meaning
 
 Exit codes:
-  0    every mission ended as its scenario defines success
-  3    ran to the end, but not found
-  130  interrupted; what was recorded is whole
-  1    error, explained on standard error
+  0    success, as each scenario defines it
+  3    a mission ran to its end without success
+  130  interrupted; everything recorded so far can be read
+  1    error; the message on standard error explains it
   2    wrong usage";
 
 /// What to do.
@@ -75,37 +81,40 @@ Exit codes:
 pub enum Command {
     /// Run scenarios, one after the other.
     Run(RunArgs),
-    /// Read and check scenarios without running them.
+    /// Check scenarios without running them, and estimate what a run takes.
     Check(CheckArgs),
-    /// Write a scenario to start from; alone, list those there are.
+    /// Write a scenario to start from; without a name, list those that come with the program.
     Init(InitArgs),
     /// List scenarios, algorithms, flows, sensors and vehicles, each with its source.
     List(ListArgs),
-    /// Explain a field of a scenario: unit, range, default, meaning, source; alone, the top of a scenario.
+    /// Explain a field of a scenario: unit, range, default, meaning, source.
     Explain(ExplainArgs),
-    /// List what a run publishes over zenoh.
+    /// List the live state that a run publishes over zenoh.
     Topics(TopicsArgs),
-    /// Run thousands of seeds, arms and conditions, on one machine or many, and compare them.
+    /// Compare variants of a scenario over thousands of runs, on one machine or many.
     Campaign(CampaignArgs),
-    /// Run the papers' experiments over many seeds and show our figures beside theirs.
+    /// Repeat the papers' experiments over many seeds and compare the figures.
     Reproduce(ReproduceArgs),
-    /// Watch a scenario's water and plume and show their statistics beside published ones.
+    /// Measure the statistics of a scenario's water and plume and compare them with published ones.
     Statistics(StatisticsArgs),
-    /// Take a picture of a scenario's plume from anywhere in the water.
+    /// Take an underwater picture of a scenario's plume.
     Picture(PictureArgs),
-    /// Take a picture apart by colour and judge whether it shows a source giving off dye.
+    /// Find dye and its source in a picture by colour.
     Segment(SegmentArgs),
-    /// Score how well dye and source are found in rendered pictures of known truth.
+    /// Score how well dye and source are found, on rendered pictures whose truth is known.
     ScoreVision(ScoreVisionArgs),
 }
 
 /// Arguments of `run`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Runs scenarios, one after the other: spin-up of the plume, then the mission. Each \
-        leaves its folder, by default runs/<scenario>-<seed>/, with summary.json, track.csv, \
-        probes-<gantry>.csv, run.mcap, figures and report.html.\n\nThe same scenario, seed and program give the same run, bit by bit, \
-        however fast it goes and whoever listens.",
+    long_about = "Runs scenarios one after the other. In each, the plume first develops (spin-up); then the mission \
+        begins.\n\n\
+        The results are in runs/SCENARIO-SEED/ unless --out names another folder. Open report.html first. The folder \
+        also holds summary.json, track.csv (of a gantry: probes-GANTRY.csv), the figures, and the recording run.mcap \
+        for Foxglove, Lichtblick or Rerun.\n\n\
+        The same scenario, seed and program give the same run, bit by bit, at any speed and with any number of \
+        subscribers.",
     after_help = RUN_AFTER
 )]
 pub struct RunArgs {
@@ -115,28 +124,31 @@ pub struct RunArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Folder for the results; with several files, one folder in it for each.
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// Folder for the results. With several scenarios it gets one folder for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// How fast: `max`, `realtime`, or simulated seconds per second.
+    /// Speed of the simulation: `max`, `realtime`, or simulated seconds per second, such as 10.
     #[arg(long, default_value = "max", value_name = "max|realtime|X")]
     pub speed: Speed,
-    /// Publish nothing.
+    /// Do not publish live state.
     #[arg(long)]
     pub no_zenoh: bool,
-    /// Write no recording (run.mcap).
+    /// Do not write the recording (run.mcap).
     #[arg(long)]
     pub no_record: bool,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-    /// zenoh's own configuration (JSON5): routers, TLS, access control.
+    /// Configuration file of zenoh (JSON5), for routers, TLS or access control.
     #[arg(long, value_name = "FILE", conflicts_with = "no_zenoh")]
     pub zenoh_config: Option<PathBuf>,
-    /// Where zenoh listens; without it tcp/127.0.0.1:7447, or the next free port.
+    /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].
     #[arg(long, value_name = "ENDPOINT", conflicts_with = "no_zenoh")]
     pub zenoh_listen: Option<String>,
-    /// Keep answering subscribers for this long after the end.
+    /// After the run, keep answering subscribers for this long.
     #[arg(
         long,
         value_name = "SECONDS",
@@ -152,8 +164,8 @@ Examples:
   rheotaxis run mine.ron --seed 7 --out results/mine --no-zenoh
   rheotaxis run duck_st --speed realtime --zenoh-listen tcp/127.0.0.1:7500
 
-Exit codes: 0 success as the scenario defines it; 3 ran, not found; 130 interrupted; 1 error; 2 usage.
-With several files the worst of them: 130, then 1, then 3.";
+Exit codes: 0 success as the scenario defines it; 3 no success; 130 interrupted; 1 error; 2 wrong usage.
+With several scenarios the worst one counts: 130, then 1, then 3.";
 
 /// How fast a run goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,9 +193,11 @@ impl FromStr for Speed {
 /// Arguments of `check`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Reads scenarios and checks what they mean, without running them. Every mistake is \
-        shown with file, line, column, field, value and legal range.",
-    after_help = "Exit codes: 0 all are fine (there may be warnings); 1 at least one is not."
+    long_about = "Checks scenarios without running them. Every mistake is shown with file, line, column, field, value \
+        and legal range. Warnings tell of what is legal but probably not meant, such as an instrument that is out of \
+        range of the bed.\n\n\
+        For a scenario without mistakes it estimates the time and memory of a run, and says what takes most of it.",
+    after_help = "Exit codes: 0 every scenario can run (there may be warnings); 1 at least one cannot; 2 wrong usage."
 )]
 pub struct CheckArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
@@ -194,25 +208,26 @@ pub struct CheckArgs {
 /// Arguments of `init`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Writes a scenario that comes with the program, with its comments, to be changed. \
-        Never overwrites. Alone it lists the templates.",
+    long_about = "Writes a scenario that comes with the program to a file, with its comments, so that you can change \
+        it. An existing file is never overwritten. Without a name, the scenarios are listed.",
     after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron"
 )]
 pub struct InitArgs {
     /// Name of a scenario that comes with the program.
     pub template: Option<String>,
-    /// File to write, or a folder to write it in; without it TEMPLATE.ron here.
+    /// File to write, or the folder to write it in [default: TEMPLATE.ron in this folder].
     pub path: Option<PathBuf>,
 }
 
 /// Arguments of `list`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
 #[command(
-    long_about = "Lists what a scenario can ask for, each with the paper, section or equation it comes from.",
+    long_about = "Lists what a scenario can use, each with one sentence and its source: the paper, section or equation \
+        it follows. `rheotaxis explain` then explains the parameters.",
     after_help = "Examples:\n  rheotaxis list\n  rheotaxis list algorithms"
 )]
 pub struct ListArgs {
-    /// Only these.
+    /// What to list [default: everything].
     pub what: Option<ListKind>,
 }
 
@@ -223,23 +238,25 @@ pub enum ListKind {
     Scenarios,
     /// Strategies, behaviours, declaration rules, guidance, estimators, autopilots.
     Algorithms,
-    /// Currents.
+    /// Currents, waves and what else moves the water.
     Flows,
-    /// Instruments.
+    /// Instruments of robots and gantries.
     Sensors,
-    /// Bodies.
+    /// Vehicles and gantries.
     Vehicles,
 }
 
 /// Arguments of `statistics`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Lets a scenario's plume develop, without its robots, then watches it with probes that disturb nothing: \
-        widths, mean and intermittent concentration, gaps, the gamma law, integral times; in an open channel also the \
-        profile and the intensities of the water. One table, our figure beside the published one; what is outside a \
-        factor of 0.5 to 2 is marked. Leaves statistics.csv.",
-    after_help = "Examples:\n  rheotaxis statistics flume_crab\n  rheotaxis statistics duck_st --seed 3 --seconds 600\n\n\
-        Exit codes: 0 done, whatever the figures say; 1 error; 2 usage."
+    long_about = "Lets a scenario's plume develop without its robots, then measures it with probes that do not disturb \
+        it: widths, mean concentration, intermittency, gaps between whiffs, the gamma distribution and integral times. \
+        In an open channel it also measures the velocity profile and the turbulence intensities.\n\n\
+        A table shows each figure beside the published one and marks those outside a factor of 0.5 to 2. The same \
+        table is written to statistics.csv.",
+    after_help = "Examples:\n  rheotaxis statistics flume_crab\n  \
+        rheotaxis statistics duck_st --seed 3 --seconds 600\n\n\
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
 )]
 pub struct StatisticsArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
@@ -248,13 +265,16 @@ pub struct StatisticsArgs {
     /// Seed of all random numbers.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// How long to watch; without it 1200 s in an open channel, elsewhere the scenario's `time.limit_s`.
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// Duration of the measurement, s [default: 1200 in an open channel, else the scenario's time.limit_s].
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub seconds: Option<f64>,
-    /// Folder for statistics.csv; without it `runs/SCENARIO-SEED-statistics`.
+    /// Folder for statistics.csv [default: runs/SCENARIO-SEED-statistics].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
 }
@@ -268,8 +288,13 @@ fn seconds(s: &str) -> Result<f64, String> {
 
 /// Arguments of `topics`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
+#[command(
+    long_about = "Lists the keys under which a run publishes its state over zenoh: each with its rate, its meaning and \
+        its fields. A `?` marks a field that may be missing.",
+    after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json"
+)]
 pub struct TopicsArgs {
-    /// Print the JSON Schemas instead, as one object.
+    /// Print the JSON Schemas of all messages instead, as one object.
     #[arg(long)]
     pub schema: bool,
 }

@@ -1,5 +1,6 @@
-//! What `rheotaxis campaign` can be asked.
+//! Arguments of `rheotaxis campaign`.
 
+use super::args_key::KeyArgs;
 use clap::Subcommand;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -8,14 +9,16 @@ use studies::campaign::Shard;
 /// Arguments of `campaign`.
 #[derive(Clone, Debug, clap::Args)]
 #[command(
-    long_about = "A campaign file (RON) says which scenario, which arms (values changed by their path in it), \
-        under which conditions and with which seeds. Every arm runs with the same seeds.\n\n\
-        `seeds: 20` is seeds 1 to 20, `seeds: Literal(first: 101, count: 20)` 101 to 120: a row is that of `rheotaxis run \
-        --seed N` of the same scenario, digest and all. `seeds: Hashed(seed: 1, count: 20)` are others under each condition. \
-        (A file of version 1 means hashed seeds by a number; it is read so, and says so.)\n\n\
-        `run` writes blocks of rows, each a Parquet file: what has a row is \
-        done, so a campaign goes on after any interruption, and any number of machines share a folder. \
-        A run's row does not depend on how the work was dealt out.",
+    long_about = "A campaign runs variants of a scenario (arms) with the same seeds and compares them. A campaign file \
+        (RON) names the scenario, the arms with the values that each changes, the conditions and the seeds. Start with \
+        `plan`, which checks the file and estimates the cost; then `run`, `status` and `report`.\n\n\
+        Seeds: `seeds: 20` means seeds 1 to 20, and `seeds: Literal(first: 101, count: 20)` means 101 to 120. Each row \
+        is then the run of `rheotaxis run --seed N` of the same scenario and has the same digest. \
+        `seeds: Hashed(seed: 1, count: 20)` gives every condition seeds of its own. In a file of version 1, a number \
+        means hashed seeds; it is still read so, with a warning.\n\n\
+        `run` writes blocks of rows, each a Parquet file. A run that has a row is done, so a campaign can be \
+        interrupted and continued at any time, and any number of machines can work in the same folder. A row does not \
+        depend on how the work was divided.",
     after_help = AFTER
 )]
 pub struct CampaignArgs {
@@ -33,22 +36,22 @@ Examples:
   rheotaxis campaign report beta
   rheotaxis campaign rerun beta --run 17 --record
 
-Exit codes: 0 done; 75 stopped before the end, the same command goes on; 1 error; 2 usage.";
+Exit codes: 0 done; 75 stopped before the end (the same command continues); 1 error; 2 wrong usage.";
 
 /// What to do with a campaign.
 #[derive(Clone, Debug, Subcommand)]
 pub enum CampaignCommand {
     /// Check a campaign, count its runs and estimate what they cost.
     Plan(PlanArgs),
-    /// Run it, or what is left of it.
+    /// Run a campaign, or what is left of it.
     Run(CampaignRunArgs),
-    /// Say how far it has come.
+    /// Show how much of a campaign is done.
     Status(StatusArgs),
-    /// Put all its rows into one file.
+    /// Write all rows of a campaign to one file, and all declarations to one beside it.
     Merge(MergeArgs),
-    /// Compare its arms: tables, figures and a page.
+    /// Compare the arms: tables, figures and a page.
     Report(ReportArgs),
-    /// Make one of its runs again, with all that `rheotaxis run` leaves.
+    /// Repeat one run, with all the files that `rheotaxis run` writes.
     Rerun(RerunArgs),
 }
 
@@ -58,10 +61,10 @@ pub struct PlanArgs {
     /// Campaign file, or the name of a campaign that comes with the program.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Runs in a block; without it what one thread does in half a minute.
+    /// Runs in a block [default: what one thread does in half a minute].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub block: Option<u64>,
-    /// Estimate no cost: that takes one run.
+    /// Do not estimate the cost. The estimate makes one run.
     #[arg(long)]
     pub no_probe: bool,
 }
@@ -73,26 +76,29 @@ pub struct CampaignRunArgs {
     /// Campaign file, or the name of a campaign that comes with the program.
     #[arg(value_name = "FILE")]
     pub file: PathBuf,
-    /// Folder for the blocks; may be shared by many machines.
+    /// Folder for the blocks. Several machines may share it.
     #[arg(long, value_name = "DIR")]
     pub out: PathBuf,
-    /// Do the I-th of N shares, counted from 1; without it, as the cluster's scheduler says.
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// Do the I-th of N shares, counted from 1 [default: what the cluster's scheduler says, else all].
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,
-    /// Runs at a time; 0 for one a core.
+    /// Runs at the same time; 0 means one on each core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub jobs: usize,
-    /// Runs in a block, made a multiple of the arms; without it the folder's or, in a new one, what a thread does in half
-    /// a minute by the cost of the first run (at most 256).
+    /// Runs in a block, rounded up to a multiple of the arms [default: as the folder has it; in a new folder, what one
+    /// thread does in half a minute, at most 256].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000))]
     pub block: Option<u64>,
-    /// Stop in time for this limit: 90s, 55m, 1h30m.
+    /// Stop early enough to end within this time, such as 90s, 55m or 1h30m.
     #[arg(long, value_name = "TIME", value_parser = wall_time)]
     pub max_wall: Option<Duration>,
-    /// Go on in a folder made with another scenario, campaign or version, keeping the blocks it has.
+    /// Continue in a folder that was begun with another scenario, campaign or version, and keep its blocks.
     #[arg(long)]
     pub force: bool,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
 }
@@ -100,16 +106,19 @@ pub struct CampaignRunArgs {
 const RUN_AFTER: &str = "\
 Without --shard the share is read from a Slurm array (SLURM_ARRAY_TASK_ID, _MIN, _STEP, _COUNT), a
 HyperQueue task array counted from 1 (HQ_TASK_ID) or an indexed Kubernetes Job (JOB_COMPLETION_INDEX).
-The latter two do not say how many there are: set RHEOTAXIS_SHARDS (for Kubernetes also JOB_COMPLETIONS).
+HyperQueue and Kubernetes do not say how many shares there are: set RHEOTAXIS_SHARDS (for Kubernetes
+JOB_COMPLETIONS works too).
 
-Ctrl-C, a termination signal and --max-wall let the runs in hand end and write every row that is done, of blocks
-that are not whole, too. A kill costs the runs in hand and at most half a minute of rows.
+After Ctrl-C, a termination signal or --max-wall, the runs under way are finished and every finished row is
+written, also of blocks that are not complete. SIGKILL loses the runs under way and at most half a minute of rows.
 
-Exit codes: 0 the share is done; 75 stopped, the same command goes on; 1 error; 2 usage.";
+Exit codes: 0 the share is done; 75 stopped (the same command continues); 1 error; 2 wrong usage.";
 
 /// Arguments of `campaign status`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(after_help = "Exit codes: 0 all is done; 75 something is left to do; 1 error; 2 usage.")]
+#[command(
+    after_help = "Exit codes: 0 all runs are done; 75 some are left; 1 error; 2 wrong usage."
+)]
 pub struct StatusArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
@@ -122,10 +131,10 @@ pub struct MergeArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Parquet file to write.
+    /// Parquet file to write; the declarations go beside it (all.parquet: all-declarations.parquet).
     #[arg(long, short, value_name = "FILE")]
     pub out: PathBuf,
-    /// Write a CSV file too, beside it.
+    /// Also write both as CSV files beside them.
     #[arg(long)]
     pub csv: bool,
 }
@@ -133,25 +142,28 @@ pub struct MergeArgs {
 /// Arguments of `campaign rerun`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
 #[command(
-    long_about = "Makes one run of a campaign again and leaves what `rheotaxis run` leaves. Its digest must \
-        be the row's.",
-    after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or error; \
-        130 interrupted; 2 usage."
+    long_about = "Repeats one run of a campaign and writes the files that `rheotaxis run` writes. Its digest must be \
+        the one in the row.",
+    after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or an error; \
+        130 interrupted; 2 wrong usage."
 )]
 pub struct RerunArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Which run, as in the column `run`.
+    /// Number of the run, as in the column `run`.
     #[arg(long, value_name = "K")]
     pub run: u64,
-    /// Record it (run.mcap).
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// Write the recording (run.mcap).
     #[arg(long)]
     pub record: bool,
-    /// Folder for the results; without it DIR/run-K.
+    /// Folder for the results [default: DIR/run-K].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
 }
@@ -193,17 +205,19 @@ mod tests {
 /// Arguments of `campaign report`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Compares the arms of a campaign, whole or in part: success with Wilson's 95 % interval; time, path \
-        and error with bootstrap intervals; curves of runs that have not yet declared and of errors; differences between \
-        arms on the same seeds, each with its interval and whether it is better, worse or not separable at this \
-        number of runs; and where the wall time went.\n\nLeaves CSV of everything drawn, figures as SVG and PNG, and \
-        report.html."
+    long_about = "Compares the arms of a campaign, even if it is not complete. The report has:\n\n\
+        - success shares with Wilson's 95 % interval;\n\
+        - time, path and error with bootstrap intervals;\n\
+        - curves over time of the share of runs that have not yet declared, and curves of the errors;\n\
+        - differences between arms on the same seeds: better, worse, or not separable at this number of runs;\n\
+        - where the computing time went.\n\n\
+        It is written as report.html, with figures as SVG and PNG and a CSV file for everything drawn."
 )]
 pub struct ReportArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]
     pub dir: PathBuf,
-    /// Folder for the report; without it DIR/report.
+    /// Folder for the report [default: DIR/report].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
 }

@@ -1,52 +1,61 @@
-//! What `rheotaxis reproduce` can be asked.
+//! Arguments of `rheotaxis reproduce`.
 
+use super::args_key::KeyArgs;
 use std::path::PathBuf;
 
 /// Arguments of `reproduce`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Runs the experiments of the papers over many seeds and prints each figure of ours with \
-        its 95 % interval, the paper's, and whether the paper's lies inside. Shares have Wilson's interval, \
-        medians and quantiles a bootstrap interval, means one on the scale of the logarithm; of fewer than 5 values there is \
-        none.\n\nA row is run by its name, with all its arms or those of `--arm`; a name that no row has stands for all rows that begin with it \
-        and `_` (`wp`: wp_laminar, wp_turbulent, wp_dead_end). How many trials that makes is said first.\n\nLeaves REPRODUCTION.md, figures.csv (the table) and rows.csv \
-        (every run), renewed every 50 seeds: an interrupted row leaves what it has done. Seeds are 1 to n, or as many from `--first-seed` on; the figures do not depend on the number of jobs.",
-    after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  rheotaxis reproduce crab --arm adaptive\n  \
-        rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
-        Exit codes: 0 ran, whatever the figures say; 130 interrupted; 1 error; 2 usage."
+    long_about = "Repeats the papers' experiments over many seeds. A table shows each of our figures with its 95 % \
+        interval, the paper's figure, and whether that lies in the interval. Shares have Wilson's interval, medians \
+        and other quantiles a bootstrap interval, and means an interval on the logarithmic scale. Fewer than 5 values \
+        have none.\n\n\
+        ROW is the name of an experiment. A name without a row of its own stands for all rows that begin with it: \
+        `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
+        The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
+        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
+        number of jobs.",
+    after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
+        rheotaxis reproduce crab --arm adaptive\n  \
+        rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
+        rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
 )]
 pub struct ReproduceArgs {
-    /// Rows by name, or row files of your own (RON); without any, all that come with the program.
+    /// Names of rows, or row files of your own (RON) [default: all that come with the program].
     #[arg(value_name = "ROW")]
     pub rows: Vec<PathBuf>,
-    /// Only this arm of the rows; may be given several times.
+    /// Run only this arm of the rows. You may give it several times.
     #[arg(long = "arm", value_name = "NAME")]
     pub arms: Vec<String>,
     /// Seeds for each row; every arm runs with each of them.
     #[arg(long, value_name = "N", default_value_t = 200, conflicts_with = "until_width",
         value_parser = clap::value_parser!(u64).range(1..))]
     pub seeds: u64,
-    /// The first seed; the others follow it. For figures on seeds that nobody has looked at while setting something up.
+    /// First seed; the others follow it. Measure on seeds that were not used to set something up.
     #[arg(long, value_name = "SEED", default_value_t = 1,
         value_parser = clap::value_parser!(u64).range(..=1 << 62))]
     pub first_seed: u64,
-    /// 20 seeds for each row: a first look.
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// Use 20 seeds for each row, for a first look.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,
-    /// Run until the success share is known to this half width (0.05: plus or minus 5 %).
+    /// Run until the success share is known to this half width; 0.05 means plus or minus 5 %.
     #[arg(long, value_name = "W", value_parser = half_width)]
     pub until_width: Option<f64>,
-    /// At most so many seeds for each row.
+    /// With --until-width: at most this many seeds for each row.
     #[arg(long, value_name = "N", default_value_t = 2000, requires = "until_width",
         value_parser = clap::value_parser!(u64).range(1..))]
     pub max: u64,
-    /// Runs at a time; 0 for one on each core.
+    /// Runs at the same time; 0 means one on each core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub jobs: usize,
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = "runs/reproduce")]
     pub out: PathBuf,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -1,4 +1,4 @@
-//! What `rheotaxis segment` and `rheotaxis score-vision` can be asked.
+//! Arguments of `rheotaxis segment` and `rheotaxis score-vision`.
 
 use robots::vision::{ColourSpec, Edges, VerifierSpec};
 use std::path::PathBuf;
@@ -7,24 +7,26 @@ use world::ranges::{NonNegative, Positive};
 /// Arguments of `segment`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Takes a picture apart with the fuzzy colour extractor of Tian et al. 2013, section 5, and judges whether it \
-        shows a source giving off dye.\n\n\
-        A pass looks for the colour in the picture that is nearest a reference, its colour pattern, and takes all pixels alike to it: \
-        those whose fuzzy difference is below epsilon. What is taken turns white, and the next pass looks at what is left. Three \
-        passes go towards RED (255, 0, 0): their union is the plume; then four towards DARK-BLUE (0, 0, 128): the source. Of \
-        each group only the passes whose patterns lie near the first one's (delta1, delta2) are kept.\n\n\
-        Leaves, in the folder, pass-N.png (what each pass took), plume.png and source.png (all passes united), plume-kept.png and \
-        source-kept.png, their masks, left.png, overlay.png, clusters.svg and .png (the colour patterns with their distances), sheet.png (all \
-        on one sheet) and segmentation.json (all numbers).\n\n\
-        Pictures may be PNG, JPEG, BMP, PNM, TIFF or WebP of any size from 1 x 1 to 64 million pixels, grey or coloured, 8 \
-        or 16 bits. White is what is not there; what is transparent is laid on white.",
+    long_about = "Separates dye and source from the rest of a picture with the fuzzy colour extractor of Tian et al. \
+        2013, section 5, and judges whether the picture shows a source that gives off dye.\n\n\
+        A pass finds the colour in the picture that is nearest to a reference colour, its colour pattern. It takes all \
+        pixels whose fuzzy difference from the pattern is below epsilon and turns them white for the next pass. Three \
+        passes use RED (255, 0, 0) as the reference; together they are the plume. Four use DARK-BLUE (0, 0, 128); \
+        together they are the source. In each group only the passes whose patterns lie near the first one's are kept \
+        (delta1, delta2).\n\n\
+        The folder then holds sheet.png (everything on one sheet), overlay.png, pass-N.png (what each pass took), \
+        plume.png and source.png (all passes), plume-kept.png and source-kept.png with their masks, left.png (what no \
+        pass took), clusters.svg and .png (the colour patterns and their distances) and segmentation.json (all \
+        numbers).\n\n\
+        A picture may be PNG, JPEG, BMP, PNM, TIFF or WebP, grey or colour, 8 or 16 bits, with up to 64 million \
+        pixels. White counts as empty, and transparent pixels are laid on white.",
     after_help = SEGMENT_AFTER
 )]
 pub struct SegmentArgs {
-    /// The picture.
+    /// Picture to examine.
     #[arg(value_name = "IMAGE")]
     pub image: PathBuf,
-    /// Folder for the results; without it `runs/IMAGE-segmented`.
+    /// Folder for the results [default: runs/IMAGE-segmented].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// How colours are told apart.
@@ -36,50 +38,51 @@ const SEGMENT_AFTER: &str = "\
 Examples:
   rheotaxis segment dive.jpg
   rheotaxis segment dive.jpg --out seen --epsilon 60
-  rheotaxis segment hazy.jpg --dehaze --give-back   as the simulated vehicle does
+  rheotaxis segment hazy.jpg --dehaze --give-back   # as the simulated vehicle does
 
-Exit codes: 0 done, whatever the picture shows; 1 error; 2 usage.";
+Exit codes: 0 done, whatever the picture shows; 1 error; 2 wrong usage.";
 
-/// Parameters of the extractor; levels are those of 8 bits, 0 to 255.
+/// Parameters of the extractor. Levels are those of 8 bits, 0 to 255.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(next_help_heading = "Parameters, by default the paper's (levels from 0 to 255)")]
+#[command(next_help_heading = "Parameters (defaults as in the paper; levels from 0 to 255)")]
 pub struct ColourArgs {
-    /// Differences in a channel up to this are none.
+    /// A difference in a channel up to this counts as none.
     #[arg(long, value_name = "LEVELS", default_value = "35", value_parser = at_least_zero)]
     pub alpha1: NonNegative,
-    /// From this on they are whole.
+    /// A difference from this on counts as full.
     #[arg(long, value_name = "LEVELS", default_value = "200", value_parser = above_zero)]
     pub alpha2: Positive,
-    /// Width of the output sets Matched and Unmatched.
+    /// Width of the fuzzy output sets Matched and Unmatched.
     #[arg(long, value_name = "LEVELS", default_value = "20", value_parser = above_zero)]
     pub rho_m: Positive,
-    /// A pixel is taken if its fuzzy difference is below this.
+    /// A pixel is taken if its fuzzy difference is below this value.
     #[arg(long, value_name = "LEVELS", default_value = "80", value_parser = above_zero)]
     pub epsilon: Positive,
-    /// Passes towards RED.
+    /// Passes with the reference RED, for the plume.
     #[arg(long, value_name = "N", default_value_t = 3)]
     pub plume_passes: u8,
-    /// Passes towards DARK-BLUE.
+    /// Passes with the reference DARK-BLUE, for the source.
     #[arg(long, value_name = "N", default_value_t = 4)]
     pub source_passes: u8,
-    /// A pass is dropped if its pattern is farther from the reference than the nearest one by more than this.
+    /// Drop a pass if its pattern is farther from the reference than the nearest pattern, by more than this.
     #[arg(long, value_name = "LEVELS", default_value = "40", value_parser = at_least_zero)]
     pub delta1: NonNegative,
-    /// Or if the shortest way from it to the nearest one, over the others, is longer than this.
+    /// Drop a pass if the shortest path from its pattern to the nearest pattern, over the others, is longer than this.
     #[arg(long, value_name = "LEVELS", default_value = "45", value_parser = at_least_zero)]
     pub delta2: NonNegative,
-    /// What a way between two patterns measures.
+    /// What the length of a path between two patterns is.
     #[arg(long, value_enum, default_value_t = EdgesArg::Colours)]
     pub edges: EdgesArg,
-    /// Put pixels of dropped plume passes back before the source is looked for (not in the paper).
+    /// Put the pixels of dropped plume passes back before the search for the source (not in the paper).
     #[arg(long)]
     pub give_back: bool,
-    /// First take out what changes slowly over the picture and bring each colour to the whole range of levels (not in the paper).
+    /// First remove what changes slowly over the picture, and stretch each colour to the full range of levels (not in
+    /// the paper).
     #[arg(long)]
     pub dehaze: bool,
 }
 
-/// What a way between two colour patterns measures.
+/// What the length of a path between two colour patterns is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub enum EdgesArg {
     /// The distance of their colours.
@@ -89,7 +92,7 @@ pub enum EdgesArg {
 }
 
 impl ColourArgs {
-    /// As the verifier takes them, or the flag that does not go with the others.
+    /// The parameters as the verifier takes them, or the flag that contradicts the others.
     ///
     /// # Errors
     /// Names the flag and its legal range.
@@ -136,38 +139,42 @@ fn at_least_zero(s: &str) -> Result<NonNegative, String> {
 /// Arguments of `score-vision`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Renders scenes whose truth is known and scores how well dye and source are found in them.\n\n\
-        Every other scene shows a source (1.0 m by 0.5 m, dark) giving off rhodamine into a turbulent stream, the others dye alone, a like body \
-        that gives off nothing, or bare bed. Visibility goes evenly from 1.5 to 24 m in four ranges; light, sun, current, strength of \
-        the dye, place and direction of the camera are drawn at random from the seed.\n\n\
-        Scored are several readings of the extractor of Tian et al. 2013 and plain thresholds: precision and recall of the pixels of \
-        dye (its light changes by a tenth or more) and source (2 % of its light arrives), and the verdicts as a curve of \
-        true against false verifications, each by range of visibility with 95 % intervals.\n\n\
-        Leaves scores.md, scores.csv, scores.json, scenes.csv, pixels.svg and .png, roc.svg and .png.",
-    after_help = "Examples:\n  rheotaxis score-vision\n  rheotaxis score-vision --scenes 48 --pictures 48 --out look\n  \
+    long_about = "Renders underwater scenes whose truth is known, and scores how well dye and source are found in \
+        them.\n\n\
+        Half of the scenes show a dark source of 1.0 m by 0.5 m that releases rhodamine into a turbulent stream. The \
+        others show dye alone, a similar body that releases nothing, or the bare bed. The visibility is 1.5 to 24 m, \
+        evenly spread over four ranges. Light, sun, current, strength of the dye and pose of the camera are drawn at \
+        random from the seed.\n\n\
+        Several readings of the extractor of Tian et al. 2013 and plain thresholds are scored, each by range of \
+        visibility and with 95 % intervals: precision and recall for pixels of dye (it changes their light by a tenth \
+        or more) and of the source (at least 2 % of its light arrives), and true against false verifications.\n\n\
+        The results are scores.md, scores.csv, scores.json, scenes.csv, pixels.svg and .png, roc.svg and .png.",
+    after_help = "Examples:\n  rheotaxis score-vision\n  \
+        rheotaxis score-vision --scenes 48 --pictures 48 --out look\n  \
         rheotaxis score-vision --seed 2 --scenes 960\n\n\
-        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 usage."
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
 )]
 pub struct ScoreVisionArgs {
-    /// How many scenes.
-    #[arg(long, value_name = "N", default_value_t = 240, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    /// Number of scenes.
+    #[arg(long, value_name = "N", default_value_t = 240,
+        value_parser = clap::value_parser!(u64).range(1..=100_000))]
     pub scenes: u64,
     /// Seed of the scenes.
     #[arg(long, value_name = "SEED", default_value_t = 1)]
     pub seed: u64,
-    /// Width of the pictures, px; their height is three quarters of it.
+    /// Width of the pictures, px. Their height is three quarters of it.
     #[arg(long, value_name = "PX", default_value_t = 320, value_parser = clap::value_parser!(u32).range(4..=2048))]
     pub width: u32,
     /// Also write the first N pictures with their truth into the folder.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub pictures: u64,
-    /// Scenes at a time; 0 for one on each core.
+    /// Scenes at the same time; 0 means one on each core.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub jobs: usize,
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = "runs/score-vision")]
     pub out: PathBuf,
-    /// Show no progress.
+    /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
 }

@@ -1,4 +1,4 @@
-//! `rheotaxis campaign`: plans, runs, looks at, merges and repeats campaigns.
+//! `rheotaxis campaign`: plans and runs campaigns, shows their status, merges, reports and repeats runs.
 
 use super::args::{RunArgs, Speed};
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
@@ -16,7 +16,7 @@ use studies::campaign::{
     CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
 };
 
-/// Does what is asked.
+/// Runs one of its subcommands.
 pub(super) fn campaign(command: &CampaignCommand) -> Exit {
     stop::listen();
     let done = match command {
@@ -33,13 +33,13 @@ pub(super) fn campaign(command: &CampaignCommand) -> Exit {
 pub(super) fn refused(error: CampaignError) -> Exit {
     let help = match &error {
         CampaignError::Differs { .. } => Some(
-            "give another --out; or --force, which goes on here and keeps the blocks that are done",
+            "give another --out; or --force, which continues here and keeps the blocks that are done",
         ),
-        CampaignError::Write { .. } => {
-            Some("blocks written before are whole; make room or name another folder, and run again")
-        }
+        CampaignError::Write { .. } => Some(
+            "blocks written before are whole; free some space or name another folder, and run again",
+        ),
         CampaignError::Broken { .. } => Some(
-            "`rheotaxis campaign run` does it again, unless something else stands in its place",
+            "`rheotaxis campaign run` makes it again, unless its place is taken by something that is not a file",
         ),
         _ => None,
     };
@@ -55,7 +55,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         Some(shard) => shard,
         None => Shard::from_environment(|name| std::env::var(name).ok())?.unwrap_or_default(),
     };
-    let campaign = load(&args.file)?;
+    let mut campaign = load(&args.file)?;
+    campaign.key = args.key.get();
     say::warnings(campaign.notes());
     let bar = if args.quiet {
         ProgressBar::hidden()
@@ -99,7 +100,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
                 campaign.spec.seeds.words()
             ));
         }
-        // Said even with --quiet: something damaged the folder.
+        // Printed even with --quiet, because something damaged the folder.
         Event::Broken(error) => bar.suspend(|| eprintln!("{error}; it is done again")),
         Event::Ran(row) => {
             bar.inc(1);
@@ -133,8 +134,8 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         }
         RunEnded::Waiting { missing } => {
             say_so(&format!(
-                "{}: this share is done so far; {} of other shares will say whether more runs are needed: \
-                 run the same command again then",
+                "{}: this share is done for now; whether more runs are needed depends on {} of other shares: \
+                 run the same command again when they are done",
                 campaign.name,
                 count(missing, "missing block")
             ));
@@ -142,7 +143,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         }
         RunEnded::Stopped { done, left } => {
             say_so(&format!(
-                "{}: stopped: {} done now and written, {left} to do; the same command goes on",
+                "{}: stopped: {} done and written, {left} left; the same command continues",
                 campaign.name,
                 count(done, "run")
             ));
@@ -152,7 +153,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     let failed = failed.load(Ordering::Relaxed);
     if failed > 0 {
         say_so(&format!(
-            "  {} failed: their rows say why",
+            "  {} failed; the column `error` of the rows says why",
             count(failed, "run")
         ));
     }
@@ -183,13 +184,11 @@ fn status(args: &StatusArgs) -> Result<Exit, CampaignError> {
         ));
     }
     if let Some((run, error)) = &status.first_error {
-        say::line(format_args!(
-            "  the first that failed is run {run}: {error}"
-        ));
+        say::line(format_args!("  the first failure is run {run}: {error}"));
     }
     for error in &status.broken {
         say::line(format_args!(
-            "  {error}; `rheotaxis campaign run` does it again"
+            "  {error}; `rheotaxis campaign run` makes it again"
         ));
     }
     Ok(if status.complete() {
@@ -203,13 +202,15 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
     let csv = args.csv.then(|| args.out.with_extension("csv"));
     let merged = merge(&args.dir, &args.out, csv.as_deref())?;
     say::line(format_args!(
-        "{} in {}",
+        "{} in {}, {} in {}",
         count(merged.rows, "row"),
-        args.out.display()
+        args.out.display(),
+        count(merged.declarations, "declaration"),
+        merged.declarations_path.display()
     ));
     if merged.rows < merged.of {
         eprintln!(
-            "the campaign is not done: {} are missing",
+            "the campaign is not complete: {} missing",
             count(merged.of - merged.rows, "run")
         );
     }
@@ -219,7 +220,9 @@ fn merge_rows(args: &MergeArgs) -> Result<Exit, CampaignError> {
 fn rerun(args: &RerunArgs) -> Exit {
     let found = Manifest::of(&args.dir).and_then(|manifest| {
         let row = read_row(&args.dir, args.run)?;
-        let campaign = manifest.campaign()?;
+        let mut campaign = manifest.campaign()?;
+        campaign.key = args.key.get();
+        manifest.same_key(&campaign)?;
         let place = campaign.place(args.run);
         let mut what = format!("arm {}", campaign.arm(place.arm).name);
         let condition = campaign.condition_name(place.condition);
@@ -242,7 +245,8 @@ fn rerun(args: &RerunArgs) -> Exit {
         .unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
         files: Vec::new(),
-        seed,
+        seed: seed.number(),
+        key: args.key.clone(),
         out: Some(out.clone()),
         speed: Speed::Max,
         no_zenoh: true,
@@ -267,7 +271,7 @@ fn rerun(args: &RerunArgs) -> Exit {
         Ok((_, digest)) => match row {
             None => {
                 say::line(format_args!(
-                    "run {} ({what}, seed {seed}) has no row yet to compare with",
+                    "run {} ({what}, seed {seed}) has no row yet to compare its digest with",
                     args.run
                 ));
                 Exit::Success
@@ -286,7 +290,10 @@ fn rerun(args: &RerunArgs) -> Exit {
                     &row.digest
                 };
                 say::error(
-                    format!("run {} has digest {digest}, its row {theirs}", args.run),
+                    format!(
+                        "run {} has digest {digest}, but its row has {theirs}",
+                        args.run
+                    ),
                     Some("was the campaign run by another version of the program?"),
                 );
                 Exit::Error

@@ -1,11 +1,11 @@
-//! `rheotaxis campaign plan`: what a campaign is and what it will cost.
+//! `rheotaxis campaign plan`: describes a campaign and estimates its cost.
 
 use super::args_campaign::PlanArgs;
 use super::exit::Exit;
 use super::say;
 use studies::campaign::{Campaign, CampaignError, LONGEST, RunName, block_of, load, one_run};
 
-/// Checks a campaign, counts its runs and, unless told otherwise, makes the first one to see what it costs.
+/// Checks a campaign and counts its runs. Unless `--no-probe` is given, makes the first run to estimate the cost.
 pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     let campaign = load(&args.file)?;
     say::warnings(campaign.notes());
@@ -22,7 +22,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     ));
     if let Some(until) = &campaign.spec.until {
         say::line(format_args!(
-            "  or fewer: until every success share is known to plus or minus {:.1} %",
+            "  fewer if every success share is known to plus or minus {:.1} % before",
             100.0 * until.half_width
         ));
     }
@@ -45,7 +45,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     }
     let place = campaign.place(0);
     say::line(format_args!(
-        "  run 0 is `rheotaxis run --seed {}` of {} with what arm {} and its condition set",
+        "  run 0 is `rheotaxis run --seed {}` of {} with the values of arm {} and its condition",
         place.seed,
         campaign.base.name,
         campaign.arm(place.arm).name
@@ -53,7 +53,7 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     if args.no_probe {
         if args.block.is_none() {
             say::line(format_args!(
-                "  blocks of what one thread does in half a minute, at most {LONGEST} runs"
+                "  a block is what one thread does in half a minute, at most {LONGEST} runs"
             ));
         }
         return Ok(Exit::Success);
@@ -61,7 +61,8 @@ pub(super) fn plan(args: &PlanArgs) -> Result<Exit, CampaignError> {
     cost(&campaign, args.block.is_none())
 }
 
-/// Makes the first run and says what all will cost, and how long blocks will be if that hangs on it.
+/// Makes the first run and prints what all will cost; with `by_cost`, also the size of the blocks, which follows from
+/// it.
 fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
     let name = RunName {
         seed: campaign.place(0).seed,
@@ -79,8 +80,8 @@ fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
     }
     let (apart, shared) = (runs as f64, runs as f64 / campaign.n_arms() as f64);
     say::line(format_args!(
-        "  the first run took {spin_up:.2} s of spin-up and {mission:.2} s of mission; for all about {} on \
-         one core, {} if the arms share their water and sources",
+        "  the first run took {spin_up:.2} s for the spin-up and {mission:.2} s for the mission; all runs take \
+         about {} on one core, or {} if the arms have the same water and sources",
         hours(apart * (spin_up + mission)),
         hours(shared * spin_up + apart * mission)
     ));

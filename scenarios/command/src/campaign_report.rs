@@ -1,4 +1,4 @@
-//! `rheotaxis campaign report`: the arms of a campaign against each other.
+//! `rheotaxis campaign report`: compares the arms of a campaign.
 
 use super::args_campaign::ReportArgs;
 use super::campaign::refused;

@@ -5,7 +5,7 @@ use super::exit::Exit;
 use super::say;
 use rheotaxis::scenario::{cost, load};
 
-/// Checks every file, going on after a broken one.
+/// Checks every file, also after one with mistakes.
 pub(super) fn check(args: &CheckArgs) -> Exit {
     let mut exit = Exit::Success;
     for file in &args.files {

@@ -1,24 +1,24 @@
-//! What the exit code says.
+//! Exit codes.
 
 use std::process::ExitCode;
 
 /// How the command ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Exit {
-    /// Every mission ended as its scenario defines success; or, without a mission, all is well.
+    /// Every mission ended as its scenario defines success. Of a command without missions: no error.
     Success,
-    /// Ran to the end, but not to success: no source declared, or too far from the true one.
+    /// A mission ended without success: no source was declared, or too far from the true one.
     NotFound,
-    /// Something is wrong: the text on standard error says what.
+    /// An error; the text on standard error explains it.
     Error,
-    /// A campaign was stopped before its end: the same command goes on where it stopped.
+    /// A campaign was stopped before its end; the same command continues it.
     Unfinished,
-    /// Ctrl-C or a termination signal.
+    /// Ctrl-C or a termination signal ended a run.
     Interrupted,
 }
 
 impl Exit {
-    /// The number the shell sees; wrong usage is 2, from the argument parser.
+    /// The number that the shell sees. Wrong usage is 2, which the argument parser returns.
     #[must_use]
     pub fn code(self) -> u8 {
         match self {
@@ -30,7 +30,7 @@ impl Exit {
         }
     }
 
-    /// Of two, the one that matters more.
+    /// The more important one of two.
     #[must_use]
     pub fn worse(self, other: Self) -> Self {
         self.max(other)

@@ -1,11 +1,11 @@
-//! `rheotaxis explain`: what a scenario file may say, field by field.
+//! `rheotaxis explain`: explains the fields of a scenario file.
 
 use super::args_explain::ExplainArgs;
 use super::exit::Exit;
 use super::say;
 use rheotaxis::explain;
 
-/// Prints one place, or the whole in one of its forms.
+/// Prints the explanation of one place, or the whole reference as Markdown or JSON Schema.
 pub(super) fn explain(args: &ExplainArgs) -> Exit {
     let path = args.path.as_deref().unwrap_or_default();
     let text = match (args.markdown, args.json_schema) {
@@ -27,7 +27,7 @@ pub(super) fn explain(args: &ExplainArgs) -> Exit {
 
 fn help(near: &[String]) -> String {
     match near {
-        [] => "`rheotaxis explain` shows what there is".to_string(),
+        [] => "`rheotaxis explain` lists the blocks of a scenario".to_string(),
         [one] => format!("did you mean {one}?"),
         several => format!("the nearest are {}", several.join(", ")),
     }

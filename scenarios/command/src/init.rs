@@ -1,4 +1,4 @@
-//! `rheotaxis init`: writes a scenario that comes with the program, to be changed.
+//! `rheotaxis init`: writes a scenario that comes with the program to a file, for the user to change.
 
 use super::args::InitArgs;
 use super::exit::Exit;
@@ -8,7 +8,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::write_new;
 
-/// Writes the template, or without one lists what there is.
+/// Writes the template, or lists the templates if none is named.
 pub(super) fn init(args: &InitArgs) -> Exit {
     let Some(name) = &args.template else {
         say::line(format_args!(

@@ -1,14 +1,15 @@
-//! The command `rheotaxis`: what it is asked, and what it answers.
+//! The command `rheotaxis`: it reads arguments, calls the libraries and prints what they return.
 #![forbid(unsafe_code)]
 #![allow(
     clippy::print_stdout,
     clippy::print_stderr,
-    reason = "a command speaks through standard output and error"
+    reason = "a command writes to standard output and standard error"
 )]
 
 mod args;
 mod args_campaign;
 mod args_explain;
+mod args_key;
 mod args_picture;
 mod args_reproduce;
 mod args_vision;
@@ -32,6 +33,7 @@ mod shown;
 mod statistics;
 mod stop;
 mod topics;
+mod version;
 
 pub use args::{
     Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
@@ -59,15 +61,15 @@ pub fn main() -> ExitCode {
     main_with(&Registry::default())
 }
 
-/// The same for a crate that adds strategies, currents or sensors of its own: `run`, `check`, `list`, `explain` and
-/// campaigns then know them.
+/// The whole command for a crate that adds strategies, currents or sensors of its own. `run`, `check`, `list`,
+/// `explain` and campaigns then know them.
 #[must_use]
 pub fn main_with(registry: &Registry) -> ExitCode {
     say::set_up();
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
     let Args { command, memory } = Args::parse();
     cost::set_limit(memory);
-    // A broken assumption has said so by now, with its cure: an error like any other to the shell.
+    // A panic has printed its message by now; to the shell it is an error like any other.
     guarded(|| registry.scope(|| dispatch(command))).into()
 }
 

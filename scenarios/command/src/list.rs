@@ -1,4 +1,4 @@
-//! `rheotaxis list`: everything a scenario can ask for, each with its source.
+//! `rheotaxis list`: lists what a scenario can use, each with its source.
 
 use super::args::{ListArgs, ListKind};
 use super::exit::Exit;
@@ -6,7 +6,7 @@ use super::say;
 use rheotaxis::registry::{Group, Registry, sections};
 use rheotaxis::scenario::{CATALOG, parse};
 
-/// Prints what is asked for, or all of it.
+/// Prints the sections asked for, or all of them.
 pub(super) fn list(args: &ListArgs) -> Exit {
     let wanted = |kind: ListKind| args.what.is_none_or(|w| w == kind);
     if wanted(ListKind::Scenarios) {
@@ -35,12 +35,12 @@ fn kind(group: Group) -> ListKind {
     }
 }
 
-/// The scenarios that come with the program.
+/// Prints the scenarios that come with the program.
 pub(super) fn scenarios() {
     for template in CATALOG {
         match parse(template.name, template.text) {
-            Ok(scenario) => print(template.name, &scenario.title, &scenario.source),
-            // Tests keep this from happening.
+            Ok(scenario) => print(template.name, &scenario.title, &scenario.citation),
+            // A test makes sure that this does not happen.
             Err(error) => print(template.name, &error.to_string(), "-"),
         }
     }

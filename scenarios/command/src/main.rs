@@ -1,4 +1,4 @@
-//! The command `rheotaxis`; everything it does is in the library.
+//! The program `rheotaxis`; all of its code is in the library of this crate.
 
 fn main() -> std::process::ExitCode {
     command::main()

@@ -1,7 +1,7 @@
-//! Who watches a run from the command: recording, table, live state, progress, pace, and the report.
+//! Everything that follows a run: recording, tables, live state, progress, pace, and the report at its end.
 #![allow(
     clippy::disallowed_methods,
-    reason = "pace and wall time are shown to people; nothing of them enters the run"
+    reason = "pace and wall time are for people; neither enters the run"
 )]
 
 use super::args::{RunArgs, Speed};
@@ -17,8 +17,7 @@ use output::results::{
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::GantryBlock;
-use rheotaxis::scenario::Loaded;
+use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
@@ -31,10 +30,10 @@ use world::ranges::Finite;
 use super::run::RunError;
 use super::say;
 
-/// Longest time in which Ctrl-C is not heard while a run waits for its pace.
+/// Longest wait before Ctrl-C is looked for again, while a run waits for its pace.
 const NAP: Duration = Duration::from_millis(50);
 
-/// Everyone who watches one run.
+/// All that follows one run.
 pub(super) struct Onlooker<'a> {
     out: Folder,
     text: String,
@@ -60,7 +59,7 @@ pub(super) struct Onlooker<'a> {
 }
 
 impl<'a> Onlooker<'a> {
-    /// Opens folder, files and port; whatever is wrong with them is said before the run starts.
+    /// Opens folder, files and port, so that an error in them comes before the run starts.
     pub(super) fn new(
         loaded: &Loaded,
         args: &RunArgs,
@@ -73,13 +72,13 @@ impl<'a> Onlooker<'a> {
             title: scenario.title.clone(),
             success: scenario.success.words(),
             scenario_text: loaded.text.clone(),
-            seed: args.seed,
+            seed: args.key.seed(args.seed),
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
         let gantries = gantries(loaded)?;
         let progress = Progress::new(loaded, args);
         let live = live(args, &run, &progress)?;
-        // Last of all: a run that cannot begin leaves alone what an earlier one left.
+        // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
             progress.say(&removed);
@@ -134,14 +133,14 @@ impl<'a> Onlooker<'a> {
         self.failure.is_none() && !self.stop.load(Ordering::Relaxed)
     }
 
-    /// Keeps the first thing that could not be written; the run then ends, with what it has.
+    /// Keeps the first write error. The run then ends and reports what it has.
     fn note(&mut self, result: Result<(), ReportError>) {
         if let Err(error) = result {
             self.failure.get_or_insert(error);
         }
     }
 
-    /// Writes everything that is written at the end and says where it lies.
+    /// Writes the results of the run and prints where they are.
     pub(super) fn finish(
         mut self,
         trial: &Trial,
@@ -158,14 +157,7 @@ impl<'a> Onlooker<'a> {
         }
         let ocean = trial.simulation.ocean();
         let plume = ocean.plume();
-        let sources: Vec<SourceTruth> = (plume.sources().iter())
-            .zip(&ended.flow_at_sources)
-            .map(|(s, flow)| SourceTruth {
-                id: s.id.clone(),
-                position: s.p_W,
-                flow: flow.xy(),
-            })
-            .collect();
+        let sources = SourceTruth::of(trial, ended);
         let outcome = match self.failure {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
@@ -173,10 +165,11 @@ impl<'a> Onlooker<'a> {
         (self.builder).went_wrong(&trial.score().abnormal);
         self.builder.added(trial);
         let summary = self.builder.finish(
-            RunEnd {
+            &RunEnd {
                 outcome,
                 error: self.failure.as_ref().map(ToString::to_string),
                 digest: ended.digest.clone(),
+                declarations: ended.declarations.clone(),
                 totals: Totals {
                     mission_s: ended.t_s,
                     spin_up_s: self.spin_up_s,
@@ -238,7 +231,7 @@ impl<'a> Onlooker<'a> {
     }
 }
 
-/// The recording; should it not come to its end, the next run in that folder knows what it left.
+/// Opens the recording. Its temporary file is listed too, so that the next run removes it if this one is killed.
 fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
     let recorder = Recorder::create(&out.file("run.mcap")?, run)?;
     if let Some(name) = recorder.temporary().file_name() {
@@ -247,7 +240,7 @@ fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
     Ok(recorder)
 }
 
-/// The run as others see it over zenoh.
+/// Starts publishing over zenoh.
 fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Live>, RunError> {
     if args.no_zenoh {
         return Ok(None);
@@ -258,7 +251,7 @@ fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Liv
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),
-        seed: run.seed,
+        seed: run.seed.number(),
         version: run.version.clone(),
     };
     let live = Live::start(&options, meta)?;
@@ -273,16 +266,16 @@ fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Liv
     Ok(Some(live))
 }
 
-/// What tables and figures must know of the scenario's gantries.
+/// What tables and figures need to know about the scenario's gantries.
 fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
     let scenario = &loaded.scenario;
-    // The strongest, if there are several.
+    // Of several effluents, the strongest.
     let effluent = (scenario.sources.iter())
         .filter_map(|s| Some(1e-3 * s.rate_g_s.get() / s.release.nozzle.as_ref()?.volume_m3_s()))
         .max_by(f64::total_cmp);
     let info = |block: &GantryBlock| {
         let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &loaded.base_dir).map_err(|source| {
+        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).map_err(|source| {
             AssembleError::Robot {
                 id: id.clone(),
                 source,
@@ -363,7 +356,7 @@ impl Watch for Onlooker<'_> {
 
     fn go_on(&mut self, t_s: f64) -> bool {
         if let Speed::Times(speed) = self.speed {
-            // However slow it shall be, Ctrl-C ends it.
+            // Ctrl-C must end a wait of any length.
             let due = Duration::try_from_secs_f64(t_s / speed).unwrap_or(Duration::MAX);
             while self.going()
                 && let Some(early) = due.checked_sub(self.mission_begun.elapsed())

@@ -1,4 +1,4 @@
-//! `rheotaxis picture`: one picture of a scenario's plume from anywhere.
+//! `rheotaxis picture`: takes one picture of a scenario's plume.
 
 use super::args_picture::PictureArgs;
 use super::exit::Exit;
@@ -15,7 +15,7 @@ use world::ranges::Positive;
 use world::seeds;
 use world::units::Heading;
 
-/// Takes the picture and says where it lies.
+/// Takes the picture and prints the names of the files.
 pub(super) fn picture(args: &PictureArgs) -> Exit {
     if args.truth.as_ref() == Some(&args.out) {
         let problem = format!(
@@ -45,7 +45,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         say::error(format!("--visibility must be > 0, got {wrong}"), None);
         return Exit::Error;
     }
-    let mut trial = match Trial::assemble(&loaded, args.seed) {
+    let mut trial = match Trial::assemble(&loaded, args.key.seed(args.seed)) {
         Ok(trial) => trial,
         Err(error) => {
             say::error(error, None);
@@ -57,12 +57,15 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         let bed = trial.simulation.ocean().terrain.bed_z(east, north);
         if up > 0.0 || up < bed {
             return Err(format!(
-                "the camera must be in the water: up from {bed:.2} to 0 m at that place, got {up}"
+                "the camera must be in the water: at that place, up must be from {bed:.2} to 0 m, got {up}"
             ));
         }
         let p = Vector3::new(east, north, up);
         match trial.simulation.ocean().obstacles.containing(&p) {
-            Some(solid) => Err(format!("the camera would be inside \"{}\"", solid.id)),
+            Some(solid) => Err(format!(
+                "the camera would be inside obstacle \"{}\"",
+                solid.id
+            )),
             None => Ok(p),
         }
     };
@@ -85,7 +88,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
     let camera = CameraModel::new(&spec.unwrap_or_default());
     let [heading, down] = args.look.0;
     let pose_WC = looking(p_W, Heading::from_deg(heading).yaw(), down.to_radians());
-    let noise = seeds::key(args.seed, "picture", "camera");
+    let noise = seeds::key(args.key.seed(args.seed), "picture", "camera");
     let made = render(&camera, &pose_WC, &scene, noise);
     let files = [
         Some((args.out.as_path(), made.image.clone())),
@@ -104,7 +107,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
     exit
 }
 
-/// Red: how much the dye changes a pixel; blue: the light of a solid that arrives.
+/// The truth as a picture. Red is how much the dye changes a pixel, blue the share of a solid's light that arrives.
 fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
     let byte = |share: f32| (255.0 * share.clamp(0.0, 1.0) + 0.5) as u8;
     let bytes = (made.seen.iter()).flat_map(|s| {
@@ -112,7 +115,7 @@ fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
         [byte(s.plume), 0, byte(solid)]
     });
     RgbImage::from_raw(camera.width, camera.height, bytes.collect())
-        .expect("the truth is told for every pixel")
+        .expect("there is a truth for every pixel")
 }
 
 fn write_png(path: &Path, image: &RgbImage) -> Result<(), ReportError> {

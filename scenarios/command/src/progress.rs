@@ -1,4 +1,4 @@
-//! The line that moves while a run goes on, and the words at its end.
+//! The progress bar of a run, and the lines at its end.
 
 use super::args::RunArgs;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -11,10 +11,10 @@ use rheotaxis::scenario::Loaded;
 use robots::handoff::{RegionState, Verdict, region_name};
 use std::path::Path;
 
-/// Resolution of the spin-up's share.
+/// Steps of the progress bar during spin-up.
 const PARTS: u64 = 1000;
 
-/// Progress of one run; silent with `--quiet` and off a terminal (but for the words).
+/// Progress of one run. The bar appears only on a terminal, and nothing is printed with `--quiet`.
 pub(super) struct Progress {
     bar: ProgressBar,
     quiet: bool,
@@ -22,11 +22,11 @@ pub(super) struct Progress {
     limit_s: f64,
     flying: bool,
     detections: u64,
-    /// Events told.
+    /// Abnormal events printed so far.
     told: usize,
-    /// Declarations shown last.
+    /// Declarations when the bar was last updated.
     declared: usize,
-    /// Where the sources truly are (east, north), m: the onlooker may know.
+    /// True positions of the sources (east, north), m. The user may see them; the searchers do not.
     sources: Vec<Vector2<f64>>,
 }
 
@@ -62,7 +62,7 @@ impl Progress {
         progress
     }
 
-    /// One line that stays.
+    /// Prints a line above the bar.
     pub(super) fn say(&self, line: &str) {
         if !self.quiet {
             self.bar.suspend(|| eprintln!("{line}"));
@@ -124,7 +124,7 @@ impl Progress {
         )
     }
 
-    /// Takes the bar away and says how it ended and where the results lie.
+    /// Removes the bar and prints how the run ended and where the results are.
     pub(super) fn finish(&self, summary: &Summary, out: &Path) {
         self.bar.finish_and_clear();
         if self.quiet {
@@ -139,7 +139,7 @@ impl Progress {
             run.totals.filaments,
             match run.real_time_factor_with_spin_up {
                 Some(x) => format!("{x:.0} x real time, spin-up included"),
-                None => "no time at all".to_string(),
+                None => "in no time".to_string(),
             }
         );
         for robot in &summary.robots {
@@ -170,7 +170,7 @@ impl Progress {
     }
 }
 
-/// What a robot declared and how the search of its subregions ended, one subregion after the other, and what to beware of.
+/// What a robot declared, how the search of each subregion ended, and the remark about its map.
 fn declared_lines(robot: &RobotSummary) -> Vec<String> {
     let of_region = |d: &DeclarationSummary| (d.region.unwrap_or(0), declaration(d));
     let mut by_region: Vec<(u32, String)> = robot.declarations.iter().map(of_region).collect();
@@ -188,7 +188,7 @@ fn declared_lines(robot: &RobotSummary) -> Vec<String> {
     none.into_iter().chain(lines).chain(remark).collect()
 }
 
-/// A declaration, for people.
+/// A declaration in words.
 fn declaration(d: &DeclarationSummary) -> String {
     let mut said = match &d.region_name {
         Some(name) => format!("subregion {name}: "),
@@ -221,7 +221,7 @@ fn declaration(d: &DeclarationSummary) -> String {
     said
 }
 
-/// What a gantry came to, for people.
+/// The results of a gantry in words.
 fn gantry_lines(g: &GantrySummary) -> Vec<String> {
     let [steps, casts, sweeps] = g.moves;
     let mut lines = vec![format!(
@@ -235,7 +235,7 @@ fn gantry_lines(g: &GantrySummary) -> Vec<String> {
     )];
     if let (Some(v), Some(ngdr)) = (g.speed_m_s, g.ngdr) {
         lines.push(format!(
-            "from the first step up-stream: {:.1} cm/s, straight way over path (NGDR) {ngdr:.2}",
+            "from the first step up-stream: {:.1} cm/s, straight distance over path length (NGDR) {ngdr:.2}",
             100.0 * v
         ));
     }
@@ -256,7 +256,7 @@ fn gantry_lines(g: &GantrySummary) -> Vec<String> {
         (None, None) => lines.push("did not stop".to_string()),
     }
     if g.blocked {
-        lines.push("a drive gave up against something in the way".to_string());
+        lines.push("a drive stopped because something was in its way".to_string());
     }
     lines
 }

@@ -1,4 +1,4 @@
-//! `rheotaxis reproduce`: our figures beside the papers'.
+//! `rheotaxis reproduce`: repeats the papers' experiments and compares the figures.
 
 use super::args_reproduce::ReproduceArgs;
 use super::campaign_plan::count;
@@ -12,7 +12,7 @@ use studies::reproduce::{
     Plan, Reference, ReproduceError, Reproduced, reproduce, table, wanted, write,
 };
 
-/// Runs the rows and shows and writes their tables.
+/// Runs the rows, prints their tables and writes them.
 pub(super) fn run(args: &ReproduceArgs) -> Exit {
     stop::listen();
     match all(args) {
@@ -34,7 +34,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Exit {
 
 fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     let references = wanted(&args.rows, &args.arms)?;
-    // The folder is tried before hours are spent.
+    // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
     if !args.quiet {
         eprintln!("{}", trials(&references, args));
@@ -46,13 +46,13 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         done.push(reproduced);
     }
     say::line(format_args!(
-        "results in {}: REPRODUCTION.md, figures.csv, rows.csv",
+        "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
         args.out.display()
     ));
     Ok(())
 }
 
-/// What will be run, said before it is.
+/// A line that says how many trials will be run.
 fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
     let most = if args.until_width.is_some() {
         "at most "
@@ -95,6 +95,7 @@ fn one(
     let plan = Plan {
         n,
         first_seed: args.first_seed,
+        key: args.key.get(),
         until_half_width: args.until_width,
         jobs: args.jobs,
     };

@@ -1,4 +1,4 @@
-//! `rheotaxis run`: runs scenarios, shows them, and leaves a folder for each.
+//! `rheotaxis run`: runs scenarios, shows their progress, and writes a folder of results for each.
 
 use super::args::RunArgs;
 use super::exit::Exit;
@@ -13,7 +13,7 @@ use rheotaxis::trial::Trial;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Why a run could not be made or finished.
+/// Why a run could not start or finish.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum RunError {
     #[error(transparent)]
@@ -24,11 +24,11 @@ pub(super) enum RunError {
     Live(#[from] LiveError),
     #[error(transparent)]
     Report(#[from] ReportError),
-    #[error("{}: another scenario of this command has left its results there", .0.display())]
+    #[error("{}: another scenario of this command has written its results there", .0.display())]
     Taken(PathBuf),
 }
 
-/// Runs every file; a broken one is reported and the next one tried.
+/// Runs every file. An error is reported, and the next file is run all the same.
 pub(super) fn run(args: &RunArgs) -> Exit {
     let stop = stop::listen();
     let mut exit = Exit::Success;
@@ -61,7 +61,7 @@ fn code(outcome: RunOutcome) -> Exit {
     }
 }
 
-/// Runs one file, if no other of the command has its folder yet.
+/// Runs one file, unless another file of this command has used its folder.
 fn one(
     file: &Path,
     args: &RunArgs,
@@ -77,15 +77,15 @@ fn one(
     taken.push(folder.clone());
     if !args.quiet {
         let estimate = cost::estimate(&cost::cost(&loaded.scenario));
-        eprintln!("{}: takes {estimate}, or less", loaded.name);
+        eprintln!("{}: takes at most {estimate}", loaded.name);
     }
-    let mut trial = Trial::assemble(&loaded, args.seed)?;
+    let mut trial = Trial::assemble(&loaded, args.key.seed(args.seed))?;
     let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
     let ended = trial.run(&mut onlooker);
     Ok(onlooker.finish(&trial, &ended)?)
 }
 
-/// Where the results go: as asked, or `runs/<scenario>-<seed>`.
+/// The folder of the results: `--out`, or `runs/<scenario>-<seed>`.
 fn folder(loaded: &Loaded, args: &RunArgs) -> PathBuf {
     match &args.out {
         Some(out) if args.files.len() == 1 => out.clone(),

@@ -1,4 +1,4 @@
-//! How errors look: with the place in the file on a terminal and off it, the same each time.
+//! How errors and other messages are printed.
 
 use super::shown::Shown;
 use miette::{MietteHandlerOpts, Report};
@@ -9,9 +9,9 @@ use std::path::Path;
 /// Width of messages where there is no terminal to ask.
 const WIDTH: usize = 100;
 
-/// Sets the look of errors for the process.
+/// Sets how this process prints errors.
 pub(super) fn set_up() {
-    // Fails only if someone set a look before: then that one holds.
+    // Fails only if a hook is set already; then that one stays.
     let _ = miette::set_hook(Box::new(|_| look()));
 }
 
@@ -21,7 +21,7 @@ fn look() -> Box<dyn miette::ReportHandler> {
         .terminal_links(false)
         .context_lines(1);
     if !std::io::stderr().is_terminal() {
-        // In a log every message stands on one line, so that it can be searched for.
+        // In a log, each message is one line, so that it can be searched for.
         look = look
             .unicode(true)
             .color(false)
@@ -31,7 +31,7 @@ fn look() -> Box<dyn miette::ReportHandler> {
     Box::new(look.build())
 }
 
-/// What is wrong with a scenario, to standard error: each mistake for itself.
+/// Prints each mistake of a scenario to standard error.
 pub(super) fn scenario_error(error: ScenarioError) {
     match error {
         ScenarioError::Many { faults, .. } => warnings(faults),
@@ -40,30 +40,30 @@ pub(super) fn scenario_error(error: ScenarioError) {
     }
 }
 
-/// A line to standard output. Whoever reads it may have heard enough (`| head`): that is no error.
+/// Prints a line to standard output. A reader that closes the pipe early (`| head`) is no error.
 pub(super) fn line(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{text}");
 }
 
-/// Which files of an earlier run were removed from a folder, in words; none if none were.
+/// Names the files of an earlier run that were removed from a folder, if there were any.
 pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
     (!names.is_empty()).then(|| {
         format!(
-            "removed from {} what an earlier run left there: {}",
+            "removed from {} what an earlier run left: {}",
             folder.display(),
             names.join(", ")
         )
     })
 }
 
-/// What is wrong or odd about a scenario, to standard error.
+/// Prints mistakes or warnings about a scenario to standard error.
 pub(super) fn warnings(faults: Vec<Fault>) {
     for fault in faults {
         eprintln!("{:?}", Report::new(Shown::from(fault)));
     }
 }
 
-/// Any other error: what is wrong and, if known, how to put it right.
+/// Prints any other error: what is wrong and, if known, how to correct it.
 pub(super) fn error(problem: impl std::fmt::Display, help: Option<&str>) {
     let mut diagnostic = miette::MietteDiagnostic::new(problem.to_string());
     if let Some(help) = help {

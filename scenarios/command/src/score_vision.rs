@@ -1,4 +1,4 @@
-//! `rheotaxis score-vision`: how well the eyes see.
+//! `rheotaxis score-vision`: scores the segmentation on rendered scenes.
 
 use super::args_vision::ScoreVisionArgs;
 use super::exit::Exit;
@@ -8,9 +8,9 @@ use output::files::{ReportError, begin_folder};
 use robots::vision::VerifierSpec;
 use std::sync::Mutex;
 use std::time::Duration;
-use studies::score_vision::{Plan, ScoreError, SizePx, save, score, table, write};
+use studies::score_vision::{ScenePlan, ScoreError, SizePx, save, score, table, write};
 
-/// Renders, scores, says and writes.
+/// Renders and scores the scenes, prints the scores and writes the folder.
 pub(super) fn score_vision(args: &ScoreVisionArgs) -> Exit {
     stop::listen();
     match all(args) {
@@ -27,7 +27,7 @@ pub(super) fn score_vision(args: &ScoreVisionArgs) -> Exit {
 }
 
 fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
-    // The folder is tried before minutes are spent.
+    // Opens the folder first, so that an error does not come after minutes of work.
     let out = begin_folder(&args.out, "score-vision")?;
     if let Some(removed) = say::removed(&args.out, out.removed()) {
         eprintln!("{removed}");
@@ -46,7 +46,7 @@ fn all(args: &ScoreVisionArgs) -> Result<(), ScoreError> {
     );
     bar.set_prefix("score-vision");
     bar.enable_steady_tick(Duration::from_millis(500));
-    let plan = Plan {
+    let plan = ScenePlan {
         seed: args.seed,
         scenes: args.scenes,
         size_px: [args.width, (3 * args.width).div_ceil(4)],

@@ -1,4 +1,4 @@
-//! `rheotaxis segment`: a picture taken apart.
+//! `rheotaxis segment`: finds dye and source in a picture.
 
 use super::args_vision::SegmentArgs;
 use super::exit::Exit;
@@ -7,7 +7,7 @@ use output::files::begin_folder;
 use std::path::PathBuf;
 use studies::segment::{Segmented, read_picture, table, write};
 
-/// Reads, takes apart, says and writes.
+/// Reads the picture, segments it, prints the result and writes the folder.
 pub(super) fn segment(args: &SegmentArgs) -> Exit {
     let spec = match args.colours.spec() {
         Ok(spec) => spec,
@@ -39,7 +39,7 @@ pub(super) fn segment(args: &SegmentArgs) -> Exit {
     });
     match written {
         Ok(sheet) => {
-            say::line(format_args!("all on one sheet: {}", sheet.display()));
+            say::line(format_args!("everything on one sheet: {}", sheet.display()));
             Exit::Success
         }
         Err(error) => {

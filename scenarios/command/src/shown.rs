@@ -1,12 +1,12 @@
-//! A fault of a scenario with the text round it, as miette draws it.
+//! Draws a fault of a scenario with the lines around it, by miette.
 
 use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
 use rheotaxis::scenario::{Fault, Severity};
 use std::fmt::Display;
 
-/// A fault to be drawn.
+/// A fault that miette can draw.
 #[derive(Debug, thiserror::Error)]
-#[error("{fault}")]
+#[error("{}", headline(fault, text.is_some()))]
 pub(super) struct Shown {
     fault: Fault,
     text: Option<NamedSource<String>>,
@@ -18,6 +18,18 @@ impl From<Fault> for Shown {
         let text = text.map(|text| NamedSource::new(&fault.source_name, text));
         Self { fault, text }
     }
+}
+
+/// The message; with its place if the text around it is not drawn.
+fn headline(fault: &Fault, drawn: bool) -> String {
+    if drawn {
+        return fault.to_string();
+    }
+    let (line, column) = (fault.line, fault.column);
+    format!(
+        "{fault} ({}, line {line}, column {column})",
+        fault.source_name
+    )
 }
 
 impl Diagnostic for Shown {
@@ -41,5 +53,32 @@ impl Diagnostic for Shown {
         let label = self.fault.label.to_string();
         let label = LabeledSpan::new_with_span(Some(label), self.fault.span.clone());
         Some(Box::new(std::iter::once(label)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rheotaxis::scenario::{ScenarioError, parse, template};
+
+    /// What is drawn of a channel with a field too many, behind a title of that length.
+    fn drawn(title: usize) -> String {
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        let long = format!("title: \"{}\", colour: 3, // ", "x".repeat(title));
+        let text = text.replacen("title: ", &long, 1);
+        match parse("long.ron", &text) {
+            Err(ScenarioError::Text(fault)) => Shown::from(*fault).to_string(),
+            other => panic!("one mistake expected, got {other:?}"),
+        }
+    }
+
+    #[test]
+    fn a_fault_on_a_line_too_long_to_show_names_its_place() {
+        assert_eq!(drawn(10), "there is no field `colour`");
+        let said = drawn(1000);
+        assert_eq!(
+            said,
+            "there is no field `colour` (long.ron, line 4, column 1016)"
+        );
     }
 }

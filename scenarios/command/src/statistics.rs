@@ -1,4 +1,4 @@
-//! `rheotaxis statistics`: a plume's figures beside published ones.
+//! `rheotaxis statistics`: compares a plume's statistics with published ones.
 
 use super::args::StatisticsArgs;
 use super::exit::Exit;
@@ -9,10 +9,10 @@ use std::path::PathBuf;
 use std::sync::atomic::Ordering;
 use studies::statistics::{self, StatisticsError, table, write};
 
-/// Resolution of the progress.
+/// Steps of the progress bar.
 const PARTS: u64 = 1000;
 
-/// Watches the plume, prints the table and writes the CSV.
+/// Measures the plume, prints the table and writes it as CSV.
 pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
     let loaded = match checked {
@@ -34,10 +34,11 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     let style = ProgressStyle::with_template("{prefix} [{bar:30}] {percent:>3} %, {eta} left");
     bar.set_style(style.expect("the template is well formed"));
     bar.set_prefix(loaded.name.clone());
-    let measured = statistics::statistics(&loaded, args.seed, args.seconds, |share| {
-        bar.set_position((share * PARTS as f64) as u64);
-        !stop.load(Ordering::Relaxed)
-    });
+    let measured =
+        statistics::statistics(&loaded, args.key.seed(args.seed), args.seconds, |share| {
+            bar.set_position((share * PARTS as f64) as u64);
+            !stop.load(Ordering::Relaxed)
+        });
     bar.finish_and_clear();
     let measured = match measured {
         Ok(measured) => measured,
@@ -56,7 +57,7 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     });
     match write(&folder, &measured) {
         Ok(path) => {
-            say::line(format_args!("as CSV in {}", path.display()));
+            say::line(format_args!("the table is in {}", path.display()));
             Exit::Success
         }
         Err(error) => {

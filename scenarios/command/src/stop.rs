@@ -1,4 +1,4 @@
-//! Ctrl-C: the first ends the work in hand in order, the second ends the process at once.
+//! Ctrl-C: the first asks the work under way to end, the second ends the process at once.
 
 use super::exit::Exit;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -6,9 +6,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 /// Set by Ctrl-C or a termination signal.
 static STOP: AtomicBool = AtomicBool::new(false);
 
-/// From here on Ctrl-C and termination signals ask to stop, and a second one does not ask.
+/// Handles Ctrl-C and termination signals from now on. The first sets the flag, a second one ends the process.
 pub(super) fn listen() -> &'static AtomicBool {
-    // Fails only if a handler is there already, and that one is ours.
+    // Fails only if a handler is set already, and that is this one.
     let _ = ctrlc::set_handler(|| {
         if STOP.swap(true, Ordering::Relaxed) {
             std::process::exit(Exit::Interrupted.code().into());

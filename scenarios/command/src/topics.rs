@@ -1,4 +1,4 @@
-//! `rheotaxis topics`: what a run publishes over zenoh.
+//! `rheotaxis topics`: lists what a run publishes over zenoh.
 
 use super::args::TopicsArgs;
 use super::exit::Exit;
@@ -6,7 +6,7 @@ use super::say;
 use output::live;
 use serde_json::{Map, Value};
 
-/// Prints every key, or with `--schema` one JSON object with all schemas.
+/// Prints every key; with `--schema`, one JSON object with all schemas.
 pub(super) fn topics(args: &TopicsArgs) -> Exit {
     if args.schema {
         let schemas: Map<String, Value> = live::topics()

@@ -67,6 +67,26 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<PathBuf, ReportError> {
     Ok(files::write(path, bytes)?)
 }
 
+/// A table as CSV: the names of its columns, separated by commas, and its rows. A field is quoted if it must be
+/// (RFC 4180).
+pub fn csv_text<R>(columns: &str, rows: impl IntoIterator<Item = R>) -> String
+where
+    R: IntoIterator,
+    R::Item: AsRef<[u8]>,
+{
+    let mut table = csv::Writer::from_writer(format!("{columns}\n").into_bytes());
+    for row in rows {
+        (table.write_record(row)).expect("every row has as many fields as the first");
+    }
+    let bytes = table.into_inner().expect("writing to memory succeeds");
+    String::from_utf8(bytes).expect("fields are texts")
+}
+
+/// A number as a field of a table; nothing if there is none. It reads back bit for bit.
+pub fn csv_number(value: Option<f64>) -> String {
+    value.map_or_else(String::new, |v| v.to_string())
+}
+
 /// Files being written into a folder; if one fails, the others are not affected.
 #[derive(Debug)]
 pub struct Kept<'a> {
@@ -139,6 +159,14 @@ pub fn guarded<T>(draw: impl FnOnce() -> T) -> Result<T, String> {
 mod tests {
     use super::*;
     use std::fs;
+
+    #[test]
+    fn fields_are_quoted_where_they_must_be() {
+        let rows = [["a,b\n", "plain"], ["no \"bed\"", ""]];
+        let text = csv_text("x,y", rows);
+        assert_eq!(text, "x,y\n\"a,b\n\",plain\n\"no \"\"bed\"\"\",\n");
+        assert_eq!(csv_number(Some(0.1 + 0.2)), "0.30000000000000004");
+    }
 
     #[test]
     fn a_file_in_the_way_of_the_folder_is_named() {

@@ -8,6 +8,7 @@ use robots::handoff::{
     FlowEstimate, Layer, LayerState, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
+use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use world::area::Area;
@@ -40,7 +41,7 @@ pub(crate) fn info() -> RunInfo {
         title: "A sample <&>".into(),
         success: "a source is declared within 20 m of a true one".into(),
         scenario_text: "(version: 1, title: \"a < b\")\n".into(),
-        seed: 7,
+        seed: 7.into(),
         version: "0.1.0".into(),
     }
 }
@@ -235,6 +236,16 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
             }
         })
         .collect()
+}
+
+/// The declarations in the last frame, as the score has them.
+pub(crate) fn declared(frames: &[Frame]) -> BTreeMap<String, Vec<Declaration>> {
+    let last = frames.last();
+    let robots = last.iter().flat_map(|f| &f.robots);
+    let robots = robots.map(|r| (r.id.clone(), r.declarations.clone()));
+    let gantries = last.iter().flat_map(|f| &f.gantries);
+    let gantries = gantries.map(|g| (g.id.clone(), g.declaration.into_iter().collect()));
+    robots.chain(gantries).collect()
 }
 
 /// A meandering plume that thins out and widens.

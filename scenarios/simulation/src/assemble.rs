@@ -23,6 +23,7 @@ use world::fields::Flow;
 use world::frames::Truth;
 use world::physics::Physics;
 use world::registry::Registry;
+use world::seeds::Seed;
 
 /// A scenario brought to life: the world of entities and resources, and the tick that moves it.
 pub struct Simulation {
@@ -41,7 +42,7 @@ impl Simulation {
     pub fn assemble(
         scenario: &Scenario,
         base_dir: &Path,
-        seed: u64,
+        seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
         Self::assemble_with(&Registry::now(), scenario, base_dir, seed)
     }
@@ -55,8 +56,9 @@ impl Simulation {
         registry: &Registry,
         scenario: &Scenario,
         base_dir: &Path,
-        seed: u64,
+        seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
+        let seed = seed.into();
         let dt_s = scenario.time.step_s.get();
         let origin = Origin::of(scenario, base_dir, seed);
         let mut world = World::new();

@@ -196,9 +196,8 @@ fn within(group: Group, heading: &'static str, entries: &[Entry]) -> Section {
 mod tests {
     use super::*;
     use crate::scenario::{CATALOG, parse_with};
-    use robots::behave::{BehaviourParams, ReacquireSpec, Reacquires};
+    use robots::behave::{Behave, BehaviourParams, ReacquireSpec, Reacquires};
     use robots::error::RobotError;
-    use robots::handoff::Behave;
     use robots::strategy::AmpSpec;
     use serde::{Deserialize, Serialize};
     use std::path::Path;

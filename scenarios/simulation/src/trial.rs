@@ -19,6 +19,7 @@ use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use world::clock::Clock;
 use world::digest::Digest;
+use world::seeds::Seed;
 
 /// An observer of a run: it records, publishes, sets the pace or shows progress. It can stop the run, and nothing
 /// else that it does reaches the run.
@@ -91,7 +92,7 @@ impl Trial {
     ///
     /// # Errors
     /// See [`Simulation::assemble_with`].
-    pub fn assemble(loaded: &Loaded, seed: u64) -> Result<Self, AssembleError> {
+    pub fn assemble(loaded: &Loaded, seed: impl Into<Seed>) -> Result<Self, AssembleError> {
         let scenario: &Scenario = &loaded.scenario;
         let simulation =
             Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;

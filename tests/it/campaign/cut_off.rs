@@ -111,7 +111,7 @@ fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
     // A limit of wall time ends it the same way.
     let args = ["run", "c.ron", "--out", "out", "--max-wall", "1s"];
     let (_, said) = ends(dir, 75, &args);
-    assert!(said.contains("the same command goes on"), "{said}");
+    assert!(said.contains("the same command continues"), "{said}");
     assert!(rows(&dir.join("out")).len() >= done);
 }
 
@@ -156,11 +156,11 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
     let part = rows(&out);
     let n = part.len();
     assert!(
-        said.contains(" done now and written, ") && said.contains("the same command goes on"),
+        said.contains(" done and written, ") && said.contains("the same command continues"),
         "{said}"
     );
     assert!(n > 0 && n < 800, "{n} of one block's 800 rows");
-    assert!(said.contains(&format!("{} to do", 800 - n)), "{n}: {said}");
+    assert!(said.contains(&format!("{} left;", 800 - n)), "{n}: {said}");
     let (said, _) = ends(dir, 75, &["status", "out"]);
     assert!(
         said.contains(&format!("{n} of 800 runs done, 0 of 1 block whole")),

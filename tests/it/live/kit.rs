@@ -343,4 +343,23 @@ pub(super) fn broken(schema: &Value, value: &Value, at: &str, out: &mut Vec<Stri
     {
         out.push(format!("{at}: {value} is none of {words:?}"));
     }
+    if schema["pattern"] == "^[a-z0-9_]+$" {
+        let small = |c: char| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_';
+        if !value
+            .as_str()
+            .is_some_and(|s| !s.is_empty() && s.chars().all(small))
+        {
+            out.push(format!("{at}: {value} is no name"));
+        }
+    }
+    if let Some(branches) = schema["anyOf"].as_array() {
+        let fits = |branch: &Value| {
+            let mut wrong = Vec::new();
+            broken(branch, value, at, &mut wrong);
+            wrong.is_empty()
+        };
+        if !branches.iter().any(fits) {
+            out.push(format!("{at}: {value} fits none of {branches:?}"));
+        }
+    }
 }

@@ -20,28 +20,29 @@ pub(super) type Triangle = [[f64; 3]; 3];
 /// # Errors
 /// If the file is missing, broken, empty, or larger than can be used.
 pub(super) fn read(path: &Path) -> Result<Vec<Triangle>, WorldError> {
-    open(path, parse)
-}
-
-/// Reads a file and parses it by its ending.
-fn open<T>(path: &Path, parse: fn(&[u8], &str) -> Result<T, Wrong>) -> Result<T, WorldError> {
     let fail = |(place, problem)| WorldError::File {
         path: path.display().to_string(),
         place,
         problem,
     };
-    let bytes = files::read(path, LONGEST).map_err(|e| fail((String::new(), e.to_string())))?;
-    let ending = path.extension().unwrap_or_default().to_string_lossy();
-    parse(&bytes, &ending.to_lowercase()).map_err(fail)
+    let read = files::read(path, LONGEST_MESH_BYTES);
+    let bytes = read.map_err(|e| fail((String::new(), e.to_string())))?;
+    parse(&bytes, &ending(path)).map_err(fail)
 }
 
-/// Reads only the corners, for a hull that needs no faces: all vertices of an OBJ file, used or not, or the three
-/// corners of each triangle of an STL file.
+/// The ending of a file's name, in small letters; it determines the format.
+fn ending(name: &Path) -> String {
+    let ending = name.extension().unwrap_or_default().to_string_lossy();
+    ending.to_lowercase()
+}
+
+/// Only the corners in the content of a file, for a hull that needs no faces: all vertices of an OBJ file, used or not,
+/// or the three corners of each triangle of an STL file. The ending of `name` determines the format.
 ///
 /// # Errors
-/// If the file is missing, broken or empty.
-pub fn read_corners(path: &Path) -> Result<Vec<[f64; 3]>, WorldError> {
-    open(path, corners)
+/// If the content is broken or empty: the place in the file and the problem.
+pub fn mesh_corners(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Wrong> {
+    corners(bytes, &ending(name))
 }
 
 fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
@@ -85,13 +86,14 @@ fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
     Ok(triangles)
 }
 
-/// What is wrong, and the place.
-pub(super) type Wrong = (String, String);
+/// The place in a file, beginning with a colon (":12", ": triangle 3") or empty for the file as a whole, and what is
+/// wrong there.
+pub type Wrong = (String, String);
 
 /// Most triangles of a surface: with all that is built from them, they take half a gigabyte.
 const MOST: usize = 2_000_000;
 /// Longest file read, bytes: enough for that many triangles as text.
-const LONGEST: u64 = 512 << 20;
+pub const LONGEST_MESH_BYTES: u64 = 512 << 20;
 const HEADER: usize = 84;
 const RECORD: usize = 50;
 

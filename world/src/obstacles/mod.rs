@@ -16,7 +16,7 @@ mod tests_placing;
 mod way_out;
 
 pub use cast::Hit;
-pub use mesh_file::read_corners;
+pub use mesh_file::{LONGEST_MESH_BYTES, Wrong, mesh_corners};
 pub use placing::Remark;
 pub use solid::{Obstacle, Obstacles};
 pub use spec::{

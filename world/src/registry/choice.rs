@@ -1,6 +1,7 @@
 //! What stands in a scenario where something is chosen by name.
 
-use super::{Kind, Registry, Row, Spec, Standard, Takes, names};
+use super::names::{Known, Where};
+use super::{Kind, Row, Spec, Standard, Takes};
 use serde::de::{DeserializeSeed, EnumAccess, Error, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
@@ -98,58 +99,24 @@ impl<K: Kind> Serialize for Choice<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Choice<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let rows = Registry::now().rows::<K>();
-        let legal: Vec<&'static str> = rows.iter().map(|r| r.entry.name).collect();
-        let legal = names::kept(&legal);
-        from.deserialize_enum(K::NAME, legal, OneOf { rows, legal })
+        let known = Known::now();
+        from.deserialize_enum(K::NAME, known.legal, OneOf(known))
     }
 }
 
 /// Reads one of a kind's things.
-struct OneOf<K: Kind> {
-    rows: Vec<Row<K>>,
-    legal: &'static [&'static str],
-}
+struct OneOf<K: Kind>(Known<K>);
 
 impl<'de, K: Kind> Visitor<'de> for OneOf<K> {
     type Value = Choice<K>;
 
     fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        write!(f, "one of {}", self.legal.join(", "))
+        write!(f, "one of {}", self.0.legal.join(", "))
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, data: A) -> Result<Choice<K>, A::Error> {
-        let (row, parameters) = data.variant_seed(Name(&self))?;
+        let (row, parameters) = data.variant_seed(self.0.name(Where::Variant))?;
         parameters.newtype_variant_seed(row)
-    }
-}
-
-/// Reads a name.
-struct Name<'r, K: Kind>(&'r OneOf<K>);
-
-impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
-        from.deserialize_identifier(self)
-    }
-}
-
-impl<K: Kind> Visitor<'_> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("a name")
-    }
-
-    fn visit_str<E: Error>(self, name: &str) -> Result<Row<K>, E> {
-        let row = self.0.rows.iter().find(|r| r.entry.name == name);
-        row.copied()
-            .ok_or_else(|| E::unknown_variant(name, self.0.legal))
-    }
-
-    fn visit_bytes<E: Error>(self, name: &[u8]) -> Result<Row<K>, E> {
-        self.visit_str(&String::from_utf8_lossy(name))
     }
 }
 

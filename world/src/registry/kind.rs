@@ -14,6 +14,8 @@ pub trait Kind: Sized + 'static {
     const NAME: &'static str;
     /// Its heading in lists.
     const HEADING: &'static str;
+    /// What it is for, in one or two sentences.
+    const WHAT: &'static str;
 
     /// The rows that come with the program, in the order of lists.
     fn built_in() -> Vec<Row<Self>>;
@@ -78,24 +80,25 @@ where
 #[macro_export]
 macro_rules! kind {
     (
-        $(#[$doc:meta])*
+        $(#[doc = $what:literal])+
         $vis:vis $choice:ident = $kind:ident of $spec:ident {
             heading: $heading:expr,
             rows: [$($row:ty),* $(,)?]
             $(, standard: $standard:ty)? $(,)?
         }
     ) => {
-        $(#[$doc])*
+        $(#[doc = $what])+
         #[derive(Clone, Copy, Debug)]
         $vis enum $kind {}
 
-        $(#[$doc])*
+        $(#[doc = $what])+
         $vis type $choice = $crate::registry::Choice<$kind>;
 
         impl $crate::registry::Kind for $kind {
             type Spec = dyn $spec;
             const NAME: &'static str = stringify!($choice);
             const HEADING: &'static str = $heading;
+            const WHAT: &'static str = concat!($($what),+);
 
             fn built_in() -> Vec<$crate::registry::Row<Self>> {
                 vec![$($crate::registry::Row::of::<$row>()),*]

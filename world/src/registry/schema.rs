@@ -29,9 +29,9 @@ impl<K: Kind> JsonSchema for Choice<K> {
             .collect();
         if variants.is_empty() {
             // `oneOf` of nothing is no legal schema; an `enum` of nothing is one that allows nothing.
-            return json_schema!({ "description": K::HEADING, "enum": [] });
+            return json_schema!({ "description": K::WHAT.trim(), "enum": [] });
         }
-        json_schema!({ "description": K::HEADING, "oneOf": variants })
+        json_schema!({ "description": K::WHAT.trim(), "oneOf": variants })
     }
 }
 
@@ -56,7 +56,7 @@ impl<K: Kind> JsonSchema for Set<K> {
             })
             .collect();
         json_schema!({
-            "description": K::HEADING,
+            "description": K::WHAT.trim(),
             "type": "object",
             "properties": fields,
             "additionalProperties": false,

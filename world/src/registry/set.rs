@@ -1,6 +1,7 @@
 //! What stands in a scenario where several things of a kind are named, each once: a struct with a field for each.
 
-use super::{Choice, Kind, Registry, Row, Takes, names};
+use super::names::{Known, Where};
+use super::{Choice, Kind, Registry, Row, Takes};
 use serde::de::{DeserializeSeed, Error, MapAccess, Visitor};
 use serde::ser::SerializeStruct;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -90,18 +91,13 @@ impl<K: Kind> Serialize for Set<K> {
 
 impl<'de, K: Kind> Deserialize<'de> for Set<K> {
     fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
-        let rows = Registry::now().rows::<K>();
-        let legal: Vec<&'static str> = rows.iter().map(|r| r.entry.name).collect();
-        let legal = names::kept(&legal);
-        from.deserialize_struct(K::NAME, legal, Fields { rows, legal })
+        let known = Known::now();
+        from.deserialize_struct(K::NAME, known.legal, Fields(known))
     }
 }
 
 /// Reads the fields.
-struct Fields<K: Kind> {
-    rows: Vec<Row<K>>,
-    legal: &'static [&'static str],
-}
+struct Fields<K: Kind>(Known<K>);
 
 impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     type Value = Set<K>;
@@ -113,7 +109,7 @@ impl<'de, K: Kind> Visitor<'de> for Fields<K> {
     fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Set<K>, A::Error> {
         let mut seen: Vec<&'static str> = Vec::new();
         let mut set = Set::default();
-        while let Some(row) = map.next_key_seed(Name(&self))? {
+        while let Some(row) = map.next_key_seed(self.0.name(Where::Field))? {
             let name = row.entry.name;
             if seen.contains(&name) {
                 return Err(Error::duplicate_field(name));
@@ -121,36 +117,7 @@ impl<'de, K: Kind> Visitor<'de> for Fields<K> {
             seen.push(name);
             set.0.extend(map.next_value_seed(Perhaps(row))?);
         }
-        Ok(set.sorted(&self.rows))
-    }
-}
-
-/// Reads a field's name.
-struct Name<'r, K: Kind>(&'r Fields<K>);
-
-impl<'de, K: Kind> DeserializeSeed<'de> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Row<K>, D::Error> {
-        from.deserialize_identifier(self)
-    }
-}
-
-impl<K: Kind> Visitor<'_> for Name<'_, K> {
-    type Value = Row<K>;
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("field identifier")
-    }
-
-    fn visit_str<E: Error>(self, name: &str) -> Result<Row<K>, E> {
-        let row = self.0.rows.iter().find(|r| r.entry.name == name);
-        row.copied()
-            .ok_or_else(|| E::unknown_field(name, self.0.legal))
-    }
-
-    fn visit_bytes<E: Error>(self, name: &[u8]) -> Result<Row<K>, E> {
-        self.visit_str(&String::from_utf8_lossy(name))
+        Ok(set.sorted(&self.0.rows))
     }
 }
 

@@ -27,7 +27,7 @@ use world::area::Area;
 use world::cost::{Cost, Part};
 use world::fields::WaterSample;
 use world::math;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 /// How finely turbulence is resolved.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -54,7 +54,7 @@ pub struct Eddies {
     u_star_m_s: f64,
     /// T, s.
     period_s: f64,
-    seed: u64,
+    seed: Seed,
     shape: Shape,
     stretch: Arc<Stretch>,
 }
@@ -79,7 +79,7 @@ impl EddiesSpec {
         field: &str,
         area: &Area,
         channel: &Channel,
-        seed: u64,
+        seed: Seed,
     ) -> Result<Eddies, PlumeError> {
         let bad = |sub: &str, problem: String| PlumeError::Invalid {
             field: format!("{field}.{sub}"),
@@ -219,9 +219,9 @@ impl Eddies {
     }
 
     #[cfg(test)]
-    pub(super) fn with_seed(&self, seed: u64) -> Self {
+    pub(super) fn with_seed(&self, seed: impl Into<Seed>) -> Self {
         Self {
-            seed,
+            seed: seed.into(),
             ..self.clone()
         }
     }

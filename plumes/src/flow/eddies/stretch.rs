@@ -19,7 +19,7 @@ use super::spectrum::{ELONGATION, Spectrum};
 use crate::flow::channel::INTENSITIES;
 use std::f64::consts::{PI, TAU};
 use world::math;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 /// Nodes along the stream; a power of two.
 pub(super) const LENGTH: usize = 512;
@@ -161,7 +161,7 @@ fn sq(x: f64) -> f64 {
 
 impl Stretch {
     /// Draws a stretch; `seed` identifies it.
-    pub(super) fn new(shape: &Shape, seed: u64) -> Self {
+    pub(super) fn new(shape: &Shape, seed: impl Into<Seed>) -> Self {
         let strength = shape.strengths(shape.spectrum.resolved());
         let (ny, nz) = (shape.across + 1, shape.up + 1);
         let lines = ny * nz;

@@ -24,7 +24,7 @@ fn spec() -> MeanderSpec {
 
 fn build(spec: &MeanderSpec, seed: u64) -> Meander {
     let carrier = Vector2::new(0.2, 0.1);
-    spec.build("water.currents[0]", &area(), carrier, seed)
+    spec.build("water.currents[0]", &area(), carrier, seed.into())
         .unwrap()
 }
 
@@ -70,7 +70,7 @@ fn rms_is_that_of_the_corners_spread_inside() {
 #[test]
 fn illegal_damping_and_grid_name_their_field() {
     let said = |s: MeanderSpec| {
-        let e = s.build("water.currents[2]", &area(), Vector2::zeros(), 1);
+        let e = s.build("water.currents[2]", &area(), Vector2::zeros(), 1.into());
         e.unwrap_err().to_string()
     };
     let over = MeanderSpec {

@@ -34,7 +34,7 @@ use world::fields::WaterSample;
 use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::registry::Listed;
-use world::seeds::Stream;
+use world::seeds::{Seed, Stream};
 
 use super::airy::{Airy, wave_number};
 use super::spectrum::SpectrumSpec;
@@ -132,7 +132,13 @@ impl WavesSpec {
     ///
     /// # Errors
     /// Names the field: no waves at all, too many, or so steep that they would break.
-    pub fn build(&self, field: &str, depth_m: f64, seed: u64) -> Result<Waves, PlumeError> {
+    pub fn build(
+        &self,
+        field: &str,
+        depth_m: f64,
+        seed: impl Into<Seed>,
+    ) -> Result<Waves, PlumeError> {
+        let seed = seed.into();
         let bad = |sub: &str, problem: String| PlumeError::Invalid {
             field: format!("{field}{sub}"),
             problem,

@@ -50,7 +50,7 @@ fn without_a_solution_it_runs_along_the_edge_until_the_flow_allows_one() {
     let first = step(&mut z, &mut m, 0.0, 0.0).expect("a first leg");
     assert!((first - 335.0).abs() < 1e-6 || (first - 115.0).abs() < 1e-6);
     z.phase = Phase::Leg(Heading::from_deg(335.0));
-    // North edge on 335 (westward): wanted west and south: none of 115, 335, 155, 295.
+    // North edge on 335 (westward): west and south are needed: none of 115, 335, 155, 295.
     let along = step(&mut z, &mut m, 0.0, 290.0).expect("runs along");
     assert!((along - 270.0).abs() < 1e-6);
     assert_eq!(step(&mut z, &mut m, -50.0, 290.0), None);
@@ -93,7 +93,7 @@ fn the_corner_comes_first_when_asked_for() {
 proptest! {
     #![proptest_config(crate::handoff::testing::fixed(256))]
 
-    // A point moving on the courses given: always inside, and it sees both halves of the area.
+    // A point that moves on the given courses: it stays inside and sees both halves of the area.
     #[test]
     fn stays_inside_and_sweeps(up in 0.0..360.0, east in -150.0..150.0, north in -250.0..250.0) {
         let (mut z, mut m) = (zigzag(), memory(Some(up)));

@@ -1,40 +1,40 @@
-//! Steers along a Dubins path and plans a new one when a navigation fix throws the vehicle off it.
+//! Steers along a Dubins path and plans a new one when a navigation fix moves the vehicle off it.
 //!
-//! *Source*: Pang 2009, section 4.3 (the path); the tracking law is that of Follow Line, eq. 8, with the
-//! path's tangent in place of the line's direction.
+//! *Source*: Pang 2009, section 4.3 (the path); the tracking law is that of Follow Line, eq. 8, with the path's
+//! tangent in place of the line's direction.
 //!
 //! *Parameters*: gain and capture angle as in Follow Line; `replan_m`, m, 8; radius `turn_radius_m`, m, 15.
 //!
-//! *Deviations*: the paper does not say how the path is tracked. The place on the path only moves on,
-//! at most 20 m at once, so a crossing of the path with itself cannot be taken for progress. The mode ends
-//! at the path's end even if place or heading were missed, and at the latest after three times the first
-//! path's duration plus a minute (however often planned anew): it never circles for ever.
+//! *Deviations*: the paper does not say how the path is tracked. Here the place on the path only moves forward, by at
+//! most 20 m at once, so that a crossing of the path with itself is not taken for progress. The mode ends at the
+//! path's end even if place or heading were missed, and at the latest after three times the first path's duration
+//! plus a minute (however often it was planned again), so that it never circles for ever.
 
 use super::path::{DubinsPath, Pose};
 use nalgebra::Vector2;
 use world::units::Heading;
 
-/// How far the place on the path may move on in a step, m: a navigation fix and its margin.
+/// How far the place on the path may move forward in a step, m: a navigation fix and a margin.
 const WINDOW_M: f64 = 20.0;
-/// What is added to three times the first path's duration, s.
+/// Time added to three times the first path's duration, s.
 const GRACE_S: f64 = 60.0;
-/// The vehicle looks this far ahead along the path for its tangent, s, to make up for its own lag.
+/// The vehicle takes the path's tangent this far ahead, s, to compensate its own lag.
 const LOOK_AHEAD_S: f64 = 0.5;
 
-/// The limits of the mode.
+/// Parameters of the mode.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::guide) struct FollowerLimits {
     /// Turning radius, m.
     pub(in crate::guide) radius_m: f64,
     /// Heading per metre off the path, rad/m.
     pub(in crate::guide) gain_rad_m: f64,
-    /// Greatest angle to the path while closing it, rad.
+    /// Greatest angle to the path while approaching it, rad.
     pub(in crate::guide) capture_rad: f64,
-    /// Farther off than this a new path is planned, m.
+    /// Farther from the path than this, a new one is planned, m.
     pub(in crate::guide) replan_m: f64,
 }
 
-/// State of a run along a path.
+/// State of following a path.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::guide) struct Follower {
     end: Pose,
@@ -63,7 +63,7 @@ impl Follower {
         }
     }
 
-    /// Course to take, and whether the path (or the time for it) has come to its end.
+    /// Course to take, and whether the path (or the time for it) has ended.
     pub(in crate::guide) fn step(
         &mut self,
         at: Pose,
@@ -85,7 +85,7 @@ impl Follower {
         (ahead.heading.turned(turn), at_end || self.left_s <= 0.0)
     }
 
-    /// Distance off the path, positive to its left, m.
+    /// Distance from the path, positive to its left, m.
     fn off_m(&self, position: Vector2<f64>) -> f64 {
         let foot = self.path.at(self.s_m);
         let (v, a) = (position - foot.position, foot.heading.unit());

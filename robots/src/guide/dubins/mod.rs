@@ -1,4 +1,4 @@
-//! Go To Point With Heading: the path, and how it is followed.
+//! Go To Point With Heading: the path, and how the vehicle follows it.
 
 mod follower;
 mod path;

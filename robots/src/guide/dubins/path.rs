@@ -1,11 +1,11 @@
-//! The shortest curve-straight-curve path from pose to pose with a least turning radius.
+//! The shortest curve-straight-curve path between two poses with a least turning radius.
 //!
 //! *Source*: Pang 2009, section 4.3; Dubins 1957 (American Journal of Mathematics 79).
 //!
 //! *Parameters*: turning radius R_m, `turn_radius_m`, m (not printed), 15.
 //!
-//! *Deviations*: none. As in the paper the CCC paths are left out, though for near poses one of them can
-//! be shorter.
+//! *Deviations*: none. As in the paper the CCC paths are left out, though one of them can be shorter for poses that
+//! are near each other.
 
 use nalgebra::Vector2;
 use std::f64::consts::{FRAC_PI_2, TAU};
@@ -30,12 +30,12 @@ pub struct DubinsPath {
     turns: [f64; 2],
     /// Lengths of arc, straight, arc, m.
     lengths_m: [f64; 3],
-    /// Poses where straight and second arc begin.
+    /// Poses where the straight part and the second arc begin.
     joints: [Pose; 2],
 }
 
 impl DubinsPath {
-    /// The shortest of the (up to four) candidates; the two same-way ones always exist.
+    /// The shortest of the (up to four) candidates; the two whose arcs turn the same way always exist.
     #[must_use]
     pub fn shortest(start: Pose, end: Pose, radius_m: f64) -> Self {
         let mut best: Option<Self> = None;
@@ -49,7 +49,8 @@ impl DubinsPath {
                 }
             }
         }
-        best.expect("a path turning the same way twice exists between any two poses; a non-finite pose was given: check the estimate")
+        best.expect("a path turning the same way twice exists between any two poses; a non-finite pose was given: \
+            check the estimate")
     }
 
     fn candidate(start: Pose, end: Pose, radius_m: f64, turns: [f64; 2]) -> Option<Self> {
@@ -81,7 +82,7 @@ impl DubinsPath {
         };
         let swept = |from: Heading, to: Heading, turn: f64| {
             let angle = wrap_tau(turn * (to.rad() - from.rad()));
-            // Rounding must not make a whole circle of no turn at all.
+            // Rounding must not turn no turn at all into a whole circle.
             if TAU - angle < 1e-9 { 0.0 } else { angle }
         };
         let arcs = [
@@ -125,7 +126,7 @@ impl DubinsPath {
         }
     }
 
-    /// Place along the path, m, nearest to `p` between `from_m` and `to_m`.
+    /// Place along the path, m, between `from_m` and `to_m`, that is nearest to `p`.
     #[must_use]
     pub fn nearest(&self, p: Vector2<f64>, from_m: f64, to_m: f64) -> f64 {
         let [a, b, c] = self.lengths_m;
@@ -141,7 +142,7 @@ impl DubinsPath {
             if lo > hi {
                 continue;
             }
-            // The foot of an arc is known up to a whole circle; the ends cover what clamping misses.
+            // The foot on an arc is known up to a whole circle; the ends cover what clamping misses.
             for s in [foot.clamp(lo, hi), lo, hi] {
                 let d = (self.at(s).position - p).norm();
                 if d < best.0 - 1e-12 {
@@ -152,7 +153,7 @@ impl DubinsPath {
         best.1
     }
 
-    /// Length along an arc from its start to the point nearest `p`, in [0, circumference).
+    /// Length along an arc from its start to the point nearest to `p`, in [0, circumference).
     fn arc_foot(&self, start: Pose, turn: f64, p: Vector2<f64>, length_m: f64) -> f64 {
         let centre = start.position + side(start.heading, turn) * self.radius_m;
         let from = Heading::of(start.position - centre);
@@ -168,7 +169,7 @@ impl DubinsPath {
     }
 }
 
-/// Unit vector to the side a turn goes to: right for clockwise.
+/// Unit vector to the side of a turn: right for clockwise.
 fn side(heading: Heading, turn: f64) -> Vector2<f64> {
     heading.turned(turn * FRAC_PI_2).unit()
 }

@@ -1,6 +1,7 @@
 use super::*;
 use crate::handoff::testing::{area, seen};
-use crate::handoff::{FlowEstimate, Vertical, edges};
+use crate::handoff::{FlowEstimate, Vertical};
+use crate::places::edges;
 use proptest::prelude::*;
 
 const DT_S: f64 = 0.1;
@@ -14,7 +15,7 @@ fn goal(id: u32, manoeuvre: Manoeuvre) -> Goal {
     }
 }
 
-/// A point vehicle that does at once what it is told, in a steady flow it knows.
+/// A point vehicle that follows commands at once, in a steady flow that it knows.
 struct Boat {
     guidance: Guidance,
     est: Estimate,
@@ -172,9 +173,9 @@ fn aborted_far_outside_and_for_good() {
 proptest! {
     #![proptest_config(crate::handoff::testing::fixed(64))]
 
-    // Whatever is asked: through the water the turning radius is r = (1.5 + 0.32) m/s at 10 deg/s =
-    // 10.4 m; turning about in a corner, entered at 45 degrees, takes (1 + sin 45) r = 17.8 m, and the 18 s
-    // it lasts add a drift of 0.32 m/s. Under the 30 m of the abort.
+    // For any command: through the water the turning radius is r = (1.5 + 0.32) m/s at 10 deg/s = 10.4 m; turning
+    // about in a corner, entered at 45 degrees, takes (1 + sin 45) r = 17.8 m, and the 18 s that it lasts add a drift
+    // of 0.32 m/s. Less than the 30 m of the abort.
     #[test]
     fn the_cage_holds(course in 0.0..360.0, east in -190.0..190.0, north in -290.0..290.0, flow in -0.3..0.3) {
         let mut b = Boat::new(Vector2::new(east, north), course, Vector2::new(flow, 0.1));

@@ -1,23 +1,23 @@
-//! The chance that odour of each cell is met where the vehicle is, from there backwards.
+//! The chance that odour of each cell is met at the vehicle, computed backwards from the vehicle.
 //!
-//! *Source*: the adjoint of Farrell, Pang & Li 2003's product of transition matrices: Φ(l, k) = A_{l+1} … A_k is
-//! only needed in the column of the vehicle's cell j, so g_k = e_j, g_{l−1} = A_l g_l and Φ_ij(l, k) = g_l[i]: one
-//! matrix and vector a step in the place of a matrix product.
+//! *Source*: the adjoint of Farrell, Pang & Li 2003's product of transition matrices. Of Φ(l, k) = A_{l+1} … A_k only
+//! the column of the vehicle's cell j is needed, so g_k = e_j, g_{l−1} = A_l g_l and Φ_ij(l, k) = g_l[i]: each step
+//! takes one product of a matrix and a vector instead of a product of two matrices.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: where the flow is the same at all levels each A is a product of one matrix an axis, and so is each
-//! g: three rows in the place of a map. Neighbouring steps whose g are nearly alike (by the rule of `releases`;
-//! `merge` = 0: never) then enter as the power of one g, the mean along each axis. In sheared flow g is a whole map.
+//! *Deviations*: if the flow is the same at all levels, each A is a product of one matrix per axis, and so is each g:
+//! three rows instead of a map. Neighbouring steps whose g are nearly equal (by the rule of `releases`; `merge` = 0:
+//! never) then enter as a power of one g, the mean along each axis. In sheared flow g is a whole map.
 
 use super::mapper::Hmm;
 use crate::map::terms::{LEAST, Terms};
 
-/// Odour of which less than this is still in the map is not followed further back.
+/// When less than this share of odour is left in the map, it is followed no further back.
 const GONE: f64 = 1e-12;
 
 impl Hmm {
-    /// Chance of not detecting with the vehicle in `cell`, for a source in each cell.
+    /// Chance of no detection with the vehicle in `cell`, for a source in each cell.
     pub(super) fn not_detecting(&mut self, cell: usize, out: &mut [f64]) {
         if self.steps.iter().chain(&self.assumed).any(|s| s.sheared()) {
             out.fill(1.0);
@@ -32,7 +32,7 @@ impl Hmm {
         }
     }
 
-    /// One row an axis for a place: 1 there, 0 elsewhere.
+    /// One row per axis for a place: 1 at the place, 0 elsewhere.
     pub(super) fn rows_at(&self, cell: usize) -> [Vec<f64>; 3] {
         let place = self.grid.place(cell);
         [0, 1, 2].map(|a| {
@@ -42,7 +42,8 @@ impl Hmm {
         })
     }
 
-    /// Makes the terms of all steps back from now for a vehicle in `cell`, the flow the same at all levels.
+    /// Builds the terms of all steps back from now for a vehicle in `cell`, for a flow that is the same at all
+    /// levels.
     fn look_back(&mut self, cell: usize) {
         let mut g = self.rows_at(cell);
         let mut earlier = g.clone();
@@ -88,7 +89,7 @@ impl Hmm {
         self.terms = terms;
     }
 
-    /// Shows g of each step back from now, a whole map a step, whatever the flow.
+    /// Calls `each` with g of each step back from now, always as a whole map.
     pub(super) fn back(&self, cell: usize, mut each: impl FnMut(&[f64])) {
         let n = self.grid.n;
         let layer = n[0] * n[1];
@@ -98,7 +99,7 @@ impl Hmm {
         let longest = n[0].max(n[1]).max(n[2]);
         let (mut line, mut pulled) = (vec![0.0; longest], vec![0.0; longest]);
         for step in self.chain().iter().rev() {
-            // Backwards: the vertical first, then each level with its own flow.
+            // Backwards: first the vertical, then each level with its own flow.
             for axis in [2, 1, 0] {
                 let stride = [1, n[0], layer][axis];
                 for start in (0..g.len()).filter(|c| (c / stride).is_multiple_of(n[axis])) {

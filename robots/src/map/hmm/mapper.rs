@@ -1,18 +1,19 @@
-//! Source map by a hidden Markov model, evaluated backwards from where the vehicle is.
+//! Source map by a hidden Markov model, evaluated backwards from the vehicle's place.
 //!
 //! *Source*: Farrell, Pang & Li 2003 (IEEE SMC-B 33(6)).
 //!
 //! *Parameters*: `step_s`, 1 s: step of the chain, time between two releases and between two updates; chance b of
-//! detecting odour that is there, `mu` in `trajectory`; σ, h there; ε, `false_detection`. `release_period_s` of
-//! the trajectory has no part in it; `sheared`, off: in a map of the space, each level has the flow last measured
-//! there (levels not visited yet: that of the nearest visited), else the flow at the vehicle holds at all depths.
+//! detecting odour that is there, `mu` in `trajectory`; σ and h in `trajectory`; ε, `false_detection`.
+//! `release_period_s` of the trajectory is not used. `sheared`, off: in a map of space, each level has the flow last
+//! measured there (a level not visited yet has that of the nearest visited one); otherwise the flow at the vehicle
+//! holds at all depths.
 //!
-//! `odour_every_s`, never, and `walk_steps`, 30: when the other products are shown, and how long the path is.
+//! `odour_every_s`, never, and `walk_steps`, 30: how often the other products are shown, and the length of the path.
 //!
-//! *Deviations*: reconstructed (the paper's own equations were not at hand): with the vehicle in cell j, none
-//! detected: π_i ← π_i Π_l (1 − b Φ_ij(l, k)); detected: π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l, k)))], with
-//! Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see `adjoint`; cell to cell chances: see `transition`. Shear is
-//! ours.
+//! *Deviations*: reconstructed (the paper's own equations were not available). With the vehicle in cell j, a step
+//! without a detection is π_i ← π_i Π_l (1 − b Φ_ij(l, k)), and one with a detection is
+//! π_i ← π_i [ε + (1 − ε)(1 − Π_l (1 − b Φ_ij(l, k)))]. Here Φ(l, k) = A_{l+1} … A_k, evaluated backwards: see
+//! `adjoint`; for the chances from cell to cell see `transition`. The shear is ours.
 
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
@@ -37,7 +38,7 @@ use world::ranges::{Fraction, Positive};
 use world::registry::Listed;
 use world::seeds::Stream;
 
-/// Most steps of the path most likely to detect.
+/// Most steps of the path that most likely leads to a detection.
 const MOST_WALK: u32 = 500;
 
 /// The mapper's parameters.
@@ -46,20 +47,20 @@ const MOST_WALK: u32 = 500;
 pub struct HmmSpec {
     /// The cells.
     pub grid: GridSpec,
-    /// How dye is believed to travel.
+    /// Model of how dye travels.
     pub trajectory: TrajectorySpec,
     /// Step of the chain, s.
     pub step_s: Positive,
-    /// Chance ε of a detection where no dye is; must be greater than 0.
+    /// Chance ε of a detection where there is no dye; must be greater than 0.
     pub false_detection: Fraction,
-    /// What the model is doubted for.
+    /// How far the map doubts its model.
     pub doubt: DoubtSpec,
-    /// Say every so often, s, what else it knows: where odour is likely to be met, which way it came, and the path most
-    /// likely to meet it; not given: never.
+    /// How often, s, the map also shows where odour is likely to be met, which way it came, and the path that most
+    /// likely meets it; not given: never.
     pub odour_every_s: Option<Positive>,
-    /// Steps from cell to cell of that path; at most 500.
+    /// Number of steps from cell to cell in that path; at most 500.
     pub walk_steps: u32,
-    /// In a map of the space, keep the flow of each level as last measured there.
+    /// In a map of space, keep for each level the flow last measured there.
     pub sheared: bool,
 }
 
@@ -78,7 +79,8 @@ impl Default for HmmSpec {
     }
 }
 
-/// Which number spreads odour too far along an axis (its name and value), and the most it may be, for cells of `cell_m`.
+/// The parameter (name and value) that spreads odour too far along an axis, and its greatest legal value for cells of
+/// `cell_m`.
 fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) {
     let way = &spec.trajectory;
     let most = widest(cell_m) / spec.step_s.get().sqrt();
@@ -98,7 +100,8 @@ fn wide(spec: &HmmSpec, axis: usize, cell_m: f64) -> ((&'static str, f64), f64) 
 impl Listed for HmmSpec {
     const ENTRY: Entry = Entry {
         name: "Hmm",
-        what: "hidden Markov model of odour from cell to cell: source map, detection map, likely paths (reconstructed)",
+        what: "hidden Markov model of odour moving from cell to cell: source map, detection map, likely paths \
+            (reconstructed)",
         source: "Farrell, Pang & Li 2003, IEEE SMC-B 33(6)",
     };
 }
@@ -119,7 +122,7 @@ impl MapParams for HmmSpec {
     }
 }
 
-/// The mapper at work.
+/// State of the mapper.
 #[derive(Clone, Debug)]
 pub struct Hmm {
     pub(super) with: Workings,
@@ -132,7 +135,7 @@ pub struct Hmm {
     steady_before: bool,
     /// Chances of the hops to both sides in a step, along each axis.
     aside: [Arc<[f64]>; 3],
-    /// What the steps so far left over, one for all levels or one a level.
+    /// Displacement left over by the steps so far: one for all levels, or one per level.
     drifts: Vec<Drift>,
     step_s: f64,
     /// Chance of detecting odour that is there.
@@ -140,19 +143,19 @@ pub struct Hmm {
     pub(super) gatherer: Gatherer,
     pub(super) terms: Terms,
     seen_marks: u64,
-    /// Displacement a step at each level, m, as last measured there; empty without shear.
+    /// Displacement per step at each level, m, as last measured there; empty without shear.
     levels: Vec<Option<[f64; 2]>>,
     level: usize,
-    /// Time between two sayings of what else is known (s), and the steps of the walk.
+    /// Time between two reports of the other products (s), and the steps of the path.
     say: Option<(f64, usize)>,
     said_s: f64,
 }
 
 impl Hmm {
-    /// A mapper over a grid, all cells alike.
+    /// A mapper over a grid; all cells begin with the same probability.
     ///
     /// # Errors
-    /// [`RobotError::Invalid`] for a chance of false detection of 0 or 1, or a look-back without steps.
+    /// [`RobotError::Invalid`] if the chance of a false detection is 0 or 1, or if the look-back holds no step.
     pub fn new(spec: &HmmSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let (h, step_s) = (spec.trajectory.lookback_s.get(), spec.step_s.get());
         spec.trajectory.holds("step_s", step_s)?;
@@ -167,7 +170,7 @@ impl Hmm {
             return Err(invalid("walk_steps", &problem));
         }
         let trajectory = &spec.trajectory;
-        // The chain's steps are independent: an error of the flow that lasts spreads as it does in the long run.
+        // The chain's steps are independent: a lasting error of the flow spreads odour as it does in the long run.
         let strayed = 2.0
             * trajectory.flow_error_m_s.get()
             * trajectory.flow_error_m_s.get()
@@ -183,14 +186,15 @@ impl Hmm {
         )?;
         let grid = with.grid.clone();
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
-        // A single layer keeps all.
+        // A single layer keeps everything.
         let axes = if grid.n[2] == 1 { 2 } else { 3 };
         for (a, aside) in aside.iter_mut().enumerate().take(axes) {
             let s = sigmas[a] * step_s.sqrt();
             *aside = spread(s, grid.cell_m[a]).ok_or_else(|| {
                 let (field, most) = wide(spec, a, grid.cell_m[a]);
                 let problem = format!(
-                    "must be at most {} in cells of {} m: odour would spread by {} of them in a step of {step_s} s, got {}",
+                    "must be at most {} in cells of {} m: odour would spread by {} of them in a step of {step_s} s, \
+                    got {}",
                     shown(most),
                     shown(grid.cell_m[a]),
                     shown((s / grid.cell_m[a]).round()),
@@ -224,7 +228,7 @@ impl Hmm {
         })
     }
 
-    /// Takes the newest step of the measured flow into the chain.
+    /// Adds the newest step of the measured flow to the chain.
     fn extend(&mut self, marks: u64) {
         let fresh = (marks.min(self.most_steps as u64 + 1)) as usize;
         let places: Vec<[f64; 2]> = (self.with.watch.history.newest(fresh + 1))
@@ -236,7 +240,7 @@ impl Hmm {
         }
         self.assumed.clear();
         if self.steady_before && self.steps.len() < self.most_steps {
-            // Before the first measurement: the mean flow since, or with shear that of each level as it is now.
+            // Before the first measurement: the mean flow since then, or with shear the present flow of each level.
             let Some(mean) = self.with.watch.history.mean() else {
                 return;
             };
@@ -254,7 +258,7 @@ impl Hmm {
         self.assumed.iter().chain(&self.steps).collect()
     }
 
-    /// A step in which the flow at the vehicle moved odour by `u` (the grid's axes, m).
+    /// Records a step in which the flow at the vehicle moved odour by `u` (the grid's axes, m).
     fn measure(&mut self, u: [f64; 2]) {
         if !self.levels.is_empty() {
             self.levels[self.level] = Some(u);
@@ -262,7 +266,8 @@ impl Hmm {
         self.push_step(&self.flows(u));
     }
 
-    /// Displacement in a step, m: `u` for all levels, or with shear that of each, unvisited ones as the nearest visited.
+    /// Displacement in a step, m: `u` at all levels, or with shear that of each level; a level not visited has that
+    /// of the nearest visited one.
     fn flows(&self, u: [f64; 2]) -> Vec<[f64; 2]> {
         let measured: Vec<_> = (0..)
             .zip(&self.levels)
@@ -275,7 +280,7 @@ impl Hmm {
         if flows.is_empty() { vec![u] } else { flows }
     }
 
-    /// Adds a step with a displacement for all levels, or one a level (the grid's axes, m).
+    /// Adds a step with one displacement for all levels, or one per level (the grid's axes, m).
     pub(super) fn push_step(&mut self, flows: &[[f64; 2]]) {
         let mut drifts = std::mem::take(&mut self.drifts);
         (self.steps).push_back(self.transition(flows, &mut drifts));
@@ -291,7 +296,7 @@ impl Hmm {
             let by = drifts[k].cells(flows[k.min(flows.len() - 1)], cell_m);
             [0, 1].map(|a| Hops::new(by[a], &self.aside[a], false))
         };
-        // While all levels are alike, so is what they left over.
+        // As long as all levels are alike, so is the displacement that they have left over.
         let mut levels: Vec<_> = (0..self.levels.len().max(flows.len()))
             .map(&mut level)
             .collect();

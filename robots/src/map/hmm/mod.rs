@@ -1,4 +1,4 @@
-//! Hidden Markov model of odour going from cell to cell.
+//! Hidden Markov model of odour moving from cell to cell.
 
 mod adjoint;
 mod mapper;

@@ -1,22 +1,22 @@
-//! The way odour most likely took from a source to a place: Viterbi's algorithm over the chain.
+//! The way that odour most likely took from a source to a place: Viterbi's algorithm over the chain.
 //!
 //! *Source*: Farrell, Pang & Li 2003, third product; Viterbi 1967.
 //!
 //! *Parameters*: steps between release and now.
 //!
-//! *Deviations*: reconstructed. The release's age is given, or taken as the one that most likely brought odour
-//! there: the greatest Σ_i π_i Φ_ij(l, k). Of equal paths the one with the lower cell numbers, from its end.
+//! *Deviations*: reconstructed. The release's age is given, or is the age that most likely brought odour there: the
+//! greatest Σ_i π_i Φ_ij(l, k). Of equal paths, the one with the lower cell numbers, counted from its end.
 
 use super::mapper::Hmm;
 use crate::map::catalogue::Mapper;
 use world::math;
 
-/// Chances below this are impossible to a path.
+/// A path takes no step of a smaller chance than this.
 const NEVER: f64 = 1e-300;
 
 impl Hmm {
-    /// Cells of the most likely path of odour released `age` steps ago that is in `end` now, source first
-    /// (`age` + 1 cells); `None` where none leads there or the chain is not that long.
+    /// Cells of the most likely path of odour that was released `age` steps ago and is now in `end`, source first
+    /// (`age` + 1 cells); `None` if no path leads there or the chain is shorter.
     #[must_use]
     pub fn odour_path(&self, end: usize, age: usize) -> Option<Vec<usize>> {
         let chain = self.chain();
@@ -32,7 +32,7 @@ impl Hmm {
         let mut value: Vec<f64> = self.belief().p.iter().map(|p| ln(*p)).collect();
         let mut from: Vec<Vec<u32>> = Vec::with_capacity(age * 3);
         for step in &chain[first..] {
-            // A is a product of one matrix an axis: so is its best hop, axis by axis.
+            // A is a product of one matrix per axis, so the best hop is found axis by axis.
             for axis in 0..3 {
                 let levels = if axis == 2 { 1 } else { step.levels.len() };
                 let list = |k: usize, i: usize| -> Vec<(usize, f64)> {
@@ -79,8 +79,8 @@ impl Hmm {
         Some(path)
     }
 
-    /// The most likely path of odour to `end`, of the age that most likely brought it; `None` while no flow is
-    /// known or none leads there.
+    /// The most likely path of odour to `end`, of the age that most likely brought it; `None` while no flow is known,
+    /// or if no path leads there.
     #[must_use]
     pub fn likely_odour_path(&self, end: usize) -> Option<Vec<usize>> {
         let source = self.belief().p.clone();

@@ -1,15 +1,14 @@
-//! Where odour is likely to be met now, and the vehicle's path most likely to meet it.
+//! Where odour is likely to be met now, and the vehicle's path that most likely meets it.
 //!
-//! *Source*: Farrell, Pang & Li 2003: the detection likelihood by place and the path most likely to detect, the
-//! first and the last of its four products (the second is the source map itself, the third in `paths`).
+//! *Source*: Farrell, Pang & Li 2003: the detection likelihood by place and the path most likely to detect, the first
+//! and the last of its four products (the second is the source map itself, the third is in `paths`).
 //!
 //! *Parameters*: steps of the path.
 //!
-//! *Deviations*: reconstructed. Expected odour by place: α ← Aᵀ (α + π) from the oldest step to the newest, one
-//! release a step from the source map π as it is now; chance of detecting 1 − exp(−b α), as for independent
-//! releases of small chances. The path moves to one of eight neighbours (26 in space) or stays, and has the
-//! greatest chance of at least one detection with these chances held as they are, a place counted each time it
-//! is visited.
+//! *Deviations*: reconstructed. Expected odour by place: α ← Aᵀ (α + π) from the oldest step to the newest, with one
+//! release per step from the present source map π; chance of detecting 1 − exp(−b α), as for independent releases of
+//! small chances. In each step the path moves to one of eight neighbours (26 in space) or stays. It has the greatest
+//! chance of at least one detection if these chances stay as they are; a place counts each time it is visited.
 
 use super::mapper::Hmm;
 use crate::handoff::Odour;
@@ -17,7 +16,7 @@ use crate::map::catalogue::Mapper;
 use world::math;
 
 impl Hmm {
-    /// Chance of detecting in each cell now, given the source map and the flow of the look-back.
+    /// Present chance of a detection in each cell, given the source map and the flow of the look-back.
     #[must_use]
     pub fn detection_map(&self) -> Vec<f64> {
         let n = self.grid.n;
@@ -36,7 +35,7 @@ impl Hmm {
         alpha.iter().map(|a| 1.0 - math::exp(-self.b * a)).collect()
     }
 
-    /// All but the source map, for a vehicle in `cell`; the path most likely to detect has `steps` steps.
+    /// All products except the source map, for a vehicle in `cell`; the path most likely to detect has `steps` steps.
     pub(super) fn odour(&self, t_s: f64, cell: usize, steps: usize) -> Odour {
         let detection = self.detection_map();
         let mut walk = vec![cell];
@@ -50,14 +49,15 @@ impl Hmm {
         }
     }
 
-    /// Cells of the vehicle's path of `steps` steps from `start` most likely to detect, the start not counted.
+    /// Cells of the vehicle's path of `steps` steps from `start` that most likely leads to a detection, without the
+    /// start.
     #[must_use]
     pub fn path_most_likely_to_detect(&self, start: usize, steps: usize) -> Vec<usize> {
         best_walk(self.grid.n, &self.detection_map(), start, steps)
     }
 }
 
-/// Walk of `steps` moves from `start` that makes Π (1 − p) least; by dynamic programming over cells and steps.
+/// Path of `steps` moves from `start` with the least Π (1 − p), by dynamic programming over cells and steps.
 pub(super) fn best_walk(n: [usize; 3], p: &[f64], start: usize, steps: usize) -> Vec<usize> {
     let gain: Vec<f64> = p.iter().map(|p| -math::ln((1.0 - p).max(1e-300))).collect();
     let mut best = vec![f64::NEG_INFINITY; p.len()];
@@ -90,7 +90,7 @@ pub(super) fn best_walk(n: [usize; 3], p: &[f64], start: usize, steps: usize) ->
     path
 }
 
-/// The cell itself and all that touch it.
+/// The cell itself and all cells that touch it.
 pub(super) fn neighbours(n: [usize; 3], cell: usize) -> impl Iterator<Item = usize> {
     let place = [cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1])];
     let span = [0, 1, 2].map(|a| (place[a].saturating_sub(1), (place[a] + 1).min(n[a] - 1)));

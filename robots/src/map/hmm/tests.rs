@@ -1,4 +1,4 @@
-//! The chain against matrices written out and paths counted out.
+//! The chain against matrices written out and against enumerated paths.
 
 use super::mapper::{Hmm, HmmSpec};
 use super::products::{best_walk, neighbours};
@@ -38,7 +38,7 @@ fn hmm(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
     hmm
 }
 
-/// Each step's flow turned a little more at each level.
+/// The flow of each step, turned a little more at each level.
 fn sheared(n: [u32; 3], sigma: f64, flows: &[[f64; 2]]) -> Hmm {
     let mut new = hmm(n, sigma, &[]);
     for [u, v] in flows {

@@ -1,37 +1,40 @@
 //! One step of the hidden Markov chain: the chances A[i, j] that odour goes from cell i to cell j.
 //!
-//! *Source*: Farrell, Pang & Li 2003 (IEEE SMC-B 33(6)): a Gaussian round the place the measured flow leads to,
-//! integrated over the cell.
+//! *Source*: Farrell, Pang & Li 2003 (IEEE SMC-B 33(6)): a Gaussian around the place to which the measured flow
+//! leads, integrated over the cell.
 //!
 //! *Parameters*: displacement in the step, m; variance σ² dt, m².
 //!
-//! *Deviations*: the paper starts each step from the middle of cell i. Then odour in a flow of less than half a cell a step
-//! never leaves its cell; and starting from anywhere in the cell instead, each step of fractional displacement f h adds a
-//! variance of f (1 − f) h² (and one without flow 0.8 σ√dt h) that no water has: with cells of 2.5 × 4 m and 0.5 m/√s six times the
-//! plume's own. Here what is left over of the displacement is carried into the next step ([`Drift`]): each step goes whole cells, their sum
-//! stays within half a cell of the flow's, and the hops to both sides have exactly the variance σ² dt ([`spread`]). What
-//! reaches past the map's sides is lost; in the vertical it is turned back at the map's edges (surface and bed).
+//! *Deviations*: the paper starts each step from the middle of cell i. Then odour never leaves its cell in a flow of
+//! less than half a cell per step. If odour instead started from anywhere in the cell, each step with a fractional
+//! displacement f h would add a variance of f (1 − f) h² (and a step without flow 0.8 σ√dt h) that water does not
+//! have: with cells of 2.5 × 4 m and 0.5 m/√s six times the plume's own. Here the rest of the displacement is carried
+//! into the next step ([`Drift`]): each step goes whole cells, their sum stays within half a cell of the flow's, and
+//! the hops to both sides have exactly the variance σ² dt ([`spread`]). Odour that goes beyond the map's sides is
+//! lost; in the vertical it is reflected at the map's edges (surface and bed).
 
 use std::sync::Arc;
 
-/// Share of the odour that goes a cell to either side in one part of a step, at most.
+/// Greatest share of the odour that goes one cell to either side in one part of a step.
 const MOST_ASIDE: f64 = 0.25;
-/// Most such parts of a step: a spread of 32 cells.
+/// Most parts of a step: a spread of 32 cells.
 const MOST_PARTS: f64 = 2000.0;
 /// Chances this small would only cost time.
 const SMALL: f64 = 1e-14;
 
-/// Greatest spread in a step over cells of h (m), m: odour that spreads over more of them in one step asks for larger cells.
+/// Greatest spread in a step over cells of h (m), m. For odour that spreads farther in one step the cells must be
+/// larger.
 pub(super) fn widest(h: f64) -> f64 {
     (2.0 * MOST_PARTS * MOST_ASIDE).sqrt() * h
 }
 
-/// Chances of −n … n cells for a spread of standard deviation s over cells of h (m): hops of a cell to either side, as many
-/// as give the variance s² exactly; for many the Gaussian. `None` where s is beyond [`widest`].
+/// Chances of −n … n cells for a spread of standard deviation s over cells of h (m). They come from as many hops of
+/// one cell to either side as give exactly the variance s²; for many hops they are the Gaussian. `None` if s is
+/// beyond [`widest`].
 pub(super) fn spread(s: f64, h: f64) -> Option<Arc<[f64]>> {
     let aside = 0.5 * s * s / (h * h);
     let parts = (aside / MOST_ASIDE).ceil().max(1.0);
-    // Nor what is not a number.
+    // A number that is not finite is refused as well.
     if !(parts <= MOST_PARTS) {
         return None;
     }
@@ -50,18 +53,18 @@ pub(super) fn spread(s: f64, h: f64) -> Option<Arc<[f64]>> {
     Some(p.into())
 }
 
-/// Whole cells of a displacement, the rest carried on.
+/// Splits a displacement into whole cells and a rest that is carried into the next step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Drift {
     left_m: [f64; 2],
 }
 
 impl Drift {
-    /// Cells to go in a step of displacement `u` (m) over cells of `cell_m`.
+    /// Number of cells to move in a step of displacement `u` (m) over cells of `cell_m`.
     pub(super) fn cells(&mut self, u: [f64; 2], cell_m: [f64; 3]) -> [isize; 2] {
         [0, 1].map(|a| {
             let due = self.left_m[a] + u[a];
-            // Farther than this is out of any map, and still a number of cells to reckon with.
+            // A displacement beyond this leaves any map, and still fits an integer.
             let cells = (due / cell_m[a]).round().clamp(-1e9, 1e9);
             self.left_m[a] = due - cells * cell_m[a];
             cells as isize
@@ -69,19 +72,19 @@ impl Drift {
     }
 }
 
-/// The chances of going `first`, `first + 1`, … cells along an axis.
+/// The chances of moving `first`, `first + 1`, … cells along an axis.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Hops {
     /// Least number of cells.
     pub first: isize,
-    /// Chance of each.
+    /// Chance of each number of cells.
     pub p: Arc<[f64]>,
-    /// Turned back at the edges; else lost.
+    /// Whether odour is reflected at the edges; otherwise it is lost.
     pub mirrors: bool,
 }
 
 impl Hops {
-    /// `by` cells, and the spread (of −n … n cells) round that.
+    /// A move of `by` cells with a spread (of −n … n cells) around it.
     pub(super) fn new(by: isize, spread: &Arc<[f64]>, mirrors: bool) -> Self {
         Self {
             first: by - (spread.len() / 2) as isize,
@@ -90,7 +93,7 @@ impl Hops {
         }
     }
 
-    /// Stays where it is.
+    /// No move.
     pub(super) fn still() -> Self {
         Self {
             first: 0,
@@ -99,7 +102,7 @@ impl Hops {
         }
     }
 
-    /// Where a hop of `d` cells from `i` ends among `n`, if in the map.
+    /// The cell where a hop of `d` cells from `i` ends among `n`, if it is in the map.
     #[inline]
     pub(super) fn land(&self, i: usize, d: isize, n: usize) -> Option<usize> {
         let (mut j, n) = (i as isize + d, n as isize);
@@ -110,7 +113,7 @@ impl Hops {
         (j >= 0 && j < n).then_some(j as usize)
     }
 
-    /// Chance of going from `i` to `j` among `n` cells.
+    /// Chance of moving from `i` to `j` among `n` cells.
     pub(super) fn chance(&self, i: usize, j: usize, n: usize) -> f64 {
         let hops = (self.first..).zip(self.p.iter());
         hops.filter(|(d, _)| self.land(i, *d, n) == Some(j))
@@ -118,8 +121,8 @@ impl Hops {
             .sum()
     }
 
-    /// Adjoint, g ← A g: what a place is worth, a step earlier. Only cells `support` of g are not zero; answers
-    /// with those of the result.
+    /// The adjoint, g ← A g: from the values of the cells after a step to their values before it. Only the cells
+    /// `support` of g are not zero; returns the range of cells that are not zero in the result.
     pub(super) fn pull(
         &self,
         g: &[f64],
@@ -128,7 +131,7 @@ impl Hops {
     ) -> (usize, usize) {
         let n = g.len();
         if n == 1 && self.mirrors {
-            // A single layer keeps all.
+            // A single layer keeps everything.
             out[0] = g[0];
             return (0, 1);
         }
@@ -146,7 +149,7 @@ impl Hops {
         let lo = edge(support.0 as isize - last);
         let hi = edge(support.1 as isize - self.first);
         for (d, p) in (self.first..).zip(self.p.iter()) {
-            // out[i] += p·g[i + d] for i + d in the support.
+            // out[i] += p·g[i + d] for all i + d in the support.
             let from = edge(support.0 as isize - d);
             let to = edge(support.1 as isize - d);
             if from < to {
@@ -160,10 +163,10 @@ impl Hops {
     }
 }
 
-/// One step: first with the flow of the level where it is, then up or down.
+/// One step: first with the flow of the odour's level, then up or down.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Transition {
-    /// Along the two horizontal axes: one pair for all levels, or one a level.
+    /// Along the two horizontal axes: one pair for all levels, or one per level.
     pub levels: Vec<[Hops; 2]>,
     /// Up and down.
     pub vertical: Hops,
@@ -178,7 +181,7 @@ impl Transition {
         &self.levels[k.min(self.levels.len() - 1)][axis]
     }
 
-    /// The flow differs from level to level.
+    /// Whether the flow differs between levels.
     pub(super) fn sheared(&self) -> bool {
         self.levels.len() > 1
     }

@@ -1,26 +1,28 @@
 //! Light by wavelength, and the red, green and blue that a camera makes of it.
 //!
-//! *Source:* sensitivities of a Nikon D5100 measured at the National Physical Laboratory: Darrodi, Finlayson, Goodman & Mackiewicz 2015,
-//! J. Opt. Soc. Am. A 32, 381; its peaks and widths are those of the 28 cameras of Jiang, Liu, Gu & Süsstrunk 2013, IEEE WACV, 168.
-//! Read from a secondary source: colour-science 0.4.7 (PyPI), `characterisation/datasets/cameras`, 400 to 700 nm by 5 nm. Daylight: CIE
-//! standard illuminant D65.
+//! *Source:* sensitivities of a Nikon D5100 measured at the National Physical Laboratory: Darrodi, Finlayson, Goodman
+//! & Mackiewicz 2015, J. Opt. Soc. Am. A 32, 381; its peaks and widths are those of the 28 cameras of Jiang, Liu, Gu
+//! & Süsstrunk 2013, IEEE WACV, 168. Read from a secondary source: colour-science 0.4.7 (PyPI),
+//! `characterisation/datasets/cameras`, 400 to 700 nm by 5 nm. Daylight: CIE standard illuminant D65.
 //!
-//! *Parameters:* wavelengths [`NM`], 35 nm apart from 425 nm; [`SENSES`] is sensitivity times daylight, shared out linearly between the two
-//! nearest of them and brought to a sum of one for each colour, so that daylight is (1, 1, 1).
+//! *Parameters:* wavelengths [`NM`], 35 nm apart from 425 nm; [`SENSES`] is sensitivity times daylight, divided
+//! linearly between the two nearest of them and normalised to a sum of one for each colour, so that daylight is (1,
+//! 1, 1).
 //!
-//! *Deviations:* eight wavelengths for all: against 5 nm, light that has come 8 m down and 3 m along through the waters of `waters.rs` is
-//! met within 8 % in all colours up to Jerlov's type 5C, red least well because water's absorption rises steeply at 590 nm. Amounts of light
-//! are counts of photons relative to daylight. Colours of things are given for red, green and blue and taken as straight lines between.
+//! *Deviations:* there are only eight wavelengths. Compared with steps of 5 nm, light that has come 8 m down and 3 m
+//! along through the waters of `waters.rs` is right within 8 % in all colours up to Jerlov's type 5C; red is worst
+//! because water's absorption rises steeply at 590 nm. Amounts of light are counts of photons relative to daylight.
+//! Colours of things are given for red, green and blue and interpolated linearly.
 
 use world::math;
 
-/// Red, green and blue of anything.
+/// A quantity for red, green and blue.
 pub(super) type Rgb = [f64; 3];
 
 /// Number of wavelengths.
 pub(super) const N: usize = 8;
 
-/// Anything by wavelength.
+/// A quantity by wavelength.
 pub(super) type Spectrum = [f64; N];
 
 /// The wavelengths, nm.
@@ -29,10 +31,10 @@ pub(super) const NM: Spectrum = [425.0, 460.0, 495.0, 530.0, 565.0, 600.0, 635.0
 /// From one to the next, nm.
 const STEP_NM: f64 = 35.0;
 
-/// Place of 530 nm, at which visibility and opacity are told.
+/// Index of 530 nm, at which visibility and opacity are given.
 pub(super) const GREEN: usize = 3;
 
-/// What red, green and blue pixels sense of each.
+/// Sensitivity of red, green and blue pixels to each wavelength.
 const SENSES: [Spectrum; 3] = [
     [
         0.0261, 0.0316, 0.0355, 0.0519, 0.1231, 0.4184, 0.2493, 0.0641,
@@ -45,7 +47,7 @@ const SENSES: [Spectrum; 3] = [
     ],
 ];
 
-/// Wavelengths that a colour of a thing given for red, green and blue stands for, nm: the middles of the sensitivities.
+/// Wavelengths at which red, green and blue of a thing's colour hold, nm: the middles of the sensitivities.
 const MIDDLE_NM: Rgb = [600.0, 530.0, 460.0];
 
 /// The same for each wavelength.
@@ -54,13 +56,13 @@ pub(super) fn each(f: impl FnMut(usize) -> f64) -> Spectrum {
     [0, 1, 2, 3, 4, 5, 6, 7].map(f)
 }
 
-/// What a camera makes of a spectrum.
+/// The camera's response to a spectrum.
 #[must_use]
 pub(super) fn see(light: &Spectrum) -> Rgb {
     SENSES.map(|senses| (0..N).map(|i| senses[i] * light[i]).sum())
 }
 
-/// A scenario's red, green and blue by wavelength.
+/// A scenario's red, green and blue, by wavelength.
 #[must_use]
 pub(super) fn spread<T: Into<f64>>(c: (T, T, T)) -> Spectrum {
     let [red, green, blue] = [c.0.into(), c.1.into(), c.2.into()];
@@ -72,7 +74,8 @@ pub(super) fn spread<T: Into<f64>>(c: (T, T, T)) -> Spectrum {
     })
 }
 
-/// Mean over what stands for each wavelength of a Gaussian of height 1 about `peak_nm`, `width_nm` wide at half height.
+/// A Gaussian of height 1 about `peak_nm`, `width_nm` wide at half height, averaged over the interval of each
+/// wavelength.
 #[must_use]
 pub(super) fn line(peak_nm: f64, width_nm: f64) -> Spectrum {
     each(|i| {

@@ -1,15 +1,18 @@
-//! How the water takes up and scatters light of each colour: from how far one can see in it, or as given.
+//! Absorption and scattering of light by the water for each colour: from the visibility, or given directly.
 //!
-//! *Source:* visibility from the beam attenuation at 530 nm, V = 4.8/c for a black thing seen on a level line: Davies-Colley 1988, Limnol.
-//! Oceanogr. 33, 616; Zaneveld & Pegau 2003, Opt. Express 11, 2997; Hou, Lee & Weidemann 2007, Opt. Express 15, 2791. The water of that
-//! attenuation: `waters.rs`. Daylight falls off with depth by Kirk 1984, Limnol. Oceanogr. 29, 350: K_d = √(a² + (0.425 μ - 0.190) a b) / μ,
-//! μ the cosine of the light's slant in the water.
+//! *Source:* visibility from the beam attenuation at 530 nm, V = 4.8/c for a black thing seen on a level line:
+//! Davies-Colley 1988, Limnol. Oceanogr. 33, 616; Zaneveld & Pegau 2003, Opt. Express 11, 2997; Hou, Lee & Weidemann
+//! 2007, Opt. Express 15, 2791. The water of that attenuation: `waters.rs`. Daylight decreases with depth by Kirk
+//! 1984, Limnol. Oceanogr. 29, 350: K_d = √(a² + (0.425 μ - 0.190) a b) / μ, where μ is the cosine of the light's
+//! slant in the water.
 //!
-//! *Parameters:* `visibility_m` V 8 m; `absorption_per_m` a and `scattering_per_m` b (1/m) of red, green and blue in place of what it gives.
+//! *Parameters:* `visibility_m` V 8 m; `absorption_per_m` a and `scattering_per_m` b (1/m) of red, green and blue,
+//! which replace those of the visibility.
 //!
-//! *Deviations:* c at 530 nm for that of the eye's sensitivity (Zaneveld & Pegau: 0.9 c(532) + 0.081/m). K_d against Jerlov 1976, Marine
-//! Optics, table XXVII: within 20 % from type III to 9C at 495 nm and above (one value, 5C at 565 nm, 13 %); at 425 nm in types 1C and 3C a
-//! third less (his first edition of 1968 has a third less there too), in the clear types IB and II up to two thirds more.
+//! *Deviations:* c at 530 nm stands for that of the eye's sensitivity (Zaneveld & Pegau: 0.9 c(532) + 0.081/m). K_d
+//! compared with Jerlov 1976, Marine Optics, table XXVII: within 20 % from type III to 9C at 495 nm and above (one
+//! value, 5C at 565 nm, 13 %); at 425 nm a third less in types 1C and 3C (his first edition of 1968 has a third less
+//! there too), and up to two thirds more in the clear types IB and II.
 
 use super::bands::{GREEN, Spectrum, each, spread};
 use super::waters;
@@ -18,22 +21,22 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 
-/// c·V of a black thing at the range where it is just seen.
+/// c·V of a black thing at the range where it is just visible.
 const CONTRAST: f64 = 4.8;
 
-/// What a scenario may say of the water's clarity.
+/// Parameters of the water's clarity.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct ClaritySpec {
-    /// How far a dark thing is seen on a level line, m.
+    /// Distance at which a dark thing is just visible on a level line, m.
     #[serde(deserialize_with = "world::limits::visibility_m")]
     #[schemars(transform = world::limits::schema::visibility_m)]
     pub visibility_m: Positive,
-    /// Absorption of red, green and blue, 1/m, in place of that of the visibility.
+    /// Absorption of red, green and blue, 1/m, instead of that from the visibility.
     #[serde(deserialize_with = "world::limits::loss_per_m")]
     #[schemars(transform = world::limits::schema::loss_per_m)]
     pub absorption_per_m: Option<(Positive, Positive, Positive)>,
-    /// Scattering of red, green and blue, 1/m, in place of that of the visibility.
+    /// Scattering of red, green and blue, 1/m, instead of that from the visibility.
     #[serde(deserialize_with = "world::limits::loss_per_m")]
     #[schemars(transform = world::limits::schema::loss_per_m)]
     pub scattering_per_m: Option<(NonNegative, NonNegative, NonNegative)>,
@@ -64,7 +67,7 @@ impl Clarity {
     /// The water of a specification.
     ///
     /// # Errors
-    /// When the visibility is better than pure sea water allows.
+    /// If the visibility is better than pure sea water allows.
     pub fn new(spec: &ClaritySpec) -> Result<Self, RobotError> {
         let (pure_a, pure_b) = waters::pure();
         let least = pure_a[GREEN] + pure_b[GREEN];
@@ -89,13 +92,13 @@ impl Clarity {
         })
     }
 
-    /// How far a dark thing is seen on a level line, m.
+    /// Distance at which a dark thing is just visible on a level line, m.
     #[must_use]
     pub fn visibility_m(&self) -> f64 {
         CONTRAST / self.attenuation[GREEN]
     }
 
-    /// Attenuation of daylight with depth, 1/m, for light that falls with slant cosine `mu`.
+    /// Attenuation of daylight with depth, 1/m, for light whose slant has the cosine `mu`.
     #[must_use]
     pub fn down(&self, mu: f64) -> Spectrum {
         each(|i| {

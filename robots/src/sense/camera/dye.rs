@@ -1,35 +1,36 @@
-//! Rhodamine in the water: takes up green light and glows red and orange in its place.
+//! Rhodamine in the water: absorbs green light and fluoresces red and orange.
 //!
-//! *Source:* rhodamine B, molar extinction 106 000 L/(mol cm) at its peak (Du, Fuh, Li, Corkan & Lindsey 1998, Photochem. Photobiol.
-//! 68, 141), molar mass 479 g/mol: 51 000 m²/kg to base e; quantum yield in water 0.31 (Magde, Rojas & Seybold 1999,
-//! Photochem. Photobiol. 70, 737). In water it absorbs about 554 nm with a shoulder near 520 nm and glows about 580 nm;
-//! rhodamine WT, made from it, does so within a few nanometres (Smart & Laidlaw 1977, Water Resour. Res. 13, 15).
+//! *Source:* rhodamine B, molar extinction 106 000 L/(mol cm) at its peak (Du, Fuh, Li, Corkan & Lindsey 1998,
+//! Photochem. Photobiol. 68, 141), molar mass 479 g/mol: 51 000 m²/kg to base e; quantum yield in water 0.31 (Magde,
+//! Rojas & Seybold 1999, Photochem. Photobiol. 70, 737). In water it absorbs about 554 nm with a shoulder near 520 nm
+//! and fluoresces about 580 nm; rhodamine WT, which is made from it, agrees within a few nanometres (Smart & Laidlaw
+//! 1977, Water Resour. Res. 13, 15).
 //!
-//! *Parameters:* `absorption_m2_kg` at the peak 51 000; `quantum_yield` 0.31; `scattering_m2_kg` 0: what is dissolved does not
-//! scatter; greater for a dye given off with milk or starch.
+//! *Parameters:* `absorption_m2_kg` at the peak 51 000; `quantum_yield` 0.31; `scattering_m2_kg` 0, because dissolved
+//! dye does not scatter; greater for a dye released with milk or starch.
 //!
-//! *Deviations:* lines as Gaussians: 554 nm and a third of it at 520 nm, each 40 nm wide; glow 580 nm, 45 nm wide. No quenching in
-//! strong solution; what glows is not taken up and given off again.
+//! *Deviations:* lines are Gaussians: 554 nm and a third of it at 520 nm, each 40 nm wide; fluorescence 580 nm, 45 nm
+//! wide. There is no quenching in strong solution, and fluorescent light is not absorbed and emitted again.
 
 use super::bands::{N, Spectrum, each, line};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Fraction, NonNegative};
 
-/// Peak, width, height of the lines that absorb.
+/// Peak, width and height of the absorption lines.
 const ABSORBS: [(f64, f64, f64); 2] = [(554.0, 40.0, 1.0), (520.0, 40.0, 0.33)];
-/// Peak and width of the glow, nm.
+/// Peak and width of the fluorescence, nm.
 const GLOWS: (f64, f64) = (580.0, 45.0);
 
-/// What a scenario may say of the dye's looks.
+/// Optical parameters of the dye.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct DyeSpec {
     /// Absorption at the peak to base e, m²/kg.
     pub absorption_m2_kg: NonNegative,
-    /// Photons given off for one taken up.
+    /// Photons emitted per absorbed photon.
     pub quantum_yield: Fraction,
-    /// Scattering, evenly to all sides, m²/kg.
+    /// Scattering, the same in all directions, m²/kg.
     pub scattering_m2_kg: NonNegative,
 }
 
@@ -50,7 +51,7 @@ pub struct Dye {
     pub absorption: Spectrum,
     /// Scattering, m²/kg.
     pub scattering: f64,
-    /// `glow[i][j]`: light of colour `i` given off for light of colour `j`, m²/kg.
+    /// `glow[i][j]`: light of colour `i` emitted for light of colour `j`, m²/kg.
     pub glow: [Spectrum; N],
 }
 
@@ -61,7 +62,7 @@ impl Dye {
         let peak = spec.absorption_m2_kg.get();
         let lines = ABSORBS.map(|(nm, width, height)| line(nm, width).map(|v| height * v));
         let absorption = each(|i| peak * lines.iter().map(|l| l[i]).sum::<f64>());
-        // A photon given off falls to the wavelengths by the line's share in each.
+        // An emitted photon gets a wavelength in proportion to the line's share in each.
         let glows = line(GLOWS.0, GLOWS.1);
         let all: f64 = glows.iter().sum();
         let part = glows.map(|g| g / all);
@@ -82,7 +83,7 @@ mod tests {
         let dye = Dye::new(&DyeSpec::default());
         let a = dye.absorption;
         assert!(a[4] > a[3] && a[3] > 3.0 * a[5] && a[5] > a[1], "{a:?}");
-        // What it takes at 530 nm comes back at 565 and 600 nm.
+        // What it absorbs at 530 nm returns at 565 and 600 nm.
         assert!(dye.glow[4][3] > 5.0 * dye.glow[3][3] && dye.glow[5][3] > 5.0 * dye.glow[6][3]);
     }
 

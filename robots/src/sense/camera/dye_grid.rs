@@ -1,16 +1,18 @@
-//! Dye before a camera on a grid along its lines of sight, and how much of it lies between there and the sun.
+//! Dye before a camera on a grid along its lines of sight, and the amount of dye between there and the sun.
 //!
-//! *Source:* volumes in camera-aligned cells: Wronski 2014, Volumetric Fog, SIGGRAPH course Advances in Real-Time Rendering.
+//! *Source:* volumes in camera-aligned cells: Wronski 2014, Volumetric Fog, SIGGRAPH course Advances in Real-Time
+//! Rendering.
 //!
-//! *Parameters:* none but [`Lines`]' shape.
+//! *Parameters:* only the shape of [`Lines`].
 //!
-//! *Deviations:* first every second node along each axis is asked, then those near one that has dye; a wisp that fits between, thinner than
-//! some 2 % of its distance, may be missed. Dye towards the sun is summed over seven growing steps, for every second node too.
+//! *Deviations:* the concentration is first evaluated at every second node along each axis, then at those near a node
+//! with dye. A wisp that fits between them, thinner than some 2 % of its distance, may be missed. Dye towards the sun
+//! is summed over seven growing steps, also for every second node only.
 
 use super::scene::Scene;
 use nalgebra::Vector3;
 
-/// Lines of sight through the corners of the picture's tiles, each cut into steps.
+/// Lines of sight through the corners of the picture's tiles, each divided into steps.
 pub(super) struct Lines {
     /// Camera, m.
     pub from: Vector3<f64>,
@@ -18,9 +20,9 @@ pub(super) struct Lines {
     pub n: [usize; 2],
     /// Unit vectors, row by row.
     pub dirs: Vec<Vector3<f64>>,
-    /// Ways along each line from where on there is nothing to ask for, m.
+    /// Distance along each line beyond which there is nothing to evaluate, m.
     pub ends: Vec<f64>,
-    /// Ways at which steps end, m; the first begins at zero.
+    /// Distances at which steps end, m; the first step begins at zero.
     pub ways: Vec<f64>,
 }
 
@@ -41,7 +43,7 @@ pub(super) struct DyeGrid {
     steps: usize,
     rho: Vec<f32>,
     above: Vec<f32>,
-    /// Whether there is any.
+    /// Whether there is any dye.
     pub any: bool,
 }
 
@@ -49,7 +51,7 @@ pub(super) struct DyeGrid {
 const TOWARDS: [f64; 7] = [0.05, 0.13, 0.28, 0.55, 1.1, 2.2, 4.5];
 
 impl DyeGrid {
-    /// Asks for the dye along all lines.
+    /// Evaluates the dye along all lines.
     pub(super) fn new(scene: &Scene<'_>, lines: &Lines) -> Self {
         let steps = lines.ways.len();
         let mut grid = Self {
@@ -58,7 +60,8 @@ impl DyeGrid {
             above: vec![0.0; lines.dirs.len() * steps],
             any: false,
         };
-        // What takes less than 2 of 1000 parts of the light on the whole way is nothing: the same everywhere, so that no edge shows.
+        // Dye that absorbs less than 2/1000 of the light over the whole distance counts as none, everywhere alike, so
+        // that no edge shows.
         let dye = &scene.optics.dye;
         let strongest = dye.absorption.into_iter().fold(0.0, f64::max) + dye.scattering;
         let whole_m = lines.ways.last().copied().unwrap_or(1.0);
@@ -90,7 +93,7 @@ impl DyeGrid {
         grid
     }
 
-    /// Asks at the other nodes that have dye at a corner of their coarse cell.
+    /// Evaluates the other nodes that have dye at a corner of their coarse cell.
     fn refine(
         &mut self,
         lines: &Lines,
@@ -126,7 +129,8 @@ impl DyeGrid {
         }
     }
 
-    /// Sums the dye towards the sun at the coarse nodes that have dye at or beside them, and gives it to those between.
+    /// Sums the dye towards the sun at the coarse nodes with dye at or beside them, and interpolates for the nodes
+    /// between.
     fn look_up(&mut self, scene: &Scene<'_>, lines: &Lines, coarse: impl Fn(usize, usize) -> bool) {
         let ([nx, ny], steps) = (lines.n, self.steps);
         let to_sun = scene.optics.light.to_sun;

@@ -1,12 +1,13 @@
-//! Camera: a picture of what is before its mount, when asked for.
+//! Camera: takes a picture of the scene before its mount when the strategy asks for one.
 //!
-//! *Source:* the picture is that of `render.rs`; a still camera asked at a declaration or a last detection: Tian et al. 2013, Sensors 13,
-//! 3776, section 6.
+//! *Source:* the picture is that of `render.rs`; a still camera triggered at a declaration or a last detection: Tian
+//! et al. 2013, Sensors 13, 3776, section 6.
 //!
-//! *Parameters:* `rate_hz` most pictures a second, 1 Hz; the others in `model.rs` and `sensor.rs`.
+//! *Parameters:* `rate_hz` most pictures per second, 1 Hz; the others in `model.rs` and `sensor.rs`.
 //!
-//! *Deviations:* a picture asked for before the last one's time is up is taken when it is.
+//! *Deviations:* a picture requested before the period of the last one is over is taken at its end.
 
+use super::super::on_board::OnBoard;
 use super::super::suite::{Around, Fitting, Sensor, SensorParams};
 use super::model::{CameraModel, CameraSpec, turned};
 use super::render::render;
@@ -21,32 +22,26 @@ use world::clock::Clock;
 use world::cost::{Cost, Part, Times};
 use world::frames::{Pose, Truth};
 use world::registry::Listed;
-use world::seeds;
 
 /// Most pixels along a side.
 const MOST: u32 = 4096;
 
-/// Time of a picture's pixel, s, and memory while it is made and judged, bytes (see `world::cost`).
+/// Time for a pixel of a picture, s, and memory while the picture is made and judged, bytes (see `world::cost`).
 const PIXEL: (f64, f64) = (0.5e-6, 200.0);
 
 impl Listed for CameraSpec {
     const ENTRY: Entry = Entry {
         name: "camera",
         what: "Pictures through the water when asked for: attenuation, veil, dye, daylight or lamp, sensor noise.",
-        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Williamson & Hollins 2022, Appl. Opt. 61, 9951; Zaneveld & Pegau 2003, Opt. Express 11, 2997",
+        source: "Jaffe 1990, IEEE J. Oceanic Eng. 15, 101; Williamson & Hollins 2022, Appl. Opt. 61, 9951; Zaneveld & \
+            Pegau 2003, Opt. Express 11, 2997",
     };
 }
 
 impl SensorParams for CameraSpec {
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError> {
-        let Fitting {
-            robot_id,
-            seed,
-            dt_s,
-            ..
-        } = *on;
         let mount = on.mount("camera")?;
-        Ok(Box::new(Camera::new(self, &mount, robot_id, seed, dt_s)?))
+        Ok(Box::new(Camera::new(self, &mount, &on.robot)?))
     }
 
     fn cost(&self, _: f64, used: f64, times: &Times) -> Cost {
@@ -88,17 +83,11 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera at the mount `pose_BM` (body axes) of the robot `robot_id`.
+    /// A camera at the mount `pose_BM` (body axes) of the robot `on`.
     ///
     /// # Errors
-    /// When the rate does not fit the step, or the picture or its angle cannot be.
-    pub fn new(
-        spec: &CameraSpec,
-        pose_BM: &Pose,
-        robot_id: &str,
-        seed: u64,
-        dt_s: f64,
-    ) -> Result<Self, RobotError> {
+    /// If the rate does not fit the step, or if the picture's size or angle is out of range.
+    pub fn new(spec: &CameraSpec, pose_BM: &Pose, on: &OnBoard) -> Result<Self, RobotError> {
         let wrong = |field: &str, problem: String| RobotError::Invalid {
             field: format!("sensors.camera.{field}"),
             problem,
@@ -114,7 +103,7 @@ impl Camera {
                 format!("must be less than 170, got {}", spec.view_deg.get()),
             ));
         }
-        let every = super::super::tools::every("sensors.camera.rate_hz", spec.rate_hz.get(), dt_s)?;
+        let every = on.every("sensors.camera.rate_hz", spec.rate_hz.get())?;
         let look = turned(
             spec.pan_deg.get().to_radians(),
             spec.tilt_deg.get().to_radians(),
@@ -127,11 +116,11 @@ impl Camera {
             next: 0,
             asked: false,
             taken: 0,
-            key: seeds::key(seed, robot_id, "camera"),
+            key: on.key("camera"),
         })
     }
 
-    /// The picture of this step, if one was asked for and its time has come.
+    /// The picture of this step, if one was requested and its time has come.
     pub fn read(
         &mut self,
         clock: &Clock,
@@ -149,7 +138,7 @@ impl Camera {
             p_WB: truth.pose.point(self.p_BC),
             R_WB: truth.pose.R_WB * self.R_BC,
         };
-        // The number of the picture, not the time, so that pictures differ however they are asked for.
+        // The number of the picture, not the time, so that pictures differ at whatever times they are requested.
         let noise = self.key.wrapping_add(self.taken);
         self.taken += 1;
         let made = render(&self.model, &pose_WC, scene, noise);

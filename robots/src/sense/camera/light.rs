@@ -1,18 +1,19 @@
-//! Daylight in the water: how bright, from where, and what the water throws from it towards a camera.
+//! Daylight in the water: how bright it is, where it comes from, and how much the water scatters towards a camera.
 //!
-//! *Source:* single scattering of a light field that has the shape of Henyey & Greenstein 1941 (Astrophys. J. 93, 70) about the
-//! refracted sun: two such shapes one after the other make a third with the product of their mean cosines, so what is scattered
-//! into a line of sight has it too. Mean cosine of scattering 0.924 (Mobley 1994, Light and Water, table 3.10,
-//! Petzold's particles, from memory; its share of backscattering, 0.017, lies within the 0.013 to 0.020 that Petzold 1972, SIO Ref. 72-78,
-//! measured off California and in San Diego harbour, read from jerlov 0.22.0 (PyPI), `petzold1972_stations.csv`). Light falling on a tilted face from such a
-//! field: Ramamoorthi & Hanrahan 2001, J. Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
+//! *Source:* single scattering of a light field that has the shape of Henyey & Greenstein 1941 (Astrophys. J. 93, 70)
+//! about the refracted sun. Two such shapes one after the other make a third with the product of their mean cosines,
+//! so the light scattered into a line of sight has it too. Mean cosine of scattering 0.924 (Mobley 1994, Light and
+//! Water, table 3.10, Petzold's particles, from memory; its share of backscattering, 0.017, lies within the 0.013 to
+//! 0.020 that Petzold 1972, SIO Ref. 72-78, measured off California and in San Diego harbour, read from jerlov 0.22.0
+//! (PyPI), `petzold1972_stations.csv`). Light on a tilted face from such a field: Ramamoorthi & Hanrahan 2001, J.
+//! Opt. Soc. Am. A 18, 2448, eq. 12, to the fourth order. With depth: `clarity.rs`.
 //!
-//! *Parameters:* `sun_elevation_deg` 45°; `sun_heading_deg` where it stands, 180°; `illuminance_klux` on the surface, 60 klx;
-//! `mean_cosine` of the light field in the water, 0.75 (Kirk 1994, Light and Photosynthesis in Aquatic Ecosystems, ch. 6: 0.7 to
-//! 0.85 in the upper layer of coastal waters); `flicker` 0.1, see `scene.rs`.
+//! *Parameters:* `sun_elevation_deg` 45°; `sun_heading_deg` direction of the sun, 180°; `illuminance_klux` on the
+//! surface, 60 klx; `mean_cosine` of the light field in the water, 0.75 (Kirk 1994, Light and Photosynthesis in
+//! Aquatic Ecosystems, ch. 6: 0.7 to 0.85 in the upper layer of coastal waters); `flicker` 0.1, see `scene.rs`.
 //!
-//! *Deviations:* the field keeps its shape with depth; the bed throws no light up into the water; nothing casts a shadow but
-//! dye. Daylight is white, sun and sky alike.
+//! *Deviations:* the field keeps its shape with depth; the bed reflects no light up into the water; only dye casts a
+//! shadow. Daylight is white, from sun and sky alike.
 
 use super::bands::{Spectrum, each};
 use super::clarity::Clarity;
@@ -29,19 +30,19 @@ pub(super) const INDEX: f64 = 1.34;
 /// Mean cosine of one scattering.
 pub(super) const SCATTER_COSINE: f64 = 0.924;
 
-/// What a scenario may say of daylight.
+/// Parameters of daylight.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LightSpec {
-    /// Height of the sun over the horizon, °, at most 90.
+    /// Elevation of the sun above the horizon, °, at most 90.
     pub sun_elevation_deg: NonNegative,
-    /// Where it stands.
+    /// Direction of the sun.
     pub sun_heading_deg: HeadingDeg,
     /// Illuminance of the surface, klx.
     pub illuminance_klux: Positive,
     /// Mean cosine of the light field in the water, about the refracted sun.
     pub mean_cosine: Fraction,
-    /// Standard deviation of the light that waves focus just below the surface, as a share of its mean.
+    /// Standard deviation of the light focused by waves just below the surface, as a share of its mean.
     pub flicker: Fraction,
 }
 
@@ -60,7 +61,7 @@ impl Default for LightSpec {
 /// Daylight in the water.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Light {
-    /// Unit vector in the water towards where most light comes from.
+    /// Unit vector in the water towards the direction from which most light comes.
     pub to_sun: Vector3<f64>,
     /// Attenuation with depth, 1/m.
     pub down: Spectrum,
@@ -78,7 +79,7 @@ impl Light {
     /// The light of a specification in a water.
     ///
     /// # Errors
-    /// When the sun stands higher than the zenith.
+    /// If the sun is higher than the zenith.
     pub fn new(spec: &LightSpec, clarity: &Clarity) -> Result<Self, RobotError> {
         let elevation = spec.sun_elevation_deg.get();
         if elevation > 90.0 {
@@ -110,13 +111,13 @@ impl Light {
         each(|i| self.scalar * math::exp(self.down[i] * z.min(0.0)))
     }
 
-    /// Irradiance of a face with the outward unit normal `normal`, as a share of the scalar irradiance.
+    /// Irradiance on a face with the outward unit normal `normal`, as a share of the scalar irradiance.
     #[must_use]
     pub fn on(&self, normal: &Vector3<f64>) -> f64 {
         on_face(self.mean_cosine, normal.dot(&self.to_sun))
     }
 
-    /// What one scattering throws into the line of sight `dir` (unit vector away from the camera), 1/sr.
+    /// Light that one scattering sends into the line of sight `dir` (unit vector away from the camera), 1/sr.
     #[must_use]
     pub fn scattered(&self, dir: &Vector3<f64>) -> f64 {
         phase(SCATTER_COSINE * self.mean_cosine, dir.dot(&self.to_sun))
@@ -128,7 +129,7 @@ impl Light {
         (0.5 - 0.75 * self.mean_cosine * dir.dot(&self.to_sun)).clamp(0.0, 1.0)
     }
 
-    /// Radiance of endless water along `dir` from height `z`: what a camera sees where nothing stands, cd/m².
+    /// Radiance of endless water along `dir` from height `z`, where there is nothing else to see, cd/m².
     #[must_use]
     pub fn endless(&self, clarity: &Clarity, z: f64, dir: &Vector3<f64>) -> Spectrum {
         let (e, p) = (self.at(z), self.scattered(dir));
@@ -143,8 +144,8 @@ pub(super) fn phase(g: f64, cosine: f64) -> f64 {
     (1.0 - g * g) / (4.0 * PI * d * d.sqrt())
 }
 
-/// Irradiance of a face as a share of the scalar irradiance, in a field of mean cosine `g` about an axis at cosine `x` from
-/// the face's normal.
+/// Irradiance on a face as a share of the scalar irradiance, in a field of mean cosine `g` about an axis at cosine
+/// `x` from the face's normal.
 fn on_face(g: f64, x: f64) -> f64 {
     let (x2, g2) = (x * x, g * g);
     let p2 = 0.5 * (3.0 * x2 - 1.0);
@@ -213,7 +214,7 @@ mod tests {
         let level = light.scalar * light.on(&Vector3::z());
         assert!((0.95 * 60e3..0.99 * 60e3).contains(&level), "{level}");
         assert!((light.to_sun.norm() - 1.0).abs() < 1e-12);
-        // The sun in the south: the light comes from there.
+        // The sun is in the south: the light comes from there.
         assert!(light.to_sun.y < -0.5);
         let deep = light.at(-2.0);
         for (i, got) in deep.into_iter().enumerate() {

@@ -1,13 +1,15 @@
-//! A pinhole camera: which way each pixel looks, and the lamp beside it.
+//! A pinhole camera: the direction of each pixel, and the lamp beside it.
 //!
-//! *Source:* the pinhole camera of any text on computer vision, e.g. Hartley & Zisserman 2003, Multiple View Geometry, section 6.1.
+//! *Source:* the pinhole camera of any text on computer vision, e.g. Hartley & Zisserman 2003, Multiple View
+//! Geometry, section 6.1.
 //!
-//! *Parameters:* `width`, `height` in pixels 640 × 480; `view_deg` full horizontal angle of view in the water 60°; `pan_deg` to the left
-//! and `tilt_deg` down from the mount's x axis, 0° and 20°; `lamp`: luminous intensity on its axis `candela` 2000 cd, angle from the axis
-//! at which half is left `half_deg` 30°, place beside the camera `right_m` 0.2, `down_m` 0 (m).
+//! *Parameters:* `width`, `height` in pixels 640 × 480; `view_deg` full horizontal angle of view in the water 60°;
+//! `pan_deg` to the left and `tilt_deg` down from the mount's x axis, 0° and 20°; `lamp`: luminous intensity on its
+//! axis `candela` 2000 cd, angle from the axis at which half of it is left `half_deg` 30°, place beside the camera
+//! `right_m` 0.2, `down_m` 0 (m).
 //!
-//! *Deviations:* no distortion and no blur by lens or motion; the angle of view is that behind a flat port, already narrowed. The lamp
-//! is a point.
+//! *Deviations:* no distortion and no blur by lens or motion; the angle of view is that behind a flat port, already
+//! narrowed. The lamp is a point.
 
 use super::sensor::SensorSpec;
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
@@ -17,11 +19,11 @@ use world::frames::Pose;
 use world::math;
 use world::ranges::{Finite, Positive};
 
-/// What a scenario may say of a camera.
+/// Parameters of a camera.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraSpec {
-    /// Most pictures a second, Hz; one is taken only when asked for.
+    /// Most pictures per second, Hz; a picture is taken only on request.
     pub rate_hz: Positive,
     /// Pixels side by side, at most 4096.
     pub width: u32,
@@ -54,13 +56,13 @@ impl Default for CameraSpec {
     }
 }
 
-/// A lamp that shines where the camera looks.
+/// A lamp that shines in the camera's direction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct LampSpec {
     /// Luminous intensity on its axis, cd.
     pub candela: Positive,
-    /// Angle from its axis at which half of that is left, °.
+    /// Angle from its axis at which half of that intensity is left, °.
     pub half_deg: Positive,
     /// Its place to the right of the camera, m.
     pub right_m: Finite,
@@ -95,7 +97,7 @@ pub struct CameraModel {
 }
 
 impl CameraModel {
-    /// The camera of a specification; where it looks is given with each picture, see [`looking`].
+    /// The camera of a specification; its direction is given with each picture, see [`looking`].
     #[must_use]
     pub fn new(spec: &CameraSpec) -> Self {
         Self {
@@ -113,7 +115,7 @@ impl CameraModel {
         0.5 * f64::from(self.width) / math::tan(0.5 * self.view_rad)
     }
 
-    /// Where a place in the picture (pixels from its upper left corner) looks: a unit vector in camera axes.
+    /// Direction of a place in the picture (pixels from its upper left corner): a unit vector in camera axes.
     #[must_use]
     pub fn ray(&self, x: f64, y: f64) -> Vector3<f64> {
         let middle = [self.width, self.height].map(|n| 0.5 * f64::from(n));
@@ -121,7 +123,8 @@ impl CameraModel {
     }
 }
 
-/// Camera axes in those of a body (FLU) for a camera turned to the left and down from the body's x axis, rad.
+/// Rotation from camera axes to those of a body (FLU), for a camera turned to the left and down from the body's x
+/// axis, rad.
 #[must_use]
 pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
     // Camera x, y, z are the body's right, down and forward.
@@ -130,8 +133,8 @@ pub fn turned(pan_rad: f64, tilt_rad: f64) -> UnitQuaternion<f64> {
         * UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(forward))
 }
 
-/// Pose of a camera in the world (its axes: see [`CameraModel`]) at a place, looking along a yaw (rad, from east to the left) and
-/// an angle down from the horizon (rad).
+/// Pose of a camera in the world (its axes: see [`CameraModel`]) at a place, looking along a yaw (rad, from east to
+/// the left) and an angle down from the horizon (rad).
 #[must_use]
 pub fn looking(p_W: Vector3<f64>, yaw_rad: f64, down_rad: f64) -> Pose {
     Pose {

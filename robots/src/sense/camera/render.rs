@@ -1,7 +1,7 @@
-//! A picture of a scene, with what is really in each of its pixels.
+//! Renders a picture of a scene, with the truth about each of its pixels.
 //!
-//! *Source:* image formation under water: light from a surface, attenuated, plus the veil before it (McGlamery 1980, Proc. SPIE 208, 221;
-//! Jaffe 1990, IEEE J. Oceanic Eng. 15, 101); the parts are in the files beside this one.
+//! *Source:* image formation under water: light from a surface, attenuated, plus the veil before it (McGlamery 1980,
+//! Proc. SPIE 208, 221; Jaffe 1990, IEEE J. Oceanic Eng. 15, 101); the parts are in the files beside this one.
 //!
 //! *Parameters:* those of the camera ([`CameraModel`]) and of the scene ([`Optics`](super::Optics)).
 //!
@@ -16,17 +16,17 @@ use image::RgbImage;
 use world::frames::Pose;
 use world::math;
 
-/// What is really in a pixel.
+/// The truth about a pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Seen {
-    /// How much the dye changes the pixel's light: the greatest change of a colour, as a share of the greater of its values with
-    /// and without dye, 0–1. Above some 0.1 one could see it.
+    /// How much the dye changes the pixel's light: the greatest change of a colour, as a share of the greater of its
+    /// values with and without dye, 0–1. Above some 0.1 a person could see it.
     pub plume: f32,
-    /// Share of light that the dye takes on the way to what stands behind it, green, 0–1: how opaque it is, near or far.
+    /// Share of green light that the dye absorbs on the way to what is behind it, 0–1: how opaque it is, near or far.
     pub opacity: f32,
-    /// The obstacle whose surface is there, by its place in the scenario's order.
+    /// The obstacle whose surface is seen there, by its place in the scenario's order.
     pub obstacle: Option<u16>,
-    /// Way to what is there, m; as far as light comes where there is only water.
+    /// Distance to what is seen there, m; where there is only water, the distance that light comes from.
     pub way_m: f32,
     /// Share of that surface's green light that reaches the camera.
     pub clear: f32,
@@ -43,7 +43,7 @@ pub struct Rendered {
     pub radiance: Vec<[f32; 3]>,
 }
 
-/// Takes a picture of `scene` with a camera whose axes lie as in `pose_WC`; the sensor's noise depends on `noise` alone.
+/// Takes a picture of `scene` with a camera of the pose `pose_WC`; the sensor's noise depends only on `noise`.
 #[must_use]
 pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u64) -> Rendered {
     let lamp = camera.lamp.as_ref().map(|l| Lamp::new(l, pose_WC));
@@ -69,7 +69,7 @@ pub fn render(camera: &CameraModel, pose_WC: &Pose, scene: &Scene<'_>, noise: u6
             let shaded = see(&each(|i| left[i] * veil.passes[i] * surface[i]));
             let water = [0, 1, 2].map(|k| veil.water[k] + bare[k]);
             let dyed = [0, 1, 2].map(|k| veil.dyed[k] + shaded[k]);
-            // The lens: light falls off as cos⁴ from the middle.
+            // The lens: light decreases as cos⁴ from the middle.
             let cos2 = dir_C.z * dir_C.z;
             let got = dyed.map(|l| l * cos2 * cos2);
             for i in 0..3 {

@@ -1,14 +1,15 @@
-//! What stands in the water before a camera, and how bright its surface is.
+//! The surfaces before a camera, and how bright they are.
 //!
-//! *Source:* Lambert's law; light on a face from `light.rs`. The surface from below: Snell's window (Horváth & Varjú 1991, J. Exp. Biol. 160,
-//! 283), within which the sky shows n² times as bright as above.
+//! *Source:* Lambert's law; light on a face from `light.rs`. The surface from below: Snell's window (Horváth & Varjú
+//! 1991, J. Exp. Biol. 160, 259), within which the sky appears n² times as bright as above.
 //!
-//! *Parameters:* `bed_albedo` share of light a bed of sand throws back, red to blue 0.30, 0.26, 0.20 (wet quartz sand); `texture` standard
-//! deviation of any surface's brightness, 0.2 of its mean.
+//! *Parameters:* `bed_albedo` share of light that a bed of sand reflects, red to blue 0.30, 0.26, 0.20 (wet quartz
+//! sand); `texture` standard deviation of any surface's brightness, 0.2 of its mean.
 //!
-//! *Deviations:* window: an even sky that gives 0.3 of the light, and a sun that the waves smear to some degrees; its rim is softened by
-//! 0.1 rad for the waves; beyond it the surface mirrors endless water. Texture is noise of three sizes, 0.05 to 0.8 m,
-//! and the light that waves focus is noise of 0.3 m, gone by some metres (flicker e^(-z/4 m)); neither moves.
+//! *Deviations:* window: an even sky that gives 0.3 of the light, and a sun that the waves smear to some degrees; its
+//! rim is softened by 0.1 rad because of the waves; beyond it the surface mirrors endless water. Texture is noise of
+//! three sizes, 0.05 to 0.8 m. The light focused by waves is noise of 0.3 m that vanishes within some metres (flicker
+//! e^(-z/4 m)). Neither moves.
 
 use super::bands::{N, Spectrum, each, spread};
 use super::clarity::{Clarity, ClaritySpec};
@@ -27,7 +28,7 @@ use world::obstacles::{Obstacle, Obstacles};
 use world::ranges::Fraction;
 use world::terrain::Terrain;
 
-/// What a scenario may say of light in its water.
+/// Parameters of light in a scenario's water.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct OpticsSpec {
@@ -35,9 +36,9 @@ pub struct OpticsSpec {
     pub clarity: ClaritySpec,
     /// Daylight.
     pub light: LightSpec,
-    /// What the dye does to light.
+    /// Optical properties of the dye.
     pub dye: DyeSpec,
-    /// Share of red, green and blue light that the bed throws back.
+    /// Share of red, green and blue light that the bed reflects.
     pub bed_albedo: (Fraction, Fraction, Fraction),
     /// Standard deviation of the brightness of any surface, as a share of its mean.
     pub texture: Fraction,
@@ -75,7 +76,7 @@ impl Optics {
     /// The optics of a specification.
     ///
     /// # Errors
-    /// When water or sun cannot be as described.
+    /// If water or sun are out of range.
     pub fn new(spec: &OpticsSpec) -> Result<Self, RobotError> {
         let clarity = Clarity::new(&spec.clarity)?;
         Ok(Self {
@@ -93,7 +94,7 @@ impl Optics {
 pub struct Scene<'a> {
     /// The bed.
     pub terrain: &'a Terrain,
-    /// What stands on it.
+    /// Solids in the water.
     pub obstacles: &'a Obstacles,
     /// Dye in the water.
     pub dye: &'a dyn Concentration,
@@ -112,7 +113,7 @@ pub(super) struct End {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Kind {
-    /// Water as far as light comes.
+    /// Water, as far as light comes from.
     Water,
     /// The bed.
     Bed,
@@ -122,7 +123,7 @@ pub(super) enum Kind {
     Solid(usize, Vector3<f64>),
 }
 
-/// An obstacle with a ball round it, which most lines of sight miss.
+/// An obstacle with a bounding sphere, which most lines of sight miss.
 pub(super) struct Round<'a> {
     solid: &'a Obstacle,
     to_middle: Vector3<f64>,
@@ -167,7 +168,7 @@ impl Scene<'_> {
         }
     }
 
-    /// Where anything ends it.
+    /// The end of a line of sight.
     pub(super) fn end(
         &self,
         near: &[Round<'_>],
@@ -191,8 +192,8 @@ impl Scene<'_> {
         end
     }
 
-    /// Radiance towards the camera of what ends a line of sight, in daylight and the lamp's light `lamp` (lx on a face turned to
-    /// it, by colour, and its direction), cd/m².
+    /// Radiance towards the camera of what ends a line of sight, in daylight and in the lamp's light `lamp` (lx on a
+    /// face turned to it, by colour, and its direction), cd/m².
     pub(super) fn radiance(
         &self,
         end: &End,
@@ -238,11 +239,12 @@ fn window(o: &Optics, dir: &Vector3<f64>) -> Spectrum {
     each(|i| sky_share * (sky + sun) + (1.0 - sky_share) * mirror[i])
 }
 
-/// Unevenness of a surface at `p`, variance about one; what is finer than a pixel at `way_m` is left out.
+/// Unevenness of a surface at `p`, with mean zero and a variance of about one; details finer than a pixel at `way_m`
+/// are left out.
 fn texture(p: &Vector3<f64>, way_m: f64) -> f64 {
     let mut sum = 0.0;
     for (n, size) in [0.8, 0.2, 0.05].into_iter().enumerate() {
-        // A pixel is some two thousandths of the way wide.
+        // A pixel is some two thousandths of the distance wide.
         let fade = (size / (0.004 * way_m) - 0.5).clamp(0.0, 1.0);
         if fade > 0.0 {
             sum += fade * grain(p, size, n as u64);
@@ -251,7 +253,8 @@ fn texture(p: &Vector3<f64>, way_m: f64) -> f64 {
     sum / 3.0f64.sqrt()
 }
 
-/// Noise of mean zero and variance one that varies over `size_m`: numbers at the corners of a grid, smoothly between them.
+/// Noise of mean zero and variance one that varies over `size_m`: numbers at the corners of a grid, smoothly
+/// interpolated.
 fn grain(p: &Vector3<f64>, size_m: f64, layer: u64) -> f64 {
     let q = p / size_m;
     let cell = q.map(f64::floor);
@@ -267,7 +270,7 @@ fn grain(p: &Vector3<f64>, size_m: f64, layer: u64) -> f64 {
         }
         sum += weight * ((key >> 11) as f64 / 9_007_199_254_740_992.0 - 0.5);
     }
-    // Even numbers have the variance 1/12, and the weights' squares sum up to (26/35)³ on average.
+    // Uniform numbers have the variance 1/12, and the squares of the weights sum to (26/35)³ on average.
     sum * (12.0 / 0.409_935f64).sqrt()
 }
 
@@ -280,7 +283,7 @@ mod tests {
         let (n, mut m, mut v) = (200_000, 0.0, 0.0);
         let mut r = world::seeds::Stream::new(1, "test", "grain");
         for _ in 0..n {
-            // Far apart, so that nearly each sees cells of its own.
+            // Far apart, so that nearly every place has cells of its own.
             let p = Vector3::repeat(500.0).map(|far| far * (r.uniform() - 0.5));
             let z = grain(&p, 0.5, 3);
             m += z;

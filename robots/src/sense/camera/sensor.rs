@@ -1,18 +1,21 @@
 //! From light to numbers: exposure, photon and reading noise, white balance, 8 bits.
 //!
-//! *Source:* photon transfer of image sensors (Janesick 2001, Scientific Charge-Coupled Devices, ch. 2; EMVA Standard 1288); light on
-//! the sensor π/4 L/N² cos⁴ (any text on optics); transfer curve of IEC 61966-2-1 (sRGB).
+//! *Source:* photon transfer of image sensors (Janesick 2001, Scientific Charge-Coupled Devices, ch. 2; EMVA Standard
+//! 1288); light on the sensor π/4 L/N² cos⁴ (any text on optics); transfer curve of IEC 61966-2-1 (sRGB).
 //!
-//! *Parameters:* `exposure_s` fixed, s, or automatic: the mean of the picture comes to `target` 0.2 of full scale, with at most `max_exposure_s`
-//! 1/30 s and then at most `max_gain` 16; `f_number` N 2; `electrons_per_lux_s` 10 000, `full_well_e` 10 000 and `read_noise_e` 5
-//! electrons: a pixel of some 4 µm; `white_balance` 4: red and blue are brought to the mean of green by
-//! at most this factor, 1 leaves daylight white: grey world with the limit of libcamera's software pipeline (`ipa/simple/algorithms/awb.cpp`:
-//! "Clamp max gain at 4.0"); `saturation` 1.7: a colour's distance from grey is stretched by this factor to undo the overlap of the
-//! sensitivities of `bands.rs`. It is the least-squares factor, 1.74, between white-balanced responses and linear sRGB for 2000 smooth
-//! reflectances in D65; the full matrix of a camera does more (libcamera's `imx219.json` at 5858 K: 2.32, 2.58, 1.83 on the diagonal).
+//! *Parameters:* `exposure_s` fixed, s, or automatic: the mean of the picture becomes `target` 0.2 of full scale,
+//! first with at most `max_exposure_s` 1/30 s and then with at most `max_gain` 16; `f_number` N 2;
+//! `electrons_per_lux_s` 10 000, `full_well_e` 10 000 and `read_noise_e` 5 electrons: a pixel of some 4 µm;
+//! `white_balance` 4: red and blue are multiplied to reach the mean of green, by at most this factor; 1 leaves
+//! daylight white: grey world with the limit of libcamera's software pipeline (`ipa/simple/algorithms/awb.cpp`:
+//! "Clamp max gain at 4.0"); `saturation` 1.7: a colour's distance from grey is multiplied by this factor to undo the
+//! overlap of the sensitivities of `bands.rs`. It is the least-squares factor, 1.74, between white-balanced responses
+//! and linear sRGB for 2000 smooth reflectances in D65; the full matrix of a camera does more (libcamera's
+//! `imx219.json` at 5858 K: 2.32, 2.58, 1.83 on the diagonal).
 //!
-//! *Deviations:* every pixel has all colours, without the mosaic; noise is the sum of four even ones: its mean and variance are right,
-//! it ends at 3.46 standard deviations; for fewer than some ten electrons it is not yet Poisson's.
+//! *Deviations:* every pixel has all colours, without the mosaic. Noise is the sum of four uniform numbers: its mean
+//! and variance are right, it is bounded by 3.46 standard deviations, and for fewer than some ten electrons it is not
+//! yet Poisson's.
 
 use super::bands::Rgb;
 use schemars::JsonSchema;
@@ -21,13 +24,13 @@ use std::f64::consts::PI;
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
 
-/// What a scenario may say of the sensor.
+/// Parameters of the sensor.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(default, deny_unknown_fields)]
 pub struct SensorSpec {
     /// Exposure, s; automatic without it.
     pub exposure_s: Option<Positive>,
-    /// Mean of the picture that the automatic exposure aims at, as a share of full scale, before the transfer curve.
+    /// Mean of the picture that the automatic exposure aims for, as a share of full scale, before the transfer curve.
     pub target: Fraction,
     /// Longest automatic exposure, s.
     pub max_exposure_s: Positive,
@@ -41,7 +44,7 @@ pub struct SensorSpec {
     pub full_well_e: Positive,
     /// Standard deviation of the reading noise, electrons.
     pub read_noise_e: NonNegative,
-    /// Greatest factor by which red and blue are brought to green's mean; 1: none.
+    /// Greatest factor by which red and blue are multiplied to reach green's mean; 1: none.
     pub white_balance: Positive,
     /// Factor on a colour's distance from grey.
     pub saturation: NonNegative,
@@ -87,7 +90,7 @@ impl Exposed {
         let rate = 0.25 * PI / (n * n) * spec.electrons_per_lux_s.get();
         let full = spec.full_well_e.get();
         let level = grey(&mean);
-        // In the dark it opens as far as it can.
+        // In the dark, exposure and gain reach their limits.
         let wanted = full * spec.target.get() / (rate * level).max(f64::MIN_POSITIVE);
         let (exposure, gain) = match spec.exposure_s {
             Some(fixed) => (fixed.get(), 1.0),
@@ -150,7 +153,8 @@ fn transfer(share: f64) -> u8 {
     (255.0 * bent + 0.5) as u8
 }
 
-/// A well-mixed 64-bit number for a counter under a key (the finaliser of splitmix64: Steele, Lea & Flood 2014, OOPSLA, 453).
+/// A well-mixed 64-bit number for a counter under a key (the finaliser of splitmix64: Steele, Lea & Flood 2014,
+/// OOPSLA, 453).
 pub(super) fn hash(key: u64, counter: u64) -> u64 {
     let mut z = key.wrapping_add(counter.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15));
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -162,7 +166,7 @@ pub(super) fn hash(key: u64, counter: u64) -> u64 {
 fn noise(key: u64, counter: u64) -> f64 {
     let h = hash(key, counter);
     let sum = (h & 0xffff) + ((h >> 16) & 0xffff) + ((h >> 32) & 0xffff) + (h >> 48);
-    // Four numbers even over 65536 values: mean 4 · 32767.5, variance 4 · (65536² - 1)/12.
+    // Four numbers uniform over 65536 values: mean 4 · 32767.5, variance 4 · (65536² - 1)/12.
     (sum as f64 - 131_070.0) / 37_837.227
 }
 
@@ -180,7 +184,7 @@ mod tests {
             v += z * z;
         }
         let n = n as f64;
-        // 5 standard errors; kurtosis of four even numbers is 2.7, so the variance's error is √(1.7/n).
+        // 5 standard errors; the kurtosis of four uniform numbers is 2.7, so the variance's error is √(1.7/n).
         assert!((m / n).abs() < 5.0 / n.sqrt());
         assert!((v / n - 1.0).abs() < 5.0 * (1.7 / n).sqrt());
     }
@@ -193,7 +197,7 @@ mod tests {
             ..SensorSpec::default()
         };
         let exposed = Exposed::new(&spec, [1.0; 3], 3);
-        // Electrons for L: π/16 · 1e4 · 0.01 · L; bytes back through the curve's inverse.
+        // Electrons for L: π/16 · 1e4 · 0.01 · L; bytes are converted back with the curve's inverse.
         for radiance in [50.0, 150.0, 300.0] {
             let electrons = PI / 16.0 * 100.0 * radiance;
             let (n, mut m, mut v) = (40_000, 0.0, 0.0);
@@ -205,7 +209,8 @@ mod tests {
             }
             let (m, n) = (m / n as f64, n as f64);
             let (v, want) = (v / n - m * m, electrons + 25.0);
-            // A byte is 1/255 of the bent scale: its share in the variance is step²/12 with the slope of the curve there.
+            // A byte is 1/255 of the curved scale: it adds step²/12 to the variance, with the slope of the curve
+            // there.
             let step = 1e4 / 255.0 * 2.4 / 1.055 * math::powf(electrons / 1e4, 1.4 / 2.4);
             let want = want + step * step / 12.0;
             assert!(

@@ -1,8 +1,9 @@
-//! Pictures against what follows from the equations, and their instrument.
+//! Pictures compared with the equations, and the instrument that takes them.
 
 use super::bands::{GREEN, N, Rgb, each, see};
 use super::light::{SCATTER_COSINE, phase};
 use super::*;
+use crate::sense::OnBoard;
 use crate::sense::testing::{at, run};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
@@ -119,7 +120,7 @@ fn a_wall_fades_with_the_beam_attenuation_alone_where_nothing_scatters() {
     let bare = each(|i| 0.3 / PI * lit[i] * face * math::exp(-a[i] * 3.0));
     let made = take(&o, &DEEP, &wall(0.3), &Clean);
     near(middle(&made), see(&bare), 1e-6);
-    // Even dye that does not glow: the same with its own absorption; its steps add up exactly.
+    // Even dye that does not fluoresce: the same with its own absorption; its steps add up exactly.
     let o = plain(|s| {
         no_scattering(s);
         s.dye.quantum_yield = Fraction::new(0.0);
@@ -127,7 +128,7 @@ fn a_wall_fades_with_the_beam_attenuation_alone_where_nothing_scatters() {
     let rho = 2e-5;
     let dyed = each(|i| bare[i] * math::exp(-rho * o.dye.absorption[i] * 3.0));
     let made = take(&o, &DEEP, &wall(0.3), &Even(rho));
-    // Within a step what passes is taken as straight: (dτ)²/8 of it at most, for steps of 4.2 % of the way.
+    // Within a step transmission is taken as linear: an error of at most (dτ)²/8, for steps of 4.2 % of the distance.
     let strongest = o.dye.absorption.into_iter().fold(0.0, f64::max);
     let step = 0.042 * 3.0 * rho * strongest;
     near(middle(&made), see(&dyed), step * step / 8.0);
@@ -154,7 +155,8 @@ fn the_veil_grows_to_the_colour_of_endless_water() {
         see(&part),
         1e-3,
     );
-    // Murkier water hides the wall: at the range of visibility 0.8 % of the contrast at 530 nm is left, of all green about as much.
+    // Murkier water hides the wall: at the range of visibility 0.8 % of the contrast at 530 nm is left, and about as
+    // much in all green.
     let murky = plain(|s| s.clarity.visibility_m = Positive::new(3.0));
     let far = see(&murky.light.endless(&murky.clarity, -5.0, &Vector3::x()));
     let got = middle(&take(&murky, &DEEP, &wall(0.0), &Clean));
@@ -169,7 +171,7 @@ fn thick_dye_glows_as_bright_as_what_reaches_it_allows() {
     let got = middle(&take(&o, &DEEP, &Obstacles::default(), &Even(rho)));
     let (lit, d, c) = (o.light.at(-5.0), o.dye, o.clarity.attenuation);
     let front = o.light.from_front(&Vector3::x());
-    // From the sun through 4.5 m of dye, as far as it is followed: not nothing where the dye hardly absorbs.
+    // From the sun through 4.5 m of dye, as far as it is followed: some light is left where the dye hardly absorbs.
     let above = rho * 4.5;
     let want = each(|i| {
         let own = c[i] + rho * d.absorption[i];
@@ -213,7 +215,7 @@ fn a_lamp_alone_lights_by_the_square_of_the_distance_and_both_ways_through_the_w
         see(&each(|i| 0.3 / PI * 2000.0 / 9.0 * math::exp(-a[i] * 6.0))),
         1e-6,
     );
-    // Scattering water throws some of it back before anything is there: less than forward, more than nothing.
+    // Scattering water sends some light back before any surface: less than forward, more than nothing.
     let o = plain(|s| s.light.illuminance_klux = Positive::new(1e-12));
     let scene = Scene {
         obstacles: &Obstacles::default(),
@@ -221,14 +223,14 @@ fn a_lamp_alone_lights_by_the_square_of_the_distance_and_both_ways_through_the_w
         ..scene
     };
     let got = middle(&render(&camera, &level(), &scene, 0))[1];
-    // From 5 cm on, the lamp's near field, to endless range, by steps of a millimetre.
+    // From 5 cm on, the lamp's near field, to endless range, in steps of a millimetre.
     let (b, c) = (o.clarity.scattering[GREEN], o.clarity.attenuation[GREEN]);
     let back: f64 = (0..20_000)
         .map(|k| 1e-3 * (f64::from(k) + 0.5))
         .map(|r| 1e-3 * math::exp(-2.0 * c * r) / r.max(0.05).powi(2))
         .sum();
     let want = 2000.0 * b * phase(SCATTER_COSINE, -1.0) * back;
-    // The first step is much longer than the lamp is near: its share is only roughly met.
+    // The first step is much longer than the distance of the lamp: its share is only roughly right.
     assert!(got > 0.1 * want && got < 2.0 * want, "{got} {want}");
 }
 
@@ -347,7 +349,7 @@ fn the_instrument_takes_a_picture_when_asked_and_not_more_often_than_it_can() {
         ..CameraSpec::default()
     };
     let mount = Pose::level(Vector3::new(0.5, 0.0, -0.1), Heading::from_deg(90.0));
-    let mut camera = Camera::new(&spec, &mount, "auv0", 3, 0.1).unwrap();
+    let mut camera = Camera::new(&spec, &mount, &OnBoard::new("auv0", 3, 0.1)).unwrap();
     let o = Optics::new(&OpticsSpec::default()).unwrap();
     let scene = Scene {
         terrain: &BED,
@@ -356,7 +358,7 @@ fn the_instrument_takes_a_picture_when_asked_and_not_more_often_than_it_can() {
         optics: &o,
     };
     let truth = at(0.0, 0.0, -4.0);
-    // Asked in steps 3 and 4 and then not before 20.
+    // Requested in steps 3 and 4, and then not before 20.
     let asked = [3, 4, 20];
     let said = run(40, 0.1, |clock| {
         let picture = camera.read(clock, &truth, &scene, asked.contains(&clock.step))?;
@@ -377,7 +379,7 @@ fn a_camera_that_cannot_be_is_refused_with_its_field() {
     let refused = |change: &dyn Fn(&mut CameraSpec)| {
         let mut spec = CameraSpec::default();
         change(&mut spec);
-        Camera::new(&spec, &mount, "a", 1, 0.02)
+        Camera::new(&spec, &mount, &OnBoard::new("a", 1, 0.02))
             .unwrap_err()
             .to_string()
     };

@@ -1,14 +1,15 @@
-//! Light from the water itself: what water, dye and lamp throw into each line of sight up to any distance.
+//! Light from the water itself: what water, dye and lamp send into each line of sight up to any distance.
 //!
-//! *Source:* single scattering along a line of sight, dL/ds = -c L + b E p + glow (Mobley 1994, Light and Water, section 5.2; for cameras
-//! Jaffe 1990, IEEE J. Oceanic Eng. 15, 101), each step solved exactly with what is in its middle.
+//! *Source:* single scattering along a line of sight, dL/ds = -c L + b E p + glow (Mobley 1994, Light and Water,
+//! section 5.2; for cameras Jaffe 1990, IEEE J. Oceanic Eng. 15, 101); each step is solved exactly with the values in
+//! its middle.
 //!
-//! *Parameters:* a tile is an eightieth of the picture's longer side wide; 96 steps, growing with distance from 2 % of the range on, reach to
-//! where 3·10⁻⁴ of the clearest colour is left, but at most 80 m.
+//! *Parameters:* a tile is one eightieth of the picture's longer side wide; 96 steps, which grow with distance from 2
+//! % of the range on, reach to where 3·10⁻⁴ of the clearest colour is left, but at most 80 m.
 //!
-//! *Deviations:* light scattered more than once by dye, or forward on its way to the camera, is not added: small things stay sharper
-//! than they are. Daylight reaches dye from two sides: along the line of sight the share that comes from the camera's half, from the
-//! sun's direction the rest; the lamp's comes along the line of sight.
+//! *Deviations:* light scattered more than once by dye, or forward on its way to the camera, is not added: small
+//! things look sharper than they are. Daylight reaches dye from two sides: the share from the camera's half comes
+//! along the line of sight, the rest from the sun's direction; the lamp's light comes along the line of sight.
 
 use super::bands::{N, Rgb, Spectrum, each, see};
 use super::dye_grid::{DyeGrid, Lines};
@@ -26,7 +27,7 @@ const TILES: u32 = 80;
 const STEPS: usize = 96;
 /// End of the first step, as a share of the range.
 const FIRST: f64 = 0.02;
-/// Optical way of the clearest colour that a line is followed, and its greatest length, m.
+/// Optical thickness of the clearest colour up to which a line is followed, and its greatest length, m.
 const FARTHEST: (f64, f64) = (8.0, 80.0);
 
 /// A lamp in the world.
@@ -60,14 +61,14 @@ impl Lamp {
     }
 }
 
-/// What the water does up to some distance.
+/// The light of the water up to some distance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Veil {
     /// Radiance of the water alone as the camera sees it, cd/m².
     pub water: Rgb,
     /// The same with its dye.
     pub dyed: Rgb,
-    /// What the dye lets through.
+    /// Share of light that the dye transmits.
     pub passes: Spectrum,
 }
 
@@ -78,7 +79,7 @@ const ROW: usize = 6 + N;
 pub(super) struct Volume {
     tile: u32,
     lines: Lines,
-    /// Water, dyed, passes.
+    /// Without dye, with dye, and transmission.
     veils: Vec<[f32; ROW]>,
 }
 
@@ -113,7 +114,7 @@ impl Volume {
         for k in 1..STEPS {
             ways[k] = ways[k - 1] * growth;
         }
-        // A little behind bed and surface, for the lines beside that go farther.
+        // A little behind bed and surface, for neighbouring lines that go farther.
         let ends = (dirs.iter())
             .map(|dir| 1.15 * scene.shell(&from, dir, range).way_m)
             .collect();
@@ -205,10 +206,10 @@ impl Volume {
         }
     }
 
-    /// The veil before what stands at `way_m` behind the place (x, y) of the picture, pixels.
+    /// The veil before a thing at the distance `way_m` behind the place (x, y) of the picture, pixels.
     pub(super) fn before(&self, x: f64, y: f64, way_m: f64) -> Veil {
         let ways = &self.lines.ways;
-        // Step in which the way ends, and the part of it that is passed.
+        // The step in which the distance ends, and the part of it that is passed.
         let grown = math::ln(way_m.max(1e-9) / ways[0]) / math::ln(ways[1] / ways[0]);
         let (k, part) = if way_m <= ways[0] {
             (0, way_m / ways[0])

@@ -1,16 +1,18 @@
-//! Absorption and scattering of sea water, from pure to that of turbid harbours: Jerlov's optical water types.
+//! Absorption and scattering of sea water, from pure water to that of turbid harbours: Jerlov's optical water types.
 //!
-//! *Source:* types IB to 5C as measured: Williamson & Hollins 2022, Appl. Opt. 61, 9951, "Measured IOPs of Jerlov water types"; types 7C and
-//! 9C, for which there are no measurements, by inversion of K_d: Solonenko & Mobley 2015, Appl. Opt. 54, 5392, table 7. Both read
-//! from a secondary source: jerlov 0.22.0 (PyPI), `williamson2022_iop.csv` and `solonenko2015_iop.csv`, the latter straight between
-//! its steps of 25 nm. Pure water: absorption Pope & Fry 1997, Appl. Opt. 36, 8710, table 3, read from three transcriptions that agree;
-//! scattering of sea water Morel 1974 (Mobley 1994, Light and Water, section 3.8): 0.00758/m (400 nm/λ)^4.32.
+//! *Source:* types IB to 5C as measured: Williamson & Hollins 2022, Appl. Opt. 61, 9951, "Measured IOPs of Jerlov
+//! water types"; types 7C and 9C, for which there are no measurements, by inversion of K_d: Solonenko & Mobley 2015,
+//! Appl. Opt. 54, 5392, table 7. Both read from a secondary source: jerlov 0.22.0 (PyPI), `williamson2022_iop.csv`
+//! and `solonenko2015_iop.csv`, the latter interpolated linearly between its steps of 25 nm. Pure water: absorption
+//! Pope & Fry 1997, Appl. Opt. 36, 8710, table 3, read from three transcriptions that agree; scattering of sea water
+//! Morel 1974 (Mobley 1994, Light and Water, section 3.8): 0.00758/m (400 nm/λ)^4.32.
 //!
 //! *Parameters:* none; the water is found by its beam attenuation c at 530 nm.
 //!
-//! *Deviations:* between two types their mixture in the share that gives c; clearer than IB mixed with pure sea water, murkier than 9C with
-//! more of what 9C has in pure water. That a visibility tells the type is a simplification: yellow matter and particles vary apart.
-//! Type 5C to 7C crosses from measured to inverted values, whose scattering is less sure.
+//! *Deviations:* between two types, the water is their mixture with that c; water clearer than IB is a mixture with
+//! pure sea water, and water murkier than 9C has more of what 9C has besides pure water. That the visibility
+//! determines the type is a simplification: yellow matter and particles vary independently. Between type 5C and 7C it
+//! changes from measured to inverted values, whose scattering is less certain.
 
 use super::bands::{GREEN, NM, Spectrum, each};
 use world::math;
@@ -71,7 +73,8 @@ pub(super) fn pure() -> (Spectrum, Spectrum) {
     (PURE, scatters)
 }
 
-/// Absorption and scattering, 1/m, of the water whose beam attenuation at 530 nm is `c`; not below that of pure sea water.
+/// Absorption and scattering, 1/m, of the water whose beam attenuation at 530 nm is `c`; not below that of pure sea
+/// water.
 #[must_use]
 pub(super) fn of_attenuation(c: f64) -> (Spectrum, Spectrum) {
     let at = |w: &(Spectrum, Spectrum)| w.0[GREEN] + w.1[GREEN];
@@ -85,7 +88,7 @@ pub(super) fn of_attenuation(c: f64) -> (Spectrum, Spectrum) {
         below = above;
     }
     if c > at(&above) {
-        // Murkier than all: more of the same in pure water.
+        // Murkier than all types: more of the same in pure water.
         below = pure();
     }
     let share = (c - at(&below)) / (at(&above) - at(&below));

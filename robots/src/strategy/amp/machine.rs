@@ -5,19 +5,20 @@
 //! *Parameters*: see [`AmpSpec`].
 //!
 //! *Deviations*: none in the switching. After the declaration the vehicle goes home, unless the scenario asks for a
-//! survey of the declared place (see `strategy/survey`); the mission is completed at home. A rejected place sends it on with
-//! the search. A cage abort ends the mission at once.
+//! survey of the declared place (see `strategy/survey`); the mission is completed at home. After a rejected place the
+//! vehicle continues the search. A cage abort ends the mission at once.
 
 use super::super::spec::Strategy;
 use super::super::survey::{PostDeclaration, Progress};
 use super::spec::{AmpSpec, Detections};
+use crate::behave::{Behave, Stride};
 use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Lcdp, Observation, Outcome,
-    PlumeMemory, Stride, Verdict, Vertical, detects,
+    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, detects,
 };
+use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
 use std::sync::Arc;
 use world::seeds::Stream;
@@ -71,7 +72,7 @@ pub struct Amp {
 
 impl Amp {
     /// # Errors
-    /// [`RobotError::Invalid`] when a behaviour's parameters make no sense.
+    /// [`RobotError::Invalid`] if a behaviour's parameters make no sense.
     pub fn new(spec: &AmpSpec) -> Result<Self, RobotError> {
         spec.declare.check(spec.lost_points, spec.lcdps)?;
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
@@ -119,7 +120,7 @@ impl Amp {
         }
     }
 
-    /// The behaviour after one that came to its end without detection.
+    /// The next behaviour after one that ended without a detection.
     fn after_end(&self) -> Behaviour {
         match self.now {
             Behaviour::TrackIn => Behaviour::TrackOut,
@@ -139,7 +140,7 @@ impl Amp {
         }
     }
 
-    /// One step of the acting behaviour; true when it came to its end.
+    /// One step of the acting behaviour; true if it has ended.
     fn act(&mut self, seen: &Observation, arrived: bool, rng: &mut Stream) -> bool {
         let stride = match self.behaviours.get(self.now) {
             Some(behaviour) => behaviour.step(seen, arrived, &mut self.memory, rng),
@@ -148,7 +149,7 @@ impl Amp {
         self.ask(stride, self.vertical)
     }
 
-    /// What a behaviour asks for becomes the goal; true when it asks for nothing more.
+    /// Turns what a behaviour asks for into the goal; true if it asks for nothing more.
     fn ask(&mut self, stride: Stride, vertical: Vertical) -> bool {
         match stride {
             Stride::Start(manoeuvre) => {
@@ -166,7 +167,7 @@ impl Amp {
         false
     }
 
-    /// One step of the survey of a declared place: the declaration again when it is over.
+    /// One step of the survey of a declared place; at its end, the declaration again.
     fn survey(&mut self, seen: &Observation, arrived: bool) -> Option<Declaration> {
         match self.post.step(seen, arrived) {
             Progress::Go(stride) => {
@@ -222,11 +223,11 @@ impl Strategy for Amp {
             self.turn_to(next, seen);
         }
         let mut arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
-        // A behaviour that ends gives way within the tick; none but the empty ones end twice, so a
-        // handful of turns always suffices.
+        // A behaviour that ends is replaced within the tick. Only empty behaviours end twice, so a few turns are
+        // always enough.
         for _ in 0..4 {
             if self.now == Behaviour::Survey {
-                // What it comes to is begun within the tick.
+                // What follows begins within the tick.
                 declared = self.survey(seen, arrived).or(declared);
                 arrived = false;
                 if self.now == Behaviour::Survey {

@@ -1,4 +1,4 @@
-//! Pang's adaptive mission planner: what a scenario says of it, and its switching.
+//! Pang's adaptive mission planner: its parameters and its switching.
 
 mod machine;
 mod spec;

@@ -1,4 +1,4 @@
-//! What a scenario says about the adaptive mission planner.
+//! Parameters of the adaptive mission planner.
 
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
@@ -7,7 +7,8 @@ use super::machine::Amp;
 use crate::behave::{FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::{FixMove, LCDPS, Setting};
+use crate::handoff::Setting;
+use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -23,23 +24,25 @@ pub struct AmpSpec {
     pub speed_m_s: Positive,
     /// Altitude or depth (section 6: 2 m above the bed in the single-source mission).
     pub vertical: VerticalSpec,
-    /// Where to go first; the search begins at once without it.
+    /// Destination before the search; without it the search begins at once.
     pub start_at: Option<StartAt>,
-    /// Looking for the plume.
+    /// Search for the plume.
     pub find: FindSpec,
     /// In the plume.
     pub track_in: TrackInSpec,
-    /// Just out of it.
+    /// Just out of the plume.
     pub track_out: TrackOutSpec,
-    /// Round the points where it was lost.
+    /// Search around the points where the plume was lost.
     pub reacquire: ReacquireSpec,
-    /// When to declare.
+    /// The declaration rule.
     pub declare: DeclareSpec,
     /// Length of the lost-points list (section 5.3: 6).
     pub lost_points: NonZeroUsize,
-    /// Most last detection points that the SIZ rules look at; the oldest are forgotten (Tian et al. 2013 keep all: 1000).
+    /// Most last detection points for the SIZ rules; a full queue forgets the oldest (Tian et al. 2013 keep all:
+    /// 1000).
     pub lcdps: NonZeroUsize,
-    /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
+    /// What happens to lost points and last detection points when a navigation fix moves the vehicle (default: they
+    /// stay).
     pub fixes: FixMove,
     /// What follows the declaration.
     pub after_declaration: AfterDeclaration,
@@ -86,7 +89,7 @@ impl StrategyParams for AmpSpec {
     }
 }
 
-/// A place to go to before the search.
+/// A destination before the search.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartAt {
@@ -94,17 +97,17 @@ pub struct StartAt {
     pub east_m: Finite,
     /// North, m.
     pub north_m: Finite,
-    /// What detections on the way count.
+    /// Meaning of detections on the way.
     #[serde(default)]
     pub detections: Detections,
 }
 
-/// What detections count while going to the start.
+/// Meaning of detections on the way to the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Detections {
-    /// Nothing: the rule for transits (section 6).
+    /// They are ignored: the rule for transits (section 6).
     #[default]
     Ignored,
-    /// The first one begins the tracing, wherever it comes.
+    /// The first one starts the tracing, wherever it occurs.
     Heeded,
 }

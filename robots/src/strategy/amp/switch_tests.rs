@@ -1,4 +1,4 @@
-//! Fig. 5 edge by edge, with observations written by hand.
+//! The transitions of Fig. 5, one by one, with observations written by hand.
 
 use super::super::survey::AfterDeclaration;
 use super::{Amp, AmpSpec, Detections, StartAt};
@@ -11,7 +11,7 @@ use std::num::NonZeroUsize;
 use world::ranges::Finite;
 use world::seeds::Stream;
 
-/// A planner and the last goal it gave; flow to the south, so up-flow is north.
+/// A planner and its last goal; the flow goes south, so up-flow is north.
 struct Desk {
     amp: Amp,
     rng: Stream,
@@ -146,7 +146,7 @@ fn declares_at_the_end_of_track_out_only() {
     assert_eq!(declared.position, Vector2::new(0.0, 2.5));
     assert_eq!(declared.rule, "AlongFlow");
     assert_eq!(end.behaviour, Behaviour::GoHome);
-    // Declared once; detections do not matter any more; home ends the mission.
+    // Declared once; detections no longer matter; reaching home ends the mission.
     let home = d.smell(10.0);
     assert_eq!((home.behaviour, home.declared), (Behaviour::GoHome, None));
     assert_eq!(home.outcome, None);

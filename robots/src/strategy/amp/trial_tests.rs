@@ -1,7 +1,7 @@
 //! The whole planner with the real guidance, on a point vehicle in a made-up plume.
 //!
-//! The plume: flow to the south-south-east, a meandering centre line, a width growing with the root of the
-//! distance, patches of 2 s that are there or not (60 %). The vehicle: 10 deg/s, its commands at once.
+//! The plume: flow to the south-south-east, a meandering centre line, a width that grows with the root of the
+//! distance, patches of 2 s that are present or not (60 %). The vehicle: 10 deg/s; it follows commands at once.
 
 use super::{Amp, AmpSpec};
 use crate::guide::{Guidance, GuidanceSpec};
@@ -22,7 +22,7 @@ fn flow() -> Vector2<f64> {
     Heading::from_deg(160.0).unit() * 0.15
 }
 
-/// In the plume's width at this place and time.
+/// Whether this place is within the plume's width at this time.
 fn in_width(p: Vector2<f64>, t_s: f64) -> bool {
     let down = flow().normalize();
     let across = Heading::of(down).turned(FRAC_PI_2).unit();
@@ -43,7 +43,7 @@ struct Report {
     farthest_outside_m: f64,
 }
 
-/// One run; every 30 s a fix moves the believed position by some `fix_m` on each axis.
+/// One run; every 30 s a fix moves the believed position by some `fix_m` in each axis.
 fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
     let mut amp = Amp::new(&AmpSpec::default()).expect("defaults are legal");
     let mut guidance = Guidance::new(&GuidanceSpec::default());
@@ -69,7 +69,7 @@ fn run(seed: u64, plume: bool, limit_s: f64, fix_m: f64) -> Report {
         if tick.is_multiple_of(20) {
             patch = patches.uniform() < 0.6;
         }
-        // Flow known from 5 s on, its direction with an error of some 6 degrees.
+        // The flow is known from 5 s on; its direction has an error of some 6 degrees.
         if tick >= 50 && tick.is_multiple_of(10) {
             let velocity = flow() + Vector2::new(noise.normal(), noise.normal()) * 0.015;
             o.estimate.flow = Some(crate::handoff::FlowEstimate {
@@ -147,7 +147,7 @@ fn without_a_plume_it_searches_on_inside() {
 proptest! {
     #![proptest_config(fixed(8))]
 
-    // Whatever patches and fixes do, the planner ends no mission by leaving the area.
+    // With any patches and fixes, the planner never ends a mission by leaving the area.
     #[test]
     fn never_aborts_by_itself(seed in 0u64..1_000_000) {
         let r = run(seed, true, 1500.0, 5.0);

@@ -1,22 +1,23 @@
-//! What map and plan will hold and do; the unit costs are measured as `world::cost` says.
+//! Predicts the memory and time of map and plan; the unit costs are measured as `world::cost` says.
 
 use super::spec::MapAndPlanSpec;
 use world::area::Area;
 use world::cost::{Cost, Part, Times};
 
-/// Memory of a cell of a planner's room with the planner's own, bytes; time to chart it, and for each obstacle, s.
+/// Memory of a cell of a planner's room, with the planner's own, bytes; time to chart a cell, and for each obstacle,
+/// s.
 const CELL_BYTES: f64 = 60.0;
 /// See above.
 const CHART_S: [f64; 2] = [50e-9, 100e-9];
 /// Memory of a cell's distance from a solid one, bytes.
 const NEAR_BYTES: f64 = 16.0;
-/// Time of a plan for each cell of the room, s: most plans open a small part of it.
+/// Time of a plan per cell of the room, s: most plans open a small part of it.
 const PLAN_S: f64 = 8e-9;
-/// Time of a step looking ahead on a few courses, s.
+/// Time for a step of looking ahead on a few courses, s.
 const LOOK_S: f64 = 120e-9;
 
 impl MapAndPlanSpec {
-    /// What it takes; paths below `strategy`.
+    /// Its memory and time; paths below `strategy`.
     pub(super) fn work(&self, area: &Area, depth_m: f64, obstacles: usize, times: &Times) -> Cost {
         let (counts, sides_m) = self.room.counts(area, depth_m);
         let cells: f64 = counts.iter().product();
@@ -36,7 +37,7 @@ impl MapAndPlanSpec {
         let round: f64 = (0..3).map(near).product();
         let kept = Part::new(
             format!("planner.{field}"),
-            format!("{round:.1e} cells that a solid one is near to"),
+            format!("{round:.1e} cells within reach of a solid one"),
         );
         cost.parts.push(kept.holds(round * NEAR_BYTES));
         let narrowest_m = sides_m.iter().copied().fold(f64::INFINITY, f64::min);
@@ -44,9 +45,12 @@ impl MapAndPlanSpec {
         cost.add(self.planner.cost(way_m, plans).under("planner"));
         if let Some(evade) = &self.evade {
             let steps = 2.0 * evade.look_m.get().min(area.length_m + area.width_m) / narrowest_m;
-            let part = Part::new("evade.look_m", format!("{steps:.1e} steps looked ahead"))
-                .takes(times.mission_s / times.step_s * steps * LOOK_S)
-                .by(evade.look_m.get(), 1.0);
+            let part = Part::new(
+                "evade.look_m",
+                format!("{steps:.1e} steps of looking ahead"),
+            )
+            .takes(times.mission_s / times.step_s * steps * LOOK_S)
+            .by(evade.look_m.get(), 1.0);
             cost.parts.push(part);
         }
         cost

@@ -1,12 +1,14 @@
-//! What keeps the vehicle off solids that its path takes it too near to, and frees it from one it ran into.
+//! Keeps the vehicle away from solids that its path passes too closely, and frees it from one that it ran into.
 //!
-//! *Source*: dynamic window, Fox, Burgard & Thrun 1997, IEEE Robot. Autom. Mag. 4, 23: of the motions that the vehicle can
-//! make, those that end in a collision are not allowed, and of the others the one nearest to what was wished is taken.
+//! *Source*: dynamic window, Fox, Burgard & Thrun 1997, IEEE Robot. Autom. Mag. 4, 23: of the motions that the
+//! vehicle can make, those that end in a collision are excluded, and of the others the one nearest to the wish is
+//! taken.
 //!
-//! *Parameters*: turning radius, m; distance looked ahead, m; time for which it backs off, s, and propeller speed, rpm.
+//! *Parameters*: turning radius, m; distance looked ahead, m; time for which it backs off, s, and propeller speed,
+//! rpm.
 //!
 //! *Deviations*: the motions are turns on the turning circle to a course, then straight on; speed is not chosen. A
-//! vehicle that does not move though it is asked to backs off: a torpedo's propeller astern, rudder amidships.
+//! vehicle that does not move although it should backs off: propeller astern, rudder amidships.
 
 use crate::handoff::{Manoeuvre, Observation};
 use crate::plan::Room;
@@ -16,9 +18,9 @@ use serde::{Deserialize, Serialize};
 use world::ranges::{NonNegative, Positive};
 use world::units::Heading;
 
-/// Courses are tried in steps of this, on both sides of the one wished for, rad.
+/// Courses are tried in steps of this, on both sides of the wanted one, rad.
 const STEP_RAD: f64 = std::f64::consts::PI / 12.0;
-/// Slower than this over ground, m/s, for this long, s, it is held fast.
+/// A vehicle slower than this over ground, m/s, for this long, s, is held by something.
 const HELD: (f64, f64) = (0.25, 3.0);
 
 /// Parameters.
@@ -33,9 +35,9 @@ pub struct EvadeSpec {
     #[serde(deserialize_with = "world::limits::look_m")]
     #[schemars(transform = world::limits::schema::look_m)]
     pub look_m: Positive,
-    /// How long it backs off when held fast, s.
+    /// How long it backs off when it is held, s.
     pub back_s: NonNegative,
-    /// Speed of the propeller then, astern, rpm.
+    /// Propeller speed while backing off, astern, rpm.
     #[serde(deserialize_with = "world::limits::rpm_limit")]
     #[schemars(transform = world::limits::schema::rpm_limit)]
     pub back_rpm: Positive,
@@ -76,8 +78,8 @@ impl Evade {
         self.spec.turn_radius_m.get()
     }
 
-    /// The course nearest to `wish` that runs into nothing for as far as it looks, from `at` (ENU, m) moving along `heading`;
-    /// where all do, the one that does so last.
+    /// The course nearest to `wish` that is free as far as it looks, from `at` (ENU, m) moving along `heading`; if
+    /// none is free, the one that is free for longest.
     pub(super) fn course(
         &self,
         room: &Room,
@@ -102,7 +104,7 @@ impl Evade {
         best.1
     }
 
-    /// How far it looks: no farther than it takes to turn round and leave the room.
+    /// How far it looks, m: no farther than the vehicle needs to turn round and leave the room.
     fn look_m(&self, room: &Room) -> f64 {
         let g = room.lattice();
         let across_m: f64 = (0..2).map(|a| g.n[a] as f64 * g.cell_m[a]).sum();
@@ -110,7 +112,7 @@ impl Evade {
         self.spec.look_m.get().min(across_m + round_m)
     }
 
-    /// How far it comes, turning to a course and then straight on, at most as far as it looks, m.
+    /// How far the vehicle gets, turning to a course and then going straight on, m; at most as far as it looks.
     fn free_m(
         &self,
         room: &Room,
@@ -120,7 +122,7 @@ impl Evade {
         look_m: f64,
     ) -> f64 {
         let clear_m = |p: &Vector3<f64>| room.clearance_m(room.nearest_cell(p));
-        // Where it is too near already it may come no nearer.
+        // Where it is already too near, it may come no nearer.
         let least_m = self.hull_m.min(clear_m(at));
         let step_m = 0.5 * room.narrowest_m();
         let most = step_m / self.spec.turn_radius_m.get();
@@ -138,7 +140,7 @@ impl Evade {
         far_m
     }
 
-    /// Backing off, where it is held fast.
+    /// Backs off if the vehicle is held.
     pub(super) fn back(&mut self, seen: &Observation) -> Option<Manoeuvre> {
         let (slowest_m_s, for_s) = HELD;
         let t_s = seen.t_s;
@@ -183,7 +185,7 @@ mod tests {
         let pile = vec![block("p", 40.5, 40.0, [3.0, 3.0, 8.0])];
         let r = room([80, 80, 1], [1.0; 3], pile);
         let (mut p, mut h, mut nearest) = (at(40.0, 15.0), north, f64::INFINITY);
-        // A vehicle that turns no tighter than its circle, and wants straight on.
+        // A vehicle that turns no tighter than its circle, and wants to go straight on.
         for _ in 0..400 {
             let course = evade().course(&r, &p, h, north);
             let most = 0.1 / 12.0;
@@ -192,7 +194,7 @@ mod tests {
             p += Vector3::new(d.x, d.y, 0.0);
             nearest = f64::min(nearest, r.clearance_m(r.nearest_cell(&p)));
         }
-        // No nearer than the hull, but for the half of a cell by which a middle is not where the vehicle is.
+        // No nearer than the hull, except for half a cell, the distance of the vehicle from its cell's middle.
         assert!(
             nearest >= 0.8 - r.half_diagonal_m() && p.y > 48.0,
             "{nearest} {p}"
@@ -202,7 +204,7 @@ mod tests {
     #[test]
     fn before_a_wall_it_turns_to_the_side_where_there_is_room() {
         let north = Heading::from_deg(0.0);
-        // A corner: a wall ahead and one on the left.
+        // A corner: a wall ahead and another one on the left.
         let walls = vec![
             block("n", 40.0, 60.0, [80.0, 4.0, 8.0]),
             block("w", 30.0, 40.0, [4.0, 40.0, 8.0]),

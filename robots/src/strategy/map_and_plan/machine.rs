@@ -1,33 +1,38 @@
-//! Map and plan: zig-zag to the first detection, then along planned paths to where the map has the source, until a rule declares.
+//! Map and plan: zig-zag to the first detection, then planned paths to the likeliest source in the map, until a rule
+//! declares.
 //!
 //! *Source*: Wang & Pang, section II-A, Fig. 1.
 //!
 //! *Parameters*: see [`MapAndPlanSpec`].
 //!
-//! *Deviations*: the paper's zig-zag knows no obstacle; here a leg that runs into one is led round it by the planner, to
-//! where the leg is free again. What the vehicle does at the target while the map still wavers is not said there: see
-//! [`AtTarget`]. A cell that is solid through and through is no target: the paper's map does not know of obstacles. The map is the robot's own (`map` in the scenario); without one the strategy is refused.
+//! *Deviations*: the paper's zig-zag knows no obstacle; here the planner leads around an obstacle on a leg, to the
+//! place where the leg is free again. The paper does not say what the vehicle does at the target while the map still
+//! changes: see [`AtTarget`]. A cell that is solid throughout is no target: the paper's map does not know of
+//! obstacles. The map is the robot's own (`map` in the scenario); the strategy is refused if there is none.
 
 use super::super::spec::Strategy;
 use super::super::survey::AfterDeclaration;
 use super::pilot::Pilot;
 use super::spec::{AtTarget, MapAndPlanSpec};
+use crate::behave::{Behave, Stride};
 use crate::declare::BeliefRule;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome,
-    PlumeMemory, Setting, Stride, Vertical,
+    Behaviour, Belief, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting,
+    Vertical,
 };
+use crate::memory::PlumeMemory;
+use crate::plan::Revision;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use world::seeds::Stream;
 use world::units::Heading;
 
-/// A leg of the search is looked along this far, m: two turning circles of 12 m and a margin.
+/// A leg of the search is checked this far ahead, m: two turning circles of 12 m and a margin.
 const LOOK_M: f64 = 30.0;
-/// Step in looking for where a leg is free again, m, and how long it must then be.
+/// Step of the search for the place where a leg is free again, m, and for how far it must then be free, m.
 const BEYOND: (f64, f64) = (1.0, 6.0);
-/// Home is reached within this distance, m.
+/// Home counts as reached within this distance, m.
 const HOME_M: f64 = 10.0;
 
 /// State of the strategy.
@@ -47,32 +52,33 @@ pub struct MapAndPlan {
     goal: Goal,
     /// The leg that the search asks for.
     leg: Option<Manoeuvre>,
-    /// Where a leg round an obstacle leads.
+    /// Where a leg around an obstacle leads.
     detour: Option<Vector3<f64>>,
-    /// The cell aimed at, and which of the places round it (0: itself).
+    /// The target cell, and which of the places near it (0: the cell itself).
     aim: Option<(usize, u32)>,
-    /// Whether a cell must be visited before it is declared, and the one visited last.
+    /// Whether a cell must be visited before it is declared, and the last visited cell.
     visit_first: bool,
     visited: Option<usize>,
-    /// The likeliest cell that is not wholly solid, and of which state of map and room.
-    likeliest: Option<((u64, u64), usize)>,
+    /// The likeliest cell that is not wholly solid, and the state of map and room for which it was found.
+    likeliest: Option<((u64, Revision), usize)>,
     outcome: Option<Outcome>,
 }
 
 impl MapAndPlan {
     /// # Errors
-    /// [`RobotError::Invalid`] when the robot keeps no map, or parameters contradict each other.
+    /// [`RobotError::Invalid`] if the robot keeps no map, or if parameters contradict each other.
     pub fn new(spec: &MapAndPlanSpec, setting: &Setting) -> Result<Self, RobotError> {
         if !setting.maps {
             return Err(RobotError::Invalid {
                 field: "strategy".into(),
-                problem: "MapAndPlan goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Pomdp()".into(),
+                problem: "MapAndPlan needs a source map, and the robot has none; add one, for example map: \
+                    Pomdp()".into(),
             });
         }
         if matches!(spec.after_declaration, AfterDeclaration::Survey(_)) {
             return Err(RobotError::Invalid {
                 field: "strategy.after_declaration".into(),
-                problem: "MapAndPlan flies no survey: GoHome or Stop".into(),
+                problem: "MapAndPlan flies no survey; use GoHome or Stop".into(),
             });
         }
         let (speed_m_s, vertical) = (spec.speed_m_s.get(), spec.vertical.into());
@@ -121,7 +127,7 @@ impl MapAndPlan {
         };
     }
 
-    /// Along a planned path towards `wish`; true at its end.
+    /// Moves along a planned path towards `wish`; true at its end.
     fn towards(&mut self, seen: &Observation, wish: Vector3<f64>) -> bool {
         let s = self.pilot.steer(seen, wish);
         let course = Manoeuvre::Course { course: s.course };
@@ -156,7 +162,7 @@ impl MapAndPlan {
         }
     }
 
-    /// A leg of the search, round what stands in its way.
+    /// Follows a leg of the search, around obstacles on it.
     fn along(&mut self, seen: &Observation, course: Heading) {
         if self.detour.is_none() {
             self.detour = self.way_round(seen, course);
@@ -176,7 +182,7 @@ impl MapAndPlan {
         }
     }
 
-    /// Where a leg that runs into something is free again; `None` when it runs into nothing near.
+    /// The place where a leg is free again after an obstacle; `None` if there is no obstacle near.
     fn way_round(&self, seen: &Observation, course: Heading) -> Option<Vector3<f64>> {
         let (at, room) = (seen.estimate.p_WB(), self.pilot.room());
         let u = course.unit();
@@ -201,15 +207,15 @@ impl MapAndPlan {
             .map(|k| first + f64::from(k) * step)
             .take_while(|m| inside(*m + free_m))
             .find(|m| !closed(*m, m + free_m));
-        // Where the leg is closed up to the edge it is led back along its mirror image.
+        // If the leg is closed up to the edge, it continues along its mirror image.
         beyond.map(|m| on(m + free_m)).or_else(|| {
             let back = seen.estimate.attitude.heading.opposite().unit() * LOOK_M;
-            let p = crate::handoff::inside(&seen.area, at.xy() + back, LOOK_M / 2.0);
+            let p = crate::places::inside(&seen.area, at.xy() + back, LOOK_M / 2.0);
             Some(Vector3::new(p.x, p.y, at.z))
         })
     }
 
-    /// Towards the likeliest cell, and what is to be done there.
+    /// Moves towards the likeliest cell, and does there what `at_target` says.
     fn trace(&mut self, seen: &Observation, belief: &Belief) {
         let place = match self.aim {
             Some((cell, place)) if cell == belief.best => place,
@@ -229,7 +235,7 @@ impl MapAndPlan {
         }
     }
 
-    /// The target, or one of the two places down-flow of it between which the plume is crossed.
+    /// The target, or one of the two places down-flow of it between which the vehicle crosses the plume.
     fn wish(&self, belief: &Belief, place: u32) -> Vector3<f64> {
         let mut p = belief.grid.centre(belief.best);
         if belief.grid.n[2] == 1 {
@@ -244,12 +250,13 @@ impl MapAndPlan {
         p
     }
 
-    /// What the map says, the likeliest cell taken among those that are not wholly solid: there is no source in those.
+    /// The map's belief. The likeliest cell is taken among those that are not wholly solid, because those hold no
+    /// source.
     fn informed(&mut self, seen: &Observation) -> Option<Belief> {
         let belief = seen.belief.as_ref().filter(|b| b.informed)?;
-        let key = (belief.updates, self.pilot.room().revision());
-        let best = match self.likeliest {
-            Some((of, best)) if of == key => best,
+        let key = (belief.updates, self.pilot.room().revision().clone());
+        let best = match &self.likeliest {
+            Some((of, best)) if *of == key => *best,
             _ => {
                 let free = |cell: &usize| !self.pilot.in_solid(&belief.grid, *cell);
                 let likelier =

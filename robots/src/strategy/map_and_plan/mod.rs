@@ -1,4 +1,4 @@
-//! Map and plan: a map of the source, a planner that leads to its likeliest cell, a rule that declares.
+//! Map and plan: a source map, a planner that leads to its likeliest cell, a rule that declares.
 
 mod cost;
 mod evade;

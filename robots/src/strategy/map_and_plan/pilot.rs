@@ -1,36 +1,36 @@
-//! What leads the vehicle through its room: keeps the obstacle map, plans, plans anew, follows.
+//! Leads the vehicle through its room: keeps the obstacle map, plans, plans again, and follows the path.
 //!
 //! *Source*: Wang & Pang, section II-D: the path is planned again when its target moves, and followed until then.
 //!
 //! *Parameters*: see [`MapAndPlanSpec`].
 //!
-//! *Deviations*: a new plan is made as well when what was sensed since closes the path ahead, when the vehicle is off it,
-//! and when its end was reached and the target is not there. An echo counts for an obstacle unless the chart
-//! has the bed there; in a room of the plane only nearly level beams say anything about its cells.
+//! *Deviations*: there is also a new plan if newly sensed obstacles close the path ahead, if the vehicle is off the
+//! path, and if the path's end was reached and the target is elsewhere. An echo counts as an obstacle unless the
+//! chart has the bed there; in a room of the plane, only nearly level beams tell anything about its cells.
 
 use super::evade::Evade;
 use super::spec::MapAndPlanSpec;
 use crate::error::RobotError;
 use crate::handoff::{BeliefGrid, Estimate, Manoeuvre, Observation, RangeScan, Setting, Vertical};
-use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Room};
+use crate::plan::{Follow, From, NoPath, Path, Planner, Reach, Revision, Room};
 use crate::strategy::spec::StrategyParams;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::sync::Arc;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-/// An echo this near to the charted bed, m, is the bed's.
+/// An echo this near to the charted bed counts as the bed, m.
 const BED_M: f64 = 1.0;
-/// Beams steeper than this (sine) are not looked at in a room of the plane.
+/// Beams steeper than this (sine) are ignored in a room of the plane.
 const STEEPEST: f64 = 0.2;
-/// Slower than this over ground the nose is taken for the course, m/s.
+/// At a slower speed over ground than this, the heading stands for the course, m/s.
 const SLOWEST_M_S: f64 = 0.2;
-/// A path with less than this left has been followed to its end, m.
+/// A path with less than this left counts as finished, m.
 const END_M: f64 = 0.5;
-/// A wish that moved by less than this is the same, m.
+/// A destination that moved by less than this is the same, m.
 const SAME_M: f64 = 1e-3;
 
-/// What to steer now.
+/// What the vehicle must steer now.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Steering {
     pub(super) course: Heading,
@@ -55,7 +55,7 @@ pub(super) struct Pilot {
     follow: Option<Follow>,
     reach: Option<Reach>,
     wish: Vector3<f64>,
-    revision: u64,
+    revision: Revision,
     planned_s: f64,
     evade: Option<Evade>,
 }
@@ -67,7 +67,7 @@ impl Pilot {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.planner.AStar.cost".into(),
                 problem:
-                    "the paper's costs are for a room of the plane; take Metric, or room: Plane()"
+                    "the paper's costs are for a room of the plane; use Metric, or room: Plane()"
                         .into(),
             });
         }
@@ -86,7 +86,7 @@ impl Pilot {
             });
         }
         Ok(Self {
-            revision: room.revision(),
+            revision: room.revision().clone(),
             room,
             planner,
             bed: setting.bed.clone(),
@@ -102,7 +102,7 @@ impl Pilot {
         })
     }
 
-    /// Takes a ping into the map of obstacles.
+    /// Adds a ping to the map of obstacles.
     pub(super) fn sense(&mut self, seen: &Observation) {
         let Some(scan) = &seen.ranging else { return };
         let at = seen.estimate.p_WB();
@@ -174,12 +174,12 @@ impl Pilot {
         self.follow = None;
     }
 
-    /// Height at which the vehicle moves over a place (east, north) without a path in space, z, m.
+    /// Height at which the vehicle moves over a place (east, north) if it has no path in space, z, m.
     pub(super) fn level(&self, x: f64, y: f64) -> f64 {
         level(self.vertical, &self.bed, x, y)
     }
 
-    /// What to steer to come to `wish` (ENU, m).
+    /// What to steer to reach `wish` (ENU, m).
     pub(super) fn steer(&mut self, seen: &Observation, wish: Vector3<f64>) -> Steering {
         let at = seen.estimate.p_WB();
         let mut steer = self.follow.as_mut().map(|f| f.step(&at));
@@ -197,7 +197,7 @@ impl Pilot {
                 .planner
                 .plan(&self.room, &start, &wish)
                 .unwrap_or_else(|full| {
-                    // What was sensed since the start of the mission fills the whole room: go for the wish itself.
+                    // What was sensed fills the whole room: steer for the destination itself.
                     let NoPath::Full = full;
                     Path {
                         points: vec![at, wish],
@@ -212,11 +212,12 @@ impl Pilot {
             self.reach = Some(path.reach);
             self.wish = wish;
             self.planned_s = seen.t_s;
-            self.revision = self.room.revision();
+            self.revision = self.room.revision().clone();
         }
-        let steer = steer.expect("a path was just made where there was none");
+        let steer = steer.expect("there is a path: it was just planned if there was none");
         let course = self.clear(&seen.estimate, steer.course);
-        // What lies within the turning circle and cannot be made for without running aground is not reached any better.
+        // A destination within the turning circle that cannot be approached without a collision will not be reached
+        // any better.
         let near = (wish - at).xy().norm() < self.evade.as_ref().map_or(0.0, Evade::turn_radius_m);
         let turned_away = near && course != steer.course;
         Steering {
@@ -227,7 +228,7 @@ impl Pilot {
         }
     }
 
-    /// The course nearest to `wish` that runs into nothing.
+    /// The course nearest to `wish` that is free.
     pub(super) fn clear(&self, est: &Estimate, wish: Heading) -> Heading {
         let evade = self.evade.as_ref();
         evade.map_or(wish, |e| {
@@ -235,19 +236,19 @@ impl Pilot {
         })
     }
 
-    /// Backing off, where something holds the vehicle.
+    /// Backs off if something holds the vehicle.
     pub(super) fn back(&mut self, seen: &Observation) -> Option<Manoeuvre> {
         let back = self.evade.as_mut()?.back(seen)?;
         self.follow = None;
         Some(back)
     }
 
-    /// What was sensed since the plan closes the path ahead.
+    /// Whether obstacles sensed since the plan close the path ahead.
     fn closed(&mut self) -> bool {
-        if self.room.revision() == self.revision {
+        if *self.room.revision() == self.revision {
             return false;
         }
-        self.revision = self.room.revision();
+        self.revision = self.room.revision().clone();
         self.follow.as_ref().is_some_and(|f| {
             let rest = f.rest();
             !rest.windows(2).all(|w| self.room.line_free(&w[0], &w[1]))

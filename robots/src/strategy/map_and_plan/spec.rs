@@ -1,4 +1,4 @@
-//! What a scenario says about map and plan.
+//! Parameters of map and plan.
 
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::AfterDeclaration;
@@ -21,44 +21,44 @@ use world::registry::Listed;
 
 /// Most cells of a planner's room.
 const MOST_CELLS: f64 = 4e6;
-/// Longest side of a cell over its shortest: what a search sorts its cells by grows with it.
+/// Greatest ratio of a cell's sides: the search's buckets grow with it.
 const FLATTEST: f64 = 100.0;
 
-/// Composition and parameters; a default with a section is the paper's (Wang & Pang), others are ours.
+/// Composition and parameters. A default with a section number is the paper's (Wang & Pang); the others are ours.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MapAndPlanSpec {
     /// Speed over ground, m/s (section III-B: 2).
     pub speed_m_s: Positive,
-    /// Altitude or depth; in a room of space as long as there is no path.
+    /// Altitude or depth; in a room of space, it holds only while there is no path.
     pub vertical: VerticalSpec,
-    /// Looking for the plume until the first detection (section II-A: zig-zag).
+    /// Search for the plume until the first detection (section II-A: zig-zag).
     pub find: FindSpec,
-    /// Cells the planner plans over.
+    /// Cells of the planner.
     pub room: RoomSpec,
     /// The planner.
     pub planner: PlannerSpec,
-    /// When to declare.
+    /// The declaration rule.
     pub declare: BeliefRuleSpec,
-    /// A cell is declared only after the vehicle has been there, or as near as can be reached; the paper does not ask for
-    /// it, but its vehicle is never under way for as long as the map must stay unchanged.
+    /// Declare a cell only after the vehicle has been there, or as near as it can get. The paper does not ask for
+    /// this, but its vehicle is always on its way for longer than the map must stay unchanged.
     pub visit_first: bool,
-    /// What to do where the source is believed, until it is declared or believed elsewhere.
+    /// What to do at the believed source, until it is declared or believed elsewhere.
     pub at_target: AtTarget,
     /// What follows the declaration.
     pub after_declaration: AfterDeclaration,
-    /// Hull's radius with a margin for navigation and for swinging wide, m.
+    /// Hull radius with a margin for navigation and for wide turns, m.
     pub hull_m: NonNegative,
-    /// The path is steered to this far ahead, m.
+    /// The vehicle steers to a point of the path this far ahead, m.
     pub look_ahead_m: Positive,
     /// A place counts as reached within this distance, m.
     pub arrive_m: Positive,
-    /// A path is planned anew when the vehicle is farther off it than this, m.
+    /// The path is planned again when the vehicle is farther from it than this, m.
     pub replan_off_m: Positive,
     /// Least time between two plans, s.
     pub replan_s: NonNegative,
-    /// Keeps off solids that the path leads too near to for the vehicle's turning circle, and backs off from one that holds
-    /// the vehicle; without it the path is followed whatever lies beside it.
+    /// Keeps away from solids that the path passes too closely for the vehicle's turning circle, and backs off from
+    /// one that holds the vehicle. Without it the vehicle follows the path whatever lies beside it.
     pub evade: Option<EvadeSpec>,
 }
 
@@ -159,10 +159,10 @@ impl Default for SpaceSpec {
 }
 
 impl RoomSpec {
-    /// The cells: whole ones that cover the area, their sides made a little smaller to fit.
+    /// The cells: whole cells that cover the area; their sides are made a little smaller to fit.
     ///
     /// # Errors
-    /// When they would be too many.
+    /// If there would be too many.
     pub(super) fn cells(&self, setting: &Setting) -> Result<BeliefGrid, RobotError> {
         let (counts, _) = self.counts(&setting.area, setting.bed.deepest_m());
         let depth_m = if self.plane() {
@@ -171,12 +171,12 @@ impl RoomSpec {
             setting.bed.deepest_m()
         };
         let all: f64 = counts.iter().product();
-        // What is not a number is too much.
+        // Written so that it also refuses a number that is not finite.
         if !(all <= MOST_CELLS) {
             return Err(RobotError::Invalid {
                 field: "strategy.MapAndPlan.room".into(),
                 problem: format!(
-                    "its cells would be {all:.0}, at most {MOST_CELLS:.0} are possible; make them larger"
+                    "would have {all:.0} cells; at most {MOST_CELLS:.0} are possible: make them larger"
                 ),
             });
         }
@@ -198,7 +198,7 @@ impl RoomSpec {
         Ok(cells)
     }
 
-    /// Cells along, across and upwards, and their sides as they are wanted, m.
+    /// Number of cells along, across and upwards, and their wanted sides, m.
     pub(super) fn counts(&self, area: &Area, depth_m: f64) -> ([f64; 3], [f64; 3]) {
         let (sides_m, depth_m) = match self {
             RoomSpec::Plane(p) => ([p.cell_m.0, p.cell_m.1, Positive::new(1.0)], 1.0),
@@ -219,10 +219,11 @@ impl RoomSpec {
 /// What to do at the target.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum AtTarget {
-    /// Steer for it again and again, which circles round it (section III-B: the heading is always that to the target).
+    /// Steer for it again and again, which leads to circles around it (section III-B: the heading is always that to
+    /// the target).
     #[default]
     Circle,
-    /// Cross the water down-flow of it, from side to side.
+    /// Cross the water down-flow of it, from one side to the other.
     Cross(CrossSpec),
 }
 

@@ -1,4 +1,4 @@
-//! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, its map written by hand.
+//! Tests of map and plan: a point vehicle of 2 m/s and 10 °/s in a world of blocks, with a map written by hand.
 
 use super::super::spec::{Strategy, VerticalSpec};
 use super::super::survey::AfterDeclaration;
@@ -47,7 +47,7 @@ fn spec() -> MapAndPlanSpec {
     }
 }
 
-/// A map that has the source in the cell of a point.
+/// A map whose source is in the cell of a point.
 fn belief(at: Vector3<f64>, updates: u64) -> Belief {
     let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 1]);
     let best = grid.cell(&at).expect("inside");
@@ -149,7 +149,7 @@ impl Drive {
         d
     }
 
-    /// Until it is over, or for so long; the least distance to a place on the way.
+    /// Runs until it is over, or for so long; returns the least distance to a place on the way.
     fn run(&mut self, for_s: f64, to: [f64; 2]) -> (Decision, f64) {
         let to = Vector2::new(to[0], to[1]);
         let mut closest = f64::INFINITY;
@@ -317,7 +317,7 @@ fn goes_up_and_down_in_a_room_of_space() {
         hull_m: NonNegative::new(0.5),
         ..spec()
     };
-    // A sill from side to side, 4 m high on a bed 8 m down.
+    // A sill from side to side, 4 m high on a bed 8 m deep.
     let sill = || vec![block("sill", 50.0, 50.0, [6.0, 100.0, 3.0])];
     let mut d = Drive::new(&spec, sill(), sill(), [90.0, 50.0], 270.0);
     let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 4]);
@@ -353,7 +353,7 @@ fn impossible_missions_are_refused() {
         maps: false,
         ..setting(vec![])
     };
-    assert!(says(&spec(), &blind).contains("give it one, as in map: Pomdp()"));
+    assert!(says(&spec(), &blind).contains("add one, for example map: Pomdp()"));
     let full = setting(vec![block("b", 50.0, 50.0, [300.0, 300.0, 8.0])]);
     assert!(says(&spec(), &full).contains("no cell of the planner's room is free"));
     let tiny = world::ranges::Positive::new(0.01);

@@ -1,18 +1,18 @@
 //! Whether a plume was traced to the up-flow edge of a region, and where it crosses that edge.
 //!
-//! *Source*: Pang 2009, section 6: "a source will be declared at the intersection of the plume with the upper edge
-//! of the subregion".
+//! *Source*: Pang 2009, section 6: "a source will be declared at the intersection of the plume with the upper edge of
+//! the subregion".
 //!
-//! *Parameters*: see [`EdgeSpec`](super::EdgeSpec). `within_m` 20: points to pass the plume at are held 10 m inside a
-//! region and count as reached 10 m short of that (R of Table 4), so that tracing ends there of itself. `plume_s` 10:
-//! two times λ of Table 4, long enough to hold both sides of a counter-turn. Neither is printed.
+//! *Parameters*: see [`EdgeSpec`](super::EdgeSpec). `within_m` 20: destinations are held 10 m inside a region and
+//! count as reached 10 m before that (R of Table 4), so that tracing ends there by itself. `plume_s` 10: twice λ of
+//! Table 4, long enough to hold both sides of a counter-turn. The paper prints neither.
 //!
-//! *Deviations*: the paper does not say how the plume's course is found: here the mean place of the newest
-//! detections, carried up-flow. The up-flow edge is the one that faces the flow most; a plume that comes in through
-//! another edge is followed across it, and crosses the up-flow edge's line outside the region: the nearest place on
-//! the edge itself is then taken.
+//! *Deviations*: the paper does not say how the plume's course is found. Here it is the mean place of the newest
+//! detections, extended up-flow. The up-flow edge is the one that faces the flow most. A plume that comes in through
+//! another edge is followed across it, and crosses the line of the up-flow edge outside the region: then the nearest
+//! place on the edge itself is taken.
 
-use crate::handoff::edges;
+use crate::places::edges;
 use nalgebra::Vector2;
 use std::collections::VecDeque;
 use world::area::Area;
@@ -37,7 +37,7 @@ impl Plume {
         self.newest.clear();
     }
 
-    /// Takes in a detection at a believed place and gives the plume's mean place.
+    /// Takes in a detection at a believed place; returns the plume's mean place.
     pub(super) fn note(&mut self, t_s: f64, place: Vector2<f64>) -> Vector2<f64> {
         self.newest.push_back((t_s, place));
         self.newest.retain(|(t, _)| t_s - t <= self.window_s);
@@ -62,7 +62,7 @@ pub(super) fn crossing(
     if from_edge_m >= within_m {
         return None;
     }
-    // At least one of four edges faces the flow within 45 degrees: the division is safe.
+    // At least one of the four edges faces the flow within 45 degrees, so the division is safe.
     let to_edge_m = from_edge_m - (plume - detection).dot(&normal);
     let on_line = region.local(plume + up * (to_edge_m / normal.dot(&up)));
     let (l, w) = (region.length_m / 2.0, region.width_m / 2.0);
@@ -96,16 +96,16 @@ mod tests {
             (c - at(100.0 - 22.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
             "{c}"
         );
-        // Beyond the edge: carried back to it.
+        // Beyond the edge: moved back to it.
         let c = crossing(&r, up, at(90.0, 160.0), at(90.0, 155.0), 20.0).expect("beyond");
         assert!(
             (c - at(90.0 + 5.0 * 0.577_350_3, 150.0)).norm() < 1e-4,
             "{c}"
         );
-        // Past the edge's end: its end.
+        // Beyond the edge's end: its end.
         let c = crossing(&r, up, at(61.0, 140.0), at(61.0, 140.0), 20.0).expect("10 m off");
         assert!((c - at(60.0, 150.0)).norm() < 1e-9, "{c}");
-        // The side edges are no up-flow edges.
+        // The side edges are not up-flow edges.
         assert_eq!(crossing(&r, up, at(50.0, 50.0), at(50.0, 50.0), 20.0), None);
     }
 

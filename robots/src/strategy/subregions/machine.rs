@@ -1,14 +1,15 @@
-//! Searches one subregion after the other: declared in, traced to its up-flow edge, or timed out, then on to the next.
+//! Searches the subregions one after the other. The search of a subregion ends with a declaration, with a plume
+//! traced to the up-flow edge, or with a time-out.
 //!
 //! *Source*: Pang 2009, section 6 (missions of several sources, "MT").
 //!
 //! *Parameters*: see [`SubregionsSpec`].
 //!
-//! *Deviations*: the paper prints neither the time-out nor where in a subregion its search begins. It names three ends
-//! of a search; a strategy that gives up by itself, going home without a declaration, is a fourth: only that one leaves
-//! the subregion source-free, a time-out leaves it unknown. A strategy that looks at what it declared (Survey) is let finish; one whose
-//! declaration was rejected and that searches on keeps the subregion until one of the ends. The strategy searching sees
-//! the subregion as its area; the cage that the guidance holds the vehicle in stays the whole area.
+//! *Deviations*: the paper prints neither the time-out nor where in a subregion its search begins. It names three
+//! ends of a search. A fourth is a strategy that gives up by itself and goes home without a declaration: only this
+//! end leaves the subregion source-free; a time-out leaves it unknown. A strategy that surveys its declared place may
+//! finish the survey. If it rejects the place and searches on, it keeps the subregion until one of these ends. The
+//! searching strategy sees the subregion as its area; the guidance's cage remains the whole area.
 
 use super::super::spec::Strategy;
 use super::edge::{Plume, crossing};
@@ -17,21 +18,22 @@ use super::spec::{EdgeSpec, Entry, SubregionsSpec};
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Region, RegionState,
-    Regions, Setting, UP_FLOW_EDGE, Verdict, Vertical, detects, inside,
+    Regions, Setting, UP_FLOW_EDGE, Verdict, Vertical, detects,
 };
+use crate::places::inside;
 use nalgebra::Vector2;
 use std::sync::Arc;
 use world::area::Area;
 use world::seeds::Stream;
 use world::units::Heading;
 
-/// A search begins so far inside, m: where an edge no longer turns a zig-zag about.
+/// A search begins this far inside, m: there an edge no longer turns a zig-zag back.
 const MARGIN_M: f64 = 20.0;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Phase {
     Begin,
-    /// To the beginning of the search of a region; aimed with a known flow, or blindly.
+    /// On the way to the start of a region's search; the start was chosen with a known flow, or without.
     Transit {
         to: usize,
         aimed: bool,
@@ -45,7 +47,7 @@ enum Phase {
 /// State of the mission.
 #[derive(Debug)]
 pub struct Subregions {
-    /// A strategy for each region, fresh until its turn comes.
+    /// One strategy per region, fresh until its turn comes.
     searches: Vec<Box<dyn Strategy>>,
     timeout_s: f64,
     entry: Entry,
@@ -56,20 +58,20 @@ pub struct Subregions {
     regions: Arc<[Region]>,
     up_flow: Option<Heading>,
     plume: Plume,
-    /// The goal last given, whoever asked for it.
+    /// The last goal, of the mission or of a search.
     goal: Goal,
-    /// Goals of the search in hand are numbered from here.
+    /// Goals of the present search are numbered from here.
     goals_from: u32,
-    /// Declarations of the search in hand are numbered from here.
+    /// Declarations of the present search are numbered from here.
     numbers_from: u32,
-    /// What the search in hand has declared.
+    /// Declarations of the present search.
     declared: Vec<Declaration>,
     outcome: Option<Outcome>,
 }
 
 impl Subregions {
     /// # Errors
-    /// [`RobotError::Invalid`] when a region makes no sense, or what searches it cannot be built.
+    /// [`RobotError::Invalid`] if a region makes no sense, or if its strategy cannot be built.
     pub fn new(spec: &SubregionsSpec, setting: &Setting) -> Result<Self, RobotError> {
         let areas = areas(&spec.regions, &setting.area)?;
         if spec.search.has_regions() {
@@ -124,7 +126,7 @@ impl Subregions {
         };
     }
 
-    /// Sets out for a region, or for home after the last.
+    /// Sets out for a region, or for home after the last one.
     fn set_out(&mut self, to: usize, home: Vector2<f64>) {
         let Some(region) = self.regions.get(to) else {
             self.phase = Phase::Home;
@@ -172,7 +174,7 @@ impl Subregions {
         let region = self.regions[k];
         let mut its = seen.clone();
         its.area = region.area;
-        // Goals given before this search are none of its own.
+        // Goals from before this search do not belong to it.
         let of_search = seen.guidance.goal_id.checked_sub(self.goals_from);
         its.guidance.goal_id = of_search.unwrap_or(u32::MAX);
         its.guidance.done &= of_search.is_some();
@@ -215,7 +217,7 @@ impl Subregions {
         decision
     }
 
-    /// A declaration of the search of region `k` as one of the mission.
+    /// Makes a declaration of the search of region `k` one of the mission.
     fn declare(&mut self, k: usize, own: Declaration) -> Declaration {
         own.join(&mut self.declared);
         Declaration {
@@ -225,7 +227,7 @@ impl Subregions {
         }
     }
 
-    /// Where the plume crosses the region's up-flow edge, if it is being traced there.
+    /// Where the plume crosses the region's up-flow edge, if it has been traced there.
     fn traced(
         &mut self,
         region: Region,
@@ -256,7 +258,7 @@ impl Subregions {
         crossing(&region.area, self.up_flow?, here, plume, within_m)
     }
 
-    /// What it does and asks for where no search is in hand.
+    /// The decision while no search is running.
     fn under_way(&self) -> Decision {
         Decision {
             behaviour: match self.phase {
@@ -304,7 +306,7 @@ impl Strategy for Subregions {
                 if self.phase == Phase::Search(k) {
                     searched
                 } else {
-                    // The search is over: what it declared last stands, what it asked for does not.
+                    // The search is over: its last declaration remains, its last goal does not.
                     Decision {
                         declared: searched.declared,
                         lost_points: searched.lost_points,
@@ -333,7 +335,7 @@ fn down_flow_corner(area: &Area, up_flow: Heading) -> Vector2<f64> {
     inside(area, corner.unwrap_or(area.centre), MARGIN_M)
 }
 
-/// A fault of the searching strategy as one of this.
+/// Turns an error of the searching strategy into one of this strategy.
 fn within_search(error: RobotError) -> RobotError {
     match error {
         RobotError::Invalid { field, problem } => RobotError::Invalid {

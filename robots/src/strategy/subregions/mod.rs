@@ -1,4 +1,4 @@
-//! A mission over subregions: what a scenario says of it, where they are, and its switching.
+//! A mission over subregions: its parameters, the subregions' places, and its switching.
 
 mod edge;
 mod machine;

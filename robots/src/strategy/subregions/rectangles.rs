@@ -5,10 +5,10 @@ use crate::error::RobotError;
 use nalgebra::Vector2;
 use world::area::Area;
 
-/// Rectangles may reach over the area's edges by rounding only, m.
+/// Rectangles may reach beyond the area's edges by rounding only, m.
 const ROUNDING_M: f64 = 1e-6;
 
-/// The subregions of `whole`, in the order of their search.
+/// The subregions of `whole`, in the order of search.
 pub(super) fn areas(spec: &RegionsSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
     let areas = match spec {
         RegionsSpec::Grid(grid) => parts(grid, whole)?,
@@ -17,7 +17,7 @@ pub(super) fn areas(spec: &RegionsSpec, whole: &Area) -> Result<Vec<Area>, Robot
             .collect::<Result<Vec<_>, _>>()?,
     };
     if areas.is_empty() {
-        return Err(invalid("regions", "must name one at least".into()));
+        return Err(invalid("regions", "must name at least one".into()));
     }
     Ok(areas)
 }
@@ -32,7 +32,7 @@ fn parts(grid: &GridSpec, whole: &Area) -> Result<Vec<Area>, RobotError> {
             return Err(invalid(&field, format!("must be {legal}, got ({i}, {j})")));
         }
         if grid.order[..k].contains(&(i, j)) {
-            return Err(invalid(&field, format!("({i}, {j}) is there twice")));
+            return Err(invalid(&field, format!("({i}, {j}) occurs twice")));
         }
         let at = Vector2::new(
             (f64::from(i) + 0.5) * length_m - whole.length_m / 2.0,
@@ -54,7 +54,7 @@ fn rectangle(k: usize, r: &RectangleSpec, whole: &Area) -> Result<Area, RobotErr
         if from >= to {
             return Err(invalid(
                 &field,
-                format!("must run from less to more, got ({from}, {to})"),
+                format!("must begin with the smaller number, got ({from}, {to})"),
             ));
         }
         if from < -half - ROUNDING_M || to > half + ROUNDING_M {
@@ -137,7 +137,7 @@ mod tests {
             (front_left.centre - by_hand).norm() < 1e-4,
             "{front_left:?}"
         );
-        // The whole's front left corner is the part's own.
+        // The front left corner of the whole area is also the part's.
         let corner = whole().world(Vector2::new(200.0, -50.0));
         assert!(
             front_left
@@ -145,7 +145,7 @@ mod tests {
                 .iter()
                 .any(|c| (c - corner).norm() < 1e-9)
         );
-        // A point just this and just that side of the line between front and rear.
+        // Two points close to the line between front and rear, one on each side.
         let beside = |along| whole().world(Vector2::new(along, -30.0));
         assert!(front_left.contains(beside(0.01)) && !front_left.contains(beside(-0.01)));
         assert!(got[1].contains(beside(-0.01)) && !got[1].contains(beside(0.01)));

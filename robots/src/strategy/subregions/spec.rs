@@ -1,4 +1,4 @@
-//! What a scenario says about a mission over subregions.
+//! Parameters of a mission over subregions.
 
 use super::super::catalogue::StrategySpec;
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
@@ -15,15 +15,15 @@ use world::cost::{Cost, Times};
 use world::ranges::{Finite, NonNegative, Positive};
 use world::registry::Listed;
 
-/// The subregions, what searches them, and when the search of one is over.
+/// The subregions, the strategy that searches them, and when a search is over.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct SubregionsSpec {
-    /// Where they are, in the order in which they are searched.
+    /// The subregions' places, in the order of search.
     pub regions: RegionsSpec,
-    /// What searches each of them, begun afresh in each.
+    /// The strategy that searches each of them; it starts afresh in each.
     pub search: StrategySpec,
-    /// A search that has declared nothing for so long is given up, s.
+    /// A search without a declaration is given up after this time, s.
     pub timeout_s: Positive,
     /// Where a search begins.
     #[serde(default)]
@@ -34,7 +34,8 @@ pub struct SubregionsSpec {
     /// Speed over ground in transits and on the way home, m/s (section 6: 2).
     #[serde(default = "speed")]
     pub speed_m_s: Positive,
-    /// Altitude or depth there (section 6: 1.5 m above the bed in the mission of several sources).
+    /// Altitude or depth in transits and on the way home (section 6: 1.5 m above the bed in the mission of several
+    /// sources).
     #[serde(default = "vertical")]
     pub vertical: VerticalSpec,
 }
@@ -50,7 +51,8 @@ fn vertical() -> VerticalSpec {
 impl Listed for SubregionsSpec {
     const ENTRY: catalogue::Entry = catalogue::Entry {
         name: "Subregions",
-        what: "one subregion after the other, searched until declared in, traced to its up-flow edge or timed out",
+        what: "searches one subregion after the other, until a declaration, a plume traced to the up-flow edge, or a \
+            time-out",
         source: "Pang 2009, section 6",
     };
 }
@@ -113,10 +115,10 @@ pub enum RegionsSpec {
 pub struct GridSpec {
     /// Parts along the area's axis.
     pub along: NonZeroU32,
-    /// Parts across it.
+    /// Parts across the axis.
     pub across: NonZeroU32,
     /// (along, across) of each part to be searched, in this order, counted from 0 at the area's rear left corner,
-    /// looking along its axis. Parts that are left out are not searched.
+    /// looking along its axis. Other parts are not searched.
     pub order: Vec<(u32, u32)>,
 }
 
@@ -124,7 +126,7 @@ pub struct GridSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RectanglesSpec {
-    /// The rectangles, in the order in which they are searched.
+    /// The rectangles, in the order of search.
     pub list: Vec<RectangleSpec>,
 }
 
@@ -134,7 +136,7 @@ pub struct RectanglesSpec {
 pub struct RectangleSpec {
     /// From and to along the area's axis, m from the area's centre.
     pub along_m: (Finite, Finite),
-    /// From and to across it, m from the centre, positive to the right, looking along the axis.
+    /// From and to across the axis, m from the centre, positive to the right, looking along the axis.
     pub across_m: (Finite, Finite),
 }
 
@@ -153,9 +155,9 @@ pub enum Entry {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EdgeSpec {
-    /// A detection nearer to the edge than this, or beyond it, has reached it, m.
+    /// A detection nearer to the edge than this, or beyond the edge, has reached it, m.
     pub within_m: NonNegative,
-    /// The plume is where it was detected on average in the last of these, s.
+    /// The plume's place is the mean of the detections of this time, s.
     pub plume_s: NonNegative,
 }
 

@@ -39,7 +39,7 @@ fn spec(entry: Entry) -> SubregionsSpec {
     }
 }
 
-/// A mission and the last goal it gave; flow to the south, a little westward.
+/// A mission and its last goal; the flow goes south, a little westward.
 struct Desk {
     mission: Subregions,
     rng: Stream,
@@ -59,7 +59,7 @@ impl Desk {
         }
     }
 
-    /// A mission whose search of the first region has just begun.
+    /// A mission that has just begun to search the first region.
     fn searching() -> Self {
         let mut d = Self::new(&spec(Entry::Centre));
         d.quiet(-200.0);
@@ -126,7 +126,7 @@ fn states(d: &Decision) -> Vec<RegionState> {
 fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
     let mut d = Desk::new(&spec(Entry::DownFlowCorner));
     d.flow = None;
-    // Without a flow there is no down-flow: to the middle, until it is known.
+    // Without a flow there is no down-flow direction: go to the middle until the flow is known.
     assert_eq!(point_of(&d.quiet(-250.0)), Vector2::new(0.0, -150.0));
     d.flow = Some(Vector2::new(-0.02, -0.2));
     let first = d.quiet(-250.0);
@@ -150,7 +150,7 @@ fn goes_to_the_down_flow_corner_and_heeds_no_detection_on_the_way() {
 fn arrival_of_the_transit_is_none_of_the_search() {
     let mut d = Desk::searching();
     let find = d.goal.expect("a goal was given");
-    // The guidance still says that the transit is done: the search's own goal stands.
+    // The guidance still reports the transit as done: the search's own goal remains.
     let mut o = seen(d.t_s + 0.1, Vector2::new(0.0, -150.0), 350.0, d.flow);
     (o.guidance.goal_id, o.guidance.done) = (find.id - 1, true);
     let next = d.mission.step(&o, &mut d.rng);
@@ -193,13 +193,13 @@ fn a_declaration_inside_ends_the_search_of_its_region() {
     );
     assert_eq!((end.behaviour, end.regions.now), (Behaviour::GoTo, None));
     assert_eq!(states(&end), [RegionState::Declared, RegionState::Waiting]);
-    // Not said twice, and no detection counts on the way.
+    // It is not declared twice, and no detection counts on the way.
     let transit = d.smell(-100.0);
     assert_eq!(
         (transit.declared, transit.behaviour),
         (None, Behaviour::GoTo)
     );
-    // The next search begins afresh, its declarations are numbered on.
+    // The next search starts afresh; its declarations continue the numbering.
     let begun = d.arrive(150.0);
     assert_eq!(
         (begun.behaviour, begun.regions.now),
@@ -213,7 +213,7 @@ fn a_declaration_inside_ends_the_search_of_its_region() {
 #[test]
 fn a_plume_traced_to_the_up_flow_edge_is_declared_there() {
     let mut d = Desk::searching();
-    // The edge is at 0 m N; 20 m before it no more is needed than to be there.
+    // The edge is at 0 m N; within 20 m of it, a detection is enough.
     let near = d.smell(-21.0);
     assert_eq!((near.declared, near.behaviour), (None, Behaviour::TrackIn));
     let end = d.smell(-19.0);

@@ -1,11 +1,12 @@
-//! The switching diagram and the layers are two ways to put the same behaviours together: with Pang's parameters the same
-//! observations make both do the same.
+//! The switching diagram and the layers are two ways to combine the same behaviours: with Pang's parameters both do
+//! the same for the same observations.
 
 use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{FindSpec, ReacquireSpec};
 use crate::declare::DeclareSpec;
 use crate::handoff::testing::{area, fixed, seen, smelling};
-use crate::handoff::{Behaviour, Decision, FixMove, Setting};
+use crate::handoff::{Behaviour, Decision, Setting};
+use crate::memory::FixMove;
 use crate::strategy::{Amp, AmpSpec, Strategy};
 use nalgebra::Vector2;
 use proptest::prelude::*;
@@ -111,11 +112,11 @@ proptest! {
             let flow = world::units::Heading::from_deg(flow_deg).unit() * 0.2;
             let mut o = smelling(seen(t_s, p, nose, Some(flow)), matches!(event, Event::Smell));
             o.estimate.fix_jump = jump;
-            // In the tick after the declaration the layers set out for home: the diagram is a tick ahead.
+            // The layers set out for home in the tick after the declaration: the diagram is a tick ahead.
             let arrived = matches!(event, Event::Arrive) && !just_declared;
             let [a, b] = both.step(&o, arrived);
             prop_assert_eq!(a.declared, b.declared);
-            // As sets: Reacquire sorts them once more in the tick of the declaration.
+            // Compared as sets: Reacquire sorts them again in the tick of the declaration.
             let sorted = |d: &Decision| {
                 let mut points = d.lost_points.clone();
                 points.sort_by(|p, q| p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y)));
@@ -137,7 +138,7 @@ proptest! {
     }
 }
 
-/// That the property above says something: its events reach every behaviour and the declaration.
+/// The property above is not empty: its events reach every behaviour and the declaration.
 #[test]
 fn a_walk_through_all_behaviours() {
     let mut both = Both::new(FixMove::Stay);

@@ -1,6 +1,7 @@
 //! What a layer asks for, and the layers' names.
 
-use crate::handoff::{Behaviour, Manoeuvre, Stride};
+use crate::behave::Stride;
+use crate::handoff::{Behaviour, Manoeuvre};
 
 /// The kinds of layers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -45,10 +46,10 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ask {
     pub(super) kind: Kind,
-    /// What it does, in the field's words.
+    /// What it does, in the terms of the field.
     pub(super) behaviour: Behaviour,
     pub(super) manoeuvre: Manoeuvre,
-    /// A goal of its own, not the last one changed.
+    /// It is a new goal, not a change of the last one.
     pub(super) anew: bool,
 }
 
@@ -69,7 +70,7 @@ impl Ask {
     }
 }
 
-/// Keeps what a behaviour asks for; true when that is a new goal.
+/// Stores what a behaviour asks for; true if that is a new goal.
 pub(super) fn keep(command: &mut Option<Manoeuvre>, stride: Stride) -> bool {
     match stride {
         Stride::Start(manoeuvre) => {

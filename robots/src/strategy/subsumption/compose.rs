@@ -1,4 +1,5 @@
-//! From the layers of a scenario to layers that can work together: which may be missing, and which order makes sense.
+//! Turns the layers of a scenario into layers that work together: checks which ones are missing, and that their order
+//! makes sense.
 
 use super::ask::Kind;
 use super::maintain::Maintain;
@@ -22,7 +23,7 @@ fn kind(layer: &LayerSpec) -> Kind {
     }
 }
 
-/// The layers at work.
+/// The states of the layers.
 #[derive(Debug)]
 pub(super) struct Layers {
     /// Their order, lowest first.
@@ -33,32 +34,32 @@ pub(super) struct Layers {
     pub(super) go_home: Option<GoHome>,
 }
 
-/// Which layer must stand above which, and why.
+/// Which layer must be above which other, and why.
 const ABOVE: &[(Kind, Kind, &str)] = &[
     (
         Kind::Maintain,
         Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never hold it",
+        "Find always asks for the vehicle: a layer below it would never control it",
     ),
     (
         Kind::Reacquire,
         Kind::Find,
-        "Find always asks for the vehicle: a layer below it would never hold it",
+        "Find always asks for the vehicle: a layer below it would never control it",
     ),
     (
         Kind::PlumeMap,
         Kind::Find,
-        "PlumeMap takes the place of Find's command",
+        "PlumeMap's command replaces Find's",
     ),
     (
         Kind::Avoid,
         Kind::Find,
-        "Avoid turns the commands of the layers below it, and there is none below it",
+        "Avoid changes the commands of the layers below it, and there is none below it",
     ),
     (
         Kind::Reacquire,
         Kind::Maintain,
-        "Reacquire looks for what Maintain has lost",
+        "Reacquire looks for the plume that Maintain has lost",
     ),
     (
         Kind::Declare,
@@ -73,32 +74,32 @@ const ABOVE: &[(Kind, Kind, &str)] = &[
     (
         Kind::Declare,
         Kind::Reacquire,
-        "a declaration must not wait for the end of the search round a lost point",
+        "a declaration must not wait for the end of the search around a lost point",
     ),
     (
         Kind::GoHome,
         Kind::Find,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Maintain,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Reacquire,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::Declare,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
     (
         Kind::GoHome,
         Kind::PlumeMap,
-        "Go-Home takes their input from the layers below it",
+        "Go-Home inhibits the layers below it",
     ),
 ];
 
@@ -109,7 +110,7 @@ fn wrong(field: &str, problem: String) -> RobotError {
     }
 }
 
-/// The order, if it makes sense.
+/// The order of the layers, after checking it.
 fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     let order: Vec<Kind> = spec.layers.iter().map(kind).collect();
     let place = |kind: Kind| order.iter().position(|k| *k == kind);
@@ -118,7 +119,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
         if first < i {
             let name = kind.variant();
             let problem =
-                format!("{name} is there already, as layers[{first}]; each layer stands once");
+                format!("there already is a {name}, layers[{first}]; each layer may occur once");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -127,7 +128,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
             Kind::Find,
             "nothing would move the vehicle before the first detection",
         ),
-        (Kind::Maintain, "detections would count for nothing"),
+        (Kind::Maintain, "detections would have no effect"),
     ] {
         if place(kind).is_none() {
             let name = kind.variant();
@@ -139,11 +140,11 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
     }
     if let (Some(i), None) = (place(Kind::GoHome), place(Kind::Declare)) {
         let problem =
-            "GoHome waits for a declaration, and there is no Declare; add one, or leave GoHome out";
+            "GoHome waits for a declaration, and there is no Declare; add one, or remove GoHome";
         return Err(wrong(&format!("layers[{i}]"), problem.into()));
     }
     if spec.eyes.is_some() && place(Kind::Declare).is_none() {
-        let problem = "a source that the camera sees is declared, and there is no Declare; add one, or leave eyes out";
+        let problem = "a source seen by the camera is declared, and there is no Declare; add one, or remove eyes";
         return Err(wrong("eyes", problem.into()));
     }
     for (upper, lower, why) in ABOVE {
@@ -151,7 +152,7 @@ fn order(spec: &SubsumptionSpec) -> Result<Vec<Kind>, RobotError> {
             && i < j
         {
             let (u, l) = (upper.variant(), lower.variant());
-            let problem = format!("{u} must stand above (after) {l}, layers[{j}]: {why}");
+            let problem = format!("{u} must be above (after) {l}, layers[{j}]: {why}");
             return Err(wrong(&format!("layers[{i}]"), problem));
         }
     }
@@ -180,7 +181,7 @@ impl Layers {
                 }
                 LayerSpec::PlumeMap(p) if setting.maps => plume_map = Some(PlumeMap::new(p)),
                 LayerSpec::PlumeMap(_) => {
-                    let problem = "goes where the robot's map has the source, and the robot keeps none; give it one, as in map: Hmm()";
+                    let problem = "needs a source map, and the robot has none; add one, for example map: Hmm()";
                     return Err(wrong(&format!("layers[{i}]"), problem.into()));
                 }
                 LayerSpec::GoHome(_) => go_home = Some(GoHome::default()),
@@ -201,11 +202,11 @@ impl Layers {
     }
 }
 
-/// A part's error with the layer it is in: `reacquire.Bowtie.angle_deg` becomes `layers[2].angle_deg`.
+/// The error of a part, named with its layer: `reacquire.Bowtie.angle_deg` becomes `layers[2].angle_deg`.
 fn within(layer: usize, error: RobotError) -> RobotError {
     match error {
         RobotError::Invalid { field, problem } => {
-            // What a layer consists of one part only is not named in its path; Maintain's two parts are.
+            // A layer that has a single part does not name the part in its path; Maintain's two parts are named.
             let inner = ["find.", "reacquire.", "declare.", "avoid."]
                 .iter()
                 .find_map(|part| field.strip_prefix(part))

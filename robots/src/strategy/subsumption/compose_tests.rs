@@ -1,4 +1,4 @@
-//! Which compositions are refused, and how the map comes in.
+//! Which compositions are refused, and how the map takes part.
 
 use super::testing::{
     Desk, all, declare, find, go_home, maintain, plume_map, reacquire, said, setting,
@@ -25,7 +25,7 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
         (point - Vector2::new(50.0, 70.0)).norm() < 10.0,
         "{point:?}"
     );
-    // The obstacle comes before the map, although the layer stands below it.
+    // The obstacle has priority over the map, although its layer is lower.
     d.obstacle = true;
     assert_eq!(said(&d.quiet(0.0)), "s...Hs.");
     d.obstacle = false;
@@ -36,7 +36,7 @@ fn the_map_leads_the_search_once_and_nothing_but_the_search() {
         (said(&there).as_str(), there.behaviour),
         ("H......", Behaviour::Find)
     );
-    // The same place again is no news, another one is, and so is the same after a detection.
+    // The same place again is nothing new; another place is, and so is the same place after a detection.
     assert_eq!(said(&d.quiet(71.0)), "H......");
     d.map = Some(Vector2::new(50.0, 200.0));
     assert_eq!(said(&d.quiet(72.0)), "s....H.");
@@ -62,19 +62,19 @@ fn compositions_that_make_no_sense_are_refused() {
         (vec![find()], "layers: there is no Maintain"),
         (
             vec![find(), maintain(), find()],
-            "layers[2]: Find is there already, as layers[0]",
+            "layers[2]: there already is a Find, layers[0]",
         ),
         (
             vec![maintain(), find()],
-            "layers[0]: Maintain must stand above (after) Find, layers[1]",
+            "layers[0]: Maintain must be above (after) Find, layers[1]",
         ),
         (
             vec![find(), reacquire(), maintain()],
-            "layers[1]: Reacquire must stand above",
+            "layers[1]: Reacquire must be above",
         ),
         (
             vec![find(), maintain(), declare(), reacquire()],
-            "layers[2]: Declare must stand above",
+            "layers[2]: Declare must be above",
         ),
         (
             vec![find(), maintain(), go_home()],
@@ -82,7 +82,7 @@ fn compositions_that_make_no_sense_are_refused() {
         ),
         (
             vec![find(), maintain(), go_home(), declare()],
-            "layers[2]: GoHome must stand above",
+            "layers[2]: GoHome must be above",
         ),
     ] {
         let got = refused(layers, true);
@@ -93,7 +93,7 @@ fn compositions_that_make_no_sense_are_refused() {
     }
     let got = refused(vec![find(), maintain(), plume_map()], false);
     assert!(
-        got.starts_with("strategy.Subsumption.layers[2]: goes where the robot's map"),
+        got.starts_with("strategy.Subsumption.layers[2]: needs a source map"),
         "{got}"
     );
     let wrong = AvoidParams {

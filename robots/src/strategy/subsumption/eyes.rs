@@ -1,27 +1,30 @@
-//! Looks with the camera at each last detection point that Reacquire passes, and says when a source is seen there.
+//! Looks with the camera at each last detection point that Reacquire passes, and reports a source seen there.
 //!
-//! *Source*: Tian et al. 2013, section 6, names it as future work: pictures at every LCDP, not only at the declared place.
+//! *Source*: Tian et al. 2013, section 6, names it as future work: pictures at every LCDP, not only at the declared
+//! place.
 //!
 //! *Parameters*: see [`EyesSpec`]; all are ours.
 //!
-//! *Deviations*: the paper does not say when a picture is taken. An LCDP is known λ seconds after the vehicle has left it, so
-//! it is looked at when Reacquire, whose pattern is centred on it, comes back within `within_m`.
+//! *Deviations*: the paper does not say when a picture is taken. An LCDP is known λ seconds after the vehicle has
+//! left it. So the picture is taken when Reacquire, whose pattern is centred on the LCDP, comes back within
+//! `within_m` of it.
 
-use crate::handoff::{Declaration, Observation, PlumeMemory, Verdict};
+use crate::handoff::{Declaration, Observation, Verdict};
+use crate::memory::PlumeMemory;
 use crate::vision::{Verifier, VerifierSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
-/// Looking at last detection points.
+/// Parameters of looking at last detection points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EyesSpec {
-    /// A picture is asked for within this distance of the newest LCDP, m.
+    /// The camera takes a picture within this distance of the newest LCDP, m.
     pub within_m: Positive,
     /// Time between two pictures, s.
     pub period_s: Positive,
-    /// What verifies.
+    /// The test that a picture must pass.
     pub verifier: VerifierSpec,
 }
 
@@ -35,7 +38,7 @@ impl Default for EyesSpec {
     }
 }
 
-/// State of the looking.
+/// State of looking at last detection points.
 #[derive(Debug)]
 pub(super) struct Eyes {
     within_m: f64,
@@ -56,17 +59,17 @@ impl Eyes {
         }
     }
 
-    /// A picture is wanted in this tick.
+    /// Whether a picture is wanted in this tick.
     pub(super) fn asks(&self) -> bool {
         self.asks
     }
 
-    /// Not looking in this tick.
+    /// Does not look in this tick.
     pub(super) fn rest(&mut self) {
         self.asks = false;
     }
 
-    /// One tick of Reacquire: the source at the newest last detection point, if the camera has seen one near it.
+    /// One tick of Reacquire; the source at the newest last detection point, if the camera has seen one near it.
     pub(super) fn step(&mut self, seen: &Observation, memory: &PlumeMemory) -> Option<Declaration> {
         self.asks = false;
         let point = memory.lcdps.newest()?;

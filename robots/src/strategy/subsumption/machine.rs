@@ -1,4 +1,5 @@
-//! The subsumption planner: each tick the layers ask from the lowest up, and the highest that asks holds the vehicle.
+//! The subsumption planner: in each tick the layers ask for the vehicle from the lowest up, and the highest that asks
+//! controls it.
 //!
 //! *Source*: Tian et al. 2013, section 2, Fig. 3: Find-Plume, Maintain-Plume, Reacquire-Plume, Declare-Source,
 //! Avoid-Obstacle, Construct-Plume-Map, and Go-Home; suppression and inhibition: Brooks 1986, IEEE J. Robotics and
@@ -6,17 +7,20 @@
 //!
 //! *Parameters*: see [`SubsumptionSpec`].
 //!
-//! *Deviations*: the paper names the mechanisms, not which wire carries which. Here a layer that asks while a higher one
-//! holds the vehicle is suppressed: its command is replaced. A layer whose input is taken away is inhibited: it does not
-//! look, and asks for nothing; that is what Go-Home does to all layers below it once a source is declared. Find asks
-//! always. Maintain asks from a detection until it loses the plume, Reacquire from then until a detection or its end: they
-//! never ask together. A search that was suppressed begins afresh when it gets the vehicle back, as in Pang 2009, Fig. 5.
-//! Declare asks when its rule is met at the end of Track-Out (Pang 2009, section 5.6) and holds the vehicle for
-//! the one tick of the declaration, or until the survey of the declared place is over (ours, as Pang 2009, section 6, has it):
-//! the plume's layers are inhibited the while, and begin afresh where the place is rejected. Suppressed by Avoid it asks on, and declares afterwards. Avoid replaces
-//! the command of the layer that would hold the vehicle by one turned away from what is in its way. Layers suppressed by
-//! Avoid go on watching but do not arrive, unless Avoid gives up. Where Construct-Plume-Map goes in: `plume_map.rs`. Without a Go-Home layer the
-//! mission is over with the declaration. A cage abort ends it at once.
+//! *Deviations*: the paper names the mechanisms, but not which wire carries which. Here a layer that asks while a
+//! higher one controls the vehicle is suppressed: its command is replaced. A layer whose input is taken away is
+//! inhibited: it does not look, and asks for nothing. Go-Home inhibits all layers below it once a source is declared.
+//! Find always asks. Maintain asks from a detection until it loses the plume, Reacquire from then until a detection
+//! or its own end: the two never ask together. A suppressed search starts afresh when it gets the vehicle back, as in
+//! Pang 2009, Fig. 5.
+//!
+//! Declare asks when its rule is met at the end of Track-Out (Pang 2009, section 5.6). It controls the vehicle for
+//! the one tick of the declaration, or until the survey of the declared place is over (our choice, after Pang 2009,
+//! section 6). Meanwhile the plume's layers are inhibited, and they start afresh if the place is rejected. If Avoid
+//! suppresses Declare, it keeps asking, and declares afterwards. Avoid replaces the command of the layer that would
+//! control the vehicle by one that turns away from the obstacle. Layers suppressed by Avoid keep observing but do not
+//! arrive, unless Avoid gives up. For Construct-Plume-Map see `plume_map.rs`. Without a Go-Home layer the mission is
+//! over with the declaration. A cage abort ends it at once.
 
 use super::super::spec::Strategy;
 use super::super::survey::{AfterDeclaration, PostDeclaration, Progress};
@@ -25,12 +29,14 @@ use super::compose::Layers;
 use super::eyes::Eyes;
 use super::plume::Asked;
 use super::spec::SubsumptionSpec;
+use crate::behave::{Behave, Stride};
 use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behave, Behaviour, Decision, Declaration, FixMove, Goal, Layer, LayerState, Lcdp, Manoeuvre,
-    Observation, Outcome, PlumeMemory, Setting, Stride, Verdict, Vertical, detects,
+    Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation,
+    Outcome, Setting, Verdict, Vertical, detects,
 };
+use crate::memory::{FixMove, PlumeMemory};
 use std::sync::Arc;
 use world::seeds::Stream;
 
@@ -40,19 +46,19 @@ pub struct Subsumption {
     fixes: FixMove,
     layers: Layers,
     memory: PlumeMemory,
-    /// What the rule says: Declare asks.
+    /// The rule's declaration, while Declare asks.
     declaring: Option<Declaration>,
-    /// What follows a declaration; the survey has begun, and what was asked for on it.
+    /// What follows a declaration; whether the survey has begun, and what it asks for.
     post: PostDeclaration,
     surveying: bool,
     eyes: Option<Eyes>,
     passes: Option<Manoeuvre>,
     vertical: Vertical,
-    /// The way home has begun, and what was asked for on it.
+    /// Whether the way home has begun, and what was asked for on it.
     homing: bool,
     home: Option<Manoeuvre>,
     holder: Option<Kind>,
-    /// Whose command Avoid turns away.
+    /// The layer whose command Avoid turns away.
     under_avoid: Option<Kind>,
     states: Arc<[Layer]>,
     behaviour: Behaviour,
@@ -62,7 +68,7 @@ pub struct Subsumption {
 
 impl Subsumption {
     /// # Errors
-    /// [`RobotError::Invalid`] when the layers make no sense together, or a layer's parameters none.
+    /// [`RobotError::Invalid`] if the layers make no sense together, or if a layer's parameters make none.
     pub fn new(spec: &SubsumptionSpec, setting: &Setting) -> Result<Self, RobotError> {
         let layers = Layers::new(spec, setting)?;
         if let Some(survey) = &spec.survey {
@@ -114,7 +120,7 @@ impl Subsumption {
         detected
     }
 
-    /// What the rule says now.
+    /// The rule's present answer.
     fn test(&self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
         let rule = self.layers.declare.as_ref()?;
@@ -135,7 +141,7 @@ impl Subsumption {
         Ask::of(Kind::GoHome, Behaviour::GoHome, way, anew)
     }
 
-    /// One step of the survey: what it asks for, or the declaration again when it is over.
+    /// One step of the survey: what it asks for, or at its end the declaration again.
     fn survey(
         &mut self,
         seen: &Observation,
@@ -160,7 +166,7 @@ impl Subsumption {
         }
     }
 
-    /// The search is over: home, if there is such a layer.
+    /// The search is over: goes home, if there is such a layer.
     fn leave(&mut self, seen: &Observation) {
         match &mut self.layers.go_home {
             Some(home) => {
@@ -171,7 +177,8 @@ impl Subsumption {
         }
     }
 
-    /// From the lowest layer up: who asks, who is suppressed or inhibited, who holds.
+    /// From the lowest layer up: which layers ask, which are suppressed or inhibited, and which one controls the
+    /// vehicle.
     fn arbitrate(&mut self, seen: &Observation, asked: &Asked, above: Option<Ask>) -> Option<Ask> {
         let (homing, surveying) = (self.homing, self.surveying);
         let declaring = self.declaring.is_some();
@@ -204,7 +211,7 @@ impl Subsumption {
                     Some(of(Behaviour::Avoid, away))
                 }),
                 Kind::GoHome => above.filter(|a| a.kind == Kind::GoHome),
-                // Its command stands in Find's place, below.
+                // Its command is used in place of Find's, below.
                 Kind::PlumeMap => None,
             };
             let Some(ask) = ask else { continue };
@@ -247,7 +254,7 @@ impl Subsumption {
         self.holder = Some(ask.kind);
     }
 
-    /// Declares; the goal stands for this one tick.
+    /// Declares; the goal holds for this one tick.
     fn declare(&mut self, seen: &Observation) -> Option<Declaration> {
         let declared = self.declaring.take()?;
         self.holder = Some(Kind::Declare);

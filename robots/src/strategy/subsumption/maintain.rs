@@ -1,16 +1,19 @@
-//! Maintain-Plume: Track-In from a detection on, Track-Out after a silence.
+//! Maintain-Plume: Track-In from a detection on, Track-Out after a time without detection.
 //!
 //! *Source*: Tian et al. 2013, section 3, Fig. 4a; Pang 2009, sections 5.3, 5.4 and 5.6.
 //!
-//! *Parameters*: those of the behaviours it is made of.
+//! *Parameters*: those of its behaviours.
 //!
-//! *Deviations*: the papers mean different things by Track-Out. In Pang 2009 it is a way of its own that begins after λ s
-//! without a detection; in Tian et al. 2013 it is the silence itself, and after λ s of it Reacquire begins. Both are here:
-//! with a Track-Out behaviour the first, without one the second, where the course of the last detection is kept.
+//! *Deviations*: the papers mean different things by Track-Out. In Pang 2009 it is a manoeuvre of its own that begins
+//! after λ s without a detection; in Tian et al. 2013 it is the time without detection itself, and Reacquire begins
+//! after λ s. Both are here: with a Track-Out behaviour the first; without one the second, where the vehicle keeps
+//! the course of the last detection.
 
 use super::spec::MaintainSpec;
+use crate::behave::{Behave, Stride};
 use crate::error::RobotError;
-use crate::handoff::{Behave, Behaviour, Observation, PlumeMemory, Stride};
+use crate::handoff::{Behaviour, Observation};
+use crate::memory::PlumeMemory;
 use world::seeds::Stream;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,12 +23,12 @@ enum Phase {
     Out,
 }
 
-/// What became of the contact with the plume in a tick.
+/// State of the contact with the plume after a tick.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Contact {
-    /// Track-Out has ended, by a detection or without: the declaration is to be tested.
+    /// Track-Out has ended, with or without a detection: the declaration rule must be tested.
     pub(super) out_ended: bool,
-    /// Contact is lost.
+    /// The contact has been lost.
     pub(super) lost: bool,
 }
 
@@ -49,17 +52,17 @@ impl Maintain {
         })
     }
 
-    /// Contact counts no more, until the next detection.
+    /// Ends the contact until the next detection.
     pub(super) fn leave(&mut self) {
         self.phase = Phase::Off;
     }
 
-    /// It asks for the vehicle.
+    /// Whether it asks for the vehicle.
     pub(super) fn active(&self) -> bool {
         self.phase != Phase::Off
     }
 
-    /// What it does, in the field's words.
+    /// What it does, in the terms of the field.
     pub(super) fn behaviour(&self) -> Behaviour {
         let silent = self.track_out.is_none() && !self.smells;
         match self.phase {
@@ -69,7 +72,8 @@ impl Maintain {
         }
     }
 
-    /// One tick; `arrived`: the goal last given for it has been reached. The stride is the last behaviour's to act.
+    /// One tick. `arrived` says whether its last goal has been reached. The stride is that of the behaviour that
+    /// acted last.
     pub(super) fn step(
         &mut self,
         seen: &Observation,

@@ -1,4 +1,4 @@
-//! Tian's subsumption planner: layers that hold the vehicle, suppress and inhibit each other.
+//! Tian's subsumption planner: layers that control the vehicle, and suppress and inhibit each other.
 
 mod ask;
 mod compose;

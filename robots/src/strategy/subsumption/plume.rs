@@ -3,7 +3,9 @@
 use super::ask::{Ask, Kind, keep};
 use super::maintain::Maintain;
 use super::plume_map::PlumeMap;
-use crate::handoff::{Behave, Behaviour, Manoeuvre, Observation, PlumeMemory, Stride};
+use crate::behave::{Behave, Stride};
+use crate::handoff::{Behaviour, Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
 use world::seeds::Stream;
 
 /// What they ask for in a tick.
@@ -13,22 +15,22 @@ pub(super) struct Asked {
     pub(super) maintain: Option<Ask>,
     pub(super) reacquire: Option<Ask>,
     pub(super) plume_map: Option<Ask>,
-    /// Track-Out has ended: the declaration is to be tested.
+    /// Track-Out has ended: the declaration rule must be tested.
     pub(super) out_ended: bool,
 }
 
-/// The layers at work.
+/// The states of the layers.
 #[derive(Debug)]
 pub(super) struct PlumeLayers {
     find: Box<dyn Behave>,
     maintain: Maintain,
     reacquire: Option<Box<dyn Behave>>,
     plume_map: Option<PlumeMap>,
-    /// What each last asked for.
+    /// What each layer asked for last.
     found: Option<Manoeuvre>,
     maintained: Option<Manoeuvre>,
     reacquired: Option<Manoeuvre>,
-    /// Reacquire asks; Find has the search.
+    /// Whether Reacquire asks; otherwise Find has the search.
     reacquiring: bool,
     searching: bool,
 }
@@ -53,14 +55,14 @@ impl PlumeLayers {
         }
     }
 
-    /// All begin afresh: what led to the last declaration counts no more.
+    /// All layers start afresh: what led to the last declaration no longer counts.
     pub(super) fn renew(&mut self) {
         self.maintain.leave();
         self.plume_map.iter_mut().for_each(PlumeMap::drop_target);
         (self.reacquiring, self.searching) = (false, false);
     }
 
-    /// One tick; `arrived`: whose goal has been reached.
+    /// One tick. `arrived` names the layer whose goal has been reached.
     pub(super) fn step(
         &mut self,
         seen: &Observation,
@@ -122,7 +124,7 @@ impl PlumeLayers {
         asked
     }
 
-    /// Find asks always, and begins afresh whenever it gets the search back.
+    /// Find always asks, and starts afresh whenever it gets the search back.
     fn search(
         &mut self,
         searching: bool,
@@ -141,7 +143,7 @@ impl PlumeLayers {
             let stride = self.find.step(seen, arrived, memory, rng);
             anew = keep(&mut self.found, stride);
         }
-        // Not asked for anything yet, it would go on as the vehicle goes.
+        // As long as nothing was asked for, it continues in the vehicle's direction.
         let ahead = Manoeuvre::Course {
             course: seen.estimate.attitude.heading,
         };

@@ -1,18 +1,22 @@
-//! Construct-Plume-Map: where the robot's map has the source, as a place to search from.
+//! Construct-Plume-Map: the likeliest source of the robot's map as a place from which to search.
 //!
-//! *Source*: Tian et al. 2013, section 2, Construct-Plume-Map, with Farrell, Pang & Li 2003, IEEE Trans. SMC-B 33(6), 850 (the
-//! hidden Markov map). Both say how the map is made (the robot's own, `map: Hmm()`), not what the layer commands.
+//! *Source*: Tian et al. 2013, section 2, Construct-Plume-Map, with Farrell, Pang & Li 2003, IEEE Trans. SMC-B 33(6),
+//! 850 (the hidden Markov map). Both say how the map is made (the robot's own, `map: Hmm()`), not what the layer
+//! commands.
 //!
-//! *Parameters*: the map is heeded once 95 % of its probability lie in at most `most_share` of it, 0.25; the place gone to
-//! lies `down_m` down-flow of the likeliest cell, 30 m (the way a bottom plume takes to rise to the vehicle is not
-//! known; two leaves of a reacquisition); a place nearer than `again_m` to the one last gone to is not gone to again, 40 m.
+//! *Parameters*: the map counts once 95 % of its probability lie in at most `most_share` of it, 0.25. The destination
+//! lies `down_m` down-flow of the likeliest cell, 30 m (the distance over which a plume from the bed rises to the
+//! vehicle is not known; two leaves of a reacquisition). The vehicle does not go again to a place nearer than
+//! `again_m`, 40 m, to the last one.
 //!
-//! *Deviations*: what follows is ours. The layer feeds Find: when nothing but Find asks for the vehicle, a detection has
-//! gone into the map, and the map is sharp enough, its command takes the place of Find's and leads to the likeliest place,
-//! once; from there Find goes on. It does not command against Maintain or Reacquire, and although Tian lists it above
-//! Avoid-Obstacle its command passes through that layer as Find's would.
+//! *Deviations*: what follows is ours. The layer feeds Find. When only Find asks for the vehicle, a detection has
+//! gone into the map, and the map is sharp enough, its command replaces that of Find and leads to the likeliest
+//! place, once; from there Find continues. It does not command against Maintain or Reacquire. Although Tian lists it
+//! above Avoid-Obstacle, its command passes through that layer as Find's would.
 
-use crate::handoff::{MARGIN_M, Manoeuvre, Observation, PlumeMemory, inside};
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
+use crate::places::{MARGIN_M, inside};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -26,7 +30,7 @@ pub struct PlumeMapSpec {
     pub most_share: Fraction,
     /// Down-flow of the likeliest cell, m.
     pub down_m: NonNegative,
-    /// Places nearer to the one last gone to than this are not gone to again, m.
+    /// The vehicle does not go again to a place nearer than this to the last one, m.
     pub again_m: Positive,
 }
 
@@ -44,7 +48,7 @@ impl Default for PlumeMapSpec {
 #[derive(Clone, Debug)]
 pub(super) struct PlumeMap {
     params: PlumeMapSpec,
-    /// The likeliest place, and the point gone to for it, as long as it is gone to.
+    /// The likeliest place, and the destination for it, as long as the vehicle goes there.
     target: Option<(Vector2<f64>, Vector2<f64>)>,
     visited: Option<Vector2<f64>>,
 }
@@ -58,12 +62,12 @@ impl PlumeMap {
         }
     }
 
-    /// There was a detection: what the map knows is new.
+    /// After a detection: what the map knows is new.
     pub(super) fn renew(&mut self) {
         self.visited = None;
     }
 
-    /// Where to go instead of searching from here; with whether that is a new goal.
+    /// Where to go instead of searching from here, and whether that is a new goal.
     pub(super) fn step(
         &mut self,
         seen: &Observation,
@@ -92,12 +96,12 @@ impl PlumeMap {
         Some((Manoeuvre::GoToPoint { point, radius_m }, known.is_none()))
     }
 
-    /// The search is interrupted: what was aimed at will be aimed at anew.
+    /// The search is interrupted: the target will be chosen anew.
     pub(super) fn drop_target(&mut self) {
         self.target = None;
     }
 
-    /// The likeliest place (east, north), m, of a map that says something.
+    /// The likeliest place (east, north), m, if the map knows something.
     fn likeliest(&self, seen: &Observation) -> Option<Vector2<f64>> {
         let belief = seen.belief.as_ref().filter(|b| b.informed)?;
         let cell: f64 = if belief.grid.n[2] == 1 {

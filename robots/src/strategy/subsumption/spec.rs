@@ -1,4 +1,4 @@
-//! What a scenario says about the subsumption planner.
+//! Parameters of the subsumption planner.
 
 use super::super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::super::survey::SurveySpec;
@@ -9,7 +9,8 @@ use super::plume_map::PlumeMapSpec;
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec, TrackInSpec, TrackOutSpec};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
-use crate::handoff::{FixMove, LCDPS, Setting};
+use crate::handoff::Setting;
+use crate::memory::{FixMove, LCDPS};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
@@ -29,10 +30,10 @@ pub struct SubsumptionSpec {
     pub vertical: VerticalSpec,
     /// The layers, lowest first.
     pub layers: Vec<LayerSpec>,
-    /// Length of the list of lost points that Reacquire works off (Pang 2009, section 5.3: 6).
+    /// Length of the list of lost points that Reacquire works through (Pang 2009, section 5.3: 6).
     #[serde(default = "six")]
     pub lost_points: NonZeroUsize,
-    /// Most last detection points that the SIZ rules look at; the oldest are forgotten (all are kept in the paper: 1000).
+    /// Most last detection points for the SIZ rules; a full queue forgets the oldest (the paper keeps all: 1000).
     #[serde(default = "all")]
     pub lcdps: NonZeroUsize,
     /// What the Declare layer does with a declared place before Go-Home; without it the vehicle goes home at once.
@@ -41,7 +42,8 @@ pub struct SubsumptionSpec {
     /// Looks at each last detection point with the camera; a source seen there is declared at once.
     #[serde(default)]
     pub eyes: Option<EyesSpec>,
-    /// What becomes of lost points and last detection points when a navigation fix moves the vehicle (they stay).
+    /// What happens to lost points and last detection points when a navigation fix moves the vehicle (default: they
+    /// stay).
     #[serde(default)]
     pub fixes: FixMove,
 }
@@ -63,7 +65,7 @@ fn all() -> NonZeroUsize {
 }
 
 impl SubsumptionSpec {
-    /// These layers with all else left to its default.
+    /// These layers, with defaults for everything else.
     #[must_use]
     pub fn of(layers: Vec<LayerSpec>) -> Self {
         Self {
@@ -82,7 +84,8 @@ impl SubsumptionSpec {
 impl Listed for SubsumptionSpec {
     const ENTRY: Entry = Entry {
         name: "Subsumption",
-        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest that asks holds the vehicle",
+        what: "layers from the lowest up: find, maintain, reacquire, declare, avoid, plume map, go home; the highest \
+            that asks controls the vehicle",
         source: "Tian et al. 2013, section 2, Fig. 3; Brooks 1986, IEEE J. Robotics and Automation RA-2, 14",
     };
 }
@@ -123,13 +126,13 @@ pub enum LayerSpec {
     Find(FindSpec),
     /// Keeps in contact with the plume from a detection on.
     Maintain(MaintainSpec),
-    /// Looks round where contact was lost.
+    /// Searches around the places where contact was lost.
     Reacquire(ReacquireSpec),
-    /// Declares the source when the places where contact was lost say so.
+    /// Declares the source when the places where contact was lost show it.
     Declare(DeclareSpec),
-    /// Turns the course asked for by lower layers away from obstacles.
+    /// Turns the course that lower layers ask for away from obstacles.
     Avoid(AvoidParams),
-    /// Sends a search without contact to where the robot's map has the source.
+    /// Sends a search without contact to the likeliest source of the robot's map.
     PlumeMap(PlumeMapSpec),
     /// After a declaration: back to the launch point.
     GoHome(GoHomeSpec),
@@ -141,7 +144,7 @@ pub enum LayerSpec {
 pub struct MaintainSpec {
     /// In the plume.
     pub track_in: TrackInSpec,
-    /// After λ s without a detection (Pang 2009); `None`: Track-Out is what remains of λ, as Tian et al. 2013 have it.
+    /// After λ s without a detection (Pang 2009); `None`: Track-Out is the rest of λ, as in Tian et al. 2013.
     pub track_out: Option<TrackOutSpec>,
 }
 

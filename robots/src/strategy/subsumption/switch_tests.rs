@@ -1,8 +1,9 @@
-//! Who holds the vehicle, and whom that silences, with observations written by hand.
+//! Which layer controls the vehicle, and which ones that silences, with observations written by hand.
 
 use super::testing::{Desk, all, avoid, declare, find, go_home, maintain, reacquire, said};
 use super::{LayerSpec, MaintainSpec, SubsumptionSpec};
-use crate::handoff::{Behaviour, FixMove, Manoeuvre, Outcome};
+use crate::handoff::{Behaviour, Manoeuvre, Outcome};
+use crate::memory::FixMove;
 use crate::strategy::Strategy;
 use nalgebra::Vector2;
 
@@ -80,7 +81,7 @@ fn without_a_track_out_the_silence_is_it() {
         declare(),
     ]);
     assert_eq!(d.smell(0.0).behaviour, Behaviour::TrackIn);
-    // Tian's Fig. 4a: in the silence the vehicle is in Track-Out, on the same course.
+    // Tian's Fig. 4a: without detections the vehicle is in Track-Out, on the same course.
     let silence = d.quiet(1.0);
     assert_eq!(
         (said(&silence).as_str(), silence.behaviour),
@@ -149,7 +150,7 @@ fn avoid_beats_declare_for_the_time_of_the_obstacle() {
     let waits = d.smell(15.0);
     assert_eq!((said(&waits).as_str(), waits.declared), ("ss.sH..", None));
     assert_eq!(said(&d.quiet(15.0)), "ss.sH..");
-    // Its echoes are forgotten after 15 s; by then the plume is lost, and looked for.
+    // Its echoes are forgotten after 15 s; by then the plume is lost, and the vehicle looks for it.
     d.obstacle = false;
     d.t_s += 15.0;
     let end = d.quiet(15.0);
@@ -163,7 +164,7 @@ fn layers_under_avoid_go_on_watching_and_get_their_goal_back() {
     let search = d.quiet(0.0).goal.manoeuvre;
     d.obstacle = true;
     assert_eq!(said(&d.quiet(0.0)), "s...H..");
-    // Nothing arrives meanwhile: it is Avoid's goal that the guidance has reached.
+    // Nothing arrives meanwhile: the guidance has reached Avoid's goal.
     assert_eq!(said(&d.arrive(0.0)), "s...H..");
     d.obstacle = false;
     d.t_s += 20.0;

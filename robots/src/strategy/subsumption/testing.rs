@@ -1,4 +1,4 @@
-//! A planner on a desk: observations written by hand, for tests.
+//! A planner for tests, with observations written by hand.
 
 use super::{GoHomeSpec, LayerSpec, MaintainSpec, PlumeMapSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
@@ -57,7 +57,8 @@ pub(super) fn all() -> Vec<LayerSpec> {
     ]
 }
 
-/// A planner and the last goal it gave; flow to the south, so up-flow is north; an obstacle ahead and a map when told.
+/// A planner and its last goal; the flow goes south, so up-flow is north. On request there is an obstacle ahead, and
+/// a map.
 pub(super) struct Desk {
     pub(super) planner: Subsumption,
     pub(super) rng: Stream,
@@ -89,7 +90,7 @@ impl Desk {
         let flow = Some(Vector2::new(0.0, -0.2));
         let at = Vector2::new(0.0, north);
         let mut o = smelling(seen(self.t_s, at, 350.0, flow), smells);
-        // 15 m off in every direction: in the way, whatever the way.
+        // 15 m away in every direction: in the way on any course.
         let beams = (0..36).map(|k| {
             let (s, c) = world::math::sin_cos(f64::from(k * 10).to_radians());
             Beam {

@@ -1,8 +1,8 @@
 //! The whole planner with the real guidance, on a point vehicle in a made-up plume, with a wall on the way.
 //!
-//! The plume: flow to the south-south-east, a meandering centre line, a width growing with the root of the
-//! distance, patches of 2 s that are there or not (60 %). The vehicle: 10 deg/s, its commands at once; its forward
-//! ranging sees the wall in 25 beams over 120 deg, twice a second.
+//! The plume: flow to the south-south-east, a meandering centre line, a width that grows with the root of the
+//! distance, patches of 2 s that are present or not (60 %). The vehicle: 10 deg/s; it follows commands at once; its
+//! forward ranging sees the wall in 25 beams over 120 deg, twice a second.
 
 use super::{GoHomeSpec, LayerSpec, MaintainSpec, Subsumption, SubsumptionSpec};
 use crate::behave::{AvoidParams, FindSpec, ReacquireSpec};
@@ -23,14 +23,14 @@ use world::units::Heading;
 
 const DT_S: f64 = 0.1;
 const SOURCE: Vector2<f64> = Vector2::new(-60.0, 180.0);
-/// A block, from corner to corner (east, north), m: across the plume's edge half-way up.
+/// A block, from corner to corner (east, north), m: across the plume's edge, half-way up.
 const WALL: [Vector2<f64>; 2] = [Vector2::new(-45.0, 40.0), Vector2::new(15.0, 46.0)];
 
 fn flow() -> Vector2<f64> {
     Heading::from_deg(160.0).unit() * 0.15
 }
 
-/// In the plume's width at this place and time.
+/// Whether this place is within the plume's width at this time.
 fn in_width(p: Vector2<f64>, t_s: f64) -> bool {
     let down = flow().normalize();
     let across = Heading::of(down).turned(FRAC_PI_2).unit();
@@ -166,7 +166,7 @@ fn finds_traces_declares_and_goes_home_round_the_wall() {
     for seed in 1..=12 {
         let r = run(seed, true, 7200.0);
         let declared = r.declared.unwrap_or_else(|| panic!("seed {seed}: {r:?}"));
-        // As for the switching diagram: a silence of lambda (5 s at 2 m/s) and the plume's width there.
+        // As for the switching diagram: λ without a detection (5 s at 2 m/s) and the plume's width there.
         let error = (declared - SOURCE).norm();
         assert!(
             error < 13.0,
@@ -194,7 +194,7 @@ fn finds_traces_declares_and_goes_home_round_the_wall() {
 
 #[test]
 fn the_wall_is_in_the_way() {
-    // Without Avoid some of the same runs go through it: otherwise the test above says nothing.
+    // Without Avoid some of the same runs pass through the wall: otherwise the test above would show nothing.
     let through = (1..=12)
         .filter(|seed| run(*seed, false, 7200.0).nearest_m == 0.0)
         .count();

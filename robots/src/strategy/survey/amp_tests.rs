@@ -29,7 +29,7 @@ impl Desk {
         }
     }
 
-    /// A tick at a place, on a heading; on a survey a bare bed is heard if `sonar`.
+    /// A tick at a place, on a heading; during a survey the sidescan hears a bare bed if `sonar`.
     fn tick(
         &mut self,
         p: Vector2<f64>,
@@ -59,7 +59,8 @@ impl Desk {
         d
     }
 
-    /// Three points within 4 m along the flow, lost one after the other; the decision at the end of the last Track-Out.
+    /// Three points within 4 m along the flow, lost one after the other; returns the decision at the end of the last
+    /// Track-Out.
     fn declare(&mut self) -> Decision {
         let north = Heading::from_deg(350.0);
         for k in 0..3 {
@@ -72,7 +73,7 @@ impl Desk {
         self.tick(Vector2::new(0.0, 20.0), north, false, true, false)
     }
 
-    /// Flies the lines that it asks for until it leaves the survey.
+    /// Flies the lines of the survey until it ends.
     fn survey(&mut self, mut d: Decision, sonar: bool) -> Decision {
         for _ in 0..2 {
             let Manoeuvre::FollowLine { from, to } = d.goal.manoeuvre else {
@@ -106,7 +107,7 @@ fn a_declaration_is_surveyed_and_rejected_where_there_is_nothing() {
         (0, Verdict::Rejected, None)
     );
     assert_eq!(again.position, declared.position);
-    // Forgotten, and on with the search at the mission's own height.
+    // The points are forgotten, and the search continues at the mission's own height.
     assert_eq!((end.behaviour, end.outcome), (Behaviour::Find, None));
     assert!(end.lost_points.is_empty());
     assert_eq!(end.goal.vertical, Vertical::Altitude(2.0));

@@ -1,19 +1,23 @@
-//! After a declaration: passes with the sidescan, then with the camera, and what they say of the declared place.
+//! After a declaration: passes with the sidescan, then with the camera, and their verdict on the declared place.
 //!
-//! *Source*: Pang 2009, section 3 ("following the source declaration, additional AUV maneuvers") and section 6 (the declared source's
-//! place confirmed by sidescan sonar); verification of a declared source by pictures: Tian et al. 2013, section 5.
+//! *Source*: Pang 2009, section 3 ("following the source declaration, additional AUV maneuvers") and section 6 (the
+//! declared source's place confirmed by sidescan sonar); verification of a declared source by pictures: Tian et al.
+//! 2013, section 5.
 //!
-//! *Parameters*: see [`SurveySpec`]; none is printed. With lines 8 m beside the place a sidescan of 20 m range sees from each
-//! the strip below the other, where that one is blind, and the place itself from two sides; ±30 m is twice the mean error of a
-//! declaration there (13 m); 3 m of height is 15 % of the range, as sidescans are towed (10 to 20 %).
+//! *Parameters*: see [`SurveySpec`]; the papers print none. With lines 8 m beside the place, a sidescan of 20 m range
+//! sees from each line the strip below the other one, where that one is blind, and sees the place itself from two
+//! sides; ±30 m is twice the mean error of a declaration there (13 m); 3 m of height is 15 % of the range (sidescans
+//! are towed at 10 to 20 %).
 //!
-//! *Deviations*: what is not printed is ours: the order, the rule. Detections count nothing during a survey. A picture that verifies
-//! ends the camera's passes. Where the declared place and the sidescan's differ, the declaration keeps its own and carries the other.
+//! *Deviations*: what is not printed is ours: the order, the rule. Detections are ignored during a survey. A picture
+//! that verifies the source ends the camera's passes. If the declared place and the sidescan's differ, the
+//! declaration keeps its own and carries the other.
 
 use super::spec::{AfterDeclaration, SurveySpec, Verify};
 use crate::behave::Passes;
+use crate::behave::Stride;
 use crate::error::RobotError;
-use crate::handoff::{Behaviour, Declaration, Observation, Stride, Verdict, Vertical};
+use crate::handoff::{Behaviour, Declaration, Observation, Verdict, Vertical};
 use crate::survey::{Object, Waterfall, detect, merge};
 use crate::vision::Verifier;
 use nalgebra::Vector2;
@@ -22,18 +26,18 @@ use world::units::Heading;
 /// Cell of the sidescan's picture, m.
 const CELL_M: f64 = 0.25;
 
-/// What a step after a declaration comes to.
+/// Result of a step after a declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Progress {
-    /// Go on: this is asked of the guidance.
+    /// Continue with this answer for the guidance.
     Go(Stride),
     /// The survey is over: the declaration again, with its verdict.
     Over(Declaration),
 }
 
-/// Which passes are flown.
+/// The passes being flown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+enum SurveyPhase {
     None,
     Sidescan,
     Camera,
@@ -46,7 +50,7 @@ pub struct PostDeclaration {
     verifier: Option<Verifier>,
     /// Declarations so far.
     made: u32,
-    stage: Stage,
+    phase: SurveyPhase,
     declaration: Option<Declaration>,
     along: Heading,
     passes: Passes,
@@ -56,14 +60,14 @@ pub struct PostDeclaration {
     /// Whether each instrument saw a source; `None` if it never reported.
     by_sidescan: Option<bool>,
     by_camera: Option<bool>,
-    /// A picture is wanted; when the newest was asked for, s.
+    /// Whether a picture is wanted; and when the last one was asked for, s.
     picture: bool,
     asked_s: Option<f64>,
 }
 
 impl PostDeclaration {
     /// # Errors
-    /// [`RobotError::Invalid`] when parts of a survey do not go together.
+    /// [`RobotError::Invalid`] if the parts of a survey contradict each other.
     pub fn new(after: &AfterDeclaration) -> Result<Self, RobotError> {
         let mut verifier = None;
         if let AfterDeclaration::Survey(spec) = after {
@@ -74,7 +78,7 @@ impl PostDeclaration {
             after: after.clone(),
             verifier,
             made: 0,
-            stage: Stage::None,
+            phase: SurveyPhase::None,
             declaration: None,
             along: Heading::from_deg(0.0),
             passes: Passes::default(),
@@ -87,8 +91,8 @@ impl PostDeclaration {
         })
     }
 
-    /// A source was declared; `along`: the direction of the lines, up-flow. The declaration with its number, and what the vehicle
-    /// does next: [`Behaviour::Survey`], or the mission's end.
+    /// Takes in a declared source; `along` is the direction of the lines, up-flow. Returns the declaration with its
+    /// number, and what the vehicle does next: [`Behaviour::Survey`], or the mission's end.
     pub fn enter(
         &mut self,
         declaration: Declaration,
@@ -110,7 +114,7 @@ impl PostDeclaration {
         self.objects.clear();
         self.line = None;
         (self.by_sidescan, self.by_camera) = (None, None);
-        self.begin(Stage::Sidescan, declaration.position, seen);
+        self.begin(SurveyPhase::Sidescan, declaration.position, seen);
         (declaration, next)
     }
 
@@ -121,20 +125,20 @@ impl PostDeclaration {
         }
     }
 
-    fn begin(&mut self, stage: Stage, place: Vector2<f64>, seen: &Observation) {
-        let flown = self.spec().and_then(|s| match stage {
-            Stage::Sidescan => s.sidescan.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
-            Stage::Camera => s.camera.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
-            Stage::None => None,
+    fn begin(&mut self, phase: SurveyPhase, place: Vector2<f64>, seen: &Observation) {
+        let flown = self.spec().and_then(|s| match phase {
+            SurveyPhase::Sidescan => s.sidescan.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
+            SurveyPhase::Camera => s.camera.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
+            SurveyPhase::None => None,
         });
         self.passes = flown.map_or_else(Passes::default, |(offsets, half)| {
             let offsets: Vec<f64> = offsets.iter().map(|o| o.get()).collect();
             Passes::over(place, self.along, &offsets, half.get(), &seen.area)
         });
-        self.stage = stage;
+        self.phase = phase;
     }
 
-    /// One tick of the survey. `arrived`: the guidance has reached the end of the line last given.
+    /// One tick of the survey. `arrived` says whether the guidance has reached the end of the last line.
     pub fn step(&mut self, seen: &Observation, arrived: bool) -> Progress {
         let Some(declared) = self.declaration else {
             return Progress::Go(Stride::Over);
@@ -142,15 +146,15 @@ impl PostDeclaration {
         self.picture = false;
         let course = Heading::of(seen.estimate.v_ground());
         let on = self.passes.on_line(seen.estimate.position, course);
-        match self.stage {
-            Stage::Sidescan => self.image(seen, on),
-            Stage::Camera => self.look(seen, on),
-            Stage::None => {}
+        match self.phase {
+            SurveyPhase::Sidescan => self.image(seen, on),
+            SurveyPhase::Camera => self.look(seen, on),
+            SurveyPhase::None => {}
         }
         let mut arrived = arrived;
         loop {
-            // What was seen is enough.
-            let enough = self.stage == Stage::Camera && self.by_camera == Some(true);
+            // The camera has seen enough.
+            let enough = self.phase == SurveyPhase::Camera && self.by_camera == Some(true);
             let stride = if enough {
                 Stride::Over
             } else {
@@ -159,20 +163,20 @@ impl PostDeclaration {
             if stride != Stride::Over {
                 return Progress::Go(stride);
             }
-            // The next passes begin whether or not these had any lines.
+            // The next passes begin even if these had no lines.
             arrived = false;
-            match self.stage {
-                Stage::Sidescan => {
+            match self.phase {
+                SurveyPhase::Sidescan => {
                     self.end_line();
                     let place = self.place(declared.position);
                     let of_source = place.unwrap_or(declared.position);
                     if let Some(d) = &mut self.declaration {
                         d.surveyed = place;
                     }
-                    self.begin(Stage::Camera, of_source, seen);
+                    self.begin(SurveyPhase::Camera, of_source, seen);
                 }
-                Stage::Camera | Stage::None => {
-                    self.stage = Stage::None;
+                SurveyPhase::Camera | SurveyPhase::None => {
+                    self.phase = SurveyPhase::None;
                     let verdict = self.verdict();
                     let over = self.declaration.take().unwrap_or(declared);
                     return Progress::Over(Declaration { verdict, ..over });
@@ -190,25 +194,25 @@ impl PostDeclaration {
         }
     }
 
-    /// Height that the passes ask for; `None` when none are flown.
+    /// Height for the passes; `None` while no passes are flown.
     #[must_use]
     pub fn vertical(&self) -> Option<Vertical> {
         let spec = self.spec()?;
-        let altitude = match self.stage {
-            Stage::Sidescan => spec.sidescan.as_ref()?.altitude_m,
-            Stage::Camera => spec.camera.as_ref()?.altitude_m,
-            Stage::None => return None,
+        let altitude = match self.phase {
+            SurveyPhase::Sidescan => spec.sidescan.as_ref()?.altitude_m,
+            SurveyPhase::Camera => spec.camera.as_ref()?.altitude_m,
+            SurveyPhase::None => return None,
         };
         Some(Vertical::Altitude(altitude.get()))
     }
 
-    /// A picture is wanted in this tick.
+    /// Whether a picture is wanted in this tick.
     #[must_use]
     pub fn picture(&self) -> bool {
         self.picture
     }
 
-    /// Within this distance of a rejected place what led there is forgotten, m.
+    /// Lost points within this distance of a rejected place are forgotten, m.
     #[must_use]
     pub fn forget_m(&self) -> f64 {
         self.spec().map_or(0.0, |s| s.forget_m.get())
@@ -227,7 +231,7 @@ impl PostDeclaration {
         picture.push(ping, &seen.estimate);
     }
 
-    /// Looks through the picture of a line that is over.
+    /// Searches the picture of a finished line.
     fn end_line(&mut self) {
         let Some((_, picture)) = self.line.take() else {
             return;
@@ -239,7 +243,7 @@ impl PostDeclaration {
         }
     }
 
-    /// Where the sidescan has the source, if it saw an object near enough to the declared place.
+    /// The source's place in the sidescan image, if there is an object near enough to the declared place.
     fn place(&mut self, declared: Vector2<f64>) -> Option<Vector2<f64>> {
         let p = self.spec().and_then(|s| s.sidescan.as_ref())?;
         let (within_m, merge_m) = (p.within_m.get(), p.detect.merge_m.get());

@@ -1,4 +1,4 @@
-//! What follows a declaration: home, a stop, or a survey of the declared place. Any strategy can hold it.
+//! What follows a declaration: going home, a stop, or a survey of the declared place. Every strategy can include it.
 
 mod machine;
 mod spec;

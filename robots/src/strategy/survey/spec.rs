@@ -1,4 +1,4 @@
-//! What a scenario says about the time after a declaration.
+//! Parameters of the time after a declaration.
 
 use crate::error::RobotError;
 use crate::survey::DetectSpec;
@@ -14,13 +14,13 @@ const MOST_LINES: usize = 32;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum AfterDeclaration {
-    /// Home, and the mission is completed there.
+    /// Go home; the mission is completed there.
     #[default]
     GoHome,
-    /// The mission is completed on the spot.
+    /// Complete the mission on the spot.
     Stop,
-    /// Passes over the declared place: home if it is verified (or nothing on board could look), on with the search if it is
-    /// rejected.
+    /// Passes over the declared place. If it is verified (or nothing on board could look), the vehicle goes home; if
+    /// it is rejected, the vehicle continues the search.
     Survey(Box<SurveySpec>),
 }
 
@@ -39,11 +39,11 @@ impl AfterDeclaration {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SurveySpec {
-    /// Passes for the sidescan; its best object takes the camera's passes to itself.
+    /// Passes for the sidescan; its best object becomes the centre of the camera's passes.
     pub sidescan: Option<SidescanPasses>,
     /// Passes for the camera, after the sidescan's.
     pub camera: Option<CameraPasses>,
-    /// What a source must have been seen by.
+    /// What must have seen a source.
     pub verify: Verify,
     /// Points where the plume was lost are forgotten within this distance of a rejected place, m.
     pub forget_m: Positive,
@@ -78,9 +78,9 @@ pub struct SidescanPasses {
     pub half_length_m: Positive,
     /// Height above the bed, m.
     pub altitude_m: Positive,
-    /// An object counts within this distance of the declared place, m.
+    /// An object counts only within this distance of the declared place, m.
     pub within_m: Positive,
-    /// When a bright return is an object.
+    /// When a bright return counts as an object.
     pub detect: DetectSpec,
 }
 
@@ -124,26 +124,26 @@ impl Default for CameraPasses {
     }
 }
 
-/// What a source must have been seen by for a declaration to be verified; else it is rejected. An instrument that never
-/// reported has no say.
+/// Which instruments must have seen a source for a declaration to be verified; otherwise it is rejected. An
+/// instrument that never reported is ignored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum Verify {
-    /// An object by the sidescan.
+    /// An object seen by the sidescan.
     #[default]
     Sidescan,
-    /// A source giving off dye by the camera.
+    /// A source giving off dye, seen by the camera.
     Camera,
-    /// One of the two.
+    /// Either of the two.
     Either,
     /// The two.
     Both,
 }
 
 impl SurveySpec {
-    /// Whether its parts go together.
+    /// Checks that its parts agree.
     ///
     /// # Errors
-    /// Names the field below `path` and what is legal.
+    /// Names the field below `path` and the legal values.
     pub fn check(&self, path: &str) -> Result<(), RobotError> {
         let wrong = |field: &str, problem: String| {
             Err(RobotError::Invalid {
@@ -170,7 +170,7 @@ impl SurveySpec {
         };
         if !flown {
             let problem = format!(
-                "{:?} asks for passes that are not flown: give them, or verify otherwise",
+                "{:?} needs passes that are not flown: add them, or choose another `verify`",
                 self.verify
             );
             return wrong("verify", problem);

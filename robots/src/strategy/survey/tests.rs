@@ -1,11 +1,10 @@
-//! Surveys flown by a vehicle that does as it is asked, with a real sonar over a real block.
+//! Surveys flown by a vehicle that follows its goals exactly, with a real sonar over a real block.
 
 use super::*;
+use crate::behave::Stride;
 use crate::handoff::testing::{self, area, seen};
-use crate::handoff::{
-    Behaviour, Declaration, Manoeuvre, Observation, Picture, Stride, Verdict, Vertical,
-};
-use crate::sense::{Sidescan, SidescanSpec};
+use crate::handoff::{Behaviour, Declaration, Manoeuvre, Observation, Picture, Verdict, Vertical};
+use crate::sense::{OnBoard, Sidescan, SidescanSpec};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use std::sync::Arc;
@@ -23,7 +22,7 @@ fn block(at: Vector2<f64>) -> Obstacles {
     Obstacles(vec![testing::block(&BED, "block", [at.x, at.y], [1.0; 3])])
 }
 
-/// Water, and in it, if told, dye and a dark body.
+/// Water; with a source also dye and a dark body.
 fn picture(source: bool) -> Picture {
     let image = RgbImage::from_fn(160, 120, |x, y| match (x, y) {
         (60..140, 50..70) if source => Rgb([230, 90, 100]),
@@ -53,12 +52,17 @@ struct Flown {
     pictures: usize,
 }
 
-/// Declares at a place and flies what follows: each line from end to end, its believed position off the true one by `off`.
+/// Declares at a place and flies what follows: each line from end to end. The believed position differs from the true
+/// one by `off`.
 fn fly(spec: &SurveySpec, sea: &Sea, declared: Vector2<f64>, off: Vector2<f64>) -> Flown {
     let after = AfterDeclaration::Survey(Box::new(spec.clone()));
     let mut post = PostDeclaration::new(&after).unwrap();
-    let mut sonar =
-        Sidescan::new(&SidescanSpec::default(), Vector3::zeros(), "a", 3, PERIOD_S).unwrap();
+    let mut sonar = Sidescan::new(
+        &SidescanSpec::default(),
+        Vector3::zeros(),
+        &OnBoard::new("a", 3, PERIOD_S),
+    )
+    .unwrap();
     let mut clock = Clock::new(PERIOD_S);
     let mut o = seen(0.0, declared, 0.0, None);
     let first = Declaration::first(0.0, declared, "test");
@@ -146,7 +150,7 @@ fn a_block_near_the_declared_place_is_fixed_in_believed_coordinates() {
         assert_eq!(got.lines.len(), 2);
         assert_eq!(got.last.verdict, Verdict::Verified);
         assert_eq!((got.last.number, got.last.position), (0, place()));
-        // Half a cell and line, and what is left of the layover of its top.
+        // Half a cell and line, and the rest of the layover of its top.
         let error = got.last.surveyed.unwrap() - (truth + off);
         assert!(error.norm() < 0.7, "{error}");
     }
@@ -218,7 +222,7 @@ fn the_camera_flies_over_what_the_sidescan_found_and_the_two_agree_as_told() {
         let (from, to) = got.lines[2];
         let target = if object { truth } else { place() };
         assert!((0.5 * (from + to) - target).norm() < 0.7);
-        // One picture a second on a line of 30 m at 2 m/s; the first that shows the source is enough.
+        // One picture per second on a line of 30 m at 2 m/s; the first that shows the source is enough.
         let most = if source == Some(true) { 1 } else { 15 };
         assert_eq!(got.pictures, most, "{object} {source:?}");
         got.last.verdict
@@ -272,7 +276,7 @@ fn parts_that_do_not_go_together_are_named() {
         verify: Verify::Both,
         ..SurveySpec::default()
     };
-    assert!(says(blind).starts_with("strategy.after_declaration.verify: Both asks for passes"));
+    assert!(says(blind).starts_with("strategy.after_declaration.verify: Both needs passes"));
     let none = SurveySpec {
         sidescan: Some(SidescanPasses {
             offsets_m: Vec::new(),

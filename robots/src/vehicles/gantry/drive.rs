@@ -1,24 +1,25 @@
-//! One axis's drive: a trapezoidal speed profile, a position loop round a speed loop, an encoder, and the
-//! watch on the following error.
+//! One axis's drive: a trapezoidal speed profile, a position loop around a speed loop, an encoder, and a monitor of
+//! the following error.
 //!
-//! *Source:* cascaded position and speed loops with speed feed-forward, following-error window and time-out,
-//! position window: CiA 402 drive profile (IEC 61800-7-201), objects 6065h to 6067h; Webster, Volyanskyy &
-//! Weissburg 2012, section 3 (two motor-driven rodless actuators that take target and speed).
+//! *Source:* cascaded position and speed loops with speed feed-forward, following-error window and time-out, position
+//! window: CiA 402 drive profile (IEC 61800-7-201), objects 6065h to 6067h; Webster, Volyanskyy & Weissburg 2012,
+//! section 3 (two motor-driven rodless actuators that take target and speed).
 //!
-//! *Parameters:* see [`CrabGantrySpec`](super::CrabGantrySpec); the axis's travel, speed and force come from the URDF.
+//! *Parameters:* see [`CrabGantrySpec`](super::CrabGantrySpec); the axis's travel, speed and force come from the
+//! URDF.
 //!
-//! *Deviations:* the speed loop is the motor of the joint in the physics; loops run once a step, not at some
-//! kHz. The carriage ends a move off its target by an error drawn for that move (and by lost motion on
-//! reversal), which the encoder, sitting on the motor, does not see; it grows in along the move.
+//! *Deviations:* the speed loop is the motor of the joint in the physics; loops run once per step, not at some kHz.
+//! The carriage ends a move away from its target by an error drawn for that move (and by lost motion on reversal).
+//! The encoder sits on the motor and does not see this error, which grows along the move.
 
 use super::spec::CrabGantrySpec;
 use world::physics::{AxisDrive, JointState};
 use world::seeds::Stream;
 
-/// Draws of the position error are cut at so many standard deviations.
+/// Draws of the position error are cut off at so many standard deviations.
 const CUT: f64 = 3.0;
 
-/// What the URDF allows an axis.
+/// Limits of an axis in the URDF.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct AxisLimits {
     pub(super) travel_m: [f64; 2],
@@ -35,14 +36,14 @@ pub(super) struct Drive {
     speed_m_s: f64,
     target_m: f64,
     limit_m_s: f64,
-    /// The carriage's error: where this move began, and what it will be.
+    /// The carriage's error: at the start of this move, and at its end.
     error_from_m: f64,
     error_to_m: f64,
     began_m: f64,
     direction: f64,
-    /// How long the following error has been too great, s.
+    /// How long the following error has been too large, s.
     lagging_s: f64,
-    /// Encoder at the latest command, m, and the step that followed, s.
+    /// Encoder at the latest command, m, and the length of the step after it, s.
     encoder_m: f64,
     dt_s: f64,
 }
@@ -65,7 +66,7 @@ impl Drive {
         }
     }
 
-    /// Takes the place where the axis stands as known and as target.
+    /// Takes the axis's present place as known and as target.
     pub(super) fn home(&mut self, joint: &JointState, spec: &CrabGantrySpec) {
         self.at_m = joint.position_m;
         self.target_m = joint.position_m;
@@ -73,7 +74,7 @@ impl Drive {
         self.encoder_m = self.encoder(joint, spec);
     }
 
-    /// A new target within the travel, at a speed within the axis's; draws where the move will really end.
+    /// A new target within the travel, at a speed within the axis's; draws where the move will actually end.
     pub(super) fn go(
         &mut self,
         target_m: f64,
@@ -110,7 +111,7 @@ impl Drive {
         self.limit_m_s = self.limits.speed_m_s;
     }
 
-    /// Gives up: stands where the axis is now, without asking for force.
+    /// Gives up: stands at the axis's present place, without force.
     pub(super) fn give_up(&mut self, joint: &JointState) {
         let error = self.error();
         let [low, high] = self.limits.travel_m;
@@ -123,7 +124,7 @@ impl Drive {
         self.lagging_s = 0.0;
     }
 
-    /// The carriage's error now, m; it never takes the carriage out of its travel.
+    /// The carriage's present error, m; it never moves the carriage out of its travel.
     fn error(&self) -> f64 {
         let whole = self.target_m - self.began_m;
         let done = if whole == 0.0 {
@@ -142,7 +143,7 @@ impl Drive {
         ((joint.position_m - self.error()) / count_m).round() * count_m
     }
 
-    /// Speed by the encoder since the latest command, m/s.
+    /// Speed from the encoder since the latest command, m/s.
     pub(super) fn encoder_speed(&self, joint: &JointState, spec: &CrabGantrySpec) -> f64 {
         if self.dt_s == 0.0 {
             return 0.0;
@@ -150,29 +151,29 @@ impl Drive {
         (self.encoder(joint, spec) - self.encoder_m) / self.dt_s
     }
 
-    /// The profile has ended at the target and the encoder is there too.
+    /// Whether the profile has ended at the target and the encoder is there too.
     pub(super) fn arrived(&self, joint: &JointState, spec: &CrabGantrySpec) -> bool {
         let off_m = (self.encoder(joint, spec) - self.target_m).abs();
         self.at_m == self.target_m && self.speed_m_s == 0.0 && off_m <= spec.settle_m.get()
     }
 
-    /// The profile's next speed: as fast as allowed, and still able to stop at the target in whole steps.
+    /// The profile's next speed: as fast as allowed, but able to stop at the target in whole steps.
     fn next_speed(&self, a: f64, dt_s: f64) -> f64 {
         let way = self.target_m - self.at_m;
         let d = way.abs();
         let change = a * dt_s;
-        // The last step ends on the target.
+        // The last step ends at the target.
         let stop = if d <= change * dt_s {
             d / dt_s
         } else {
-            // Speeds v, v - a dt, ... each for a step go v²/2a + v dt/2.
+            // Speeds v, v - a dt, ... for one step each cover v²/2a + v dt/2.
             a * ((dt_s * dt_s / 4.0 + 2.0 * d / a).sqrt() - dt_s / 2.0)
         };
         let wanted = way.signum() * stop.min(self.limit_m_s);
         wanted.clamp(self.speed_m_s - change, self.speed_m_s + change)
     }
 
-    /// One step; `None` when the axis has lagged too long.
+    /// One step; `None` if the axis has lagged for too long.
     pub(super) fn step(
         &mut self,
         joint: &JointState,
@@ -193,10 +194,10 @@ impl Drive {
         let error_m = self.error();
         self.speed_m_s = self.next_speed(spec.acceleration_m_s2.get(), dt_s);
         let next_m = self.at_m + self.speed_m_s * dt_s;
-        // Whole again where rounding would leave it a hair off.
+        // Exactly at the target where rounding would leave it slightly off.
         let close = (next_m - self.target_m).abs() < 1e-12;
         self.at_m = if close { self.target_m } else { next_m };
-        // The carriage has the profile's speed and that of its error; the loop takes up the rest.
+        // The carriage has the profile's speed and that of its error; the loop does the rest.
         let feed_m_s = self.speed_m_s + (self.error() - error_m) / dt_s;
         Some(AxisDrive {
             speed_m_s: feed_m_s + spec.position_gain_per_s.get() * lag_m,

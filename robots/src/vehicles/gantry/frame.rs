@@ -4,41 +4,42 @@
 //!
 //! *Parameters:* none.
 //!
-//! *Deviations:* exactly two joints move, both prismatic, one carried by the other, each along x or y of the
-//! base: x is forward (up-stream), y to the left. Links are base, first slide, and second slide with the
-//! head, each with whatever is fixed to it; the child link of the second slide's joint is the head and its
-//! origin the point that is steered. A probe is any link fixed to the head whose name begins with `probe_`;
-//! its origin is the tip. Only the slides' own links need mass. `visual`, `dynamics` and `mimic` are not read.
+//! *Deviations:* exactly two joints move. Both are prismatic, one carries the other, and each lies along x or y of
+//! the base: x is forward (up-stream), y to the left. The parts are base, first slide, and second slide with the
+//! head, each with all links fixed to it. The child link of the second slide's joint is the head, and its origin is
+//! the point that is steered. A probe is any link fixed to the head whose name begins with `probe_`; its origin is
+//! the tip. Only the slides' own links need mass. `visual`, `dynamics` and `mimic` are not read.
 
-use super::super::urdf_parts::{check_tree, finite, joined, parse, place, pose_of, root, shape};
+use super::super::urdf_parts::{
+    UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape,
+};
 use super::drive::AxisLimits;
 use crate::error::RobotError;
 use crate::handoff::{MAX_PROBES, ProbeMount};
 use nalgebra::Vector3;
-use std::path::Path;
 use urdf_rs::{Joint, JointLimit, JointType, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// Names of links that are probes begin so.
+/// Beginning of the names of links that are probes.
 const PROBE: &str = "probe_";
-/// How far an axis may point off x or y of the base: rounding of angles written in a file.
+/// How far an axis may deviate from x or y of the base: rounding of angles in a file.
 const SKEW: f64 = 1e-4;
 
-/// A slide: its joint and what it carries, but for the next slide.
+/// A slide: its joint and what it carries, without the next slide.
 #[derive(Clone, Debug)]
 pub(super) struct Slide {
     pub(super) joint: String,
     /// 0: along x of the base, 1: along y.
     pub(super) axis: usize,
-    /// 1, or -1 when the joint counts the other way.
+    /// 1, or -1 if the joint counts in the opposite direction.
     pub(super) sign: f64,
     pub(super) limits: AxisLimits,
     pub(super) mass_kg: f64,
     pub(super) shapes: Vec<(Pose, Shape)>,
 }
 
-/// What a URDF says of a gantry. Places are in base axes with both joints at zero.
+/// Contents of a gantry's URDF. Places are in base axes with both joints at zero.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) base_shapes: Vec<(Pose, Shape)>,
@@ -47,16 +48,13 @@ pub(super) struct Frame {
     pub(super) probes: Vec<ProbeMount>,
 }
 
-/// Reads URDF text; `path` is for messages and for mesh files beside it.
-pub(super) fn read(text: &str, path: &Path) -> Result<Frame, RobotError> {
-    frame(text, path).map_err(|problem| RobotError::File {
-        path: path.display().to_string(),
-        problem,
-    })
+/// Reads the text of a URDF and the mesh files that it names.
+pub(super) fn read(urdf: &UrdfText) -> Result<Frame, RobotError> {
+    frame(urdf).map_err(|problem| urdf.fault(problem))
 }
 
-fn frame(text: &str, path: &Path) -> Result<Frame, String> {
-    let robot = parse(text)?;
+fn frame(urdf: &UrdfText) -> Result<Frame, String> {
+    let robot = parse(&urdf.text)?;
     check_tree(&robot)?;
     let base = root(&robot)?.name.as_str();
     let moving = chain(&robot)?;
@@ -64,7 +62,7 @@ fn frame(text: &str, path: &Path) -> Result<Frame, String> {
     let part = |link: &str| part_of(&robot, &moving, link);
     if part(&moving[1].parent.link) != 1 {
         return Err(format!(
-            "joint \"{}\" is not carried by joint \"{}\": the base carries a slide, that one the other",
+            "joint \"{}\" is not carried by joint \"{}\": the base must carry one slide, and that slide the other",
             moving[1].name, moving[0].name
         ));
     }
@@ -83,7 +81,7 @@ fn frame(text: &str, path: &Path) -> Result<Frame, String> {
     let mut slides = [slide(0)?, slide(1)?];
     if slides[0].axis == slides[1].axis {
         return Err(format!(
-            "joints \"{}\" and \"{}\" are parallel: one has to lie along x of \"{base}\", the other along y",
+            "joints \"{}\" and \"{}\" are parallel: one must lie along x of \"{base}\", the other along y",
             moving[0].name, moving[1].name
         ));
     }
@@ -106,8 +104,7 @@ fn frame(text: &str, path: &Path) -> Result<Frame, String> {
         }
         for (i, collision) in link.collision.iter().enumerate() {
             let which = format!("link \"{name}\", collision {}", i + 1);
-            let beside = path.parent().unwrap_or(Path::new(""));
-            let solid = shape(&collision.geometry, beside).map_err(|e| format!("{which}: {e}"))?;
+            let solid = shape(&collision.geometry, urdf).map_err(|e| format!("{which}: {e}"))?;
             finite(&collision.origin, &which)?;
             let placed = (joined(at, &pose_of(&collision.origin)), solid);
             match on {
@@ -133,7 +130,10 @@ fn frame(text: &str, path: &Path) -> Result<Frame, String> {
         ));
     }
     if probes.len() > MAX_PROBES {
-        return Err(format!("{} probes, but {MAX_PROBES} at most", probes.len()));
+        return Err(format!(
+            "{} probes, but at most {MAX_PROBES} are possible",
+            probes.len()
+        ));
     }
     if slides[1].shapes.is_empty() {
         return Err(format!(
@@ -148,7 +148,7 @@ fn frame(text: &str, path: &Path) -> Result<Frame, String> {
     })
 }
 
-/// The part on which a link sits: 0 the base, 1 and 2 the slides.
+/// The part to which a link belongs: 0 the base, 1 and 2 the slides.
 fn part_of(robot: &Robot, moving: &[&Joint; 2], link: &str) -> usize {
     let mut link = link;
     loop {
@@ -162,7 +162,7 @@ fn part_of(robot: &Robot, moving: &[&Joint; 2], link: &str) -> usize {
     }
 }
 
-/// The two joints that move, the one nearer to the base first.
+/// The two moving joints, the one nearer to the base first.
 fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
     let mut moving = Vec::new();
     for joint in &robot.joints {
@@ -185,10 +185,10 @@ fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
             n => format!("{n} are: {}", names.join(", ")),
         };
         return Err(format!(
-            "two joints have to be prismatic, an axis on the base and one on that; {found}"
+            "two joints must be prismatic, one on the base and one on the first; {found}"
         ));
     };
-    // Which of the two is met first on the way down from the other.
+    // If `b` lies between the base and `a`, it comes first.
     let mut link = a.parent.link.as_str();
     while let Some(joint) = robot.joints.iter().find(|j| j.child.link == link) {
         if joint.name == b.name {
@@ -199,7 +199,7 @@ fn chain(robot: &Robot) -> Result<[&Joint; 2], String> {
     Ok([a, b])
 }
 
-/// Axis of the base along which a joint moves, and in which sense.
+/// Axis of the base along which a joint moves, and its sign.
 fn along(joint: &Joint, child_B: &Pose) -> Result<(usize, f64), String> {
     let given = Vector3::from(joint.axis.xyz.0);
     let length = given.norm();

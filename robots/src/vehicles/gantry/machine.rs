@@ -1,13 +1,14 @@
-//! A gantry: frame, drives, and what its controller knows and tells.
+//! A gantry: its frame and drives, what its controller knows, and what it reports.
 //!
 //! *Source:* Webster, Volyanskyy & Weissburg 2012, section 3, Figs. 5 and 6.
 //!
 //! *Parameters:* travel 2 m along and 1 m across the stream, 0.15 m/s (URDF); drives: [`CrabGantrySpec`].
 //!
-//! *Deviations:* a drive that gives up stops both axes until the next command, as a controller of coordinated
-//! axes does. A target outside the travel is cut to it.
+//! *Deviations:* a drive that gives up stops both axes until the next command, as a controller of coordinated axes
+//! does. A target outside the travel is moved to its end.
 
-use super::super::urdf_parts;
+use super::super::files::Files;
+use super::super::urdf_parts::UrdfText;
 use super::drive::Drive;
 use super::frame::{self, Frame};
 use super::spec::{CrabGantrySpec, GantrySpec};
@@ -15,13 +16,12 @@ use crate::error::RobotError;
 use crate::handoff::{GantryDecision, GantryLayout, JointReadings};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
-use std::path::Path;
 use world::frames::Pose;
 use world::physics::{AxisDrive, AxisSpec, GantryBodySpec, JointState};
 use world::seeds::Stream;
 
 const CRAB_GANTRY: &str = include_str!("../../../urdf/crab_gantry.urdf");
-/// Greatest product of position gain and step: beyond it the loop begins to ring.
+/// Greatest product of position gain and step: beyond it the loop begins to oscillate.
 const MAX_GAIN_STEP: f64 = 0.5;
 
 /// A gantry and the state of its drives; the joints belong to the physics.
@@ -37,15 +37,14 @@ pub struct Gantry {
 }
 
 impl Gantry {
-    /// Reads what a scenario in `base_dir` asks for.
+    /// Builds the gantry that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
     ///
     /// # Errors
-    /// When the URDF cannot be read or lacks something, or a drive cannot do what is asked of it.
-    pub fn load(spec: &GantrySpec, base_dir: &Path) -> Result<Self, RobotError> {
+    /// If the URDF cannot be read or lacks something, or if a drive cannot do what is asked of it.
+    pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
         let built_in = ("crab_gantry.urdf", CRAB_GANTRY);
-        let (text, path) = urdf_parts::open(spec.urdf.as_deref(), base_dir, built_in)?;
-        let frame = frame::read(&text, &path)?;
+        let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, built_in)?)?;
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: field.into(),
             problem,
@@ -54,7 +53,7 @@ impl Gantry {
             return Err(invalid(
                 "settle_m",
                 format!(
-                    "must be at least encoder_m, {} m, got {}: the encoder cannot tell",
+                    "must be at least encoder_m, {} m, got {}: the encoder cannot resolve less",
                     spec.encoder_m.get(),
                     spec.settle_m.get()
                 ),
@@ -89,10 +88,10 @@ impl Gantry {
         })
     }
 
-    /// Whether the drives' loops can run at a step.
+    /// Checks that the drives' loops can run at a step.
     ///
     /// # Errors
-    /// When the position gain is too great for it.
+    /// If the position gain is too great for it.
     pub fn check_step(&self, dt_s: f64) -> Result<(), RobotError> {
         let most = MAX_GAIN_STEP / dt_s;
         if self.spec.position_gain_per_s.get() <= most {
@@ -107,11 +106,11 @@ impl Gantry {
         })
     }
 
-    /// The body for the physics, its base at `base` (x up-stream, y to the left, z = 0 on the bed), the head
+    /// The body for the physics, with its base at `base` (x up-stream, y to the left, z = 0 on the bed) and the head
     /// at `start_m` (forward, left).
     ///
     /// # Errors
-    /// When the start lies outside the travel.
+    /// If the start lies outside the travel.
     pub fn body_spec(
         &self,
         id: &str,
@@ -169,7 +168,7 @@ impl Gantry {
         self.frame.slides.each_ref().map(|s| s.joint.as_str())
     }
 
-    /// What the drives are told for the next step. A decision with a new number begins a move; number 0 is none.
+    /// The drives' commands for the next step. A decision with a new number begins a move; number 0 is none.
     ///
     /// # Panics
     /// If a target or speed is not finite or a speed is negative.
@@ -191,7 +190,7 @@ impl Gantry {
         assert!(
             target.iter().all(|v| v.is_finite())
                 && speed.iter().all(|v| v.is_finite() && *v >= 0.0),
-            "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher has to decide on finite places and speeds >= 0"
+            "a gantry cannot go to {target:?} m at {speed:?} m/s: its searcher must give finite places and speeds >= 0"
         );
         if decision.stopped.is_some() {
             if !self.halted {

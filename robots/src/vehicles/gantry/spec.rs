@@ -1,4 +1,4 @@
-//! What a scenario says of a gantry.
+//! Parameters of a gantry.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -8,7 +8,7 @@ use world::ranges::{NonNegative, Positive};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum GantrySpec {
-    /// The gantry of the blue-crab tracker, or any other of two level slides.
+    /// The gantry of the blue-crab tracker, or another one with two level slides.
     CrabGantry(CrabGantrySpec),
 }
 
@@ -18,31 +18,32 @@ impl Default for GantrySpec {
     }
 }
 
-/// A gantry: its frame by URDF, its drives by numbers. Travel, greatest speeds, greatest forces, masses, shapes
-/// and probes stand in the URDF; the paper says nothing of its drives beyond the speeds.
+/// A gantry: the URDF describes its frame, these numbers its drives. Travel, greatest speeds, greatest forces,
+/// masses, shapes and probes are in the URDF. Of the drives, the paper gives only the speeds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabGantrySpec {
-    /// URDF file, relative to the scenario file; `None`: the one built in.
+    /// URDF file, relative to the scenario file; `None`: the built-in one.
     pub urdf: Option<String>,
     /// Acceleration and braking of each axis, m/s²: top speed within 0.3 s.
     pub acceleration_m_s2: Positive,
-    /// Standard deviation of where a move ends, drawn for each move and axis, m. Two of them are 0.1 mm, the
-    /// order of the ± 0.05 to 0.2 mm that makers of belt-driven rodless units state as repeatability.
+    /// Standard deviation of the place where a move ends, drawn for each move and axis, m. Two of them are 0.1 mm,
+    /// the order of the ± 0.05 to 0.2 mm that makers of belt-driven rodless units state as repeatability.
     pub repeatability_m: NonNegative,
     /// Lost motion between motor and carriage on reversal, m: 0 for a preloaded belt or screw.
     pub backlash_m: NonNegative,
-    /// One count of the encoder at the carriage, m: 8000 counts a turn of a belt pulley of 80 mm.
+    /// One count of the encoder at the carriage, m: 8000 counts per turn of a belt pulley of 80 mm.
     pub encoder_m: Positive,
-    /// Position loop: speed for each metre of error, 1/s.
+    /// Position loop: speed per metre of error, 1/s.
     pub position_gain_per_s: Positive,
     /// Time constant of the speed loop, s.
     pub response_s: Positive,
-    /// A target is reached when the encoder is so close to it, m (CiA 402, object 6067h).
+    /// A target counts as reached when the encoder is this close to it, m (CiA 402, object 6067h).
     pub settle_m: Positive,
     /// Greatest following error, m (CiA 402, object 6065h).
     pub following_error_m: Positive,
-    /// How long it may be greater before the drive stops and reports `blocked`, s (CiA 402, object 6066h).
+    /// How long the following error may be greater before the drive stops and reports `blocked`, s (CiA 402, object
+    /// 6066h).
     pub following_time_s: NonNegative,
 }
 

@@ -1,12 +1,12 @@
 //! Drives on the joints of the physics: profiles, errors, ends of travel, things in the way.
 
+use super::super::files::InMemory;
 use super::machine::Gantry;
 use super::spec::{CrabGantrySpec, GantrySpec};
 use super::test_frame::OTHER;
 use crate::handoff::{GantryBehaviour, GantryDecision, JointReadings, TrackerState};
 use nalgebra::{Vector2, Vector3};
 use proptest::prelude::*;
-use std::path::Path;
 use world::area::Area;
 use world::frames::Pose;
 use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
@@ -17,7 +17,7 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 const STEP_S: f64 = 0.02;
-/// The holder of the probes reaches so far ahead of the head's middle, m.
+/// The holder of the probes extends this far ahead of the head's middle, m.
 const AHEAD_M: f64 = 0.015;
 /// How far a head that is driven at 0.15 m/s with 200 N may press into a solid, m.
 const PRESS_M: f64 = 1e-4;
@@ -28,13 +28,13 @@ struct Bench {
     id: GantryId,
     rng: Stream,
     decision: GantryDecision,
-    /// Farthest forward that a block lets the head go, m.
+    /// The farthest forward place that a block allows the head, m.
     stop_m: f64,
 }
 
 impl Bench {
-    fn with(spec: CrabGantrySpec, start: (f64, f64), dir: &Path) -> Self {
-        let gantry = Gantry::load(&GantrySpec::CrabGantry(spec), dir).expect("a gantry");
+    fn with(spec: CrabGantrySpec, start: (f64, f64), files: &InMemory) -> Self {
+        let gantry = Gantry::load(&GantrySpec::CrabGantry(spec), files).expect("a gantry");
         gantry.check_step(STEP_S).expect("a usual step");
         let mut physics = Physics::new(STEP_S);
         let base = Pose::level(Vector3::zeros(), Heading::from_deg(90.0));
@@ -58,7 +58,7 @@ impl Bench {
     }
 
     fn new() -> Self {
-        Self::with(CrabGantrySpec::default(), (0.5, 0.0), Path::new("."))
+        Self::with(CrabGantrySpec::default(), (0.5, 0.0), &InMemory::default())
     }
 
     fn go(&mut self, forward: f64, left: f64, speed: (f64, f64)) {
@@ -97,7 +97,7 @@ impl Bench {
         self.gantry.head_m(&self.physics.joints(self.id))
     }
 
-    /// Steps until the target is reached or a drive gives up; at most so many seconds.
+    /// Steps until the target is reached or a drive gives up, at most so many seconds.
     fn until_done(&mut self, at_most_s: f64) -> (JointReadings, f64) {
         let steps = (at_most_s / STEP_S) as usize;
         for i in 1..=steps {
@@ -132,7 +132,7 @@ impl Bench {
             axis: Heading::from_deg(90.0),
         };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(0.0), 1.0, 1.0);
-        let block = Obstacle::build(&spec, &bed, Path::new(".")).expect("a block");
+        let block = Obstacle::build(&spec, &bed, "".as_ref()).expect("a block");
         self.physics.add_obstacle(&block);
         self.stop_m = forward - AHEAD_M;
     }
@@ -181,7 +181,7 @@ fn ends_of_moves_scatter_as_stated_and_the_encoder_does_not_see_it() {
             ..CrabGantrySpec::default()
         },
         (0.5, 0.0),
-        Path::new("."),
+        &InMemory::default(),
     );
     let n = 200;
     let mut sum2 = 0.0;
@@ -205,7 +205,7 @@ fn lost_motion_shows_on_reversal() {
         backlash_m: NonNegative::new(2e-3),
         ..CrabGantrySpec::default()
     };
-    let mut bench = Bench::with(spec, (0.5, 0.0), Path::new("."));
+    let mut bench = Bench::with(spec, (0.5, 0.0), &InMemory::default());
     let mut end = |to: f64| {
         bench.go(to, 0.0, (0.1, 0.1));
         bench.until_done(5.0);
@@ -277,15 +277,12 @@ fn a_place_that_is_none_is_named() {
 
 #[test]
 fn another_gantry_moves_where_it_is_told() {
-    let dir = std::env::temp_dir().join(format!("rheotaxis-drive-{}", std::process::id()));
-    std::fs::create_dir_all(&dir).expect("a directory");
-    std::fs::write(dir.join("other.urdf"), OTHER).expect("a file");
+    let files = InMemory::default().with("other.urdf", OTHER.as_bytes());
     let spec = CrabGantrySpec {
         urdf: Some("other.urdf".into()),
         ..CrabGantrySpec::default()
     };
-    let mut bench = Bench::with(spec, (-2.0, 0.1), &dir);
-    std::fs::remove_dir_all(&dir).expect("cleaned up");
+    let mut bench = Bench::with(spec, (-2.0, 0.1), &files);
     bench.go(-1.5, -0.4, (0.3, 0.2));
     let (readings, _) = bench.until_done(10.0);
     assert!((bench.head() - Vector2::new(-1.5, -0.4)).amax() < 5e-4);
@@ -320,8 +317,7 @@ fn the_same_seed_moves_the_same_to_the_last_bit() {
 proptest! {
     #![proptest_config(crate::handoff::testing::fixed(24))]
 
-    /// Whatever is asked, and with whatever interruptions: `step` checks limits, forces and the
-    /// block each time.
+    /// For any commands and interruptions: `step` checks limits, forces and the block each time.
     #[test]
     fn no_command_moves_a_joint_past_its_limits(
         moves in proptest::collection::vec((-3.0..5.0f64, -2.0..2.0f64, 0.0..3.0f64, 0.0..3.0f64, 1usize..200), 1..8),
@@ -332,7 +328,7 @@ proptest! {
             repeatability_m: NonNegative::new(scatter),
             ..CrabGantrySpec::default()
         };
-        let mut bench = Bench::with(spec, (0.1, 0.0), Path::new("."));
+        let mut bench = Bench::with(spec, (0.1, 0.0), &InMemory::default());
         bench.block(block);
         for (forward, left, v, w, steps) in moves {
             bench.go(forward, left, (v, w));

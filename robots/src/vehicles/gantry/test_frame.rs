@@ -1,10 +1,11 @@
-//! What a URDF of a gantry says, and what a wrong one is told.
+//! Reads URDFs of gantries, and checks the messages for wrong ones.
 
+use super::super::files::InMemory;
+use super::super::urdf_parts::as_file;
 use super::frame::{Frame, read};
 use super::machine::Gantry;
 use super::spec::{CrabGantrySpec, GantrySpec};
 use nalgebra::{Vector2, Vector3};
-use std::path::Path;
 use world::frames::Pose;
 use world::physics::JointState;
 use world::ranges::Positive;
@@ -13,7 +14,7 @@ use world::units::Heading;
 const GOOD: &str = include_str!("../../../urdf/crab_gantry.urdf");
 const FIRST: &str = r#"<limit lower="0" upper="2" velocity="0.15" effort="200"/>"#;
 
-/// Another's gantry: the slide across on the base, turned mounts, counting the other way, two probes.
+/// A different gantry: the slide across is on the base, mounts are turned, a joint counts the other way, two probes.
 pub(super) const OTHER: &str = r#"<robot name="other">
   <link name="frame"><collision><origin xyz="0 0 1"/><geometry><sphere radius="0.1"/></geometry></collision></link>
   <link name="bridge"><inertial><mass value="8"/><inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/></inertial></link>
@@ -34,7 +35,8 @@ pub(super) const OTHER: &str = r#"<robot name="other">
 </robot>"#;
 
 fn parse(text: &str) -> Result<Frame, String> {
-    read(text, Path::new("/no/such/place/g.urdf")).map_err(|e| e.to_string())
+    let files = InMemory::default();
+    read(&as_file(text, "/no/such/place/g.urdf", &files)).map_err(|e| e.to_string())
 }
 
 #[track_caller]
@@ -53,7 +55,7 @@ fn at(a: f64, b: f64) -> [JointState; 2] {
 
 #[test]
 fn the_built_in_gantry_is_the_paper_s() {
-    let gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    let gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     let layout = gantry.layout(20.0, [-5.0, 5.0]);
     assert_eq!(layout.travel_m, [[0.0, 2.0], [-0.5, 0.5]]);
     assert_eq!(layout.max_speed_m_s, [0.15, 0.15]);
@@ -90,15 +92,12 @@ fn another_gantry_with_axes_swapped_and_turned_is_understood() {
     assert!((tip - Vector3::new(0.0, 0.04, -0.3)).norm() < 1e-6, "{tip}");
     assert_eq!(frame.base_shapes.len(), 1);
 
-    let dir = std::env::temp_dir().join(format!("rheotaxis-gantry-{}", std::process::id()));
-    std::fs::create_dir_all(&dir).expect("a directory");
-    std::fs::write(dir.join("other.urdf"), OTHER).expect("a file");
+    let files = InMemory::default().with("other.urdf", OTHER.as_bytes());
     let spec = GantrySpec::CrabGantry(CrabGantrySpec {
         urdf: Some("other.urdf".into()),
         ..CrabGantrySpec::default()
     });
-    let gantry = Gantry::load(&spec, &dir).expect("another gantry");
-    std::fs::remove_dir_all(&dir).expect("cleaned up");
+    let gantry = Gantry::load(&spec, &files).expect("another gantry");
     let layout = gantry.layout(20.0, [-5.0, 5.0]);
     assert_eq!(layout.travel_m, [[-3.0, 1.0], [-0.6, 0.2]]);
     assert_eq!(layout.max_speed_m_s, [0.3, 0.2]);
@@ -151,7 +150,7 @@ fn broken_trees_are_told() {
     fails(
         "<link name=\"base\"/>",
         "<link name=\"base\"/><link name=\"beam\"/>",
-        "link \"beam\" is there twice",
+        "link \"beam\" occurs twice",
     );
     fails(
         "<origin xyz=\"0 0 0.6\"/>",
@@ -167,7 +166,7 @@ fn broken_axes_are_told() {
     fails(
         across,
         &to("fixed"),
-        "two joints have to be prismatic, an axis on the base and one on that; 1 are: \"along_stream\"",
+        "two joints must be prismatic, one on the base and one on the first; 1 are: \"along_stream\"",
     );
     fails(
         across,
@@ -182,17 +181,20 @@ fn broken_axes_are_told() {
     fails(
         "name=\"left_mount\" type=\"fixed\"",
         "name=\"left_mount\" type=\"prismatic\"",
-        "two joints have to be prismatic, an axis on the base and one on that; 3 are: \"along_stream\", \"across_stream\", \"left_mount\"",
+        "two joints must be prismatic, one on the base and one on the first; 3 are: \"along_stream\", \
+        \"across_stream\", \"left_mount\"",
     );
     fails(
         "<parent link=\"beam\"/>",
         "<parent link=\"base\"/>",
-        "joint \"across_stream\" is not carried by joint \"along_stream\": the base carries a slide, that one the other",
+        "joint \"across_stream\" is not carried by joint \"along_stream\": the base must carry one slide, and that \
+        slide the other",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
         "<axis xyz=\"1 0 0\"/>",
-        "joints \"along_stream\" and \"across_stream\" are parallel: one has to lie along x of \"base\", the other along y",
+        "joints \"along_stream\" and \"across_stream\" are parallel: one must lie along x of \"base\", the other \
+        along y",
     );
     fails(
         "<axis xyz=\"0 1 0\"/>",
@@ -256,7 +258,7 @@ fn broken_masses_and_shapes_are_told() {
     fails(
         "<box size=\"0.1 1.25 0.1\"/>",
         "<mesh filename=\"beam.stl\"/>",
-        "link \"beam\", collision 1: mesh \"beam.stl\": No such file or directory (os error 2)",
+        "link \"beam\", collision 1: mesh \"beam.stl\": there is no such file",
     );
 }
 
@@ -279,7 +281,7 @@ fn missing_and_too_many_probes_are_told() {
     fails(
         "</robot>",
         &format!("{more}</robot>"),
-        "9 probes, but 8 at most",
+        "9 probes, but at most 8 are possible",
     );
 }
 
@@ -287,7 +289,7 @@ fn missing_and_too_many_probes_are_told() {
 fn drives_that_cannot_do_it_are_told() {
     let told = |spec: CrabGantrySpec| {
         let spec = GantrySpec::CrabGantry(spec);
-        let error = Gantry::load(&spec, Path::new(".")).expect_err("cannot be");
+        let error = Gantry::load(&spec, &InMemory::default()).expect_err("cannot be");
         error.to_string()
     };
     let base = CrabGantrySpec::default;
@@ -303,9 +305,9 @@ fn drives_that_cannot_do_it_are_told() {
             encoder_m: Positive::new(0.001),
             ..base()
         }),
-        "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot tell"
+        "settle_m: must be at least encoder_m, 0.001 m, got 0.0002: the encoder cannot resolve less"
     );
-    let gantry = Gantry::load(&GantrySpec::default(), Path::new(".")).expect("built in");
+    let gantry = Gantry::load(&GantrySpec::default(), &InMemory::default()).expect("built in");
     gantry.check_step(0.02).expect("a usual step");
     let error = gantry.check_step(0.1).expect_err("too long");
     assert_eq!(

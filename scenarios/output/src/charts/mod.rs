@@ -1,5 +1,6 @@
 //! Charts: canvas, panels with axes, contours, colours. Figures are drawn as SVG with our own helpers. The PNG is the
 //! same SVG, rasterised with a font that the program contains, so both look the same on a machine without fonts.
+//! *Written here*: plotting crates have no belief maps, sections and flumes as papers of our field show them.
 
 pub mod canvas;
 pub mod contours;

@@ -141,11 +141,11 @@ impl Levels {
 }
 
 /// Cells of one size in shades; neighbours of one shade in a line form one shape.
-struct Cells {
+struct ShadedCells {
     rings: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
-impl Cells {
+impl ShadedCells {
     fn new() -> Self {
         Self {
             rings: vec![Vec::new(); SHADES],
@@ -203,7 +203,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
         panel.height,
         &Style::fill("#000000"),
     );
-    let mut cells = Cells::new();
+    let mut cells = ShadedCells::new();
     for lines in rows.chunks(BLOCK) {
         let along = |r: &Row| r.along_m - begin;
         let y = [
@@ -266,7 +266,7 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
         panel.height,
         &Style::fill("#000000"),
     );
-    let mut cells = Cells::new();
+    let mut cells = ShadedCells::new();
     for j in 0..n {
         let of = |(sum, m): &(f64, u32)| (*m > 0).then(|| level.shade(sum / f64::from(*m)));
         let shades: Vec<_> = sums[j * n..(j + 1) * n].iter().map(of).collect();

@@ -11,7 +11,7 @@ use crate::results::{
     BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals,
     TrackTable,
 };
-use crate::sample::{area, frames, info, plume, robots, source, terrain};
+use crate::sample::{area, declared, frames, info, plume, robots, source, terrain};
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
@@ -40,12 +40,13 @@ fn reported<T>(
         outcome: RunOutcome::Found,
         error: None,
         digest: "00ff".into(),
+        declarations: declared(frames),
         totals: Totals::default(),
     };
     of(&RunReport {
         pictures: &[],
         echoes: &Echoes::default(),
-        summary: &builder.finish(end, sources),
+        summary: &builder.finish(&end, sources),
         track: &table.finish(),
         gantries: &[],
         beliefs: &BeliefTrack::default(),

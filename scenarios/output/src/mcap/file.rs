@@ -5,7 +5,7 @@
 //! *Parameters*: [`FLUSH_NS`]: chunks are closed at least this often in simulated time.
 //! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover` restores its index.
 
-use super::ros_messages::Kind;
+use super::ros_messages::MessageKind;
 use ::mcap::records::{MessageHeader, Metadata};
 use ::mcap::{Attachment, McapError, WriteOptions, Writer};
 use serde_json::Value;
@@ -118,7 +118,7 @@ impl McapFile {
     pub fn write(
         &mut self,
         topic: &str,
-        kind: Kind,
+        kind: MessageKind,
         t_ns: u64,
         cdr: &[u8],
     ) -> Result<(), RecordError> {
@@ -271,8 +271,8 @@ mod tests {
         f.attach("scenario.ron", "text/plain", b"()").unwrap();
         for k in 0..3u64 {
             let t = k * FLUSH_NS;
-            f.write("/clock", Kind::Clock, t, &clock(t)).unwrap();
-            f.write("/a/chemical", Kind::Float64, t, &float64(0.5))
+            f.write("/clock", MessageKind::Clock, t, &clock(t)).unwrap();
+            f.write("/a/chemical", MessageKind::Float64, t, &float64(0.5))
                 .unwrap();
         }
         assert!(!path.exists());
@@ -323,7 +323,7 @@ mod tests {
         let mut f = McapFile::create(&path, "test").unwrap();
         for k in 0..=20u64 {
             let t = k * FLUSH_NS / 4;
-            f.write("/clock", Kind::Clock, t, &clock(t)).unwrap();
+            f.write("/clock", MessageKind::Clock, t, &clock(t)).unwrap();
         }
         let temporary = f.temporary().to_owned();
         // Neither finish nor drop runs, as after a kill.

@@ -1,13 +1,11 @@
 //! MCAP files of ROS 2 messages.
 
-mod cdr;
 mod file;
 mod ros_messages;
 mod ros_schemas;
 
-pub use cdr::Cdr;
 pub use file::{FLUSH_NS, McapFile, RecordError, nanoseconds};
 pub use ros_messages::{
-    Joint, Kind, Odometry, clock, compressed_image, float64, joint_state, point_cloud,
+    Joint, MessageKind, Odometry, clock, compressed_image, float64, joint_state, point_cloud,
     pose_stamped, text, transforms, vector3_stamped,
 };

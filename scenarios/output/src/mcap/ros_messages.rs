@@ -1,15 +1,18 @@
 //! The ROS 2 messages that we record, encoded in CDR.
 //!
-//! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames).
+//! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames). Encoding: OMG DDSI-RTPS 2.5,
+//! section 10, by the crate `cdr-encoding`.
 //! *Parameters*: none.
-//! *Deviations*: covariances are zero, which means "unknown" in ROS.
+//! *Deviations*: covariances are zero, which means "unknown" in ROS. Fields that only group others are written without
+//! a type of their own, because CDR has no mark for them.
 
-use super::cdr::Cdr;
+use byteorder::LittleEndian;
 use nalgebra::{UnitQuaternion, Vector3};
+use serde::{Serialize, Serializer};
 
 /// A kind of message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum MessageKind {
     /// `nav_msgs/msg/Odometry`.
     Odometry,
     /// `std_msgs/msg/Float64`.
@@ -32,28 +35,73 @@ pub enum Kind {
     CompressedImage,
 }
 
-impl Kind {
+impl MessageKind {
     /// All kinds.
-    pub const ALL: [Kind; 10] = [
-        Kind::Odometry,
-        Kind::Float64,
-        Kind::Text,
-        Kind::Vector3Stamped,
-        Kind::PoseStamped,
-        Kind::TfMessage,
-        Kind::Clock,
-        Kind::PointCloud2,
-        Kind::JointState,
-        Kind::CompressedImage,
+    pub const ALL: [MessageKind; 10] = [
+        MessageKind::Odometry,
+        MessageKind::Float64,
+        MessageKind::Text,
+        MessageKind::Vector3Stamped,
+        MessageKind::PoseStamped,
+        MessageKind::TfMessage,
+        MessageKind::Clock,
+        MessageKind::PointCloud2,
+        MessageKind::JointState,
+        MessageKind::CompressedImage,
     ];
 }
 
-fn xyz(v: &Vector3<f64>) -> [f64; 3] {
-    [v.x, v.y, v.z]
+/// A message as CDR. Four bytes before it say: plain CDR, little-endian.
+fn cdr(message: &impl Serialize) -> Vec<u8> {
+    let mut bytes = vec![0, 1, 0, 0];
+    cdr_encoding::to_writer::<_, LittleEndian, _>(&mut bytes, message)
+        .expect("a message of numbers, texts and sequences becomes CDR");
+    bytes
 }
 
-fn xyzw(q: &UnitQuaternion<f64>) -> [f64; 4] {
-    [q.i, q.j, q.k, q.w]
+/// `builtin_interfaces/Time`.
+#[derive(Serialize)]
+struct Time {
+    sec: i32,
+    nanosec: u32,
+}
+
+impl Time {
+    fn new(t_ns: u64) -> Self {
+        const NS: u64 = 1_000_000_000;
+        Self {
+            sec: i32::try_from(t_ns / NS).expect("simulated time stays below 68 years"),
+            nanosec: (t_ns % NS) as u32,
+        }
+    }
+}
+
+/// `std_msgs/Header`.
+#[derive(Serialize)]
+struct Header<'a> {
+    stamp: Time,
+    frame_id: &'a str,
+}
+
+impl<'a> Header<'a> {
+    fn new(t_ns: u64, frame_id: &'a str) -> Self {
+        let stamp = Time::new(t_ns);
+        Self { stamp, frame_id }
+    }
+}
+
+fn xyz(v: &Vector3<f64>) -> [f64; 3] {
+    (*v).into()
+}
+
+/// `geometry_msgs/Pose` and `geometry_msgs/Transform`: the place, and the quaternion in the order x, y, z, w.
+fn pose(p: &Vector3<f64>, q: &UnitQuaternion<f64>) -> ([f64; 3], [f64; 4]) {
+    (xyz(p), q.coords.into())
+}
+
+/// `uint8[]`.
+fn bytes<S: Serializer>(of: &[u8], to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_bytes(of)
 }
 
 /// Position and attitude of `child` in `frame`; velocities in the child's axes.
@@ -79,50 +127,39 @@ impl Odometry<'_> {
     /// As CDR.
     #[must_use]
     pub fn cdr(&self) -> Vec<u8> {
-        const UNKNOWN: [f64; 36] = [0.0; 36];
-        let mut c = Cdr::new();
-        c.header(self.t_ns, self.frame)
-            .text(self.child)
-            .f64s(&xyz(&self.position))
-            .f64s(&xyzw(&self.attitude))
-            .f64s(&UNKNOWN)
-            .f64s(&xyz(&self.linear))
-            .f64s(&xyz(&self.angular))
-            .f64s(&UNKNOWN);
-        c.finish()
+        const UNKNOWN: [[f64; 6]; 6] = [[0.0; 6]; 6];
+        let twist = (xyz(&self.linear), xyz(&self.angular));
+        cdr(&(
+            Header::new(self.t_ns, self.frame),
+            self.child,
+            (pose(&self.position, &self.attitude), UNKNOWN),
+            (twist, UNKNOWN),
+        ))
     }
 }
 
 /// A `Float64`.
 #[must_use]
 pub fn float64(v: f64) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.f64(v);
-    c.finish()
+    cdr(&v)
 }
 
 /// A `String`.
 #[must_use]
 pub fn text(s: &str) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.text(s);
-    c.finish()
+    cdr(&s)
 }
 
 /// A `Vector3Stamped`.
 #[must_use]
 pub fn vector3_stamped(t_ns: u64, frame: &str, v: &Vector3<f64>) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.header(t_ns, frame).f64s(&xyz(v));
-    c.finish()
+    cdr(&(Header::new(t_ns, frame), xyz(v)))
 }
 
 /// A `PoseStamped`.
 #[must_use]
 pub fn pose_stamped(t_ns: u64, frame: &str, p: &Vector3<f64>, q: &UnitQuaternion<f64>) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.header(t_ns, frame).f64s(&xyz(p)).f64s(&xyzw(q));
-    c.finish()
+    cdr(&(Header::new(t_ns, frame), pose(p, q)))
 }
 
 /// A `TFMessage`: each child's pose in `parent`.
@@ -132,32 +169,33 @@ pub fn transforms(
     parent: &str,
     children: &[(&str, Vector3<f64>, UnitQuaternion<f64>)],
 ) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.len(children.len());
-    for (child, p, q) in children {
-        c.header(t_ns, parent)
-            .text(child)
-            .f64s(&xyz(p))
-            .f64s(&xyzw(q));
-    }
-    c.finish()
+    let stamped =
+        (children.iter()).map(|(child, p, q)| (Header::new(t_ns, parent), *child, pose(p, q)));
+    cdr(&stamped.collect::<Vec<_>>())
 }
 
 /// A `Clock`.
 #[must_use]
 pub fn clock(t_ns: u64) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.time(t_ns);
-    c.finish()
+    cdr(&Time::new(t_ns))
 }
 
 /// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the bytes
 /// of a `png` or `jpeg` file.
 #[must_use]
 pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.header(t_ns, frame).text(format).blob(file);
-    c.finish()
+    #[derive(Serialize)]
+    struct CompressedImage<'a> {
+        header: Header<'a>,
+        format: &'a str,
+        #[serde(serialize_with = "bytes")]
+        data: &'a [u8],
+    }
+    cdr(&CompressedImage {
+        header: Header::new(t_ns, frame),
+        format,
+        data: file,
+    })
 }
 
 /// State of a joint at one time, for a `JointState`.
@@ -176,19 +214,10 @@ pub struct Joint<'a> {
 /// A `JointState`.
 #[must_use]
 pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
-    let mut c = Cdr::new();
-    c.header(t_ns, frame).len(joints.len());
-    for joint in joints {
-        c.text(joint.name);
-    }
+    let names: Vec<&str> = joints.iter().map(|j| j.name).collect();
     let columns: [fn(&Joint) -> f64; 3] = [|j| j.position, |j| j.velocity, |j| j.effort];
-    for of in columns {
-        c.len(joints.len());
-        for joint in joints {
-            c.f64(of(joint));
-        }
-    }
-    c.finish()
+    let columns = columns.map(|of| joints.iter().map(of).collect::<Vec<_>>());
+    cdr(&(Header::new(t_ns, frame), names, columns))
 }
 
 /// A `PointCloud2` with the named 32-bit fields; for each point, `rows` holds one value per field.
@@ -199,110 +228,168 @@ pub fn point_cloud<const N: usize>(
     names: [&str; N],
     rows: &[[f32; N]],
 ) -> Vec<u8> {
-    const FLOAT32: u8 = 7;
-    let step = 4 * N;
-    let mut c = Cdr::new();
-    c.header(t_ns, frame).u32(1).len(rows.len()).len(N);
-    for (k, name) in names.iter().enumerate() {
-        c.text(name).u32(4 * k as u32).u8(FLOAT32).u32(1);
+    #[derive(Serialize)]
+    struct PointField<'a> {
+        name: &'a str,
+        offset: u32,
+        datatype: u8,
+        count: u32,
     }
+    #[derive(Serialize)]
+    struct PointCloud2<'a> {
+        header: Header<'a>,
+        height: u32,
+        width: u32,
+        fields: Vec<PointField<'a>>,
+        is_bigendian: bool,
+        point_step: u32,
+        row_step: u32,
+        #[serde(serialize_with = "bytes")]
+        data: &'a [u8],
+        is_dense: bool,
+    }
+    const FLOAT32: u8 = 7;
+    let length = |n: usize| u32::try_from(n).expect("a message holds fewer than 2^32 bytes");
+    let field = |(k, name)| PointField {
+        name,
+        offset: length(4 * k),
+        datatype: FLOAT32,
+        count: 1,
+    };
     let data: Vec<u8> = rows
+        .as_flattened()
         .iter()
-        .flat_map(|r| r.iter().flat_map(|v| v.to_le_bytes()))
+        .flat_map(|v| v.to_le_bytes())
         .collect();
-    c.bool(false)
-        .len(step)
-        .len(step * rows.len())
-        .blob(&data)
-        .bool(true);
-    c.finish()
+    cdr(&PointCloud2 {
+        header: Header::new(t_ns, frame),
+        height: 1,
+        width: length(rows.len()),
+        fields: names.into_iter().enumerate().map(field).collect(),
+        is_bigendian: false,
+        point_step: length(4 * N),
+        row_step: length(data.len()),
+        data: &data,
+        is_dense: true,
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nalgebra::Quaternion;
 
-    #[test]
-    fn odometry_has_the_length_of_its_definition() {
-        let msg = Odometry {
-            t_ns: 1,
-            frame: "world",
-            child: "auv0",
-            position: Vector3::new(1.0, 2.0, 3.0),
-            attitude: UnitQuaternion::identity(),
-            linear: Vector3::zeros(),
-            angular: Vector3::zeros(),
-        }
-        .cdr();
-        // 4 header; 8 time, 4+6 "world", 2 pad, 4+5 "auv0", to 32 (3 pad); 7+36+6+36 doubles.
-        assert_eq!(msg.len(), 4 + 32 + 85 * 8);
-        assert_eq!(msg[4 + 32..4 + 40], 1.0f64.to_le_bytes());
-        let w = 4 + 32 + 6 * 8;
-        assert_eq!(msg[w..w + 8], 1.0f64.to_le_bytes());
+    const T_NS: u64 = 1_000_000_005;
+    /// That time, the frame `world`, and the padding after it.
+    const HEADER: &str = "0100000005000000 06000000776f726c64000000";
+    /// The pose below: places at multiples of 8.
+    const POSE: &str = "000000000000f03f 0000000000000440 00000000000008c0 \
+                        0000000000000000 0000000000000000 333333333333e33f 9a9999999999e93f";
+
+    fn p() -> Vector3<f64> {
+        Vector3::new(1.0, 2.5, -3.0)
+    }
+
+    fn q() -> UnitQuaternion<f64> {
+        UnitQuaternion::new_unchecked(Quaternion::new(0.8, 0.0, 0.0, 0.6))
+    }
+
+    /// The bytes after the four that name the encoding.
+    fn is(message: &[u8], body: &str) {
+        let hex: String = message.iter().map(|b| format!("{b:02x}")).collect();
+        let body: String = body.split_whitespace().collect();
+        assert_eq!(hex, format!("00010000{body}"));
     }
 
     #[test]
-    fn cloud_of_one_point_by_hand() {
-        let msg = point_cloud(0, "w", ["x"], &[[1.0f32]]);
-        let body: Vec<u8> = [
-            &[0u8; 8][..],                   // time
-            &[2, 0, 0, 0, b'w', 0, 0, 0],    // frame, padded to 16
-            &[1, 0, 0, 0, 1, 0, 0, 0],       // height, width
-            &[1, 0, 0, 0],                   // one field
-            &[2, 0, 0, 0, b'x', 0, 0, 0],    // its name, padded
-            &[0, 0, 0, 0, 7, 0, 0, 0],       // offset, datatype, padded
-            &[1, 0, 0, 0],                   // count
-            &[0, 0, 0, 0],                   // little-endian, padded
-            &[4, 0, 0, 0, 4, 0, 0, 0],       // steps
-            &[4, 0, 0, 0, 0, 0, 0x80, 0x3f], // data
-            &[1],                            // dense
-        ]
-        .concat();
-        assert_eq!(msg[4..], body);
+    fn plain_messages_keep_their_bytes() {
+        is(&float64(-2.5), "00000000000004c0");
+        is(&text("find"), "0500000066696e6400");
+        is(&text(""), "0100000000");
+        is(&clock(T_NS), "0100000005000000");
     }
 
     #[test]
-    fn state_of_one_joint_by_hand() {
-        let joint = Joint {
-            name: "j",
-            position: 1.0,
-            velocity: 2.0,
-            effort: -1.0,
-        };
-        let body: Vec<u8> = [
-            &[0u8; 8][..],                      // time
-            &[2, 0, 0, 0, b'w', 0, 0, 0],       // frame, padded to 16
-            &[1, 0, 0, 0, 2, 0, 0, 0, b'j', 0], // names
-            &[0, 0],                            // padded to 28
-            &[1, 0, 0, 0],                      // positions
-            &[0, 0, 0, 0, 0, 0, 0xf0, 0x3f],    // 1 at 32
-            &[1, 0, 0, 0, 0, 0, 0, 0],          // velocities, padded to 48
-            &[0, 0, 0, 0, 0, 0, 0, 0x40],       // 2
-            &[1, 0, 0, 0, 0, 0, 0, 0],          // efforts, padded to 64
-            &[0, 0, 0, 0, 0, 0, 0xf0, 0xbf],    // -1
-        ]
-        .concat();
-        assert_eq!(joint_state(0, "w", &[joint])[4..], body);
-    }
-
-    #[test]
-    fn picture_of_three_bytes_by_hand() {
-        let body: Vec<u8> = [
-            &[1, 0, 0, 0, 5, 0, 0, 0][..],      // time
-            &[2, 0, 0, 0, b'c', 0, 0, 0],       // frame, padded to 16
-            &[4, 0, 0, 0, b'p', b'n', b'g', 0], // format
-            &[3, 0, 0, 0, 0x89, b'P', b'N'],    // data
-        ]
-        .concat();
-        let file = [0x89, b'P', b'N'];
-        assert_eq!(
-            compressed_image(1_000_000_005, "c", "png", &file)[4..],
-            body
+    fn stamped_messages_keep_their_bytes() {
+        is(
+            &vector3_stamped(T_NS, "auv", &p()),
+            "0100000005000000 0400000061757600 000000000000f03f 0000000000000440 00000000000008c0",
+        );
+        is(
+            &pose_stamped(T_NS, "world", &p(), &q()),
+            &format!("{HEADER} 00000000 {POSE}"),
         );
     }
 
     #[test]
-    fn clock_is_eight_bytes() {
-        assert_eq!(clock(1_000_000_002), [0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 0]);
+    fn odometry_keeps_its_bytes() {
+        let message = Odometry {
+            t_ns: T_NS,
+            frame: "world",
+            child: "auv",
+            position: p(),
+            attitude: q(),
+            linear: Vector3::new(0.5, 0.0, -0.25),
+            angular: p(),
+        };
+        let unknown = "00".repeat(36 * 8);
+        let linear = "000000000000e03f 0000000000000000 000000000000d0bf";
+        let angular = "000000000000f03f 0000000000000440 00000000000008c0";
+        is(
+            &message.cdr(),
+            &format!(
+                "{HEADER} 0400000061757600 00000000 {POSE} {unknown} {linear} {angular} {unknown}"
+            ),
+        );
+    }
+
+    #[test]
+    fn transforms_keep_their_bytes() {
+        let children = [("a", p(), q()), ("bcd", p(), q())];
+        let first = format!("{HEADER} 020000006100 0000 {POSE}");
+        let second = format!("{HEADER} 0400000062636400 00000000 {POSE}");
+        is(
+            &transforms(T_NS, "world", &children),
+            &format!("02000000 {first} {second}"),
+        );
+    }
+
+    #[test]
+    fn cloud_keeps_its_bytes() {
+        is(
+            &point_cloud(T_NS, "map", ["x", "p"], &[[1.0, 0.5], [-2.0, 0.25]]),
+            "0100000005000000 040000006d617000 01000000 02000000 02000000 \
+             0200000078000000 00000000 07000000 01000000 \
+             0200000070000000 04000000 07000000 01000000 \
+             00000000 08000000 10000000 10000000 0000803f0000003f000000c00000803e 01",
+        );
+    }
+
+    #[test]
+    fn states_of_joints_keep_their_bytes() {
+        let joint = |name, position, velocity, effort| Joint {
+            name,
+            position,
+            velocity,
+            effort,
+        };
+        let joints = [joint("x", 1.0, 2.0, -1.0), joint("arm", 0.5, 0.0, 4.0)];
+        is(
+            &joint_state(T_NS, "world", &joints),
+            &format!(
+                "{HEADER} 02000000 0200000078000000 0400000061726d00 \
+                 02000000 00000000 000000000000f03f 000000000000e03f \
+                 02000000 00000000 0000000000000040 0000000000000000 \
+                 02000000 00000000 000000000000f0bf 0000000000001040"
+            ),
+        );
+    }
+
+    #[test]
+    fn picture_keeps_its_bytes() {
+        is(
+            &compressed_image(T_NS, "camera", "png", &[0x89, b'P', b'N']),
+            "0100000005000000 0700000063616d65726100 00 04000000706e6700 03000000 89504e",
+        );
     }
 }

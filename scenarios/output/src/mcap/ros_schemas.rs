@@ -3,8 +3,9 @@
 //! *Source*: ROS 2 common_interfaces, rcl_interfaces and geometry2 (Jazzy; unchanged up to Rolling).
 //! *Parameters*: none.
 //! *Deviations*: comments of the originals are omitted; fields, order and types are the same.
+//! *Written here*: crates of message definitions need a ROS installation or bring hundreds of types.
 
-use super::ros_messages::Kind;
+use super::ros_messages::MessageKind;
 
 const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 const HEADER: (&str, &str) = (
@@ -44,21 +45,21 @@ const POINT_FIELD: (&str, &str) = (
      uint8 FLOAT32=7\nuint8 FLOAT64=8\nstring name\nuint32 offset\nuint8 datatype\nuint32 count\n",
 );
 
-impl Kind {
+impl MessageKind {
     /// Full name of the type.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Kind::Odometry => "nav_msgs/msg/Odometry",
-            Kind::Float64 => "std_msgs/msg/Float64",
-            Kind::Text => "std_msgs/msg/String",
-            Kind::Vector3Stamped => "geometry_msgs/msg/Vector3Stamped",
-            Kind::PoseStamped => "geometry_msgs/msg/PoseStamped",
-            Kind::TfMessage => "tf2_msgs/msg/TFMessage",
-            Kind::Clock => "rosgraph_msgs/msg/Clock",
-            Kind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
-            Kind::JointState => "sensor_msgs/msg/JointState",
-            Kind::CompressedImage => "sensor_msgs/msg/CompressedImage",
+            MessageKind::Odometry => "nav_msgs/msg/Odometry",
+            MessageKind::Float64 => "std_msgs/msg/Float64",
+            MessageKind::Text => "std_msgs/msg/String",
+            MessageKind::Vector3Stamped => "geometry_msgs/msg/Vector3Stamped",
+            MessageKind::PoseStamped => "geometry_msgs/msg/PoseStamped",
+            MessageKind::TfMessage => "tf2_msgs/msg/TFMessage",
+            MessageKind::Clock => "rosgraph_msgs/msg/Clock",
+            MessageKind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
+            MessageKind::JointState => "sensor_msgs/msg/JointState",
+            MessageKind::CompressedImage => "sensor_msgs/msg/CompressedImage",
         }
     }
 
@@ -66,24 +67,24 @@ impl Kind {
     #[must_use]
     pub fn schema(self) -> String {
         let (own, parts): (&str, &[(&str, &str)]) = match self {
-            Kind::Odometry => (
+            MessageKind::Odometry => (
                 "std_msgs/Header header\nstring child_frame_id\n\
                  geometry_msgs/PoseWithCovariance pose\ngeometry_msgs/TwistWithCovariance twist\n",
                 &[
                     HEADER, TIME, POSE_COV, POSE, POINT, QUATERNION, TWIST_COV, TWIST, VECTOR3,
                 ],
             ),
-            Kind::Float64 => ("float64 data\n", &[]),
-            Kind::Text => ("string data\n", &[]),
-            Kind::Vector3Stamped => (
+            MessageKind::Float64 => ("float64 data\n", &[]),
+            MessageKind::Text => ("string data\n", &[]),
+            MessageKind::Vector3Stamped => (
                 "std_msgs/Header header\nVector3 vector\n",
                 &[HEADER, TIME, VECTOR3],
             ),
-            Kind::PoseStamped => (
+            MessageKind::PoseStamped => (
                 "std_msgs/Header header\nPose pose\n",
                 &[HEADER, TIME, POSE, POINT, QUATERNION],
             ),
-            Kind::TfMessage => (
+            MessageKind::TfMessage => (
                 "geometry_msgs/TransformStamped[] transforms\n",
                 &[
                     TRANSFORM_STAMPED,
@@ -94,18 +95,18 @@ impl Kind {
                     QUATERNION,
                 ],
             ),
-            Kind::Clock => ("builtin_interfaces/Time clock\n", &[TIME]),
-            Kind::PointCloud2 => (
+            MessageKind::Clock => ("builtin_interfaces/Time clock\n", &[TIME]),
+            MessageKind::PointCloud2 => (
                 "std_msgs/Header header\nuint32 height\nuint32 width\nPointField[] fields\n\
                  bool is_bigendian\nuint32 point_step\nuint32 row_step\nuint8[] data\nbool is_dense\n",
                 &[HEADER, TIME, POINT_FIELD],
             ),
-            Kind::JointState => (
+            MessageKind::JointState => (
                 "std_msgs/Header header\nstring[] name\nfloat64[] position\nfloat64[] velocity\n\
                  float64[] effort\n",
                 &[HEADER, TIME],
             ),
-            Kind::CompressedImage => (
+            MessageKind::CompressedImage => (
                 "std_msgs/Header header\nstring format\nuint8[] data\n",
                 &[HEADER, TIME],
             ),
@@ -132,7 +133,7 @@ mod tests {
         const PLAIN: [&str; 7] = [
             "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
         ];
-        for kind in Kind::ALL {
+        for kind in MessageKind::ALL {
             let schema = kind.schema();
             let defined: Vec<&str> = schema
                 .lines()

@@ -4,7 +4,7 @@ use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::files::ReportError;
 use crate::mcap::{
-    Kind, McapFile, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
+    McapFile, MessageKind, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
     point_cloud, pose_stamped, text, transforms, vector3_stamped,
 };
 use crate::results::{Echoes, RunInfo};
@@ -106,7 +106,8 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn frame(&mut self, frame: &Frame) -> Result<(), ReportError> {
         let t = nanoseconds(frame.t_s);
-        self.file.write("/clock", Kind::Clock, t, &clock(t))?;
+        self.file
+            .write("/clock", MessageKind::Clock, t, &clock(t))?;
         self.behaviours.resize(frame.robots.len(), "");
         self.declared.resize(frame.robots.len(), Vec::new());
         self.regions.resize(frame.robots.len(), None);
@@ -136,7 +137,7 @@ impl Recorder {
         let of_gantries = heads.iter().map(|(name, p, q)| (name.as_str(), *p, *q));
         let children: Vec<_> = of_robots.chain(of_gantries).collect();
         let tf = transforms(t, WORLD, &children);
-        self.file.write("/tf", Kind::TfMessage, t, &tf)?;
+        self.file.write("/tf", MessageKind::TfMessage, t, &tf)?;
         Ok(())
     }
 
@@ -162,17 +163,22 @@ impl Recorder {
             angular: e.attitude.rates_rad_s,
         };
         let file = &mut self.file;
-        let mut put =
-            |name: &str, kind: Kind, cdr: &[u8]| file.write(&format!("/{id}/{name}"), kind, t, cdr);
-        put("truth", Kind::Odometry, &truth.cdr())?;
-        put("estimate", Kind::Odometry, &estimate.cdr())?;
-        put("altitude", Kind::Float64, &float64(r.altitude_m))?;
+        let mut put = |name: &str, kind: MessageKind, cdr: &[u8]| {
+            file.write(&format!("/{id}/{name}"), kind, t, cdr)
+        };
+        put("truth", MessageKind::Odometry, &truth.cdr())?;
+        put("estimate", MessageKind::Odometry, &estimate.cdr())?;
+        put("altitude", MessageKind::Float64, &float64(r.altitude_m))?;
         if let Some(c) = r.chemical {
-            put("chemical", Kind::Float64, &float64(c.volts))?;
+            put("chemical", MessageKind::Float64, &float64(c.volts))?;
         }
         if let Some(flow) = e.flow {
             let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
-            put("flow", Kind::Vector3Stamped, &vector3_stamped(t, WORLD, &v))?;
+            put(
+                "flow",
+                MessageKind::Vector3Stamped,
+                &vector3_stamped(t, WORLD, &v),
+            )?;
         }
         let a = &r.actuators;
         for (name, v) in [
@@ -180,7 +186,7 @@ impl Recorder {
             ("actuators/stern_rad", a.stern_rad),
             ("actuators/rpm", a.rpm),
         ] {
-            put(name, Kind::Float64, &float64(v))?;
+            put(name, MessageKind::Float64, &float64(v))?;
         }
         if let Some(Command::Steer(s)) = r.command {
             let (name, height) = match s.vertical {
@@ -189,25 +195,25 @@ impl Recorder {
             };
             put(
                 "command/heading_rad",
-                Kind::Float64,
+                MessageKind::Float64,
                 &float64(s.heading.rad()),
             )?;
             put(
                 "command/water_speed_m_s",
-                Kind::Float64,
+                MessageKind::Float64,
                 &float64(s.water_speed_m_s),
             )?;
-            put(name, Kind::Float64, &float64(height))?;
+            put(name, MessageKind::Float64, &float64(height))?;
         }
         if self.behaviours[k] != r.behaviour.name() {
             self.behaviours[k] = r.behaviour.name();
-            put("behaviour", Kind::Text, &text(r.behaviour.name()))?;
+            put("behaviour", MessageKind::Text, &text(r.behaviour.name()))?;
         }
         if self.layers[k] != r.layers {
             self.layers[k] = r.layers.clone();
-            put("layers", Kind::Text, &text(&layers_line(&r.layers)))?;
+            put("layers", MessageKind::Text, &text(&layers_line(&r.layers)))?;
             let holds = r.holding_layer().unwrap_or("");
-            put("layer", Kind::Text, &text(holds))?;
+            put("layer", MessageKind::Text, &text(holds))?;
         }
         for d in &r.declarations {
             let known = &mut self.declared[k];
@@ -218,12 +224,12 @@ impl Recorder {
             let at = nanoseconds(d.t_s);
             let p = on_plane(d.position, 0.0);
             let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
-            put("declaration", Kind::PoseStamped, &pose)?;
+            put("declaration", MessageKind::PoseStamped, &pose)?;
         }
         if self.regions[k] != r.regions.now {
             self.regions[k] = r.regions.now;
             let name = r.regions.now.map_or_else(String::new, region_name);
-            put("region", Kind::Text, &text(&name))?;
+            put("region", MessageKind::Text, &text(&name))?;
         }
         Ok(())
     }
@@ -250,7 +256,7 @@ impl Recorder {
         let rows = map_record::points(belief);
         let cloud = point_cloud(t, WORLD, map_record::FIELDS, &rows);
         let topic = format!("/{id}/map");
-        self.file.write(&topic, Kind::PointCloud2, t, &cloud)
+        self.file.write(&topic, MessageKind::PointCloud2, t, &cloud)
     }
 
     /// Records filaments as a cloud. `mass` is that of all filaments for which one stands (kg); `concentration` is that
@@ -272,7 +278,8 @@ impl Recorder {
             .collect();
         let names = ["x", "y", "z", "size", "mass", "concentration", "stands_for"];
         let cloud = point_cloud(t, WORLD, names, &rows);
-        self.file.write("/plume", Kind::PointCloud2, t, &cloud)?;
+        self.file
+            .write("/plume", MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
     }
 
@@ -294,7 +301,8 @@ impl Recorder {
         }
         let cloud = point_cloud(t, WORLD, ["x", "y", "z", "level"], &rows);
         let topic = format!("/{robot}/sidescan");
-        self.file.write(&topic, Kind::PointCloud2, t, &cloud)?;
+        self.file
+            .write(&topic, MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
     }
 
@@ -306,10 +314,11 @@ impl Recorder {
         let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
         let camera = format!("{id}/camera");
         let mount = transforms(t, id, &[(camera.as_str(), p.p_BC, p.R_BC)]);
-        self.file.write("/tf", Kind::TfMessage, t, &mount)?;
+        self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
         let image = compressed_image(t, &camera, "png", png);
         let topic = format!("/{camera}/compressed");
-        self.file.write(&topic, Kind::CompressedImage, t, &image)?;
+        self.file
+            .write(&topic, MessageKind::CompressedImage, t, &image)?;
         Ok(())
     }
 

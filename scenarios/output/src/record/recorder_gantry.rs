@@ -2,7 +2,8 @@
 
 use super::recorder::{WORLD, on_plane};
 use crate::mcap::{
-    Joint, Kind, McapFile, RecordError, float64, joint_state, nanoseconds, pose_stamped, text,
+    Joint, McapFile, MessageKind, RecordError, float64, joint_state, nanoseconds, pose_stamped,
+    text,
 };
 use nalgebra::{UnitQuaternion, Vector3};
 use rheotaxis::gantry::GantryFrame;
@@ -26,7 +27,7 @@ impl GantryRecorder {
         g: &GantryFrame,
     ) -> Result<(), RecordError> {
         let id = &g.id;
-        let mut put = |name: &str, kind: Kind, t: u64, cdr: &[u8]| {
+        let mut put = |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| {
             file.write(&format!("/{id}/{name}"), kind, t, cdr)
         };
         let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
@@ -38,7 +39,7 @@ impl GantryRecorder {
             })
             .collect();
         let joints = joint_state(t, WORLD, &joints);
-        put("joint_states", Kind::JointState, t, &joints)?;
+        put("joint_states", MessageKind::JointState, t, &joints)?;
         let w = &g.decision.working;
         if let Some(scan) = g.scan.filter(|s| self.scanned_s != Some(s.t_s)) {
             self.scanned_s = Some(scan.t_s);
@@ -50,22 +51,27 @@ impl GantryRecorder {
                     ("thresholds", w.threshold_v[n]),
                     ("spikes", spike),
                 ] {
-                    put(&format!("{name}/{n}"), Kind::Float64, at, &float64(v))?;
+                    put(
+                        &format!("{name}/{n}"),
+                        MessageKind::Float64,
+                        at,
+                        &float64(v),
+                    )?;
                 }
             }
-            put("spike_hz", Kind::Float64, at, &float64(w.spike_hz))?;
+            put("spike_hz", MessageKind::Float64, at, &float64(w.spike_hz))?;
         }
         let behaviour = g.decision.behaviour.name();
         if self.behaviour != Some(behaviour) {
             self.behaviour = Some(behaviour);
-            put("behaviour", Kind::Text, t, &text(behaviour))?;
+            put("behaviour", MessageKind::Text, t, &text(behaviour))?;
         }
         if let (Some(d), false) = (g.declaration, self.declared) {
             self.declared = true;
             let at = nanoseconds(d.t_s);
             let p = on_plane(d.position, g.head_W.z);
             let pose = pose_stamped(at, WORLD, &p, &UnitQuaternion::identity());
-            put("declaration", Kind::PoseStamped, t, &pose)?;
+            put("declaration", MessageKind::PoseStamped, t, &pose)?;
         }
         Ok(())
     }

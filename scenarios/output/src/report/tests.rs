@@ -5,7 +5,7 @@ use crate::record::Recorder;
 use crate::results::{
     BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable,
 };
-use crate::sample::{area, folder, frames, info, plume, robots, source, terrain};
+use crate::sample::{area, declared, folder, frames, info, plume, robots, source, terrain};
 use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame};
@@ -17,11 +17,12 @@ use world::area::Area;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-fn end(outcome: RunOutcome) -> RunEnd {
+fn end(outcome: RunOutcome, frames: &[Frame]) -> RunEnd {
     RunEnd {
         outcome,
         error: None,
         digest: "00ff".into(),
+        declarations: declared(frames),
         totals: Totals {
             mission_s: 100.0,
             spin_up_s: 50.0,
@@ -42,7 +43,7 @@ pub(super) fn told(frames: &[Frame]) -> (Summary, Track) {
         table.push(f).unwrap();
     }
     (
-        builder.finish(end(RunOutcome::Found), &[source()]),
+        builder.finish(&end(RunOutcome::Found, frames), &[source()]),
         table.finish(),
     )
 }
@@ -137,7 +138,7 @@ fn a_mission_over_subregions_has_a_column_for_them_and_a_row_for_each_declaratio
     let lines: Vec<&str> = text.lines().collect();
     assert!(lines[0].ends_with(",behaviour,region,layer"));
     assert!(lines[1].contains(",go_to,,") && lines[100].contains(",B,"));
-    let summary = builder.finish(end(RunOutcome::Found), &[source()]);
+    let summary = builder.finish(&end(RunOutcome::Found, &run), &[source()]);
     let of = &summary.robots[0];
     assert_eq!((of.declarations.len(), of.regions.len()), (2, 2));
     assert_eq!(of.declarations[1].region, Some(1));
@@ -293,7 +294,7 @@ fn whole_report_of_a_run() {
 
 #[test]
 fn runs_in_which_nothing_happened() {
-    let nobody = SummaryBuilder::new(&info()).finish(end(RunOutcome::Failed), &[]);
+    let nobody = SummaryBuilder::new(&info()).finish(&end(RunOutcome::Failed, &[]), &[]);
     let none = Track::default();
     assert_eq!(
         report_of(&nobody, &none, &[], None, &area(), &terrain()).len(),
@@ -318,7 +319,7 @@ fn areas_from_a_flume_to_an_ocean() {
             width_m,
             axis: Heading::from_deg(90.0),
         };
-        let nobody = SummaryBuilder::new(&info()).finish(end(RunOutcome::Completed), &[]);
+        let nobody = SummaryBuilder::new(&info()).finish(&end(RunOutcome::Completed, &[]), &[]);
         report_of(
             &nobody,
             &Track::default(),

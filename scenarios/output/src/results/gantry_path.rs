@@ -35,7 +35,6 @@ pub struct GantryPath {
     latest: u32,
     blocked: bool,
     stopped: Option<bool>,
-    declaration: Option<Declaration>,
 }
 
 /// The results of a gantry.
@@ -91,7 +90,6 @@ impl GantryPath {
             latest: 0,
             blocked: false,
             stopped: None,
-            declaration: None,
         }
     }
 
@@ -128,13 +126,21 @@ impl GantryPath {
         }
         self.blocked |= g.readings.blocked;
         self.stopped = self.stopped.or(d.stopped);
-        self.declaration = self.declaration.or(g.declaration);
     }
 
-    /// The results, compared with the true sources.
+    /// Its id in the scenario.
     #[must_use]
-    pub fn summary(&self, sources: &[SourceTruth]) -> GantrySummary {
-        let declaration = (self.declaration.as_ref()).map(|d| DeclarationSummary::of(d, sources));
+    pub fn id(&self) -> &str {
+        &self.id
+    }
+
+    /// The results, with what it declared compared with the true sources.
+    #[must_use]
+    pub fn summary(
+        &self,
+        declared: Option<&Declaration>,
+        sources: &[SourceTruth],
+    ) -> GantrySummary {
         let nearest = |s: &&SourceTruth| (s.position.xy() - self.last).norm();
         let source = sources
             .iter()
@@ -148,7 +154,7 @@ impl GantryPath {
         GantrySummary {
             id: self.id.clone(),
             stopped: self.stopped,
-            declaration,
+            declaration: declared.map(|d| DeclarationSummary::of(d, sources)),
             sweep_s: self.sweep_s,
             first_spike_s: self.first_spike_s,
             spikes: self.spikes,
@@ -228,7 +234,7 @@ mod tests {
         for (t_s, g) in &frames {
             path.observe(*t_s, g);
         }
-        let said = path.summary(&[source]);
+        let said = path.summary(None, &[source]);
         assert_eq!(said.sweep_s, Some(21.0));
         let near = |a: Option<f64>, b: f64| assert!((a.unwrap() - b).abs() < 1e-9, "{a:?} {b}");
         near(said.tracked_m, 19.0 * 0.03 + 0.3);

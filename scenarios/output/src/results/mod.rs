@@ -8,6 +8,7 @@ pub mod odour;
 mod pictures;
 pub mod probes;
 mod run;
+mod sources;
 mod summary;
 mod summary_builder;
 mod track;
@@ -19,9 +20,10 @@ pub use map_end::MapEnd;
 pub use pictures::{Pictures, ShownPicture};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use run::{ObstacleOutline, RunInfo, RunReport};
+pub use sources::SourceTruth;
 pub use summary::{
     AbnormalSummary, DeclarationSummary, DeclaredKind, MassBalance, Position, RegionSummary,
     RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
-pub use summary_builder::{RunEnd, SourceTruth, SummaryBuilder};
+pub use summary_builder::{RunEnd, SummaryBuilder};
 pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};

@@ -1,12 +1,12 @@
 //! Pictures from the robots' cameras. Each becomes a file at once; a table says where and when it was taken.
 
 use super::probes::file_name;
-use crate::files::{ReportError, write_whole};
+use crate::files::{ReportError, csv_text, write_whole};
+use base64::prelude::{BASE64_STANDARD, Engine as _};
 use image::codecs::jpeg::JpegEncoder;
 use image::{ImageError, ImageFormat};
 use nalgebra::Vector3;
 use rheotaxis::frame::PictureFrame;
-use std::fmt::Write as _;
 use std::io::Cursor;
 use world::files::Folder;
 use world::math;
@@ -14,6 +14,10 @@ use world::units::Heading;
 
 /// JPEG quality of the pictures in the page; the files beside it are lossless.
 const PAGE_QUALITY: u8 = 85;
+
+/// Columns of the table.
+const COLUMNS: &str = "file,robot,t_s,camera_east_m,camera_north_m,camera_up_m,look_heading_deg,look_down_deg,\
+    view_deg,believed_east_m,believed_north_m,believed_depth_m";
 
 /// A picture as the report shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,7 +43,7 @@ impl ShownPicture {
         format!(
             "<img alt=\"{}\" src=\"data:image/jpeg;base64,{}\">",
             self.file,
-            base64(&self.jpeg)
+            BASE64_STANDARD.encode(&self.jpeg)
         )
     }
 }
@@ -49,7 +53,8 @@ impl ShownPicture {
 pub struct Pictures {
     out: Folder,
     most: usize,
-    rows: String,
+    /// The rows of the table so far.
+    rows: Vec<[String; 12]>,
     shown: Vec<ShownPicture>,
 }
 
@@ -60,10 +65,7 @@ impl Pictures {
         Self {
             out: out.clone(),
             most: most as usize,
-            rows: String::from(
-                "file,robot,t_s,camera_east_m,camera_north_m,camera_up_m,look_heading_deg,look_down_deg,view_deg,\
-                 believed_east_m,believed_north_m,believed_depth_m\n",
-            ),
+            rows: Vec::new(),
             shown: Vec::new(),
         }
     }
@@ -95,7 +97,8 @@ impl Pictures {
             .map_err(drawn)?;
         write_whole(&path, png.get_ref())?;
         self.row(&file, taken);
-        write_whole(&self.out.file("pictures.csv")?, self.rows.as_bytes())?;
+        let table = csv_text(COLUMNS, &self.rows);
+        write_whole(&self.out.file("pictures.csv")?, table.as_bytes())?;
         self.shown.push(ShownPicture {
             file,
             robot: taken.robot.clone(),
@@ -109,22 +112,22 @@ impl Pictures {
         let (picture, e) = (&taken.picture, &taken.estimate);
         let p = taken.truth.point(picture.p_BC);
         let look = taken.truth.R_WB * picture.R_BC * Vector3::z();
-        writeln!(
-            self.rows,
-            "{file},{},{:.3},{:.3},{:.3},{:.3},{:.2},{:.2},{:.2},{:.3},{:.3},{:.3}",
-            taken.robot,
-            taken.t_s,
-            p.x,
-            p.y,
-            p.z,
-            Heading::of(look.xy()).deg(),
-            math::asin((-look.z).clamp(-1.0, 1.0)).to_degrees(),
-            picture.view_rad.to_degrees(),
-            e.position.x,
-            e.position.y,
-            e.depth_m
-        )
-        .expect("writing to a String succeeds");
+        let metres = |m: f64| format!("{m:.3}");
+        let degrees = |deg: f64| format!("{deg:.2}");
+        self.rows.push([
+            file.to_string(),
+            taken.robot.clone(),
+            metres(taken.t_s),
+            metres(p.x),
+            metres(p.y),
+            metres(p.z),
+            degrees(Heading::of(look.xy()).deg()),
+            degrees(math::asin((-look.z).clamp(-1.0, 1.0)).to_degrees()),
+            degrees(picture.view_rad.to_degrees()),
+            metres(e.position.x),
+            metres(e.position.y),
+            metres(e.depth_m),
+        ]);
     }
 
     /// The pictures kept, in the order in which they were taken.
@@ -132,25 +135,6 @@ impl Pictures {
     pub fn shown(&self) -> &[ShownPicture] {
         &self.shown
     }
-}
-
-/// Bytes as text (RFC 4648, section 4).
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for three in bytes.chunks(3) {
-        let byte = |n: usize| u32::from(three.get(n).copied().unwrap_or(0));
-        let bits = byte(0) << 16 | byte(1) << 8 | byte(2);
-        for n in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * n) & 63) as usize];
-            text.push(if n <= three.len() {
-                letter as char
-            } else {
-                '='
-            });
-        }
-    }
-    text
 }
 
 #[cfg(test)]
@@ -216,15 +200,7 @@ mod tests {
     }
 
     #[test]
-    fn bytes_become_the_text_of_the_standard() {
-        for (bytes, text) in [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foobar", "Zm9vYmFy"),
-        ] {
-            assert_eq!(base64(bytes.as_bytes()), text);
-        }
+    fn a_picture_stands_in_the_page() {
         assert!(
             ShownPicture {
                 file: "a.png".into(),

@@ -5,6 +5,7 @@ use rheotaxis::frame::PlumeFrame;
 use world::area::Area;
 use world::fields::Concentration;
 use world::obstacles::Obstacles;
+use world::seeds::Seed;
 use world::terrain::Terrain;
 
 /// The identity of a run.
@@ -19,7 +20,7 @@ pub struct RunInfo {
     /// Text of its file.
     pub scenario_text: String,
     /// Seed of the run.
-    pub seed: u64,
+    pub seed: Seed,
     /// Version of the program.
     pub version: String,
 }

@@ -278,6 +278,9 @@ pub struct Summary {
     pub success_rule: String,
     /// Seed.
     pub seed: u64,
+    /// The mark of the secret key that the run had beside its seed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// The versions that made the run.
     pub versions: Versions,
     /// Digest of the whole state sequence; the same run has the same digest.

@@ -3,9 +3,10 @@
 use super::GantryPath;
 use super::MapEnd;
 use super::RunInfo;
+use super::sources::SourceTruth;
 use super::summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
-    RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, RegionSummary, RobotSummary, RunSummary,
+    SourceSummary, Summary, Totals, Versions,
 };
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::abnormal::Abnormal;
@@ -20,88 +21,6 @@ use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use world::units::Heading;
 
-/// A true source and the flow there.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SourceTruth {
-    /// Its id in the scenario.
-    pub id: String,
-    /// Its position (ENU), m.
-    pub position: Vector3<f64>,
-    /// Mean flow there (east, north), m/s: where the water goes.
-    pub flow: Vector2<f64>,
-}
-
-/// Slower flow has no direction, m/s.
-const STILL_M_S: f64 = 1e-6;
-
-impl SourceTruth {
-    fn direction(&self) -> Option<Vector2<f64>> {
-        let speed = self.flow.norm();
-        (speed > STILL_M_S).then(|| self.flow / speed)
-    }
-
-    fn error_of(&self, declared: Vector2<f64>) -> SourceError {
-        let d = declared - self.position.xy();
-        let u = self.direction();
-        SourceError {
-            source: self.id.clone(),
-            position: self.position.xy().into(),
-            total_m: d.norm(),
-            along_flow_m: u.map(|u| d.dot(&u)),
-            across_flow_m: u.map(|u| d.dot(&Vector2::new(u.y, -u.x))),
-            east_m: d.x,
-            north_m: d.y,
-        }
-    }
-}
-
-/// Compares a place with the true source nearest to it.
-fn nearest(place: Vector2<f64>, sources: &[SourceTruth]) -> Option<SourceError> {
-    (sources.iter())
-        .map(|s| s.error_of(place))
-        .min_by(|a, b| a.total_m.total_cmp(&b.total_m))
-}
-
-impl DeclarationSummary {
-    /// A declaration compared with the true sources.
-    #[must_use]
-    pub fn of(d: &Declaration, sources: &[SourceTruth]) -> Self {
-        let region_name = d.region.map(region_name);
-        let (kind, name) = if d.at_edge() {
-            let of = region_name.as_deref().unwrap_or("the area");
-            (DeclaredKind::UpFlowEdge, format!("edge of {of}"))
-        } else {
-            (DeclaredKind::Source, "source".to_owned())
-        };
-        Self {
-            number: d.number,
-            kind,
-            name,
-            region: d.region,
-            region_name,
-            t_s: d.t_s,
-            rule: d.rule.to_owned(),
-            position: d.position.into(),
-            error: nearest(d.position, sources),
-            verdict: d.verdict,
-            surveyed: d.surveyed.map(Position::from),
-            surveyed_error: d.surveyed.and_then(|p| nearest(p, sources)),
-            traced_m: None,
-            fix_m: None,
-            evidence: d.evidence,
-        }
-    }
-}
-
-impl From<Vector2<f64>> for Position {
-    fn from(p: Vector2<f64>) -> Self {
-        Self {
-            east_m: p.x,
-            north_m: p.y,
-        }
-    }
-}
-
 /// What is known only when a run is over.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RunEnd {
@@ -111,20 +30,14 @@ pub struct RunEnd {
     pub error: Option<String>,
     /// Digest of the state sequence.
     pub digest: String,
+    /// The declarations in the score, by robot or gantry.
+    pub declarations: BTreeMap<String, Vec<Declaration>>,
     /// Times and counts.
     pub totals: Totals,
 }
 
 /// How long fixes are remembered, s: those that may have spoilt a declaration.
 const FIX_S: f64 = 60.0;
-
-/// A declaration, with what was known when it was made.
-#[derive(Clone, Copy, Debug)]
-struct Made {
-    said: Declaration,
-    traced_m: Option<f64>,
-    fix_m: Option<f64>,
-}
 
 #[derive(Debug)]
 struct Robot {
@@ -135,7 +48,9 @@ struct Robot {
     travelled_m: f64,
     first_detection: Option<(f64, Vector2<f64>)>,
     detections: u64,
-    declarations: Vec<Made>,
+    /// What was known when a declaration was made, by its number: the straight distance from the first detection in
+    /// the area or subregion, and the largest shift by a fix in the minute before, m.
+    made: BTreeMap<u32, [Option<f64>; 2]>,
     regions: Regions,
     /// First detection in the present subregion, or in the last one.
     in_region: Option<Vector2<f64>>,
@@ -160,7 +75,7 @@ impl Robot {
             travelled_m: 0.0,
             first_detection: None,
             detections: 0,
-            declarations: Vec::new(),
+            made: BTreeMap::new(),
             regions: Regions::default(),
             in_region: None,
             fixes: VecDeque::new(),
@@ -220,31 +135,25 @@ impl Robot {
         }
         self.regions = r.regions.clone();
         for d in &r.declarations {
-            match self
-                .declarations
-                .iter_mut()
-                .find(|m| m.said.number == d.number)
-            {
-                Some(made) => made.said = *d,
-                None => self.declarations.push(Made {
-                    said: *d,
-                    traced_m: self.in_region.map(|from| (d.position - from).norm()),
-                    fix_m: self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp),
-                }),
-            }
+            self.made.entry(d.number).or_insert_with(|| {
+                let traced_m = self.in_region.map(|from| (d.position - from).norm());
+                let fix_m = self.fixes.iter().map(|f| f.1).max_by(f64::total_cmp);
+                [traced_m, fix_m]
+            });
         }
     }
 
-    fn summary(&self, sources: &[SourceTruth]) -> RobotSummary {
-        let traced_m = self
-            .first_detection
-            .zip(self.declarations.first())
-            .map(|((_, from), d)| (d.said.position - from).norm());
-        let mut declarations: Vec<DeclarationSummary> = (self.declarations.iter())
-            .map(|made| DeclarationSummary {
-                traced_m: made.traced_m,
-                fix_m: made.fix_m,
-                ..DeclarationSummary::of(&made.said, sources)
+    fn summary(&self, said: &[Declaration], sources: &[SourceTruth]) -> RobotSummary {
+        let traced_m = (self.first_detection.zip(said.first()))
+            .map(|((_, from), d)| (d.position - from).norm());
+        let mut declarations: Vec<DeclarationSummary> = (said.iter())
+            .map(|d| {
+                let [traced_m, fix_m] = self.made.get(&d.number).copied().unwrap_or_default();
+                DeclarationSummary {
+                    traced_m,
+                    fix_m,
+                    ..DeclarationSummary::of(d, sources)
+                }
             })
             .collect();
         let found = (declarations.iter_mut()).filter(|d| d.kind == DeclaredKind::Source);
@@ -252,7 +161,6 @@ impl Robot {
             .enumerate()
             .map(|(k, d)| d.name = format!("source {}", k + 1))
             .count();
-        let said: Vec<Declaration> = self.declarations.iter().map(|m| m.said).collect();
         let timed_out = |r: &&Region| r.state == RegionState::TimedOut;
         RobotSummary {
             id: self.id.clone(),
@@ -260,7 +168,7 @@ impl Robot {
             sources_declared,
             declarations,
             regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
-            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &said, sources)),
+            map: (self.map.as_ref()).map(|last| MapEnd::of(last, said, sources)),
             regions: (self.regions.all.iter().zip(0..))
                 .map(|(region, k)| RegionSummary {
                     name: region_name(k),
@@ -353,18 +261,20 @@ impl SummaryBuilder {
 
     /// The summary of the run, compared with the true sources.
     #[must_use]
-    pub fn finish(&self, end: RunEnd, sources: &[SourceTruth]) -> Summary {
+    pub fn finish(&self, end: &RunEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
+        let said = |id: &str| end.declarations.get(id).map_or(&[][..], Vec::as_slice);
         let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
         Summary {
             scenario: self.run.scenario_name.clone(),
             title: self.run.title.clone(),
             success_rule: self.run.success.clone(),
-            seed: self.run.seed,
+            seed: self.run.seed.number(),
+            key: self.run.seed.key().mark(),
             versions: Versions::of(&self.run.version),
-            digest: end.digest,
+            digest: end.digest.clone(),
             outcome: end.outcome,
-            error: end.error,
+            error: end.error.clone(),
             sources: sources
                 .iter()
                 .map(|s| SourceSummary {
@@ -374,8 +284,16 @@ impl SummaryBuilder {
                     flow_heading_deg: s.direction().map(|u| Heading::of(u).deg()),
                 })
                 .collect(),
-            robots: self.robots.iter().map(|r| r.summary(sources)).collect(),
-            gantries: self.gantries.iter().map(|g| g.summary(sources)).collect(),
+            robots: self
+                .robots
+                .iter()
+                .map(|r| r.summary(said(&r.id), sources))
+                .collect(),
+            gantries: self
+                .gantries
+                .iter()
+                .map(|g| g.summary(said(g.id()).first(), sources))
+                .collect(),
             apparatus: self.apparatus.clone(),
             published: self.published.clone(),
             abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),

@@ -3,7 +3,6 @@
 use crate::files::ReportError;
 use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, Vertical, region_name};
-use std::fmt::Write as _;
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
@@ -183,9 +182,8 @@ const LAYER: &str = ",layer";
 /// The table being written. Every row is passed to the system at once, so a kill loses nothing.
 #[derive(Debug)]
 pub struct TrackTable {
-    file: Option<Output>,
+    file: Option<csv::Writer<Output>>,
     layered: bool,
-    line: String,
     track: Track,
     /// Whether the table has the column of subregions.
     regions: bool,
@@ -209,7 +207,7 @@ impl TrackTable {
         let header = format!("{HEADER}{region}{layer}\n");
         (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
         file.place()?;
-        table.file = Some(file);
+        table.file = Some(csv::Writer::from_writer(file));
         Ok(table)
     }
 
@@ -219,7 +217,6 @@ impl TrackTable {
         Self {
             file: None,
             layered: robots.iter().any(|r| r.layered),
-            line: String::new(),
             regions: robots.iter().any(|r| r.regions),
             track: Track {
                 robots: robots.into_iter().map(RobotTrack::new).collect(),
@@ -232,7 +229,6 @@ impl TrackTable {
     /// # Errors
     /// If the file cannot be written.
     pub fn push(&mut self, frame: &Frame) -> Result<(), ReportError> {
-        self.line.clear();
         for r in &frame.robots {
             let k = match self.track.robots.iter().position(|k| k.info.id == r.id) {
                 Some(k) => k,
@@ -247,22 +243,19 @@ impl TrackTable {
             };
             let robot = &mut self.track.robots[k];
             robot.push(frame.t_s, r);
-            if self.file.is_some() {
-                row(&mut self.line, frame.t_s, r, &robot.info);
+            if let Some(file) = &mut self.file {
+                let mut fields = row(frame.t_s, r, &robot.info);
                 if self.regions {
-                    let now = r.regions.now.map_or_else(String::new, region_name);
-                    self.line.push(',');
-                    self.line.push_str(&now);
+                    fields.push(r.regions.now.map_or_else(String::new, region_name));
                 }
                 if self.layered {
-                    self.line.push(',');
-                    self.line.push_str(r.holding_layer().unwrap_or(""));
+                    fields.push(r.holding_layer().unwrap_or("").to_string());
                 }
-                self.line.push('\n');
+                (file.write_record(&fields)).map_err(|e| file.get_ref().failed(e.into()))?;
             }
         }
         if let Some(file) = &mut self.file {
-            (file.write_all(self.line.as_bytes())).map_err(|e| file.failed(e))?;
+            file.flush().map_err(|e| file.get_ref().failed(e))?;
         }
         Ok(())
     }
@@ -274,16 +267,14 @@ impl TrackTable {
     }
 }
 
-/// The pitch of the true pose is converted to nose-up, as in the estimate.
-fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
+/// The fields of a row; the pitch of the true pose is converted to nose-up, as in the estimate.
+fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> Vec<String> {
     let (p, e) = (&r.truth.pose, &r.estimate);
     let (roll, pitch_down) = p.roll_pitch();
     let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
     let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
     let flow = e.flow.map(|f| f.velocity);
-    write!(
-        line,
-        "{t_s:.3},{id},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.3},{:.4},{:.3},{},{},{},{},{},{}",
+    let places = [
         p.p_WB.x,
         p.p_WB.y,
         p.p_WB.z,
@@ -296,24 +287,18 @@ fn row(line: &mut String, t_s: f64, r: &RobotFrame, info: &RobotInfo) {
         e.attitude.roll_rad.to_degrees(),
         e.attitude.pitch_rad.to_degrees(),
         e.attitude.heading.deg(),
-        r.truth.v_WB_B.norm(),
-        r.altitude_m,
+    ];
+    let mut fields = vec![format!("{t_s:.3}"), r.id.clone()];
+    fields.extend(places.map(|v| format!("{v:.3}")));
+    fields.extend([
+        format!("{:.4}", r.truth.v_WB_B.norm()),
+        format!("{:.3}", r.altitude_m),
         opt(chemical.map(|c| c.0)),
         opt(chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f)),
-        u8::from(r.detected),
+        u8::from(r.detected).to_string(),
         opt(flow.map(|v| v.x)),
         opt(flow.map(|v| v.y)),
-        r.behaviour.name(),
-        id = quoted(&r.id),
-    )
-    .expect("writing to a String succeeds");
-}
-
-/// A text as a CSV field.
-fn quoted(s: &str) -> String {
-    if s.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", s.replace('"', "\"\""))
-    } else {
-        s.to_owned()
-    }
+        r.behaviour.name().to_string(),
+    ]);
+    fields
 }

@@ -43,6 +43,7 @@ use serde_json::Value;
 use std::path::Path;
 use world::kind;
 use world::registry::Spec;
+use world::seeds::Seed;
 
 /// What a run tells its apparatus before it begins. What else there is stands in the world as a resource: ocean,
 /// physics, clock, score.
@@ -51,7 +52,7 @@ pub struct Launch<'a> {
     /// Folder that paths in the scenario are relative to.
     pub base_dir: &'a Path,
     /// Seed of the run. Take random numbers from `Stream::new(seed, id, "purpose")`.
-    pub seed: u64,
+    pub seed: Seed,
     /// Step of the tick, s.
     pub dt_s: f64,
 }

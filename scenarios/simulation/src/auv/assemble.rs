@@ -6,7 +6,7 @@ use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
-use crate::scenario::RobotSpec;
+use crate::scenario::{Beside, RobotSpec};
 use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
@@ -19,7 +19,7 @@ use robots::handoff::{
     ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
     Setting, Vertical,
 };
-use robots::sense::SensorSuite;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
 use world::catalogue::Entry;
 use world::clock::Clock;
@@ -96,9 +96,13 @@ fn spawn(
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
-    let vehicle = Vehicle::load(&spec.vehicle, base_dir)?;
+    let vehicle = Vehicle::load(&spec.vehicle, &Beside(base_dir))?;
     let body = (world.resource_mut::<Physics>()).add_body(vehicle.body_spec(id, truth));
-    let suite = SensorSuite::new(&spec.sensors, &|name| vehicle.mount(name), id, seed, dt_s)?;
+    let suite = SensorSuite::new(
+        &spec.sensors,
+        &|name| vehicle.mount(name),
+        OnBoard::new(id, seed, dt_s),
+    )?;
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;

@@ -1,35 +1,42 @@
-//! The whole reference as a Markdown document: a table for each type, in the order in which a scenario meets them.
+//! Writes the whole reference as Markdown: a table for each type, in the order in which a scenario uses them.
 
 use super::path::walk;
 use super::read::{Field, Reference, Shape, Variant};
 use super::words;
+use super::wrap::wrap;
 use std::fmt::Write;
 
 const HEAD: &str = "\
 # Every field of a scenario file
 
-Made by `rheotaxis explain --markdown` from the types that read a scenario; do not edit it. In a terminal `rheotaxis explain` shows the
-same of one place: `rheotaxis explain robots.strategy.Amp.reacquire`. For editors there is a [JSON Schema](scenario.schema.json).
+`rheotaxis explain --markdown` writes this page from the types that read a scenario; do not edit it. In a terminal,
+`rheotaxis explain PATH` shows the same for one place, such as `rheotaxis explain robots.strategy.Amp.reacquire`.
+Editors can use the [JSON Schema](scenario.schema.json).
 
-A range is that of the reader, ends included unless `>` stands before it; numbers without one may be as large as 1e18, either way.
-What fields must keep among each other, `rheotaxis check` says. A field without a default **must be given**; –: it may be left out, and
-then there is nothing. `(…)` has the defaults of its own fields.
+- *Range.* Both ends are legal, except an end after `>`. A number without a range may be anything from -1e18 to 1e18.
+  `rheotaxis check` also reports values that are legal alone and contradict each other.
+- *Default.* It holds if the field is left out. A field without one **must be given**. A dash (–) means that the field
+  may be left out and then nothing takes its place. `(…)` means that the fields inside have their own defaults.
 ";
 
-/// Most places of a type that are named.
+/// Longest line of prose, characters; rows of tables cannot be broken.
+const WIDTH: usize = 116;
+/// Most places of a type that are listed.
 const PLACES: usize = 4;
 
 /// The document.
 pub(super) fn document(r: &Reference) -> String {
     let mut out = String::from(HEAD);
-    let _ = writeln!(out, "\n## Scenario\n\n{}\n", cell(&r.what));
+    out.push_str("\n## Scenario\n\n");
+    paragraph(&mut out, &cell(&r.what));
     shape(r, &mut out, &r.root);
     for (name, places) in types(r) {
         let named = &r.types[name];
         if !matches!(named.shape, Shape::Fields(_) | Shape::Choice(_)) {
             continue;
         }
-        let _ = writeln!(out, "\n## {name}\n\n{}\n", cell(&named.what));
+        let _ = writeln!(out, "\n## {name}\n");
+        paragraph(&mut out, &cell(&named.what));
         let more = places.len().saturating_sub(PLACES);
         let shown: Vec<String> = places
             .iter()
@@ -41,13 +48,20 @@ pub(super) fn document(r: &Reference) -> String {
         } else {
             String::new()
         };
-        let _ = writeln!(out, "At {}{and}.\n", shown.join(", "));
+        paragraph(&mut out, &format!("At {}{and}.", shown.join(", ")));
         shape(r, &mut out, &named.shape);
     }
     out
 }
 
-/// Types in the order in which they are met, each with its places.
+fn paragraph(out: &mut String, text: &str) {
+    for line in wrap(text, WIDTH) {
+        let _ = writeln!(out, "{line}");
+    }
+    out.push('\n');
+}
+
+/// The types in the order in which they appear, each with its places.
 fn types(r: &Reference) -> Vec<(&str, Vec<String>)> {
     let mut types: Vec<(&str, Vec<String>)> = Vec::new();
     walk(r, &r.root, "", &mut Vec::new(), &mut |path, _, shape| {
@@ -62,7 +76,7 @@ fn types(r: &Reference) -> Vec<(&str, Vec<String>)> {
     types
 }
 
-/// Name of a shape's type, or of its elements'.
+/// The name of a shape's type, or of the type of its elements.
 fn named(shape: &Shape) -> Option<&str> {
     match shape {
         Shape::Named(name) => Some(name),
@@ -73,7 +87,9 @@ fn named(shape: &Shape) -> Option<&str> {
 
 fn shape(r: &Reference, out: &mut String, shape: &Shape) {
     match shape {
-        Shape::Fields(fields) if fields.is_empty() => out.push_str("It has no fields: `()`.\n"),
+        Shape::Fields(fields) if fields.is_empty() => {
+            out.push_str("It has no fields; write `()`.\n")
+        }
         Shape::Fields(fields) => {
             out.push_str("| field | value | default | meaning |\n| --- | --- | --- | --- |\n");
             for f in fields {
@@ -122,12 +138,12 @@ fn with_source(what: &str, source: Option<&str>) -> String {
     }
 }
 
-/// A type's heading.
+/// A link to a type's heading.
 fn link(name: &str) -> String {
     format!("[{name}](#{})", name.to_lowercase())
 }
 
-/// Text in a table: bars would end the cell, stars and low lines change the letters.
+/// Text with escapes: a bar would end a cell of a table, stars and underscores would change the letters.
 fn cell(text: &str) -> String {
     let mut code = false;
     let mut out = String::new();

@@ -1,8 +1,7 @@
-//! What a scenario file may say: every field with its unit, range, default, meaning and source, from the types that
-//! read it.
+//! Explains every field of a scenario file: unit, range, default, meaning and source, from the types that read it.
 //!
-//! `schema` is made from the types; `read` takes it apart; `path` finds a place in it; `terminal` and `markdown` show
-//! it.
+//! `schema` makes a JSON Schema from the types, `read` turns it into a reference, `path` finds a place in it, and
+//! `terminal` and `markdown` write it.
 
 mod markdown;
 mod path;
@@ -14,17 +13,17 @@ mod terminal;
 mod tests;
 mod units;
 mod words;
+mod wrap;
 
 pub use path::Unknown;
 
 use read::Reference;
 
-/// What stands at a path such as `robots[0].strategy.reacquire`, for a terminal; of the empty path the top of a
-/// scenario.
-/// Numbers of elements and names of variants may be left out.
+/// Explains a path such as `robots[0].strategy.reacquire` for a terminal. The empty path means the blocks of a
+/// scenario. Numbers of elements and names of variants may be left out.
 ///
 /// # Errors
-/// [`Unknown`] with the nearest legal paths when nothing does.
+/// [`Unknown`], with the nearest legal paths, if there is no such path.
 pub fn explain(path: &str) -> Result<String, Unknown> {
     let reference = Reference::of(&schema::schema());
     if path.trim().is_empty() {
@@ -34,13 +33,13 @@ pub fn explain(path: &str) -> Result<String, Unknown> {
     Ok(terminal::places(&reference, &places))
 }
 
-/// The whole reference as Markdown: `docs/reference.md`.
+/// The whole reference as Markdown, for `docs/reference.md`.
 #[must_use]
 pub fn markdown() -> String {
     markdown::document(&Reference::of(&schema::schema()))
 }
 
-/// The JSON Schema of a scenario: `docs/scenario.schema.json`.
+/// The JSON Schema of a scenario, for `docs/scenario.schema.json`.
 #[must_use]
 pub fn json_schema() -> String {
     format!("{:#}\n", schema::schema())

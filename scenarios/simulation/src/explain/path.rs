@@ -1,8 +1,7 @@
-//! Paths: `robots[0].strategy.reacquire` to what is there.
+//! Finds what a path such as `robots[0].strategy.reacquire` leads to.
 //!
-//! Names of variants may be left out, as they are in the paths of error messages: then every variant that has the
-//! field is found.
-//! Numbers of elements may be left out, too.
+//! Names of variants may be left out, as in the paths of error messages; then every variant that has the field is
+//! found. Numbers of elements may be left out, too.
 
 use super::read::{Field, Reference, Shape, Variant};
 use crate::scenario::distance;
@@ -14,7 +13,7 @@ pub(super) struct Place<'a> {
     pub(super) path: String,
     /// What is there.
     pub(super) at: At<'a>,
-    /// Source of the algorithm it is a part of.
+    /// The source of the algorithm that it belongs to.
     pub(super) source: Option<&'a str>,
 }
 
@@ -30,7 +29,7 @@ pub(super) enum At<'a> {
 }
 
 impl<'a> Place<'a> {
-    /// What may stand there; nothing for a bare name.
+    /// What may stand there; `None` for a variant without parentheses.
     pub(super) fn shape(&self) -> Option<&'a Shape> {
         match self.at {
             At::Field(f) => Some(&f.shape),
@@ -40,15 +39,15 @@ impl<'a> Place<'a> {
     }
 }
 
-/// Nothing is there.
+/// There is no such path.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a scenario has no `{path}`: {}", if within.is_empty() { "no such field at its top".to_string() } else {
+#[error("a scenario has no `{path}`: {}", if within.is_empty() { "no block has this name".to_string() } else {
     format!("`{within}` has no such field or variant")
 })]
 pub struct Unknown {
     /// The path as it was asked for.
     pub path: String,
-    /// The part of it that is right.
+    /// The part of the path that exists.
     pub within: String,
     /// The nearest legal paths.
     pub near: Vec<String>,
@@ -138,19 +137,19 @@ fn step<'a>(
     }
 }
 
-/// Path of a field; of a list with brackets.
+/// The path of a field, with brackets if it is a list.
 pub(super) fn below(r: &Reference, path: &str, field: &Field) -> String {
     let list = matches!(r.resolved(&field.shape), Shape::List(_));
     joined(path, &field.name) + if list { "[]" } else { "" }
 }
 
-/// With a dot between, if there is something before it.
+/// Path and name, with a dot between them unless the path is empty.
 pub(super) fn joined(path: &str, name: &str) -> String {
     let dot = if path.is_empty() { "" } else { "." };
     format!("{path}{dot}{name}")
 }
 
-/// Every place of a scenario once, a type within itself left out: its path and its last name.
+/// Every place of a scenario: its path and its last name. A type inside itself is left out.
 pub(super) fn all(r: &Reference) -> Vec<(String, String)> {
     let mut found = Vec::new();
     walk(r, &r.root, "", &mut Vec::new(), &mut |path, name, _| {
@@ -196,10 +195,11 @@ pub(super) fn walk<'a>(
     }
 }
 
-/// Most paths that a mistake is answered with.
+/// Most paths that are proposed.
 const NEAR: usize = 6;
 
-/// The same name elsewhere; else what is spelt most alike, within what is right of the path before all else.
+/// Proposes paths: the same name elsewhere, or the names most similar to it. Those below the part of the path that
+/// exists come first.
 fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unknown {
     let all = all(r);
     let starts: Vec<String> = match places {
@@ -221,7 +221,7 @@ fn unknown(r: &Reference, path: &str, word: &str, places: &[Place<'_>]) -> Unkno
             let same = near.iter().take_while(|((d, ..), _)| d == best);
             same.map(|(_, path)| (*path).clone()).collect()
         }
-        // Nothing is spelt alike: what there is.
+        // No name is similar, so all are listed.
         _ => {
             let next = |path: &str| {
                 let rest = starts.iter().find_map(|s| path.strip_prefix(s.as_str()));

@@ -1,8 +1,7 @@
-//! From the schema's JSON to what is explained: fields, choices, numbers.
+//! Turns the JSON Schema into a reference of fields, choices and numbers.
 //!
-//! It knows the forms of JSON Schema only, and nothing of how the types are written: a choice is a `oneOf` of names
-//! (`const`, `enum`)
-//! and of objects with one property, the variant's name.
+//! It knows only the forms of JSON Schema, not how the types are written. A choice is a `oneOf` of names (`const`,
+//! `enum`) and of objects with one property, which is the variant's name.
 
 use super::schema::{ORDER, Object, SOURCE, WHAT};
 use serde_json::Value;
@@ -42,7 +41,7 @@ pub(super) enum Shape {
     Truth,
     /// Any number of them.
     List(Box<Shape>),
-    /// So many, in this order.
+    /// Values in this order.
     Tuple(Vec<Shape>),
     /// Names with values.
     Fields(Vec<Field>),
@@ -57,7 +56,7 @@ pub(super) struct Number {
     pub(super) whole: bool,
     /// Least.
     pub(super) low: Option<f64>,
-    /// What it must be greater than.
+    /// The number that it must exceed.
     pub(super) above: Option<f64>,
     /// Greatest.
     pub(super) high: Option<f64>,
@@ -68,15 +67,15 @@ pub(super) struct Number {
 /// A field.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Field {
-    /// As written in RON.
+    /// Its name as written in RON.
     pub(super) name: String,
     /// What it means.
     pub(super) what: String,
-    /// Where it comes from.
+    /// The publication that it follows.
     pub(super) source: Option<String>,
     /// What may stand there.
     pub(super) shape: Shape,
-    /// What holds if it is left out; `null`: nothing.
+    /// The value if it is left out; `null` for none.
     pub(super) default: Option<Value>,
     /// It cannot be left out.
     pub(super) required: bool,
@@ -111,7 +110,7 @@ impl Reference {
         }
     }
 
-    /// The shape itself, where it is a name for one.
+    /// The shape itself, if it is the name of one.
     pub(super) fn resolved<'a>(&'a self, shape: &'a Shape) -> &'a Shape {
         match shape {
             Shape::Named(name) => self.resolved(&self.types[name].shape),
@@ -137,7 +136,7 @@ fn shape(schema: &Value) -> Shape {
         return Shape::Named(name.to_string());
     }
     if let Some(Value::Array(all)) = schema.get("anyOf") {
-        // One of them is `null`: it may be left out.
+        // One of them is `null`, because the field may be left out.
         let given = all.iter().find(|s| s["type"] != "null");
         return given.map_or(Shape::Truth, shape);
     }
@@ -188,7 +187,7 @@ fn fields(schema: &Value) -> Vec<Field> {
     let required = names(schema, "required");
     let mut order = names(schema, ORDER);
     let all = schema["properties"].as_object();
-    // What has no place in the order comes last.
+    // Fields without a place in the order come last.
     for name in all.into_iter().flat_map(|all| all.keys()) {
         if !order.contains(&name.as_str()) {
             order.push(name);
@@ -241,13 +240,13 @@ fn text(schema: &Value, key: &str) -> Option<String> {
     schema[key].as_str().map(str::to_string)
 }
 
-/// What it means: the type's own words, and the catalogue's where they say more.
+/// The meaning: the type's own words, and the catalogue's if they say more.
 fn what(schema: &Value) -> String {
     let own = schema["description"].as_str().map(plain);
     let listed = schema[WHAT].as_str().map(sentence);
     match (own, listed) {
         (Some(own), Some(listed)) => {
-            // Of an algorithm the catalogue says all; of the field of a part, what stands there.
+            // For an algorithm the catalogue's sentence is enough; for a field of a part it is added.
             let variant = schema["properties"].is_object() || schema["const"].is_string();
             let again = listed.starts_with(own.trim_end_matches('.'));
             if variant || again {
@@ -261,7 +260,7 @@ fn what(schema: &Value) -> String {
     }
 }
 
-/// As a sentence of its own.
+/// The text as a sentence, with a capital letter and a full stop.
 fn sentence(s: &str) -> String {
     let mut letters = s.chars();
     let first: String = letters
@@ -273,7 +272,7 @@ fn sentence(s: &str) -> String {
     first + letters.as_str() + end
 }
 
-/// A doc comment as plain text: one line, without the marks of links to code.
+/// A doc comment as one line of plain text, without the brackets of links.
 fn plain(doc: &str) -> String {
     let words: Vec<&str> = doc.split_whitespace().collect();
     words.join(" ").replace("[`", "`").replace("`]", "`")

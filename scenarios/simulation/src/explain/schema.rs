@@ -1,10 +1,8 @@
-//! The schema of a scenario file, made from the types that read it: what is derived, and the units, sources and order
-//! that
-//! deriving cannot know.
+//! The JSON Schema of a scenario file. Most of it is derived from the types; units, sources and the order of the fields
+//! are added.
 //!
-//! Beside JSON Schema's own words it says `x-unit` of numbers, `x-source` of algorithms and `x-order` of fields, as
-//! they stand in
-//! the types; JSON objects have no order of their own.
+//! Keys of our own are `x-unit` for numbers, `x-source` and `x-what` for algorithms, and `x-order` for the order of the
+//! fields in the type, because JSON objects have no order.
 
 use super::sources;
 use super::units;
@@ -15,11 +13,11 @@ use serde_json::{Map, Value};
 /// A JSON object.
 pub(super) type Object = Map<String, Value>;
 
-/// Under this key stands the order of the fields.
+/// Key of the order of the fields.
 pub(super) const ORDER: &str = "x-order";
-/// Under this key stands where an algorithm comes from.
+/// Key of the source of an algorithm.
 pub(super) const SOURCE: &str = "x-source";
-/// What it is, as its catalogue says.
+/// Key of the catalogue's sentence about an algorithm.
 pub(super) const WHAT: &str = "x-what";
 
 /// The whole schema.
@@ -27,7 +25,7 @@ pub(super) fn schema() -> Value {
     let settings = SchemaSettings::draft2020_12;
     let read = settings().for_deserialize().into_generator();
     let mut read = read.into_root_schema_for::<Scenario>().to_value();
-    // What is written has every field, and lists them all as required, in the order of the type.
+    // The schema for writing lists every field as required, in the order of the type.
     let written = settings().for_serialize().into_generator();
     let written = written.into_root_schema_for::<Scenario>().to_value();
     put_order(&mut read, &written);
@@ -57,7 +55,7 @@ fn put_order(schema: &mut Value, written: &Value) {
     }
 }
 
-/// With its keys in the order of the alphabet, whatever the JSON library was built to do.
+/// The value with its keys in alphabetical order, whatever features the JSON library was built with.
 fn sorted(value: Value) -> Value {
     match value {
         Value::Object(fields) => {

@@ -1,13 +1,13 @@
-//! Where algorithms come from: the rows of the catalogues, put beside the fields and variants that name them.
+//! Puts the sources of algorithms, from the rows of the catalogues, beside the fields and variants that name them.
 
 use super::schema::{Object, SOURCE, WHAT};
 use serde_json::Value;
 use world::catalogue::Entry;
 
-/// Catalogues of what a scenario names as a variant; kinds of the registry say it themselves.
+/// Catalogues of things that a scenario names as a variant. Kinds of the registry put their sources themselves.
 const VARIANTS: &[&[Entry]] = &[robots::estimate::CATALOGUE, robots::vehicles::CATALOGUE];
 
-/// Catalogues of what it names as a field, and the type that has the field.
+/// Catalogues of things that a scenario names as a field, with the type that has the field.
 const FIELDS: &[(&str, &[Entry])] = &[
     ("WaterSpec", plumes::flow::OPTIONS),
     ("GantryBlock", robots::sense::PARTS),
@@ -17,7 +17,7 @@ const FIELDS: &[(&str, &[Entry])] = &[
     ("VerifierSpec", robots::vision::CATALOGUE),
 ];
 
-/// Puts what is known of the fields or variants of a type into its schema.
+/// Puts the sources of a type's fields or variants into its schema.
 pub(super) fn put(name: &str, schema: &mut Object) {
     if let Some(Value::Array(variants)) = schema.get_mut("oneOf") {
         for variant in variants.iter_mut().filter_map(Value::as_object_mut) {
@@ -39,14 +39,14 @@ pub(super) fn put(name: &str, schema: &mut Object) {
     }
 }
 
-/// What a type says of itself stays.
+/// Adds source and sentence, unless the type has its own.
 fn say(schema: &mut Object, row: &Entry) {
     for (key, text) in [(SOURCE, row.source), (WHAT, row.what)] {
         schema.entry(key).or_insert_with(|| text.into());
     }
 }
 
-/// A row may name several fields.
+/// The row of a name; a row may name several fields.
 fn row<'a>(catalogues: &[&'a [Entry]], name: &str) -> Option<&'a Entry> {
     let rows = catalogues.iter().flat_map(|rows| rows.iter());
     let mut rows = rows.filter(|row| row.name.split(", ").any(|n| n == name));

@@ -1,25 +1,26 @@
-//! Places of a scenario as text for a terminal.
+//! Writes places of a scenario as text for a terminal.
 
 use super::path::{At, Place, below, joined};
 use super::read::{Field, Named, Reference, Shape, Variant};
 use super::words;
+use super::wrap::wrap;
 use std::fmt::Write;
 
 /// Longest line, characters.
 const WIDTH: usize = 100;
 
-/// The top of a scenario.
+/// The blocks of a scenario.
 pub(super) fn top(r: &Reference) -> String {
     let mut out = String::from("A scenario file\n");
     wrapped(&mut out, 2, &r.what);
     inside(r, &mut out, &r.root, "");
     out.push_str(
-        "\nMore of each: rheotaxis explain FIELD, such as `rheotaxis explain water.currents`.\n",
+        "\nFor more about one of them: rheotaxis explain FIELD, such as `rheotaxis explain water.currents`.\n",
     );
     out
 }
 
-/// Places that one path leads to.
+/// The places that a path leads to.
 pub(super) fn places(r: &Reference, places: &[Place<'_>]) -> String {
     let texts: Vec<String> = places.iter().map(|p| place(r, p)).collect();
     let mut out = String::new();
@@ -37,7 +38,7 @@ fn place(r: &Reference, place: &Place<'_>) -> String {
         At::Part(_) => ("", None),
     };
     wrapped(&mut out, 2, what);
-    // What the type says of itself, where the place says something else.
+    // The type's own description, if the place has another.
     if let Some(Named { what: of_type, .. }) = place.shape().and_then(|s| named(r, s))
         && of_type != what
     {
@@ -72,7 +73,7 @@ fn named<'a>(r: &'a Reference, shape: &Shape) -> Option<&'a Named> {
     }
 }
 
-/// What may stand there, in a line.
+/// What may stand there, in one line.
 fn value(r: &Reference, shape: &Shape) -> String {
     match r.resolved(shape) {
         Shape::Fields(fields) if fields.is_empty() => "nothing: ()".to_string(),
@@ -112,7 +113,7 @@ fn inside(r: &Reference, out: &mut String, shape: &Shape, path: &str) {
                 let path = joined(path, &v.name);
                 let _ = writeln!(
                     out,
-                    "\n  More of each, such as: rheotaxis explain {}",
+                    "\n  For more about one of them: rheotaxis explain PATH, such as `rheotaxis explain {}`",
                     typed(&path)
                 );
             }
@@ -122,7 +123,7 @@ fn inside(r: &Reference, out: &mut String, shape: &Shape, path: &str) {
     }
 }
 
-/// A path as one types it: brackets are special to a shell.
+/// A path as typed in a shell, where brackets are special.
 fn typed(path: &str) -> String {
     path.replace("[]", "")
 }
@@ -142,7 +143,7 @@ fn field(r: &Reference, out: &mut String, f: &Field) {
     }
 }
 
-/// A type within a line: its names, or that it has fields.
+/// A type in a line: its variants, or `(…)` for fields.
 fn short(r: &Reference, name: &str) -> String {
     match &r.types[name].shape {
         Shape::Choice(variants) => {
@@ -169,19 +170,7 @@ fn variant(r: &Reference, out: &mut String, v: &Variant) {
 
 /// A paragraph, indented.
 fn wrapped(out: &mut String, indent: usize, text: &str) {
-    let mut line = String::new();
-    for word in text.split_whitespace() {
-        let long = indent + line.chars().count() + 1 + word.chars().count() > WIDTH;
-        if long && !line.is_empty() {
-            let _ = writeln!(out, "{:indent$}{line}", "");
-            line.clear();
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        line.push_str(word);
-    }
-    if !line.is_empty() {
+    for line in wrap(text, WIDTH - indent) {
         let _ = writeln!(out, "{:indent$}{line}", "");
     }
 }

@@ -1,4 +1,4 @@
-//! That the reference says what the reader does, and that the files in `docs` are what is made today.
+//! The reference says what the reader does, and the files in `docs` are up to date.
 
 use super::read::{Reference, Shape};
 use super::{explain, json_schema, markdown, path, schema};
@@ -9,7 +9,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// A file of `docs` as it is made today; `RHEOTAXIS_BLESS=1` writes it.
+/// Compares a file of `docs` with what is made now. `RHEOTAXIS_BLESS=1` writes it.
 fn is_up_to_date(name: &str, made: &str, how: &str) {
     let file = root().join("docs").join(name);
     if std::env::var_os("RHEOTAXIS_BLESS").is_some() {
@@ -19,7 +19,7 @@ fn is_up_to_date(name: &str, made: &str, how: &str) {
     let differs = stored.lines().zip(made.lines()).position(|(a, b)| a != b);
     assert!(
         stored == made,
-        "docs/{name} is not what is made today (first other line: {}): write it anew with `{how}`",
+        "docs/{name} is out of date (first different line: {}): write it anew with `{how}`",
         differs.map_or(stored.lines().count().min(made.lines().count()), |i| i + 1)
     );
 }
@@ -31,6 +31,19 @@ fn the_reference_in_docs_is_up_to_date() {
         &markdown(),
         "rheotaxis explain --markdown > docs/reference.md",
     );
+}
+
+#[test]
+fn prose_of_the_reference_fits_on_its_lines() {
+    for line in markdown().lines().filter(|l| !l.starts_with('|')) {
+        assert!(line.chars().count() <= 120, "{line}");
+    }
+}
+
+#[test]
+fn a_kind_says_what_it_is_for() {
+    let text = explain("robots.strategy.Amp.reacquire").unwrap();
+    assert!(text.contains("search around the last detections"), "{text}");
 }
 
 #[test]

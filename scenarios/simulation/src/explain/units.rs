@@ -1,10 +1,10 @@
-//! Units of fields: by the end of their names, or stated here where a name says none.
+//! Units of fields: from the end of their names, or from the tables here if the name has none.
 
 use super::schema::Object;
 use serde_json::Value;
 use world::limits::UNIT;
 
-/// Ends of names, after an underscore or alone, and their units; the longest that fits holds.
+/// Ends of names and their units. An end is the whole name or follows an underscore; the longest one that fits counts.
 const ENDS: &[(&str, &str)] = &[
     ("1_s", "1/s"),
     ("candela", "cd"),
@@ -39,7 +39,7 @@ const ENDS: &[(&str, &str)] = &[
     ("v", "V"),
 ];
 
-/// Fields whose names are those of a paper, by type.
+/// Fields that have a paper's name, by type.
 const NAMED: &[(&str, &str, &str)] = &[
     ("ColourSpec", "alpha1", "levels of 255"),
     ("ColourSpec", "alpha2", "levels of 255"),

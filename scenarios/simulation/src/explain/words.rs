@@ -1,11 +1,11 @@
-//! Kinds, ranges and defaults in words.
+//! Words for kinds of values, ranges and defaults.
 
 use super::read::{Field, Number, Reference, Shape};
 use serde_json::Value;
 use world::limits::shown;
 use world::ranges::LARGEST;
 
-/// The legal range; nothing for any number at all.
+/// The legal range; empty if every number is legal.
 pub(super) fn range(n: &Number) -> String {
     let low = n.low.filter(|v| *v > -LARGEST);
     let high = n.high.filter(|v| *v < LARGEST);
@@ -20,7 +20,7 @@ pub(super) fn range(n: &Number) -> String {
     }
 }
 
-/// What may stand in a place; `link` words the name of a type.
+/// What may stand in a place. `link` makes text of the name of a type.
 pub(super) fn kind(r: &Reference, shape: &Shape, link: &dyn Fn(&str) -> String) -> String {
     match shape {
         Shape::Named(name) => match &r.types[name].shape {
@@ -56,7 +56,7 @@ pub(super) fn kind(r: &Reference, shape: &Shape, link: &dyn Fn(&str) -> String) 
     }
 }
 
-/// What holds if a field is left out.
+/// The value if a field is left out.
 pub(super) fn default(r: &Reference, field: &Field) -> Option<String> {
     match &field.default {
         None | Some(Value::Null) => None,
@@ -64,7 +64,7 @@ pub(super) fn default(r: &Reference, field: &Field) -> Option<String> {
     }
 }
 
-/// A value as a person writes it in RON, without the fields of what is inside.
+/// A value as a person writes it in RON; inner fields are written `(…)`.
 pub(super) fn ron(r: &Reference, shape: &Shape, value: &Value) -> String {
     match (r.resolved(shape), value) {
         (_, Value::Null) => "None".to_string(),
@@ -104,7 +104,7 @@ pub(super) fn ron(r: &Reference, shape: &Shape, value: &Value) -> String {
     }
 }
 
-/// What is not empty, with commas.
+/// The parts that are not empty, separated by commas.
 pub(super) fn joined(parts: &[&str]) -> String {
     let parts: Vec<&str> = parts.iter().copied().filter(|p| !p.is_empty()).collect();
     parts.join(", ")

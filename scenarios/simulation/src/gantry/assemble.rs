@@ -6,14 +6,14 @@ use crate::apparatus::{Apparatus, Launch, Systems};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
-use crate::scenario::GantryBlock;
+use crate::scenario::{Beside, GantryBlock};
 use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
 use robots::error::RobotError;
 use robots::handoff::{GantryBehaviour, GantryDecision, GantryReadings, TrackerState};
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use world::catalogue::Entry;
 use world::physics::Physics;
@@ -65,14 +65,14 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
         seed,
         dt_s,
     } = *launch;
-    let gantry = Gantry::load(&block.gantry, base_dir)?;
+    let gantry = Gantry::load(&block.gantry, &Beside(base_dir))?;
     gantry.check_step(dt_s)?;
     let layout = block.layout(&gantry);
     let base = block.base(&world.resource::<Ocean>().terrain);
     let body = gantry.body_spec(id, &base, block.start_m())?;
     let joints = world.resource_mut::<Physics>().add_gantry(body);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    let probes = Probes::new(&block.probes, &names, id, seed, dt_s)?;
+    let probes = Probes::new(&block.probes, &names, &OnBoard::new(id, seed, dt_s))?;
     let strategy = block.tracker.build(&layout)?;
     let place = world.resource_mut::<Score>().join(id);
     let gantry = world.spawn((

@@ -15,12 +15,13 @@ use std::path::Path;
 use world::digest::Digest;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{NonNegative, Positive};
+use world::seeds::Seed;
 
 /// Everything that a run's water and plume depend on, up to the start of the mission.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Origin {
-    seed: u64,
+    seed: Seed,
     area: AreaSpec,
     terrain: TerrainSpec,
     water: WaterSpec,
@@ -40,11 +41,11 @@ pub struct Origin {
 
 impl Origin {
     /// The origin of a run of a scenario; paths are relative to `base_dir`.
-    pub fn of(scenario: &Scenario, base_dir: &Path, seed: u64) -> Self {
+    pub fn of(scenario: &Scenario, base_dir: &Path, seed: impl Into<Seed>) -> Self {
         let files = scenario.obstacles.iter().filter_map(ObstacleSpec::file);
         let time = &scenario.time;
         Self {
-            seed,
+            seed: seed.into(),
             area: scenario.area.clone(),
             terrain: scenario.terrain.clone(),
             water: scenario.water.clone(),
@@ -96,7 +97,7 @@ impl Origin {
 
     /// The run's seed.
     #[must_use]
-    pub fn seed(&self) -> u64 {
+    pub fn seed(&self) -> Seed {
         self.seed
     }
 

@@ -21,6 +21,7 @@ use super::Origin;
 use plumes::filaments::Plume;
 use plumes::flow::Water;
 use std::sync::Arc;
+use world::seeds::Seed;
 
 /// The state after a spin-up. Other runs take it over with [`Trial::take_over`](crate::trial::Trial::take_over).
 ///
@@ -69,12 +70,12 @@ pub enum Mismatch {
         "the state was spun up with another `{0}`: runs may share a spin-up only if this is the same"
     )]
     Block(String),
-    /// Another seed, which gives another plume.
-    #[error("the state was spun up with seed {theirs}, this run has seed {ours}")]
+    /// Another seed or another key, which gives another plume.
+    #[error("the state was spun up with seed {}, this run has seed {}", theirs.told(), ours.told())]
     Seed {
         /// The seed of the spin-up.
-        theirs: u64,
+        theirs: Seed,
         /// The seed of the run that should take it over.
-        ours: u64,
+        ours: Seed,
     },
 }

@@ -24,7 +24,7 @@ const COUNT: [&str; 9] = [
 const DO_NOT: [&str; 11] = [
     "version",
     "title",
-    "source",
+    "citation",
     "optics",
     "robots",
     "gantries",

@@ -1,4 +1,4 @@
-//! The scenarios that come with the program, word for word.
+//! The scenarios that come with the program, compiled in as text.
 
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
@@ -7,16 +7,17 @@ use world::files::{self, OutputError};
 /// A scenario that comes with the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Template {
-    /// Its name: the file's without its ending.
+    /// Its name: the file's name without its ending.
     pub name: &'static str,
-    /// The file.
+    /// The text of the file.
     pub text: &'static str,
-    /// The files it names, by their paths relative to it.
+    /// The files that it refers to, with their paths relative to it.
     pub files: &'static [(&'static str, &'static [u8])],
 }
 
 impl Template {
-    /// Puts the files it names where they can be read, and says in which folder; no folder where there are none.
+    /// Writes the files it refers to into a temporary folder and returns that folder, or an empty path if there are
+    /// none.
     ///
     /// # Errors
     /// If they cannot be written.
@@ -29,7 +30,7 @@ impl Template {
             digest.text(path);
             digest.text(&String::from_utf8_lossy(bytes));
         });
-        // Named after what is in it: another version of the program has another folder.
+        // The folder is named after its content, so that another version of the program uses another one.
         let folder = std::env::temp_dir().join(format!("rheotaxis-{}", digest.hex()));
         for (path, bytes) in self.files {
             let to = folder.join(path);
@@ -41,7 +42,7 @@ impl Template {
         Ok(folder)
     }
 
-    /// Writes the files it names into a folder, where they are not there already.
+    /// Writes the files it refers to into a folder, unless they are there already.
     ///
     /// # Errors
     /// If one cannot be written, or another file stands in its place.
@@ -76,7 +77,7 @@ macro_rules! catalog {
     };
 }
 
-/// All of them, in the order of lists.
+/// All scenarios, in the order in which they are listed.
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
     "dalian_bay",
@@ -102,7 +103,7 @@ pub const CATALOG: &[Template] = catalog![
     "t13_siz",
 ];
 
-/// The one of that name.
+/// The scenario of that name.
 #[must_use]
 pub fn template(name: &str) -> Option<&'static Template> {
     CATALOG.iter().find(|t| t.name == name)
@@ -138,7 +139,7 @@ mod tests {
                 t.name
             );
             assert!(
-                !scenario.title.is_empty() && !scenario.source.is_empty(),
+                !scenario.title.is_empty() && !scenario.citation.is_empty(),
                 "{}",
                 t.name
             );

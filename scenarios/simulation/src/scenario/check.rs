@@ -1,5 +1,6 @@
-//! What a scenario means: contradictions that reading alone cannot see, each with the field's path.
+//! Checks of what a scenario means. They find contradictions that reading alone cannot see; each has the field's path.
 
+use super::beside::Beside;
 use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
@@ -11,8 +12,8 @@ use plumes::error::PlumeError;
 use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
-use robots::sense::SensorSuite;
 use robots::sense::camera::Optics;
+use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Vehicle;
 use std::path::Path;
 use world::area::Area;
@@ -21,19 +22,19 @@ use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
 
-/// A robot's start nearer to an obstacle than this touches it with its hull, m.
+/// A hull that starts nearer to an obstacle than this may touch it, m.
 const BERTH_M: f64 = 1.0;
 
-/// Legal steps of the physics, s: below, a run never ends; above, it no longer follows the vehicle.
+/// Legal steps of the physics, s. A shorter step makes a run endless, and a longer one cannot follow the vehicle.
 const STEP_S: (f64, f64) = (0.001, 0.1);
 
-/// Everything that is wrong or odd; paths in the scenario are relative to `base_dir`.
+/// Finds all errors and warnings. File paths in the scenario are relative to `base_dir`.
 #[must_use]
 pub fn check(scenario: &Scenario, base_dir: &Path) -> Vec<Found> {
     check_within(scenario, base_dir, cost::limit())
 }
 
-/// The same with so much memory for a run, bytes. What would not fit into it is not built to be looked at either.
+/// The same with a limit for the memory of a run, bytes. What does not fit is not built for the checks either.
 #[must_use]
 pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> Vec<Found> {
     let area = scenario.area.build();
@@ -46,7 +47,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     }
     let cost = cost::cost(scenario);
     fits = fits && cost::judge(&cost, memory_bytes, &mut found);
-    // Seed 0: whether water can be made does not depend on its random numbers.
+    // Any seed will do, because whether the water can be built does not depend on its random numbers.
     let water = fits.then(|| scenario.water.build(&area, &terrain, 0));
     match &water {
         Some(Ok(water)) => {
@@ -153,7 +154,7 @@ fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
                 format!("must be at most deep_m, {deep}, got {shallow}"),
             )
             .hint(
-                "shoreward is where the water gets shallower; turn shoreward_heading_deg instead",
+                "the water gets shallower towards the shore; to turn the slope, change shoreward_heading_deg",
             ),
         );
     }
@@ -166,17 +167,10 @@ fn sources(
     obstacles: &Obstacles,
     found: &mut Vec<Found>,
 ) {
-    for (i, spec) in scenario.sources.iter().enumerate() {
-        // One by one, so that each says what is wrong with it.
-        let placed = release::place(std::slice::from_ref(spec), area, terrain);
-        if let Err(PlumeError::Invalid { field, problem }) =
-            placed.and_then(|source| release::clear(&source, obstacles))
-        {
-            found.push(Found::error(
-                field.replacen("sources[0]", &format!("sources[{i}]"), 1),
-                problem,
-            ));
-        }
+    for PlumeError::Invalid { field, problem } in
+        release::misplaced(&scenario.sources, area, terrain, obstacles)
+    {
+        found.push(Found::error(field, problem));
     }
     let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
     names("sources", &ids, found);
@@ -266,7 +260,7 @@ fn start(
     }
 }
 
-/// Builds its strategy, on its chart.
+/// Checks the robot's map and strategy by building them on its chart.
 fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) {
     let path = format!("robots[{i}]");
     if let Some(map) = &robot.map
@@ -284,16 +278,16 @@ fn mind(i: usize, robot: &RobotSpec, setting: &Setting, found: &mut Vec<Found>) 
     ];
     for (name, _) in lacks.into_iter().filter(|(_, lacks)| *lacks) {
         let problem = format!(
-            "robot \"{}\" flies a survey for its {name} and carries none",
+            "robot \"{}\" flies a survey for its {name}, but has none",
             robot.id.as_str()
         );
-        let hint = format!("give it one, sensors: ({name}: ()), or leave its passes out");
+        let hint = format!("fit one, as in `sensors: ({name}: ())`, or leave out its passes");
         let field = format!("{path}.strategy");
         found.push(Found::error(field, problem).hint(&hint));
     }
 }
 
-/// Builds what can fail: hull, instruments. The vehicle, if both can be built.
+/// Checks hull and instruments by building them. Returns the vehicle if both can be built.
 fn parts(
     i: usize,
     robot: &RobotSpec,
@@ -302,14 +296,14 @@ fn parts(
     found: &mut Vec<Found>,
 ) -> Option<Vehicle> {
     let path = format!("robots[{i}]");
-    match Vehicle::load(&robot.vehicle, base_dir) {
+    match Vehicle::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
                 found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));
             }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();
-            match SensorSuite::new(&robot.sensors, &mounts, id, 0, step_s) {
+            match SensorSuite::new(&robot.sensors, &mounts, OnBoard::new(id, 0, step_s)) {
                 Ok(_) => return Some(vehicle),
                 Err(e) => found.push(robot_error(&path, "sensors", e)),
             }
@@ -319,6 +313,7 @@ fn parts(
     None
 }
 
+/// An error of a part of a robot or gantry, with the path from the scenario's root.
 pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
     match error {
         RobotError::File { .. } => Found::error(format!("{robot}.{part}.urdf"), error.to_string())
@@ -355,7 +350,7 @@ fn times(scenario: &Scenario, found: &mut Vec<Found>) {
     }
 }
 
-/// Names that end up in keys and file names.
+/// Checks names that become parts of keys and file names.
 pub(super) fn names(list: &str, ids: &[&str], found: &mut Vec<Found>) {
     for (i, id) in ids.iter().enumerate() {
         if let Err(problem) = super::schema::Id::try_from((*id).to_string()) {
@@ -375,9 +370,9 @@ pub(super) fn twins(list: &str, ids: &[&str], found: &mut Vec<Found>) {
     }
 }
 
-/// A part's field as a path from the scenario's root, however much of it the part knew.
-pub fn within(whole: &str, part: &str, field: &str) -> String {
-    // Variants (`strategy.OpenLoop.table`) are values, not fields.
+/// The path of a part's field from the scenario's root. Parts name their fields by as much of the path as they know.
+pub(super) fn within(whole: &str, part: &str, field: &str) -> String {
+    // A variant (`OpenLoop` in `strategy.OpenLoop.table`) is a value and no part of a path.
     let fields = field
         .split('.')
         .filter(|f| !f.starts_with(|c: char| c.is_ascii_uppercase()));

@@ -1,4 +1,4 @@
-//! Whether the scenario asks of vehicle and plume what they can do: speeds, declarations, a plume that has come somewhere.
+//! Warns when a scenario asks for more than vehicle, strategy and plume can do.
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario};
@@ -10,12 +10,12 @@ use world::area::Area;
 use world::fields::Flow;
 use world::terrain::Terrain;
 
-/// A speed so much above what is possible is told: drag and thrust are not known better.
+/// A speed is reported if it exceeds the possible one by this factor. Drag and thrust are not known better.
 const SLACK: f64 = 1.05;
-/// A plume shorter than this share of the area has hardly left its source.
+/// A plume shorter than this share of the area's length has hardly left its source.
 const SHORT: f64 = 0.02;
 
-/// Speeds that the vehicle cannot make, with the water's speed where it starts.
+/// Speeds that the vehicle cannot reach. `water_m_s` is the speed of the water where it starts.
 pub(super) fn speeds(
     i: usize,
     robot: &RobotSpec,
@@ -27,7 +27,7 @@ pub(super) fn speeds(
     let limit_m_s = robot.guidance.water_speed_limit_m_s.get();
     let makes = |m_s: f64| {
         format!(
-            "it makes at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s where it starts"
+            "it reaches at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s at its start"
         )
     };
     let start_m_s = robot.start.speed_m_s.get();
@@ -61,7 +61,7 @@ pub(super) fn speeds(
     }
     if limit_m_s > SLACK * top_m_s {
         let problem = format!(
-            "{limit_m_s} m/s bounds nothing: full ahead the vehicle makes {top_m_s:.2} m/s"
+            "{limit_m_s} m/s is never reached: at full power the vehicle makes {top_m_s:.2} m/s"
         );
         found.push(Found::warning(
             format!("robots[{i}].guidance.water_speed_limit_m_s"),
@@ -70,13 +70,13 @@ pub(super) fn speeds(
     }
 }
 
-/// Whether as many declarations can stand as there are sources to declare.
+/// Whether the strategies can make as many declarations as the success rule asks for.
 pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
     let SuccessSpec::AllDeclared(wanted) = &scenario.success else {
         return;
     };
     let within_m = wanted.within_m.get();
-    // One declaration can be near several sources: counted are those that are too far apart for that.
+    // One declaration can be near several sources, so only sources too far apart for that are counted.
     let mut apart: Vec<Vector2<f64>> = Vec::new();
     for source in &scenario.sources {
         let p = Vector2::new(source.east_m.get(), source.north_m.get());
@@ -94,7 +94,7 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
     let most = robots.fold(scenario.gantries.len(), usize::saturating_add);
     if most < apart.len() {
         let problem = format!(
-            "{} sources are to be declared, and all strategies together end after {most} declaration{}",
+            "{} sources are to be declared, but all strategies together make at most {most} declaration{}",
             apart.len(),
             if most == 1 { "" } else { "s" }
         );
@@ -104,7 +104,7 @@ pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
     }
 }
 
-/// Whether the plume has come anywhere when the mission starts.
+/// Whether the plume has spread when the mission starts.
 pub(super) fn plume(
     scenario: &Scenario,
     area: &Area,
@@ -130,11 +130,11 @@ pub(super) fn plume(
     let moves = m_s > 1e-3;
     if spin_up_s <= 0.0 || moves && reach_m < SHORT * area.length_m {
         let problem = format!(
-            "the plume has come {reach_m:.1} m when the mission starts: there is nothing to find yet"
+            "the plume is {reach_m:.1} m long when the mission starts: there is nothing to find yet"
         );
         let hint = if moves {
             format!(
-                "{:.0} s take it through the area",
+                "in {:.0} s it crosses the area",
                 (area.length_m / m_s).ceil()
             )
         } else {
@@ -144,7 +144,7 @@ pub(super) fn plume(
     }
 }
 
-/// Whether anything can come of it.
+/// Whether the mission can succeed at all.
 pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
     let seeks = |r: &RobotSpec| r.strategy.searches();
     let declares = scenario.success.declared_within_m().is_some();
@@ -152,19 +152,19 @@ pub(super) fn purpose(scenario: &Scenario, found: &mut Vec<Found>) {
         if let Some(i) = scenario.robots.iter().position(seeks) {
             found.push(Found::warning(
                 format!("robots[{i}].strategy"),
-                "it searches, but the scenario has no source to find",
+                "the robot searches, but the scenario has no source to find",
             ));
         } else if declares {
             found.push(Found::warning(
                 "success",
-                "a declaration near a source is asked for, but the scenario has no source",
+                "it asks for a declaration near a source, but the scenario has no source",
             ));
         }
     }
     if declares && scenario.gantries.is_empty() && !scenario.robots.iter().any(seeks) {
         found.push(Found::warning(
             "success",
-            "a declaration is asked for, but no robot searches",
+            "it asks for a declaration, but no robot searches",
         ));
     }
 }
@@ -183,7 +183,9 @@ mod tests {
         let fast = told(channel, &[("Amp(speed_m_s: 1.5", "Amp(speed_m_s: 15")]);
         assert_eq!(fast.len(), 1, "{fast:?}");
         assert!(
-            fast[0].starts_with("robots[0].strategy.speed_m_s: 15 m/s is more than the vehicle can do: it makes at most 2.00 m/s"),
+            fast[0].starts_with(
+                "robots[0].strategy.speed_m_s: 15 m/s is more than the vehicle can do: it reaches at most 2.00 m/s"
+            ),
             "{fast:?}"
         );
         let start = told(
@@ -201,7 +203,7 @@ mod tests {
         let limit = told(channel, &[("estimator: DeadReckoning()", limit)]);
         assert_eq!(limit.len(), 1, "{limit:?}");
         assert!(
-            limit[0].contains("full ahead the vehicle makes 2.5"),
+            limit[0].contains("at full power the vehicle makes 2.5"),
             "{limit:?}"
         );
     }
@@ -214,7 +216,7 @@ mod tests {
         assert_eq!(
             told("uniform_channel", &[("(id: \"s1\"", three), all]),
             [
-                "success: 3 sources are to be declared, and all strategies together end after 1 declaration"
+                "success: 3 sources are to be declared, but all strategies together make at most 1 declaration"
             ]
         );
         // One declaration half-way is near them all.
@@ -232,12 +234,12 @@ mod tests {
         assert_eq!(
             said,
             [
-                "time.spin_up_s: the plume has come 0.0 m when the mission starts: there is nothing to find yet"
+                "time.spin_up_s: the plume is 0.0 m long when the mission starts: there is nothing to find yet"
             ]
         );
         let said = told("uniform_channel", &[("spin_up_s: 2000", "spin_up_s: 10")]);
         assert!(
-            said[0].starts_with("time.spin_up_s: the plume has come "),
+            said[0].starts_with("time.spin_up_s: the plume is "),
             "{said:?}"
         );
     }

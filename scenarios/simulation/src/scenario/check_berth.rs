@@ -1,15 +1,15 @@
-//! Whether hulls have room where they start: apart from each other, clear of the bed.
+//! Checks that hulls have room where they start: away from each other and clear of the bed.
 
 use super::fault::Found;
 use super::schema::RobotSpec;
 use world::terrain::Terrain;
 
-/// Length of a hull of the kind that runs here, m.
+/// Length of a REMUS hull, m.
 const LENGTH_M: f64 = 1.6;
-/// Its diameter, m: nearer than this, one hull's middle is within the other.
+/// Its diameter, m. Hulls whose centres are nearer than this overlap.
 const DIAMETER_M: f64 = 0.19;
 
-/// Starts in one another or on the bed.
+/// Finds starts that overlap each other or touch the bed.
 pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Found>) {
     for (i, robot) in robots.iter().enumerate() {
         let path = format!("robots[{i}].start");
@@ -21,22 +21,22 @@ pub(super) fn berths(robots: &[RobotSpec], terrain: &Terrain, found: &mut Vec<Fo
                 format!("robot \"{id}\" starts {clear:.2} m above the bed: its hull may touch it");
             found.push(Found::warning(&path, problem));
         }
-        // Twins by name are copies by mistake: said elsewhere.
+        // Robots of the same name are reported elsewhere.
         let others = robots[..i]
             .iter()
             .enumerate()
             .filter(|(_, o)| o.id != robot.id);
         for (k, other) in others {
             let apart = (other.start.p_W(terrain) - p).norm();
-            let problem = format!(
-                "robot \"{id}\" starts {apart:.2} m from robots[{k}], \"{}\"",
-                other.id.as_str()
-            );
+            let other = other.id.as_str();
+            let problem = |so: &str| {
+                format!("robot \"{id}\" starts {apart:.2} m from robots[{k}], \"{other}\": {so}")
+            };
             if apart < DIAMETER_M {
-                let problem = format!("{problem}: their hulls are in one another");
+                let problem = problem("their hulls overlap");
                 found.push(Found::error(&path, problem).hint("move one of them"));
             } else if apart < LENGTH_M {
-                let problem = format!("{problem}: their hulls may touch");
+                let problem = problem("their hulls may touch");
                 found.push(Found::warning(&path, problem));
             }
         }
@@ -79,7 +79,7 @@ mod tests {
             told(0.1, 2.0),
             [(
                 Severity::Error,
-                "robot \"auv1\" starts 0.10 m from robots[0], \"auv0\": their hulls are in one another".into()
+                "robot \"auv1\" starts 0.10 m from robots[0], \"auv0\": their hulls overlap".into()
             )]
         );
         let low = told(5.0, 0.05);

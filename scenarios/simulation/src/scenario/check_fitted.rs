@@ -1,21 +1,21 @@
-//! Whether a robot has on board what its estimator and its strategy live on.
+//! Checks that a robot carries the instruments that its estimator and its strategy need.
 
 use super::fault::Found;
 use super::schema::RobotSpec;
 
-/// Instruments that are asked for and missing.
+/// Instruments that the estimator or the strategy requires and the robot lacks.
 pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     let path = format!("robots[{i}]");
     if robot.estimator.needs_ctd() && !robot.sensors.has("ctd") {
-        let problem = "it tells water layers apart by their density, and the robot measures none";
+        let problem =
+            "the estimator tells water layers apart by density, but the robot does not measure it";
         found.push(
             Found::error(format!("{path}.estimator.layer_aware"), problem)
                 .hint("fit a CTD, as in `sensors: (ctd: ())`, or leave layer_aware out"),
         );
     }
     if robot.strategy.needs_ranging() && !robot.sensors.has("ranging") {
-        let problem =
-            "its Avoid layer turns away from what a forward ranging shows, and the robot has none";
+        let problem = "its Avoid layer needs a forward ranging, but the robot has none";
         found.push(
             Found::error(format!("{path}.strategy.layers"), problem)
                 .hint("fit one, as in `sensors: (ranging: ())`, or leave Avoid out"),
@@ -23,7 +23,7 @@ pub(super) fn fitted(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     }
 }
 
-/// What a search cannot do without: with it missing the vehicle goes on blindly.
+/// Instruments without which a search is blind.
 pub(super) fn blind(i: usize, robot: &RobotSpec, found: &mut Vec<Found>) {
     if !robot.strategy.searches() {
         return;

@@ -1,15 +1,16 @@
-//! What can be wrong with a gantry before a run, each with the field's path.
+//! Checks of a gantry; each finding has the field's path.
 
+use super::beside::Beside;
+use super::check::robot_error;
 use super::fault::Found;
 use super::gantry::GantryBlock;
-use robots::error::RobotError;
-use robots::sense::Probes;
+use robots::sense::{OnBoard, Probes};
 use robots::vehicles::Gantry;
 use std::path::Path;
 use world::area::Area;
 use world::terrain::Terrain;
 
-/// Everything wrong with `gantries[i]`.
+/// Finds everything that is wrong with `gantries[i]`.
 pub(crate) fn check(
     i: usize,
     block: &GantryBlock,
@@ -20,17 +21,18 @@ pub(crate) fn check(
     found: &mut Vec<Found>,
 ) {
     let path = format!("gantries[{i}]");
-    let gantry = match Gantry::load(&block.gantry, base_dir) {
+    let fault = |part, error| robot_error(&path, part, error);
+    let gantry = match Gantry::load(&block.gantry, &Beside(base_dir)) {
         Ok(gantry) => gantry,
-        Err(e) => return found.push(fault(&path, "gantry", e)),
+        Err(e) => return found.push(fault("gantry", e)),
     };
     if let Err(e) = gantry.check_step(step_s) {
-        found.push(fault(&path, "gantry", e));
+        found.push(fault("gantry", e));
     }
     let base = block.base(terrain);
     let start_m = block.start_m();
     match gantry.body_spec(block.id.as_str(), &base, start_m) {
-        Err(e) => found.push(fault(&path, "start", e)),
+        Err(e) => found.push(fault("start", e)),
         Ok(_) => {
             let head = base.point(start_m.push(0.0)).xy();
             let (inside_m, _) = area.edge_distance(head);
@@ -39,32 +41,23 @@ pub(crate) fn check(
                     Found::error(
                         format!("{path}.place"),
                         format!(
-                            "gantry \"{}\" starts with its head at east {:.2} m, north {:.2} m, {:.2} m outside the area",
+                            "gantry \"{}\" starts with its head at east {:.2} m, north {:.2} m, \
+                             {:.2} m outside the area",
                             block.id.as_str(), head.x, head.y, -inside_m
                         ),
                     )
-                    .hint("the head is at `place` plus `start` along heading_deg and to its left"),
+                    .hint("the head is at `place`, moved by `start` along heading_deg and to its left"),
                 );
             }
         }
     }
     let layout = block.layout(&gantry);
     let names: Vec<String> = layout.probes.iter().map(|p| p.name.clone()).collect();
-    if let Err(e) = Probes::new(&block.probes, &names, block.id.as_str(), 0, step_s) {
-        found.push(fault(&path, "probes", e));
+    let on = OnBoard::new(block.id.as_str(), 0, step_s);
+    if let Err(e) = Probes::new(&block.probes, &names, &on) {
+        found.push(fault("probes", e));
     }
     if let Err(e) = block.tracker.build(&layout) {
-        found.push(fault(&path, "tracker", e));
-    }
-}
-
-fn fault(gantry: &str, part: &str, error: RobotError) -> Found {
-    match error {
-        RobotError::File { .. } => Found::error(format!("{gantry}.{part}.urdf"), error.to_string())
-            .hint("paths are relative to the scenario file"),
-        RobotError::Invalid { field, problem } => {
-            let field = crate::scenario::within(gantry, part, &field);
-            Found::error(field, problem)
-        }
+        found.push(fault("tracker", e));
     }
 }

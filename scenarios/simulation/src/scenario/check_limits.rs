@@ -1,4 +1,4 @@
-//! Numbers that are legal one by one and that no computer, or no sea, could bear.
+//! Limits of what a computer can hold and of what exists at sea, for numbers that are legal one by one.
 
 use super::check::robot_error;
 use super::fault::Found;
@@ -11,22 +11,22 @@ use world::limits::shown;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
-/// Most nodes of the grid from which the plume takes its currents: about half a gigabyte.
+/// Most nodes of the grid from which the plume takes its currents. They need about half a gigabyte.
 const MOST_NODES: f64 = 2e7;
-/// Most filaments given off in a run; none leaving, about two gigabytes.
+/// Most filaments released in a run. If none leaves the area, they need about two gigabytes.
 const MOST_FILAMENTS: f64 = 5e7;
 /// Longest spin-up and longest mission, s: four months.
 const LONGEST_S: f64 = 1e7;
 /// Deepest water, m: the Challenger Deep has 10.9 km.
 const DEEPEST_M: f64 = 12_000.0;
-/// Shallowest water, and narrowest area, m: less than a film.
+/// Shallowest water, m.
 const SHALLOWEST_M: f64 = 1e-3;
-/// See above.
+/// Smallest length and width of the area, m.
 const NARROWEST_M: f64 = 1e-3;
 /// Fastest water, m/s: the strongest tidal streams reach 10 m/s.
 const FASTEST_M_S: f64 = 15.0;
 
-/// Area, depth, durations and filaments; whether all can be borne.
+/// Checks area, depth, durations and number of filaments. Returns whether all are within their limits.
 pub(super) fn sizes(
     scenario: &Scenario,
     area: &Area,
@@ -35,10 +35,10 @@ pub(super) fn sizes(
 ) -> bool {
     let before = found.len();
     let nodes: f64 = GridShape::fitting(area).nodes(area).iter().product();
-    // The cells of a blockage are judged where they are made.
+    // A blockage checks its own cells.
     if scenario.water.blockage.is_none() && !(nodes <= MOST_NODES) {
         let problem = format!(
-            "its currents would need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e}"
+            "its currents need a grid of {nodes:.1e} nodes; at most {MOST_NODES:.0e} are allowed"
         );
         found.push(Found::error("area", problem).hint("make length_m and width_m smaller"));
     }
@@ -79,16 +79,18 @@ pub(super) fn sizes(
         let filaments = source.release.settled().rate_hz.get() * (spin_up_s + limit_s);
         if !(filaments <= MOST_FILAMENTS) {
             let problem = format!(
-                "would give off {filaments:.1e} filaments in spin-up and mission; at most {MOST_FILAMENTS:.0e}"
+                "releases {filaments:.1e} filaments in spin-up and mission; at most {MOST_FILAMENTS:.0e} are allowed"
             );
             let path = format!("sources[{i}].release");
-            found.push(Found::error(path, problem).hint("give a lower rate_hz or less time"));
+            found.push(
+                Found::error(path, problem).hint("lower rate_hz, or shorten spin-up or mission"),
+            );
         }
     }
     found.len() == before
 }
 
-/// Whether its map and its planner's room are no more than can be made; makes none of it.
+/// Checks the sizes of a robot's map and of its planner's space without building them.
 pub(super) fn bounds(
     i: usize,
     robot: &RobotSpec,
@@ -107,7 +109,7 @@ pub(super) fn bounds(
     found.len() == before
 }
 
-/// The water where something is.
+/// Checks the speed of the water at the robots' starts and in the middle of the area.
 pub(super) fn speeds(
     scenario: &Scenario,
     water: &Water,
@@ -119,10 +121,10 @@ pub(super) fn speeds(
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
     for p in starts.chain([middle]) {
         let speed = water.velocity(&p, 0.0).norm();
-        // Nor what is not a number.
+        // This form also refuses what is not a number.
         if !(speed <= FASTEST_M_S) {
             let problem = format!(
-                "together they flow at {speed} m/s at east {} m, north {} m; at most {FASTEST_M_S} m/s",
+                "together they flow at {speed} m/s at east {} m, north {} m; at most {FASTEST_M_S} m/s are allowed",
                 p.x, p.y
             );
             found.push(Found::error("water.currents", problem));
@@ -161,7 +163,7 @@ mod tests {
         assert!(
             large.contains(&says(
                 "area",
-                "its currents would need a grid of 6.0e16 nodes; at most 2e7"
+                "its currents need a grid of 6.0e16 nodes; at most 2e7 are allowed"
             )),
             "{large:?}"
         );
@@ -169,7 +171,7 @@ mod tests {
             one("rate_hz: 5", "rate_hz: 1e12"),
             says(
                 "sources[0].release",
-                "would give off 3.8e15 filaments in spin-up and mission; at most 5e7"
+                "releases 3.8e15 filaments in spin-up and mission; at most 5e7 are allowed"
             )
         );
         let longest = told("spin_up_s: 2000", "spin_up_s: 1e18");
@@ -198,6 +200,9 @@ mod tests {
         let (path, message) = one("speed_m_s: 0.2", "speed_m_s: 1e6");
         assert_eq!(path, "water.currents");
         assert!(message.starts_with("together they flow at "), "{message}");
-        assert!(message.ends_with("; at most 15 m/s"), "{message}");
+        assert!(
+            message.ends_with("; at most 15 m/s are allowed"),
+            "{message}"
+        );
     }
 }

@@ -1,4 +1,4 @@
-//! What a scenario's obstacles mean: shapes that cannot be built, sizes and places that make no sense, water that finds no way.
+//! Checks of obstacles: shapes that cannot be built, sizes and places that make no sense, and water without a way.
 
 use super::check::{names, twins, within};
 use super::fault::Found;
@@ -11,7 +11,7 @@ use world::error::WorldError;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::terrain::Terrain;
 
-/// Obstacles that can be built; what is wrong or odd about them is added to `found`.
+/// Builds the obstacles and returns those that can be built. Errors and warnings are added to `found`.
 pub(super) fn obstacles(
     scenario: &Scenario,
     area: &Area,
@@ -28,7 +28,7 @@ pub(super) fn obstacles(
         let path = format!("obstacles[{i}]");
         if let Some(twin) = specs[..i].iter().position(|other| spec.is_copy_of(other)) {
             let problem = format!(
-                "obstacle \"{}\" fills just the same place as obstacles[{twin}], \"{}\"",
+                "obstacle \"{}\" fills exactly the same space as obstacles[{twin}], \"{}\"",
                 spec.id, specs[twin].id
             );
             found.push(Found::error(&path, problem).hint("remove one of them, or move it"));
@@ -67,7 +67,7 @@ pub(super) fn obstacles(
         found.push(
             Found::error(
                 "obstacles",
-                "they fill the whole area: no open water was found in it",
+                "they fill the whole area: there is no open water in it",
             )
             .hint("make them smaller, or the area larger"),
         );
@@ -75,7 +75,7 @@ pub(super) fn obstacles(
     built
 }
 
-/// That a list of obstacles' ids names such as there are.
+/// Checks that a list of ids names obstacles of the scenario.
 pub(super) fn known(
     list: &str,
     ids: &[String],
@@ -93,7 +93,7 @@ pub(super) fn known(
     }
 }
 
-/// Whether the water can go round the obstacles.
+/// Checks that the water can flow round the obstacles and past the sources.
 pub(super) fn blockage(
     scenario: &Scenario,
     area: &Area,
@@ -111,11 +111,11 @@ pub(super) fn blockage(
                     Found::warning(
                         "water.blockage.cell_m",
                         format!(
-                            "obstacle \"{}\" lies between the middles of the cells: the water does not feel it",
+                            "obstacle \"{}\" lies between the centres of the cells: the water does not feel it",
                             o.id
                         ),
                     )
-                    .hint("take smaller cells"),
+                    .hint("use smaller cells"),
                 );
             }
         }
@@ -158,7 +158,8 @@ mod tests {
 
     #[test]
     fn piles_under_a_quay_may_overlap_it() {
-        let quay = "(id: \"quay\", shape: Box(size_m: (20, 20, 2)), east_m: 0, north_m: 0, base: Depth(3))";
+        let quay = "(id: \"quay\", shape: Box(size_m: (20, 20, 2)), east_m: 0, north_m: 0, \
+                    base: Depth(3))";
         let pile = format!("(id: \"pile\", {PILE})");
         assert_eq!(said(&format!("{quay}, {pile}"), ""), Vec::<String>::new());
     }
@@ -167,7 +168,7 @@ mod tests {
     fn a_copy_is_refused() {
         assert_eq!(
             said(&format!("(id: \"a\", {PILE}), (id: \"b\", {PILE})"), ""),
-            ["obstacles[1]: obstacle \"b\" fills just the same place as obstacles[0], \"a\""]
+            ["obstacles[1]: obstacle \"b\" fills exactly the same space as obstacles[0], \"a\""]
         );
     }
 
@@ -177,7 +178,7 @@ mod tests {
         assert_eq!(
             said(&pile, "blockage: (cell_m: 4),"),
             [
-                "water.blockage.cell_m: obstacle \"pile\" lies between the middles of the cells: the water does not feel it"
+                "water.blockage.cell_m: obstacle \"pile\" lies between the centres of the cells: the water does not feel it"
             ]
         );
         assert_eq!(said(&pile, "blockage: (cell_m: 0.001),").len(), 1);
@@ -212,7 +213,7 @@ mod tests {
         let said = said(land, "blockage: (),");
         assert_eq!(
             said[0],
-            "obstacles: they fill the whole area: no open water was found in it"
+            "obstacles: they fill the whole area: there is no open water in it"
         );
         assert!(
             said[1].starts_with("water.blockage: no water that could flow is left"),

@@ -1,4 +1,4 @@
-//! Steps of the plume that are too long for the water they are taken in.
+//! Warns of steps of the plume that are too long for the mixing of the water.
 
 use super::fault::Found;
 use super::schema::Scenario;
@@ -8,7 +8,8 @@ use world::area::Area;
 use world::clock::Every;
 use world::terrain::Terrain;
 
-/// Steps that would sort mixed dye into the layers and out of the interfaces of a water that is sound otherwise.
+/// Finds steps so long that evenly mixed dye would gather in the layers and thin out at the interfaces. The water is
+/// checked before.
 pub(super) fn steps(
     scenario: &Scenario,
     water: &Water,
@@ -46,7 +47,7 @@ pub(super) fn steps(
     }
 }
 
-/// A positive number to two digits, never above.
+/// A positive number rounded down to two digits.
 fn below(s: f64) -> f64 {
     let mut scale = 1.0;
     while s * scale < 10.0 {
@@ -55,7 +56,7 @@ fn below(s: f64) -> f64 {
     while s * scale >= 100.0 {
         scale /= 10.0;
     }
-    // A hair up, so that what rounding has put below a digit keeps it.
+    // A little more, so that a number just below a digit by rounding keeps that digit.
     (s * scale + 1e-6).floor() / scale
 }
 
@@ -76,13 +77,13 @@ fn told(
         ),
     };
     let problem = format!(
-        "in steps of {dt_s} s dye that is mixed over the depth becomes up to {} % uneven in {lasts_s} s, because vertical mixing changes so \
-         sharply with height (worst at east {:.0} m, north {:.0} m); {cure}",
+        "in steps of {dt_s} s dye that is mixed over the depth becomes up to {} % uneven in {lasts_s} s, because \
+         vertical mixing changes sharply with height (worst at east {:.0} m, north {:.0} m); {cure}",
         percent(uneven.part),
         uneven.place.x,
         uneven.place.y,
     );
-    let gentler = "let mixing change more gently: a thicker interface, or less mixing beside it";
+    let gentler = "make mixing change more gently, by a thicker interface or less mixing beside it";
     let hint = match longest_s {
         Some(s) => format!(
             "set time.{field} to {s} (the plume then takes {:.1} times as long), or {gentler}",

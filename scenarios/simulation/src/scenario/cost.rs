@@ -1,4 +1,4 @@
-//! What a scenario will hold and do, part by part, before any of it is built.
+//! Estimates what a run takes, part by part, before anything is built.
 
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
@@ -6,27 +6,27 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use world::cost::{Cost, Part, Times, duration, memory};
 use world::limits::shown;
 
-/// Memory that a run may take unless another limit is given, bytes: half of what a common machine has.
+/// Memory that a run may use unless another limit is given, bytes. It is half of what a common machine has.
 pub const MEMORY: f64 = 4e9;
-/// A run estimated to take longer is warned of, s.
+/// A longer run gets a warning, s.
 const LONG_S: f64 = 7200.0;
 /// Parts named in an estimate.
 const NAMED: usize = 3;
-/// Memory of the program with fonts and figures, bytes, and time to start and to draw, s.
+/// Memory of the program with fonts and figures, bytes; time to start and to draw, s.
 const PROGRAM: (f64, f64) = (50e6, 0.2);
-/// Time of a step of a vehicle with its instruments and its mind, of a surface wave in it, and of a gantry, s.
+/// Time of a step of a vehicle with instruments and strategy, of each surface wave in that step, and of a gantry, s.
 const VEHICLE_S: [f64; 3] = [9e-6, 1e-6, 15e-6];
-/// Time of a frame of a robot in all files, s, and memory of its rows, bytes, of at most so many.
+/// Time to write a frame of a robot to all files, s.
 const FRAME_S: f64 = 60e-6;
-/// See above.
+/// Memory of a frame's row, bytes, and the most rows that are kept.
 const ROWS: (f64, f64) = (400.0, 40_000.0);
 /// Time of a filament in a picture of the plume, s.
 const POINT_S: f64 = 0.3e-6;
 
-/// Limit of this process, bytes, as bits: memory is the process's, whatever it reads and runs.
+/// Limit of this process, bytes, as bits. It is global because memory belongs to the process.
 static LIMIT: AtomicU64 = AtomicU64::new(MEMORY.to_bits());
 
-/// Memory that a run of this process may take, bytes.
+/// Memory that a run of this process may use, bytes.
 #[must_use]
 pub fn limit() -> f64 {
     f64::from_bits(LIMIT.load(Ordering::Relaxed))
@@ -37,7 +37,7 @@ pub fn set_limit(bytes: f64) {
     LIMIT.store(bytes.to_bits(), Ordering::Relaxed);
 }
 
-/// Its times.
+/// The durations and steps of a run.
 #[must_use]
 pub fn times(scenario: &Scenario) -> Times {
     let t = &scenario.time;
@@ -51,7 +51,7 @@ pub fn times(scenario: &Scenario) -> Times {
     }
 }
 
-/// What it takes, in plain arithmetic.
+/// The cost of a run, computed from its fields.
 #[must_use]
 pub fn cost(scenario: &Scenario) -> Cost {
     let (area, times) = (scenario.area.build(), times(scenario));
@@ -104,7 +104,7 @@ fn robot_cost(
     cost
 }
 
-/// Frames and pictures of the plume.
+/// The cost of recorded frames and of recorded plumes.
 fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
     let r = &scenario.record;
     let n = (scenario.robots.len() + scenario.gantries.len()) as f64;
@@ -125,7 +125,7 @@ fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
     ]
 }
 
-/// "about 12 s, 60 MB".
+/// The cost in words: "about 12 s, 60 MB".
 #[must_use]
 pub fn estimate(cost: &Cost) -> String {
     format!(
@@ -135,7 +135,8 @@ pub fn estimate(cost: &Cost) -> String {
     )
 }
 
-/// The parts that take most time and memory, greatest first: "8 s 1.6e4 nodes of the plume's flow (area)".
+/// The parts that take most time or memory, largest first, as in
+/// "1.6e4 nodes of the plume's flow (area): 8 s, 2 MB".
 #[must_use]
 pub fn greatest(cost: &Cost) -> Vec<String> {
     let share =
@@ -158,7 +159,7 @@ pub fn greatest(cost: &Cost) -> Vec<String> {
     parts.iter().take(NAMED).map(said).collect()
 }
 
-/// What is too much of it: memory beyond `limit` is an error, hours are a warning. Whether it can be built at all.
+/// Reports memory beyond `limit` as an error. Returns whether the scenario may be built.
 pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
     if !cost.fits(limit) {
         let Some(part) = cost.largest() else {
@@ -168,7 +169,7 @@ pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
         let room = if room.is_nan() { 0.5 * limit } else { room };
         let legal = (room > 0.0).then(|| part.legal(room)).flatten();
         let problem = format!(
-            "{}would take {} ({}), the whole run {}; at most {} are allowed",
+            "{}would take {} ({}), and the whole run {}; at most {} are allowed",
             legal.map_or_else(String::new, |l| {
                 let got = part.rule.map_or(f64::NAN, |r| r.value);
                 format!("{l}, got {}: ", shown(got))
@@ -178,15 +179,17 @@ pub(super) fn judge(cost: &Cost, limit: f64, found: &mut Vec<Found>) -> bool {
             memory(cost.bytes()),
             memory(limit)
         );
-        found.push(Found::error(&part.path, problem).hint("or allow more, as in `--memory 16G`"));
+        found.push(
+            Found::error(&part.path, problem).hint("or allow more memory, as in `--memory 16G`"),
+        );
         return false;
     }
     true
 }
 
-/// Whether a run of it takes hours: told of a scenario that could run.
+/// Warns of a run that takes hours.
 pub(super) fn patience(cost: &Cost, found: &mut Vec<Found>) {
-    // Not a number is long.
+    // This form also finds what is not a number.
     if !(cost.seconds() <= LONG_S)
         && let Some(part) = cost.slowest()
     {

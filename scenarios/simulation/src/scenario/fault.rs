@@ -1,15 +1,15 @@
-//! What can be wrong with a scenario, shown with file, line, column and the text around it.
+//! Errors and warnings about a scenario, with file, line, column and the text around the place.
 
 use super::outline::Outline;
 use std::ops::Range;
 
-/// Longest line shown, bytes.
+/// Longest line that is shown, bytes.
 const LONG: usize = 400;
 
 /// Whether something stops a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
-    /// It may be meant, but probably is not.
+    /// It is legal, but probably not meant.
     Warning,
     /// It stops a run.
     Error,
@@ -42,7 +42,7 @@ pub enum ScenarioError {
 }
 
 impl ScenarioError {
-    /// Some mistakes of one text, at least one; in the text's order.
+    /// One or more mistakes of one text, put in the order of the text.
     #[must_use]
     pub fn of(path: &str, mut faults: Vec<Fault>) -> Self {
         faults.sort_by_key(|f| (f.line, f.column));
@@ -74,7 +74,7 @@ pub struct Fault {
     pub path: String,
     /// What is wrong: the value and the legal range.
     pub message: String,
-    /// How to put it right.
+    /// How to correct it.
     pub help: Option<String>,
     /// Whether it stops a run.
     pub severity: Severity,
@@ -82,40 +82,35 @@ pub struct Fault {
     pub line: usize,
     /// Column in characters, from 1.
     pub column: usize,
-    /// What stands beside the marked text.
+    /// The label of the marked text.
     pub label: &'static str,
     /// The file as it was asked for.
     pub source_name: String,
-    /// The file's text, if the lines round the fault can be shown.
+    /// The file's text, if the lines around the fault are short enough to be shown.
     pub text: Option<String>,
-    /// Where in the text, bytes.
+    /// The marked text, in bytes.
     pub span: Range<usize>,
 }
 
 impl Fault {
     pub(crate) fn new(name: &str, text: &str, span: Range<usize>, found: Found) -> Self {
         let before = &text[..span.start];
-        // An empty span shows nothing; a long one hides what matters.
+        // The mark ends with its line: a longer one would hide what matters.
         let line_end = text[span.start..]
             .find('\n')
             .map_or(text.len(), |i| span.start + i);
         let end = span.end.min(line_end).max(span.start);
         let line = 1 + before.matches('\n').count();
         let column = 1 + before.chars().rev().take_while(|&c| c != '\n').count();
-        // A line too long to look at is only named.
+        // A line too long to look at is not shown.
         let shown = text
             .lines()
             .skip(line.saturating_sub(2))
             .take(3)
             .all(|l| l.len() <= LONG);
-        let message = if shown {
-            found.message
-        } else {
-            format!("{} ({name}, line {line}, column {column})", found.message)
-        };
         Self {
             path: found.path,
-            message,
+            message: found.message,
             help: found.help,
             severity: found.severity,
             line,
@@ -127,14 +122,14 @@ impl Fault {
         }
     }
 
-    /// The fault at the place of its path.
+    /// A fault at the place of its path.
     #[must_use]
     pub fn located(name: &str, text: &str, outline: &Outline, found: Found) -> Self {
         let span = outline.find(&found.path).map_or(0..0, |n| n.whole.clone());
         Self::new(name, text, span, found)
     }
 
-    /// On one line: `file:line:column: field: what is wrong`.
+    /// The fault in one line: `file:line:column: field: what is wrong`.
     #[must_use]
     pub fn line(&self) -> String {
         format!("{}:{}:{}: {self}", self.source_name, self.line, self.column)
@@ -168,7 +163,7 @@ impl Found {
         }
     }
 
-    /// Something that may be meant, but probably is not.
+    /// Something legal that is probably not meant.
     #[must_use]
     pub fn warning(path: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
@@ -177,21 +172,14 @@ impl Found {
         }
     }
 
-    /// How to put it right.
+    /// Adds how to correct it.
     #[must_use]
     pub fn hint(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// The same of another path.
-    #[must_use]
-    pub(super) fn of(mut self, path: &str) -> Self {
-        self.path = path.to_string();
-        self
-    }
-
-    /// What stands beside the marked text.
+    /// Labels the marked text.
     #[must_use]
     pub(super) fn label(mut self, label: &'static str) -> Self {
         self.label = label;

@@ -1,4 +1,4 @@
-//! What a scenario says of a gantry.
+//! A gantry in a scenario.
 
 use super::schema::Id;
 use nalgebra::{Vector2, Vector3};
@@ -12,7 +12,7 @@ use world::frames::Pose;
 use world::ranges::{Finite, HeadingDeg};
 use world::terrain::Terrain;
 
-/// A gantry: its frame and drives, where it stands, its probes, and what it does with them.
+/// A gantry: its frame and drives, where it stands, its probes, and its strategy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct GantryBlock {
@@ -45,9 +45,9 @@ pub struct PlaceSpec {
     #[serde(deserialize_with = "world::limits::place_m")]
     #[schemars(transform = world::limits::schema::place_m)]
     pub north_m: Finite,
-    /// Where its first axis points: up-stream.
+    /// Direction of its first axis, up-stream.
     pub heading_deg: HeadingDeg,
-    /// How much higher than on the bed, m: with it all probes are higher.
+    /// Height of the origin above the bed, m. It raises all probes.
     #[serde(default = "zero")]
     pub raised_m: Finite,
 }
@@ -56,7 +56,7 @@ fn zero() -> Finite {
     Finite::new(0.0)
 }
 
-/// Where the head is, in the gantry's own frame.
+/// Position of the head in the gantry's own frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct HeadSpec {

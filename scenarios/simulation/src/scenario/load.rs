@@ -1,4 +1,4 @@
-//! Reading a scenario file.
+//! Reads scenario files.
 
 use super::catalog;
 use super::check::check;
@@ -6,14 +6,15 @@ use super::fault::Severity;
 use super::fault::{Fault, Found, ScenarioError};
 use super::outline::Outline;
 use super::reader;
-use super::schema::{Scenario, VERSION};
+use super::schema::Scenario;
+use super::version::version_first;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
 use world::files;
 use world::registry::Registry;
 
-/// Longest file read, bytes: a scenario is text of a few kilobytes.
+/// Longest file that is read, bytes. A scenario has a few kilobytes.
 const LONGEST: u64 = 1 << 20;
 
 /// A scenario with the text it was read from.
@@ -21,13 +22,13 @@ const LONGEST: u64 = 1 << 20;
 pub struct Loaded {
     /// What the file says.
     pub scenario: Scenario,
-    /// The file, word for word.
+    /// The text of the file.
     pub text: String,
     /// The file, as it was asked for.
     pub path: PathBuf,
-    /// Name: the file's without its ending.
+    /// Name: the file's name without its ending.
     pub name: String,
-    /// Folder that paths in the scenario are relative to.
+    /// Folder to which paths in the scenario are relative.
     pub base_dir: PathBuf,
     /// Hash of the text, 32 hexadecimal digits.
     pub hash: String,
@@ -39,7 +40,7 @@ impl Loaded {
     /// Checks what the scenario means: see [`check`].
     ///
     /// # Errors
-    /// All mistakes that stop a run; without such, returns the warnings.
+    /// All mistakes that stop a run. If there are none, the warnings are returned.
     pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
         let found = check(&self.scenario, &self.base_dir);
         let outline = Outline::of(&self.text);
@@ -57,11 +58,11 @@ impl Loaded {
     }
 }
 
-/// Reads a scenario: a file or, where there is none, the one of that name that comes with the program.
+/// Reads a scenario file. If there is no such file, reads the scenario of that name that comes with the program.
 ///
 /// # Errors
-/// If it cannot be read or is not a scenario: all its mistakes, those of meaning too. What a scenario means that can
-/// be read is checked by [`Loaded::check`].
+/// If the file cannot be read or is not a scenario: all its mistakes, of form and of meaning. The meaning of a scenario
+/// without mistakes of form is checked by [`Loaded::check`].
 pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     let shown = path.display().to_string();
     let name = path
@@ -72,8 +73,8 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
         (Err(Unread::Missing), Some(template)) => {
             base_dir = template.unpack().map_err(|e| ScenarioError::File {
                 path: shown.clone(),
-                problem: format!("the files it names cannot be unpacked: {e}"),
-                help: Some("they go to the folder for temporary files".to_string()),
+                problem: format!("the files that it refers to cannot be unpacked: {e}"),
+                help: Some("they are written to the folder for temporary files".to_string()),
             })?;
             template.text.to_string()
         }
@@ -100,8 +101,8 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
     loaded(path, name, base_dir, text)
 }
 
-/// Reads a scenario from its text, with what a registry adds. Errors call it `name`, and paths in it are relative to the
-/// working folder. Handy for programs that change the text of a [`template`](super::template).
+/// Reads a scenario from its text, with what a registry adds. Errors call it `name`. Paths in it are relative to the
+/// working folder. It serves programs that change the text of a [`template`](super::template).
 ///
 /// # Errors
 /// As [`load`].
@@ -132,7 +133,7 @@ fn loaded(
     })
 }
 
-/// The same, of a scenario that may ask for what a registry adds.
+/// The same for a scenario that uses what a registry adds.
 ///
 /// # Errors
 /// As [`load`].
@@ -140,7 +141,7 @@ pub fn load_with(registry: &Registry, path: &Path) -> Result<Loaded, ScenarioErr
     registry.scope(|| load(path))
 }
 
-/// The same as [`parse`], of a scenario that may ask for what a registry adds.
+/// The same as [`parse`] for a scenario that uses what a registry adds.
 ///
 /// # Errors
 /// As [`parse`].
@@ -156,7 +157,7 @@ pub fn parse(name: &str, text: &str) -> Result<Scenario, ScenarioError> {
     read_whole(name, text, &|_| Vec::new())
 }
 
-/// Reads a scenario; of one with mistakes of form also those of `meaning` are told that do not follow from them.
+/// Reads a scenario. If it has mistakes of form, `meaning` adds those of meaning that do not follow from them.
 fn read_whole(
     name: &str,
     text: &str,
@@ -172,39 +173,8 @@ fn read_whole(
             ),
         });
     }
-    if outline.open.is_empty() {
-        version_first(name, text, &outline)?;
-    }
-    reader::read(name, text, meaning)
-}
-
-/// A file of another version may differ in everything else: say that first.
-fn version_first(name: &str, text: &str, outline: &Outline) -> Result<(), ScenarioError> {
-    let first = outline
-        .nodes
-        .iter()
-        .filter(|n| !n.path.is_empty() && !n.path.contains(['.', '[']))
-        .min_by_key(|n| n.whole.start);
-    let Some(first) = first else {
-        return Ok(());
-    };
-    let value = &text[first.value.clone()];
-    let found = if first.path != "version" {
-        Found::error(
-            "version",
-            format!("the first field must be `version: {VERSION}`"),
-        )
-        .hint(format!("the file begins with `{}`", first.path))
-    } else if value.parse() == Ok(VERSION) {
-        return Ok(());
-    } else {
-        Found::error(
-            "version",
-            format!("this program reads version {VERSION}, got {value}"),
-        )
-        .hint("take the program that wrote the file, or start anew from `rheotaxis init`")
-    };
-    Err(Box::new(Fault::new(name, text, first.whole.clone(), found)).into())
+    let citation = version_first(name, text, &outline)?;
+    reader::read_renamed(name, text, Some(citation), meaning)
 }
 
 enum Unread {

@@ -1,5 +1,6 @@
-//! Scenario files: schema, reading, checking; errors that point at the place.
+//! Scenario files: schema, reading and checks. Errors name the place in the file.
 
+mod beside;
 mod catalog;
 mod check;
 mod check_able;
@@ -21,9 +22,10 @@ mod success;
 #[cfg(test)]
 mod told;
 mod unread;
+mod version;
 
+pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
-pub use check::within;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
@@ -33,6 +35,7 @@ pub(crate) use reader::distance;
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,
-    TimeSpec, VERSION, Version,
+    TimeSpec,
 };
 pub use success::{DeclaredSpec, ReachedSpec, SuccessSpec};
+pub use version::{OLDEST, VERSION, Version};

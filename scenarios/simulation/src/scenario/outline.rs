@@ -1,12 +1,11 @@
-//! Where each field of a RON text stands: paths such as `robots[1].start` to places, and back.
+//! The places of all fields in a RON text: from paths such as `robots[1].start` to places, and back.
 //!
-//! ron names a place only while it reads; checks that come later (a start inside an obstacle) know
-//! a path. This scan walks brackets and field names, understands nothing else, and never fails: in a
-//! broken text it says as much as it saw.
+//! ron knows places only while it reads. Later checks (a start inside an obstacle) know only a path. This scan follows
+//! brackets and field names and nothing else. It never fails: of a broken text it returns as much as it has seen.
 
 use std::ops::Range;
 
-/// Most brackets within each other.
+/// Deepest nesting of brackets.
 pub(super) const DEEPEST: usize = 128;
 
 /// A field, an element of a list, or a positional value.
@@ -23,9 +22,9 @@ pub struct Node {
 /// All places of a text.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Outline {
-    /// Every value, inner ones before the ones around them.
+    /// Every value; inner values come before the ones around them.
     pub nodes: Vec<Node>,
-    /// Brackets left open at the end of the text, outermost first.
+    /// Brackets that are open at the end of the text, outermost first.
     pub open: Vec<(char, usize)>,
 }
 
@@ -38,7 +37,7 @@ struct Frame {
     key: Option<Range<usize>>,
     start: Option<usize>,
     end: usize,
-    /// The newest token, and where the one before it ended.
+    /// The newest token, and the end of the one before it.
     last: Range<usize>,
     before: usize,
 }
@@ -91,7 +90,7 @@ impl Frame {
         self.last = token;
     }
 
-    /// A colon: the newest token is a name; what stands before it lacks its comma.
+    /// Handles a colon: the newest token is a name, and what comes before it lacks its comma.
     fn name(&mut self, text: &str, nodes: &mut Vec<Node>) {
         let Some(start) = self.start else {
             return;
@@ -108,7 +107,7 @@ impl Frame {
 impl Outline {
     /// Scans a text.
     pub fn of(text: &str) -> Self {
-        // Nothing deeper is read: its paths, each longer than the one around it, would fill the memory.
+        // Deeper values are dropped: their paths, each longer than the one around it, would fill the memory.
         let (mut nodes, mut deeper) = (Vec::new(), Vec::new());
         let mut stack = vec![Frame::new(String::new(), None, false)];
         let mut at = 0;
@@ -152,11 +151,11 @@ impl Outline {
         Self { nodes, open }
     }
 
-    /// The node of a path, or of the nearest path around it that the text has.
+    /// The node of a path, or of the nearest enclosing path that the text has.
     pub(super) fn find(&self, path: &str) -> Option<&Node> {
         let mut path = path;
         loop {
-            // Outermost of that path: `Altitude(2.0)` rather than `2.0`.
+            // The outermost node of that path: `Altitude(2.0)`, not `2.0`.
             if let Some(node) = self.nodes.iter().rev().find(|n| n.path == path) {
                 return Some(node);
             }

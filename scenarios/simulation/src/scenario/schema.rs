@@ -1,7 +1,8 @@
-//! What a scenario file says: the whole schema, each block owned by the part it configures.
+//! The schema of a scenario file. Each block belongs to the part that it configures.
 
 use super::gantry::GantryBlock;
 use super::success::SuccessSpec;
+use super::version::Version;
 use crate::apparatus::ApparatusSpec;
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::WaterSpec;
@@ -22,19 +23,17 @@ use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
-/// Version of the schema this program reads.
-pub const VERSION: u32 = 1;
-
-/// An experiment: a place, its water, what is released, who searches, and when it is over.
+/// An experiment: the place, its water, the chemical sources, the vehicles that search, and the time limit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Scenario {
-    /// Version of the schema; the first field of every file.
+    /// Version of scenario files; the first field of every file.
     pub version: Version,
-    /// One line for lists and reports.
+    /// Title in lists and reports, one line.
     pub title: String,
-    /// Where the experiment comes from: paper, section, figure, table.
-    pub source: String,
+    /// The publication that the experiment comes from: paper, section, figure, table. Version 1 calls it `source`.
+    #[serde(alias = "source")]
+    pub citation: String,
     /// The operating area.
     pub area: AreaSpec,
     /// The bed.
@@ -44,20 +43,20 @@ pub struct Scenario {
     /// How clear the water is and how light falls into it, for cameras.
     #[serde(default)]
     pub optics: OpticsSpec,
-    /// What is released; any number.
+    /// Chemical sources; any number.
     #[serde(default)]
     pub sources: Vec<SourceSpec>,
     /// Solid things in the water; any number.
     #[serde(default)]
     pub obstacles: Vec<ObstacleSpec>,
-    /// Ids of obstacles that water and dye pass through: a paper's block that its plume does not feel. Vehicles and
-    /// ranging meet them all the same.
+    /// Ids of obstacles that water and dye pass through, as in a paper whose plume ignores its obstacle. Vehicles touch
+    /// them and ranging sees them all the same.
     #[serde(default)]
     pub permeable: Vec<String>,
-    /// Who searches; any number.
+    /// Vehicles that search; any number.
     #[serde(default)]
     pub robots: Vec<RobotSpec>,
-    /// Searchers on two-axis gantries; any number.
+    /// Two-axis gantries that search; any number.
     #[serde(default)]
     pub gantries: Vec<GantryBlock>,
     /// Machines of kinds that other crates add; any number.
@@ -68,35 +67,12 @@ pub struct Scenario {
     /// When the mission counts as a success.
     #[serde(default)]
     pub success: SuccessSpec,
-    /// What is written down, and how often.
+    /// What is recorded, and how often.
     #[serde(default)]
     pub record: RecordSpec,
 }
 
-/// Version of the schema.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(try_from = "u32", into = "u32")]
-#[schemars(extend("const" = VERSION))]
-pub struct Version(u32);
-
-impl TryFrom<u32> for Version {
-    type Error = String;
-    fn try_from(v: u32) -> Result<Self, String> {
-        if v == VERSION {
-            Ok(Self(v))
-        } else {
-            Err(format!("this program reads version {VERSION}, got {v}"))
-        }
-    }
-}
-
-impl From<Version> for u32 {
-    fn from(v: Version) -> u32 {
-        v.0
-    }
-}
-
-/// A name that fits into keys and file names.
+/// A name that can be part of keys and file names.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize, JsonSchema)]
 #[serde(try_from = "String", into = "String")]
 #[schemars(extend("pattern" = "^[a-z0-9_]+$"))]
@@ -214,39 +190,39 @@ impl TerrainSpec {
     }
 }
 
-/// A robot: a body, its instruments, and what it does with them.
+/// A robot: a vehicle, its instruments, and its strategy.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RobotSpec {
     /// Name, unique among the robots.
     pub id: Id,
-    /// Its body.
+    /// Its vehicle.
     pub vehicle: VehicleSpec,
     /// Where it is when the mission starts.
     pub start: StartSpec,
     /// Its instruments.
     #[serde(default)]
     pub sensors: SensorsSpec,
-    /// How readings become what it believes.
+    /// How it estimates its state from readings.
     pub estimator: EstimatorSpec,
-    /// How goals become headings and speeds.
+    /// How it turns goals into headings and speeds.
     #[serde(default)]
     pub guidance: GuidanceSpec,
-    /// How those become rudder, stern plane and propeller.
+    /// How it turns headings and speeds into commands for rudder, stern plane and propeller.
     #[serde(default)]
     pub autopilot: AutopilotSpec,
     /// Its map of where the source may be, if it keeps one.
     #[serde(default)]
     pub map: Option<MapSpec>,
-    /// Ids of the obstacles on its chart; what else stands in the water it must find by its ranging. The bed is charted.
+    /// Ids of the obstacles on its chart. It must find other obstacles by its ranging. The bed is always charted.
     #[serde(default)]
     pub chart: Vec<String>,
-    /// What it does.
+    /// Its strategy.
     pub strategy: StrategySpec,
 }
 
 impl RobotSpec {
-    /// What its mission is told beforehand.
+    /// What the strategy knows before the mission.
     #[must_use]
     pub fn setting(&self, area: &Area, terrain: &Terrain, obstacles: &Obstacles) -> Setting {
         let charted = |o: &&Obstacle| self.chart.contains(&o.id);
@@ -259,7 +235,7 @@ impl RobotSpec {
     }
 }
 
-/// Where a robot starts; either its depth or its altitude is given.
+/// Where a robot starts. Give either its depth or its altitude.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct StartSpec {
@@ -283,7 +259,7 @@ pub struct StartSpec {
     #[serde(default = "still", deserialize_with = "world::limits::vehicle_m_s")]
     #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub speed_m_s: NonNegative,
-    /// Standard deviation, east and north, of the fix its navigation starts from, m.
+    /// Standard deviation, east and north, of the position fix that its navigation starts from, m.
     #[serde(default = "still", deserialize_with = "world::limits::error_m")]
     #[schemars(transform = world::limits::schema::error_m)]
     pub fix_noise_m: NonNegative,
@@ -294,8 +270,8 @@ fn still() -> NonNegative {
 }
 
 impl StartSpec {
-    /// Position in the world; altitude wins where both are given, the surface where neither is
-    /// ([`check`](super::check) refuses both).
+    /// Position in the world. If both are given, altitude counts; if neither is, the surface. [`check`](super::check)
+    /// refuses both cases.
     #[must_use]
     pub fn p_W(&self, terrain: &Terrain) -> Vector3<f64> {
         let (x, y) = (self.east_m.get(), self.north_m.get());
@@ -312,13 +288,13 @@ impl StartSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSpec {
-    /// Step of the physics, s; every slower stage divides it.
+    /// Step of the physics, s. Every slower stage takes a whole number of these steps.
     #[serde(default = "step")]
     pub step_s: Positive,
-    /// How long the plume develops before the mission, s.
+    /// Time in which the plume develops before the mission, s.
     #[serde(default = "still")]
     pub spin_up_s: NonNegative,
-    /// The mission is over after this, s.
+    /// The mission ends after this time at the latest, s.
     pub limit_s: Positive,
     /// Step of the plume during the mission, s.
     #[serde(default = "drift_period")]
@@ -326,7 +302,7 @@ pub struct TimeSpec {
     /// Step of the plume during the spin-up, s.
     #[serde(default = "spin_up_period")]
     pub spin_up_period_s: Positive,
-    /// How often the plume asks the water for its currents, s: short against meander and waves.
+    /// Period at which the plume renews its currents from the water, s. It should be short against meander and waves.
     #[serde(default = "flow_period")]
     pub flow_period_s: NonNegative,
 }
@@ -347,19 +323,19 @@ fn spin_up_period() -> Positive {
     Positive::new(1.0)
 }
 
-/// What is written down, and how often.
+/// What is recorded, and how often.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RecordSpec {
-    /// Period of the recorded and published state of the robots, and of the rows of `track.csv`, s.
+    /// Period of the recorded and published states of the robots, and of the rows in `track.csv`, s.
     pub frame_period_s: Positive,
     /// Period of the recorded and published plume, s.
     pub plume_period_s: Positive,
-    /// Most filaments recorded or published at once.
+    /// Most filaments in one recorded or published plume.
     pub plume_points: u32,
     /// Period of the recorded maps of where the source may be, s.
     pub map_period_s: Positive,
-    /// Most pictures of cameras that a run leaves behind, as files and in the recording.
+    /// Most camera pictures that a run keeps, as files and in the recording.
     pub pictures: u32,
 }
 

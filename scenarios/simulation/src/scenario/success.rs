@@ -7,20 +7,20 @@ use world::ranges::Positive;
 /// When the mission counts as a success.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum SuccessSpec {
-    /// A robot declared a source, near enough to a real one.
+    /// A robot declared a source near enough to a true one.
     Declared(DeclaredSpec),
-    /// Every real source was declared, near enough, and every robot ended its mission. Declarations elsewhere are
-    /// counted, and spoil nothing: a plume traced to a subregion's edge is declared there.
+    /// Every true source was declared near enough, and every robot ended its mission. Other declarations are counted
+    /// and do no harm: a plume that was traced to the edge of a subregion is declared there.
     AllDeclared(DeclaredSpec),
-    /// A robot came near enough to a real source, whatever it declared.
+    /// A robot came near enough to a true source, whatever it declared.
     Reached(ReachedSpec),
-    /// Every robot came to its planned end.
+    /// Every robot reached the planned end of its mission.
     #[default]
     Completed,
 }
 
 impl SuccessSpec {
-    /// Greatest distance at which a declaration counts as of a source, m; `None` where none is asked for.
+    /// Greatest distance at which a declaration counts, m; `None` if the rule asks for no declaration.
     #[must_use]
     pub fn declared_within_m(&self) -> Option<f64> {
         match self {
@@ -31,7 +31,7 @@ impl SuccessSpec {
 }
 
 impl SuccessSpec {
-    /// The rule in words, for people.
+    /// The rule in words.
     #[must_use]
     pub fn words(&self) -> String {
         match self {
@@ -60,7 +60,7 @@ pub struct DeclaredSpec {
     pub within_m: Positive,
 }
 
-/// What counts as having come near enough.
+/// How near a robot must come.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct ReachedSpec {

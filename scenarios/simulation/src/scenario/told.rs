@@ -1,9 +1,9 @@
-//! What `check` says of a scenario of the catalogue with some things changed.
+//! For tests: what `check` says about a scenario of the catalogue with some texts changed.
 
 use super::{check, parse, template};
 use std::path::Path;
 
-/// Lines of path and message.
+/// The findings, one line of path and message each.
 pub(super) fn told(name: &str, changes: &[(&str, &str)]) -> Vec<String> {
     let mut text = template(name).expect("in the catalogue").text.to_string();
     for (from, to) in changes {

@@ -1,11 +1,11 @@
-//! ron's own message, for the rare text that ron refuses and the reader of all mistakes does not.
+//! The message of the crate ron, for the rare text that ron refuses and our reader of mistakes accepts.
 
 use super::fault::Found;
 use super::outline::Outline;
 use ron::error::{Position, SpannedError};
 use std::ops::Range;
 
-/// Its place, path and message.
+/// Its place and the finding.
 pub(super) fn unread(text: &str, error: &SpannedError) -> (Range<usize>, Found) {
     let span = offset(text, error.span.start)..offset(text, error.span.end);
     let outline = Outline::of(text);
@@ -27,7 +27,7 @@ fn offset(text: &str, at: Position) -> usize {
         .map_or(text.len(), |(i, _)| start + i)
 }
 
-/// Without blanks at either side, but within the text.
+/// The range without blanks at its ends, if something is left.
 fn trimmed(text: &str, span: Range<usize>) -> Range<usize> {
     let part = &text[span.clone()];
     let start = span.start + (part.len() - part.trim_start().len());

@@ -1,16 +1,21 @@
-//! A block of runs and its file. The file grows by replacement: each version is whole and has more rows.
+//! A block of runs and its two files: one of rows, one of their declarations. They grow by replacement: each version
+//! is whole and has more rows.
+//!
+//! The declarations are written first, then the rows. If a kill comes between the two, there are declarations of runs
+//! that have no row yet. Readers leave these out, so no row that was written is lost.
 
+use super::columns::{Record, as_csv};
 use super::contained::contained;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::plan::hash;
-use super::row::RunRow;
-use super::seal::{self, Seal};
-use super::table::{TableWriter, csv_line, read};
+use super::row::{DeclarationRow, RunRow};
+use super::seal;
+use super::table::{TableWriter, read};
+use parquet::file::metadata::KeyValue;
 use std::collections::BTreeMap;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{ErrorKind, Seek, SeekFrom};
-use std::ops::Range;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_on_disk};
 
@@ -38,10 +43,16 @@ impl BlockState {
     }
 }
 
-/// The file of a block.
+/// The file of a block's rows.
 #[must_use]
 pub fn block_path(dir: &Path, block: u64) -> PathBuf {
     dir.join(format!("part-{block:06}.parquet"))
+}
+
+/// The file of its declarations.
+#[must_use]
+pub fn declarations_path(dir: &Path, block: u64) -> PathBuf {
+    dir.join(format!("declarations-{block:06}.parquet"))
 }
 
 /// The blocks that have a file, in order. Readers go by the files that exist, not by the plan.
@@ -68,25 +79,39 @@ pub(super) fn present(dir: &Path, manifest: &Manifest) -> Result<Vec<u64>, Campa
     Ok(blocks)
 }
 
-/// Writes the rows of a block, all or some: to a temporary file, to the disk, and then under its name.
+/// Writes the rows of a block, all or some, and their declarations: each to a temporary file, to the disk, and then
+/// under its name.
 pub(super) fn write_block(dir: &Path, block: u64, rows: &[RunRow]) -> Result<(), CampaignError> {
-    let path = block_path(dir, block);
+    let number = ("block", block.to_string());
+    let declarations: Vec<DeclarationRow> = (rows.iter().flat_map(|r| &r.declarations))
+        .cloned()
+        .collect();
+    let notes = [number.clone()];
+    write_table(&declarations_path(dir, block), &declarations, &notes)?;
     let notes = [
-        ("block", block.to_string()),
+        number,
         ("rows", rows.len().to_string()),
         ("rows_hash", rows_hash(rows)),
     ];
-    let sealed = TableWriter::new(Vec::new(), &notes).and_then(|mut table| {
+    write_table(&block_path(dir, block), rows, &notes)
+}
+
+fn write_table<T: Record>(
+    path: &Path,
+    rows: &[T],
+    notes: &[(&str, String)],
+) -> Result<(), CampaignError> {
+    let sealed = TableWriter::new(Vec::new(), notes).and_then(|mut table| {
         table.before_columns(&seal::room())?;
         table.rows(rows)?;
         table.finish()
     });
     let mut bytes = sealed.map_err(|e| CampaignError::Write {
-        path: path.clone(),
+        path: path.to_owned(),
         problem: e.to_string(),
     })?;
     seal::close(&mut bytes);
-    write_on_disk(&path, &bytes)?;
+    write_on_disk(path, &bytes)?;
     Ok(())
 }
 
@@ -110,67 +135,89 @@ pub(super) fn add_to_block(
     write_block(dir, block, &all)
 }
 
-/// Reads a block and verifies it: seal, footer, indices of its runs, hash of its rows. Whatever its bytes are, the
-/// answer is one of the four states.
+/// Reads a block and verifies it: seals, footers, indices of its runs, hash of its rows and their declarations.
+/// Whatever the bytes are, the answer is one of the four states.
 #[must_use]
 pub fn read_block(dir: &Path, manifest: &Manifest, block: u64) -> BlockState {
-    let path = block_path(dir, block);
-    let file = match files::open(&path) {
-        Ok(file) => file,
-        Err(e) if e.kind() == ErrorKind::NotFound => return BlockState::Missing,
-        Err(e) if e.kind() == ErrorKind::InvalidInput => {
-            let problem = e.to_string();
-            return BlockState::Broken(CampaignError::Broken { path, problem });
-        }
-        Err(e) => {
-            let problem = e.to_string();
-            return BlockState::Broken(CampaignError::Read { path, problem });
-        }
-    };
-    let runs = manifest.runs_of(block);
-    let n = runs.clone().count();
-    match sound(file, runs, manifest.sealed) {
-        Ok(rows) if rows.len() == n => BlockState::Done(rows),
-        Ok(rows) => BlockState::Part(rows),
-        Err(problem) => BlockState::Broken(CampaignError::Broken { path, problem }),
+    let wanted = manifest.runs_of(block).count();
+    match sound(dir, manifest, block) {
+        Ok(None) => BlockState::Missing,
+        Ok(Some(rows)) if rows.len() == wanted => BlockState::Done(rows),
+        Ok(Some(rows)) => BlockState::Part(rows),
+        Err(error) => BlockState::Broken(error),
     }
 }
 
-fn sound(mut file: File, runs: Range<u64>, sealed: bool) -> Result<Vec<RunRow>, String> {
-    match seal::look(&mut file).map_err(|e| e.to_string())? {
-        Seal::Whole => {}
-        // Older programs wrote blocks without seals.
-        Seal::Missing if !sealed => {}
-        Seal::Missing => return Err("it does not begin as a block does".to_string()),
-        Seal::Wrong => {
-            return Err("its bytes are not those that were written (wrong hash)".to_string());
-        }
-    }
-    file.seek(SeekFrom::Start(0)).map_err(|e| e.to_string())?;
-    let most = runs.clone().count();
-    let (rows, notes) = contained(|| read(file, most))
-        .map_err(|said| format!("the library that reads it gave up: {said}"))?
-        .map_err(|e| e.to_string())?;
-    let note = |key: &str| {
-        let found = notes.iter().find(|n| n.key == key);
-        found.and_then(|n| n.value.clone()).unwrap_or_default()
+/// The rows of a block with their declarations; `None` if there are no rows.
+fn sound(
+    dir: &Path,
+    manifest: &Manifest,
+    block: u64,
+) -> Result<Option<Vec<RunRow>>, CampaignError> {
+    let (path, beside) = (block_path(dir, block), declarations_path(dir, block));
+    let broken = |path: &Path, problem: String| CampaignError::Broken {
+        path: path.to_owned(),
+        problem,
+    };
+    let runs = manifest.runs_of(block);
+    let Some((mut rows, notes)) = read_table::<RunRow>(&path, Some(runs.clone().count()))? else {
+        return Ok(None);
     };
     let in_order = rows.windows(2).all(|pair| pair[0].run < pair[1].run);
     if rows.is_empty() || !in_order || !rows.iter().all(|r| runs.contains(&r.run)) {
         let (first, last) = (runs.start, runs.end - 1);
-        return Err(format!(
-            "it does not hold runs from {first} to {last}, each once"
-        ));
+        let problem = format!("it does not hold runs from {first} to {last}, each once");
+        return Err(broken(&path, problem));
     }
-    if note("rows_hash") != rows_hash(&rows) {
-        return Err("its rows are not those that were written (wrong hash)".to_string());
+    let Some((declarations, _)) = read_table::<DeclarationRow>(&beside, None)? else {
+        return Err(broken(&beside, "it does not exist".to_string()));
+    };
+    for declaration in declarations {
+        if let Ok(k) = rows.binary_search_by_key(&declaration.run, |r| r.run) {
+            rows[k].declarations.push(declaration);
+        }
     }
-    Ok(rows)
+    let note = notes.into_iter().find(|n| n.key == "rows_hash");
+    if note.and_then(|n| n.value) != Some(rows_hash(&rows)) {
+        let problem = "its rows and declarations are not those that were written (wrong hash)";
+        return Err(broken(&path, problem.to_string()));
+    }
+    Ok(Some(rows))
+}
+
+/// The lines of a table and the notes in its footer; `None` if there is no file. If it is not known how many lines
+/// there may be, there are at most as many as the file has bytes.
+fn read_table<T: Record>(
+    path: &Path,
+    most: Option<usize>,
+) -> Result<Option<(Vec<T>, Vec<KeyValue>)>, CampaignError> {
+    let path = || path.to_owned();
+    let unread = |e: std::io::Error| {
+        let (path, problem) = (path(), e.to_string());
+        match e.kind() {
+            ErrorKind::InvalidInput => CampaignError::Broken { path, problem },
+            _ => CampaignError::Read { path, problem },
+        }
+    };
+    let broken = |problem: String| {
+        let path = path();
+        CampaignError::Broken { path, problem }
+    };
+    let mut file = match files::open(&path()) {
+        Err(e) if e.kind() == ErrorKind::NotFound => return Ok(None),
+        file => file.map_err(unread)?,
+    };
+    seal::look(&mut file).map_err(unread)?.map_err(broken)?;
+    let end = file.seek(SeekFrom::End(0)).map_err(unread)?;
+    let most = most.unwrap_or(usize::try_from(end).unwrap_or(usize::MAX));
+    contained(|| read(file, most))
+        .map_err(|said| broken(format!("the library that reads it gave up: {said}")))?
+        .map_err(|e| broken(e.to_string()))
+        .map(Some)
 }
 
 fn rows_hash(rows: &[RunRow]) -> String {
-    let lines: Vec<String> = rows.iter().map(csv_line).collect();
-    hash(&lines.join("\n"))
+    hash(&as_csv(rows).concat())
 }
 
 #[cfg(test)]

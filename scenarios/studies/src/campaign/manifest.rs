@@ -12,12 +12,23 @@ use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
+/// Version of the format of a campaign's folder. Since 2, the declarations stand in a table of their own, in the files
+/// `declarations-<block>.parquet`, and every file of a block has a seal.
+pub const FORMAT: u32 = 2;
+
+fn first_format() -> u32 {
+    1
+}
+
 /// Longest one read, bytes: it holds two escaped texts of at most a megabyte each.
 const LONGEST: u64 = 16 << 20;
 
 /// The content of `campaign.json`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Manifest {
+    /// Version of the folder's format: [`FORMAT`]. Folders of the first version do not say it.
+    #[serde(default = "first_format")]
+    pub(super) format: u32,
     /// Name of the campaign.
     pub name: String,
     /// Version of the program that runs it.
@@ -33,9 +44,9 @@ pub struct Manifest {
     /// The runs' seeds, for people; the campaign's text is what counts.
     #[serde(default)]
     pub seeds: String,
-    /// Whether every block has a seal; those of older programs have none.
-    #[serde(default)]
-    pub(super) sealed: bool,
+    /// The mark of the key that the runs have beside their seeds; `None` without one.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub key: Option<String>,
     /// Name of the base scenario.
     pub scenario_name: String,
     /// Folder to which paths in the scenario are relative.
@@ -52,6 +63,7 @@ impl Manifest {
     pub fn new(campaign: &Campaign, block: u64) -> Self {
         let base = &campaign.base;
         Self {
+            format: FORMAT,
             name: campaign.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
             campaign_hash: campaign.hash.clone(),
@@ -59,7 +71,7 @@ impl Manifest {
             block,
             runs: campaign.n_runs(),
             seeds: campaign.spec.seeds.words(),
-            sealed: true,
+            key: campaign.key.mark(),
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
             campaign_text: campaign.text.clone(),
@@ -83,7 +95,7 @@ impl Manifest {
     /// Reads the manifest of a folder; `None` if there is none yet.
     ///
     /// # Errors
-    /// If it cannot be read, or contains a number that this program does not write.
+    /// If it cannot be read, has another format, or contains a number that this program does not write.
     pub fn find(dir: &Path) -> Result<Option<Self>, CampaignError> {
         let path = dir.join(FILE);
         let text = match files::read_text(&path, LONGEST) {
@@ -100,6 +112,14 @@ impl Manifest {
         };
         let read: Self = serde_json::from_str(&text)
             .map_err(|e| unlike(format!("it is not what this program writes: {e}")))?;
+        if read.format != FORMAT {
+            let problem = format!(
+                "the folder has format {}, this program reads and writes format {FORMAT}: \
+                 use version {} of the program, which made it, or another folder",
+                read.format, read.version
+            );
+            return Err(unlike(problem));
+        }
         for (field, value) in [("block", read.block), ("runs", read.runs)] {
             if !(1..=MOST).contains(&value) {
                 let problem = format!("{field}: must be from 1 to {MOST}, got {value}");
@@ -166,9 +186,28 @@ impl Manifest {
         Ok(campaign)
     }
 
+    /// Refuses to make a run again under another key than that of the folder.
+    ///
+    /// # Errors
+    /// Names the mark of the folder's key.
+    pub fn same_key(&self, campaign: &Campaign) -> Result<(), CampaignError> {
+        if self.key == campaign.key.mark() {
+            return Ok(());
+        }
+        let problem = match &self.key {
+            Some(mark) => format!("its runs have the key with the mark {mark}: give it with --key"),
+            None => "its runs have no key: leave out --key and RHEOTAXIS_KEY".to_string(),
+        };
+        Err(CampaignError::Read {
+            path: PathBuf::from(FILE),
+            problem,
+        })
+    }
+
     /// What differs from another manifest, in words; empty if blocks of both may lie in one folder.
     #[must_use]
     pub fn differences(&self, ours: &Self) -> Vec<String> {
+        let key = |m: &Self| m.key.clone().unwrap_or_else(|| "none".to_string());
         let pairs = [
             ("scenario", &self.scenario_hash, &ours.scenario_hash),
             ("campaign", &self.campaign_hash, &ours.campaign_hash),
@@ -178,6 +217,7 @@ impl Manifest {
                 &self.block.to_string(),
                 &ours.block.to_string(),
             ),
+            ("mark of the key", &key(self), &key(ours)),
         ];
         (pairs.iter())
             .filter(|(_, there, here)| there != here)
@@ -293,16 +333,19 @@ mod tests {
                 "campaign_text: its hash is",
             ),
             ("scenario_hash", "00".into(), "scenario_hash says 00"),
+            ("format", 3.into(), "the folder has format 3"),
         ] {
             let said = said(field, value);
             assert!(said.contains(says), "{field}: {said}");
         }
-        // From an older program: without the fields that it did not know.
+        // From an older program: without the field that it did not know.
         let mut old = good.clone();
-        for field in ["seeds", "sealed"] {
-            old.as_object_mut().unwrap().remove(field);
-        }
+        old.as_object_mut().unwrap().remove("format");
         fs::write(dir.path().join(FILE), old.to_string()).unwrap();
-        assert!(!Manifest::of(dir.path()).unwrap().sealed);
+        let said = Manifest::of(dir.path()).unwrap_err().to_string();
+        assert!(
+            said.contains("the folder has format 1, this program reads and writes format 2"),
+            "{said}"
+        );
     }
 }

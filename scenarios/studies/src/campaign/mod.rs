@@ -1,6 +1,7 @@
 //! Thousands of seeded runs: planned, divided into blocks, run on any number of machines, and compared.
 
 mod block;
+mod columns;
 mod contained;
 mod cost;
 mod enough;
@@ -24,18 +25,19 @@ mod status;
 mod table;
 mod work;
 
-pub use block::{BlockState, block_path, read_block};
+pub use block::{BlockState, block_path, declarations_path, read_block};
+pub(crate) use columns::as_csv;
 pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
 pub use error::CampaignError;
 pub use load::{CAMPAIGNS, load};
-pub use manifest::Manifest;
+pub use manifest::{FORMAT, Manifest};
 pub(crate) use one_run::sharing_run;
 pub use one_run::{RunName, one_run};
 pub use overrides::put;
 pub use plan::{Campaign, Place};
 pub use read::{Merged, merge, read_row, read_rows};
-pub use row::{DeclaredAt, RunRow};
+pub use row::{DeclarationRow, RunRow};
 pub use run::{Event, RunEnded, RunOptions, run};
 pub use seeds::Seeds;
 pub use shard::Shard;

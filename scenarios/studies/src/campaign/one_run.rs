@@ -5,7 +5,7 @@
 )]
 
 use super::contained::contained;
-use super::row::{DeclaredAt, RunRow};
+use super::row::{DeclarationRow, RunRow};
 use output::results::{
     DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth,
     Summary, SummaryBuilder, Totals,
@@ -14,9 +14,9 @@ use rheotaxis::frame::Frame;
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
-use robots::handoff::Verdict;
+use rheotaxis::trial::{Trial, Unwatched, Watch};
 use std::time::Instant;
+use world::seeds::Seed;
 
 /// What identifies a run in the table.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -29,8 +29,8 @@ pub struct RunName {
     pub condition: String,
     /// Index of the seed.
     pub seed_index: u64,
-    /// The seed itself.
-    pub seed: u64,
+    /// The seed itself, with the campaign's key.
+    pub seed: Seed,
 }
 
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
@@ -77,6 +77,7 @@ fn attempt(
         outcome: ended.outcome,
         error: None,
         digest: ended.digest.clone(),
+        declarations: ended.declarations.clone(),
         totals: Totals {
             mission_s: ended.t_s,
             mission_wall_s: gatherer.mission_begun.elapsed().as_secs_f64(),
@@ -88,7 +89,9 @@ fn attempt(
             ..Totals::default()
         },
     };
-    let summary = gatherer.builder.finish(end, &sources(&trial, &ended));
+    let summary = gatherer
+        .builder
+        .finish(&end, &SourceTruth::of(&trial, &ended));
     let within_m = loaded.scenario.success.declared_within_m();
     Ok(row(name, &summary, within_m))
 }
@@ -117,34 +120,27 @@ impl Watch for Gatherer {
     }
 }
 
-fn sources(trial: &Trial, ended: &Ended) -> Vec<SourceTruth> {
-    let plume = trial.simulation.ocean().plume();
-    (plume.sources().iter().zip(&ended.flow_at_sources))
-        .map(|(s, flow)| SourceTruth {
-            id: s.id.clone(),
-            position: s.p_W,
-            flow: flow.xy(),
-        })
-        .collect()
-}
-
 fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
     let by_robots = summary.robots.iter().flat_map(|r| {
         let of_first = std::iter::once(r.traced_m).chain(std::iter::repeat(None));
-        r.declarations.iter().zip(of_first)
+        let of_first = r.declarations.iter().zip(of_first);
+        of_first.map(|(d, traced_m)| (&r.id, d, traced_m))
     });
     let by_gantries =
-        (summary.gantries.iter()).filter_map(|g| Some((g.declaration.as_ref()?, None)));
-    let mut all: Vec<(&DeclarationSummary, Option<f64>)> = by_robots.chain(by_gantries).collect();
-    all.sort_by(|a, b| a.0.t_s.total_cmp(&b.0.t_s));
+        (summary.gantries.iter()).filter_map(|g| Some((&g.id, g.declaration.as_ref()?, None)));
+    let mut all: Vec<(&String, &DeclarationSummary, Option<f64>)> =
+        by_robots.chain(by_gantries).collect();
+    all.sort_by(|a, b| a.1.t_s.total_cmp(&b.1.t_s));
     let first = all.first().copied();
-    let declared = first.map(|(d, _)| d);
-    let declarations: Vec<DeclaredAt> = all.iter().map(|(d, _)| declared_at(d)).collect();
+    let declared = first.map(|(_, d, _)| d);
+    let declarations: Vec<DeclarationRow> = (all.iter())
+        .map(|(robot, d, _)| declaration(name, robot, d))
+        .collect();
     let near = |s: &&SourceSummary| {
         within_m.is_some_and(|within_m| {
             declarations.iter().any(|d| {
                 let (e, n) = (d.east_m - s.position.east_m, d.north_m - s.position.north_m);
-                d.verdict != Verdict::Rejected.name() && (e * e + n * n).sqrt() <= within_m
+                d.stands() && (e * e + n * n).sqrt() <= within_m
             })
         })
     };
@@ -177,7 +173,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         error_across_m: error.and_then(|e| e.across_flow_m),
         zone_points: evidence.map(|e| f64::from(e.points)),
         zone_since_s: evidence.map(|e| e.since_s),
-        traced_m: first.and_then(|(_, traced_m)| traced_m),
+        traced_m: first.and_then(|(.., traced_m)| traced_m),
         travelled_m: summary.robots.iter().map(|r| r.travelled_m).sum::<f64>()
             + summary.gantries.iter().map(|g| g.travelled_m).sum::<f64>(),
         detections: summary.robots.iter().map(|r| r.detections).sum::<u64>()
@@ -198,10 +194,17 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
     }
 }
 
-fn declared_at(d: &DeclarationSummary) -> DeclaredAt {
+fn declaration(name: &RunName, robot: &str, d: &DeclarationSummary) -> DeclarationRow {
     let error = d.error.as_ref();
-    DeclaredAt {
-        region: d.region,
+    DeclarationRow {
+        run: name.run,
+        arm: name.arm.clone(),
+        condition: name.condition.clone(),
+        seed_index: name.seed_index,
+        seed: name.seed.number(),
+        robot: robot.to_string(),
+        number: d.number.into(),
+        region: d.region.map(u64::from),
         rule: d.rule.clone(),
         verdict: d.verdict.name().to_string(),
         t_s: d.t_s,
@@ -222,7 +225,7 @@ fn failed(name: &RunName, error: String) -> RunRow {
         arm: name.arm.clone(),
         condition: name.condition.clone(),
         seed_index: name.seed_index,
-        seed: name.seed,
+        seed: name.seed.number(),
         outcome: outcome_name(RunOutcome::Failed),
         error: Some(error),
         ..RunRow::default()
@@ -246,7 +249,7 @@ mod tests {
         let name = RunName {
             run: 4,
             arm: "a".to_string(),
-            seed: 9,
+            seed: Seed::from(9),
             ..RunName::default()
         };
         let row = guarded(&name, || panic!("the hull is {} m long", -1));

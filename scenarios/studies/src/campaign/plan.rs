@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use world::digest::Digest;
 use world::math;
-use world::seeds::Stream;
+use world::seeds::{Key, Seed, Stream};
 
 /// A campaign, read and laid out.
 #[derive(Clone, Debug)]
@@ -26,6 +26,8 @@ pub struct Campaign {
     pub hash: String,
     /// The scenario that arms and conditions change; they may ask for what its registry adds.
     pub base: Loaded,
+    /// The key of its runs.
+    pub key: Key,
 }
 
 /// The position of a run in its campaign.
@@ -40,7 +42,7 @@ pub struct Place {
     /// Index of its arm.
     pub arm: usize,
     /// Its seed. It is the same for every arm (common random numbers) and that of `rheotaxis run --seed`.
-    pub seed: u64,
+    pub seed: Seed,
 }
 
 impl Campaign {
@@ -56,6 +58,7 @@ impl Campaign {
             text: text.to_string(),
             hash: hash(text),
             base,
+            key: Key::public(),
         })
     }
 
@@ -108,7 +111,7 @@ impl Campaign {
             condition,
             seed_index,
             arm: (run % self.n_arms()) as usize,
-            seed: seeds.seed(condition, seed_index),
+            seed: self.key.seed(seeds.seed(condition, seed_index)),
         }
     }
 
@@ -294,13 +297,13 @@ mod tests {
         }
         // Three seeds under each condition: the first three of the campaign.
         for (k, place) in places.iter().enumerate() {
-            assert_eq!(place.seed, 1 + k as u64 / 2 % 3);
+            assert_eq!(place.seed.number(), 1 + k as u64 / 2 % 3);
         }
         let hashed = campaign(
             &format!("{ARMS}, conditions: Grid([(\"time.limit_s\", [\"10\", \"20\"])])")
                 .replace("seeds: 3", "seeds: Hashed(seed: 1, count: 3)"),
         );
-        let mut seeds: Vec<u64> = (0..12).map(|run| hashed.place(run).seed).collect();
+        let mut seeds: Vec<u64> = (0..12).map(|run| hashed.place(run).seed.number()).collect();
         seeds.sort_unstable();
         seeds.dedup();
         assert_eq!(seeds.len(), 6);

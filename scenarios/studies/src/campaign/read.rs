@@ -1,13 +1,14 @@
 //! The rows of a campaign's folder.
 
 use super::block::{BlockState, present, read_block};
+use super::columns::{Record, csv_fields};
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
-use super::table::{TableWriter, csv_head, csv_line};
-use std::io::{BufWriter, Write};
-use std::path::Path;
+use super::table::TableWriter;
+use std::io::BufWriter;
+use std::path::{Path, PathBuf};
 use world::files::Output;
 
 /// All existing rows, in the order of runs; runs that are not done yet are left out.
@@ -60,15 +61,31 @@ pub fn read_row(dir: &Path, run: u64) -> Result<Option<RunRow>, CampaignError> {
 }
 
 /// The result of a merge.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Merged {
     /// Number of rows in the file.
     pub rows: u64,
     /// Number of runs that the campaign wants, as far as is known.
     pub of: u64,
+    /// Number of declarations.
+    pub declarations: u64,
+    /// The Parquet file of declarations.
+    pub declarations_path: PathBuf,
 }
 
-/// Writes all existing rows into one Parquet file and, if asked, one CSV file. It holds one block at a time in memory.
+/// Where the declarations go if the rows go into this file.
+fn beside(path: &Path) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push("-declarations");
+    if let Some(extension) = path.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    path.with_file_name(name)
+}
+
+/// Writes all existing rows into one Parquet file, their declarations into one beside it (`all.parquet` and
+/// `all-declarations.parquet`), and if asked, both as CSV files, too. It holds one block at a time in memory.
 ///
 /// # Errors
 /// If a block is not whole, or if a file cannot be written; what was there before then stays.
@@ -78,46 +95,100 @@ pub fn merge(dir: &Path, to: &Path, csv: Option<&Path>) -> Result<Merged, Campai
         let path = to.to_owned();
         return Err(CampaignError::Write { path, problem });
     }
-    let unwritten = |path: &Path, problem: String| CampaignError::Write {
-        path: path.to_owned(),
-        problem,
-    };
-    let create = |path: &Path| Ok::<_, CampaignError>(BufWriter::new(Output::create(path)?));
-    let mut table = TableWriter::new(create(to)?, &[]).map_err(|e| unwritten(to, e.to_string()))?;
-    let mut lines = csv
-        .map(|path| create(path).map(|file| (path, file)))
-        .transpose()?;
-    if let Some((path, file)) = &mut lines {
-        writeln!(file, "{}", csv_head()).map_err(|e| unwritten(path, e.to_string()))?;
-    }
-    let mut n = 0;
+    let declarations_path = beside(to);
+    let csv_beside = csv.map(beside);
+    let mut runs = Table::create(to, csv)?;
+    let mut declared = Table::create(&declarations_path, csv_beside.as_deref())?;
     let manifest = each_block(dir, |rows| {
-        n += rows.len() as u64;
-        table
-            .rows(&rows)
-            .map_err(|e| unwritten(to, e.to_string()))?;
-        if let Some((path, file)) = &mut lines {
-            for row in &rows {
-                writeln!(file, "{}", csv_line(row)).map_err(|e| unwritten(path, e.to_string()))?;
+        runs.add(&rows)?;
+        let declarations: Vec<_> = rows.into_iter().flat_map(|r| r.declarations).collect();
+        declared.add(&declarations)
+    })?;
+    let (rows, declarations) = (runs.lines, declared.lines);
+    // If one file cannot be given its name, the others are not affected.
+    runs.close().and(declared.close())?;
+    Ok(Merged {
+        rows,
+        of: wanted(&manifest.campaign()?, dir, &manifest).runs,
+        declarations,
+        declarations_path,
+    })
+}
+
+/// A table that grows block by block.
+struct Table<'a, T> {
+    path: &'a Path,
+    parquet: TableWriter<T, BufWriter<Output>>,
+    csv: Option<(&'a Path, csv::Writer<Output>)>,
+    lines: u64,
+}
+
+fn unwritten<E: ToString>(path: &Path) -> impl Fn(E) -> CampaignError + use<'_, E> {
+    move |e| CampaignError::Write {
+        path: path.to_owned(),
+        problem: e.to_string(),
+    }
+}
+
+impl<'a, T: Record> Table<'a, T> {
+    fn create(path: &'a Path, csv: Option<&'a Path>) -> Result<Self, CampaignError> {
+        let file = BufWriter::new(Output::create(path)?);
+        let parquet = TableWriter::new(file, &[]).map_err(unwritten(path))?;
+        let csv = match csv {
+            None => None,
+            Some(path) => {
+                let mut to = csv::Writer::from_writer(Output::create(path)?);
+                let head = T::COLUMNS.iter().map(|(name, ..)| name);
+                to.write_record(head).map_err(unwritten(path))?;
+                Some((path, to))
+            }
+        };
+        Ok(Self {
+            path,
+            parquet,
+            csv,
+            lines: 0,
+        })
+    }
+
+    fn add(&mut self, records: &[T]) -> Result<(), CampaignError> {
+        self.lines += records.len() as u64;
+        self.parquet.rows(records).map_err(unwritten(self.path))?;
+        if let Some((path, to)) = &mut self.csv {
+            for record in records {
+                to.write_record(csv_fields(record))
+                    .map_err(unwritten(path))?;
             }
         }
         Ok(())
-    })?;
-    let close = |path: &Path, file: BufWriter<Output>| {
-        let file = file
-            .into_inner()
-            .map_err(|e| unwritten(path, e.error().to_string()))?;
-        Ok::<_, CampaignError>(file.finish_on_disk()?)
-    };
-    let table = table.finish().map_err(|e| unwritten(to, e.to_string()))?;
-    // If one file cannot be given its name, the other is not affected.
-    let table = close(to, table);
-    if let Some((path, file)) = lines {
-        close(path, file)?;
     }
-    table?;
-    Ok(Merged {
-        rows: n,
-        of: wanted(&manifest.campaign()?, dir, &manifest).runs,
-    })
+
+    /// Gives the files their names, each if it can be.
+    fn close(self) -> Result<(), CampaignError> {
+        let parquet = self.parquet.finish().map_err(unwritten(self.path));
+        let parquet = parquet.and_then(|file| {
+            let file = file.into_inner();
+            let file = file.map_err(|e| unwritten(self.path)(e.into_error()))?;
+            Ok(file.finish_on_disk()?)
+        });
+        let csv = self.csv.map_or(Ok(()), |(path, to)| {
+            let file = to.into_inner();
+            let file = file.map_err(|e| unwritten(path)(e.into_error()))?;
+            Ok(file.finish_on_disk().map(drop)?)
+        });
+        parquet.and(csv)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn declarations_go_beside_the_rows() {
+        let of = |path: &str| beside(Path::new(path));
+        assert_eq!(of("a/all.parquet"), Path::new("a/all-declarations.parquet"));
+        assert_eq!(of("b.1.csv"), Path::new("b.1-declarations.csv"));
+        assert_eq!(of("all"), Path::new("all-declarations"));
+    }
 }

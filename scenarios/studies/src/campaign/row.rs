@@ -1,4 +1,6 @@
-//! One run of a campaign as a row of its table.
+//! What a campaign keeps of a run: a row of the table of runs, and a row for each declaration.
+
+use robots::handoff::{UP_FLOW_EDGE, Verdict};
 
 /// What a campaign keeps of a run. Except for the two wall times, it does not depend on the machine, the number of
 /// shards or jobs, or the order.
@@ -44,8 +46,8 @@ pub struct RunRow {
     pub zone_since_s: Option<f64>,
     /// Straight distance from the first detection to the declaration, m.
     pub traced_m: Option<f64>,
-    /// All declarations of all robots and gantries, in order of time.
-    pub declarations: Vec<DeclaredAt>,
+    /// All declarations of all robots and gantries, in order of time. They stand in a table of their own.
+    pub declarations: Vec<DeclarationRow>,
     /// True sources declared within the distance that the scenario's success requires; 0 if it requires none.
     pub sources_declared: u64,
     /// Distance travelled by all robots, m.
@@ -74,11 +76,25 @@ pub struct RunRow {
     pub mission_wall_s: f64,
 }
 
-/// A declaration in a row.
+/// A declaration of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct DeclaredAt {
+pub struct DeclarationRow {
+    /// Index of the run in the campaign; the next four fields are those of its row, too.
+    pub run: u64,
+    /// Name of the arm.
+    pub arm: String,
+    /// The conditions of the run.
+    pub condition: String,
+    /// Index of the seed.
+    pub seed_index: u64,
+    /// The seed itself.
+    pub seed: u64,
+    /// Id of the robot or gantry that made it.
+    pub robot: String,
+    /// Its number among the declarations of this robot, from 0.
+    pub number: u64,
     /// Subregion in which it was made, from 0.
-    pub region: Option<u32>,
+    pub region: Option<u64>,
     /// Name of the rule that declared it.
     pub rule: String,
     /// The verdict of a look at it: `unchecked`, `verified` or `rejected`.
@@ -101,75 +117,16 @@ pub struct DeclaredAt {
     pub fix_m: Option<f64>,
 }
 
-impl DeclaredAt {
-    /// Several declarations as one field of a table: separated by `; `, with their fields in the order above separated
-    /// by blanks and `-` for a missing value. Numbers read back bit for bit.
+impl DeclarationRow {
+    /// Whether the vehicle has not rejected it.
     #[must_use]
-    pub fn words(all: &[DeclaredAt]) -> String {
-        let maybe = |v: Option<f64>| v.map_or_else(|| "-".to_string(), |v| v.to_string());
-        let one = |d: &DeclaredAt| {
-            let region = d.region.map_or_else(|| "-".to_string(), |k| k.to_string());
-            let mut fields = vec![region, d.rule.replace(' ', "_"), d.verdict.clone()];
-            fields.extend([d.t_s, d.east_m, d.north_m].map(|v| v.to_string()));
-            let rest = [
-                d.error_m,
-                d.error_along_m,
-                d.error_across_m,
-                d.traced_m,
-                d.fix_m,
-            ];
-            fields.extend(rest.map(maybe));
-            fields.join(" ")
-        };
-        all.iter().map(one).collect::<Vec<_>>().join("; ")
+    pub fn stands(&self) -> bool {
+        self.verdict != Verdict::Rejected.name()
     }
 
-    /// The inverse of `words`; `None` if the text is not such a field.
+    /// Whether it says where a plume crosses a subregion's up-flow edge, not where a source is.
     #[must_use]
-    pub fn read(words: &str) -> Option<Vec<DeclaredAt>> {
-        if words.is_empty() {
-            return Some(Vec::new());
-        }
-        words.split("; ").map(Self::one).collect()
-    }
-
-    fn one(words: &str) -> Option<DeclaredAt> {
-        let fields: Vec<&str> = words.split(' ').collect();
-        let [
-            region,
-            rule,
-            verdict,
-            t,
-            e,
-            n,
-            error,
-            along,
-            across,
-            traced,
-            fix,
-        ] = fields[..]
-        else {
-            return None;
-        };
-        let maybe = |v: &str| match v {
-            "-" => Some(None),
-            v => v.parse().ok().map(Some),
-        };
-        Some(DeclaredAt {
-            region: match region {
-                "-" => None,
-                k => Some(k.parse().ok()?),
-            },
-            rule: rule.to_string(),
-            verdict: verdict.to_string(),
-            t_s: t.parse().ok()?,
-            east_m: e.parse().ok()?,
-            north_m: n.parse().ok()?,
-            error_m: maybe(error)?,
-            error_along_m: maybe(along)?,
-            error_across_m: maybe(across)?,
-            traced_m: maybe(traced)?,
-            fix_m: maybe(fix)?,
-        })
+    pub fn at_edge(&self) -> bool {
+        self.rule == UP_FLOW_EDGE
     }
 }

@@ -202,7 +202,7 @@ fn settle(
     }
     campaign.check()?;
     make_folder(dir).map_err(|e| OutputError::new(dir, e))?;
-    let Some(there) = found else {
+    if found.is_none() {
         if !present(dir, &ours)?.is_empty() {
             return Err(CampaignError::NoCampaign {
                 dir: dir.to_owned(),
@@ -210,10 +210,9 @@ fn settle(
             });
         }
         return asked.map(|_| ours.write_first(dir, true)).transpose();
-    };
+    }
     let ours = Manifest {
         block: ours.block.next_multiple_of(campaign.n_arms()),
-        sealed: there.sealed,
         ..ours
     };
     ours.write(dir)?;

@@ -3,7 +3,7 @@
 //! A reader of Parquet goes to the positions that the footer names, so it skips what stands between the mark at the
 //! beginning of the file and the first column. The seal stands there: [`MARK`] and 32 hexadecimal digits.
 
-use std::io::{Read, Result, Seek, SeekFrom};
+use std::io::{Read, Seek, SeekFrom};
 use world::digest::Digest;
 
 /// Beginning of a seal.
@@ -11,17 +11,6 @@ const MARK: &[u8] = b"rheotaxis sealed ";
 const DIGITS: usize = 32;
 /// Position of the seal: behind Parquet's own mark.
 const AT: usize = 4;
-
-/// The state of a file's seal.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Seal {
-    /// There is no seal.
-    Missing,
-    /// The seal fits the file.
-    Whole,
-    /// The bytes differ from those that were sealed.
-    Wrong,
-}
 
 /// Space for a seal, to be written before everything else.
 pub(super) fn room() -> Vec<u8> {
@@ -42,17 +31,17 @@ pub(super) fn close(bytes: &mut [u8]) {
     bytes[digits..digits + DIGITS].copy_from_slice(digest.hex().as_bytes());
 }
 
-/// Reads a file in small pieces and compares it with its seal.
+/// Reads a file in small pieces and compares it with its seal. Returns what is wrong, if anything.
 ///
 /// # Errors
 /// If it cannot be read.
-pub(super) fn look(file: &mut (impl Read + Seek)) -> Result<Seal> {
+pub(super) fn look(file: &mut (impl Read + Seek)) -> std::io::Result<Result<(), String>> {
     file.seek(SeekFrom::Start(0))?;
     let mut head = Vec::new();
     let digits = AT + MARK.len();
     file.take((digits + DIGITS) as u64).read_to_end(&mut head)?;
     if head.len() < digits + DIGITS || head[AT..digits] != *MARK {
-        return Ok(Seal::Missing);
+        return Ok(Err("it does not begin as a block does".to_string()));
     }
     let mut digest = Digest::default();
     digest.bytes(&head[..digits]);
@@ -64,7 +53,11 @@ pub(super) fn look(file: &mut (impl Read + Seek)) -> Result<Seal> {
         }
     }
     let whole = digest.hex().as_bytes() == &head[digits..];
-    Ok(if whole { Seal::Whole } else { Seal::Wrong })
+    Ok(if whole {
+        Ok(())
+    } else {
+        Err("its bytes are not those that were written (wrong hash)".to_string())
+    })
 }
 
 #[cfg(test)]
@@ -77,16 +70,14 @@ mod tests {
         let mut bytes = [b"PAR1", room().as_slice(), b"columns and footer"].concat();
         close(&mut bytes);
         let of = |bytes: &[u8]| look(&mut Cursor::new(bytes)).unwrap();
-        assert_eq!(of(&bytes), Seal::Whole);
+        assert_eq!(of(&bytes), Ok(()));
         for k in 0..bytes.len() {
             let mut turned = bytes.clone();
             turned[k] ^= 1;
-            assert_ne!(of(&turned), Seal::Whole, "byte {k}");
-            assert_ne!(of(&bytes[..k]), Seal::Whole, "cut at {k}");
+            assert!(of(&turned).is_err(), "byte {k}");
+            assert!(of(&bytes[..k]).is_err(), "cut at {k}");
         }
-        assert_eq!(
-            of(b"PAR1 and something else altogether, longer than a seal"),
-            Seal::Missing
-        );
+        let said = of(b"PAR1 and something else altogether, longer than a seal").unwrap_err();
+        assert!(said.contains("does not begin"), "{said}");
     }
 }

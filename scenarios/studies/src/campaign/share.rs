@@ -1,6 +1,8 @@
 //! A share of a campaign: the runs still to do, and the blocks that their rows fill.
 
-use super::block::{BlockState, add_to_block, block_path, present, read_block, write_block};
+use super::block::{
+    BlockState, add_to_block, block_path, declarations_path, present, read_block, write_block,
+};
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::row::RunRow;
@@ -97,7 +99,10 @@ impl<'a> Share<'a> {
                 continue;
             }
             let rows = match read_block(dir, manifest, block) {
-                BlockState::Broken(error) if is_special(&block_path(dir, block)) => {
+                BlockState::Broken(error)
+                    if is_special(&block_path(dir, block))
+                        || is_special(&declarations_path(dir, block)) =>
+                {
                     return Err(error);
                 }
                 BlockState::Broken(error) => {

@@ -1,124 +1,33 @@
-//! Rows as Parquet and as CSV: one column for each field of [`RunRow`], with the field's name.
+//! Tables as Parquet files.
 
-use super::row::{DeclaredAt, RunRow};
+use super::columns::{Column, Record};
 use parquet::basic::Compression;
 use parquet::basic::ZstdLevel;
-use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::record::{Field, Row};
 use parquet::schema::parser::parse_message_type;
 use std::io::Write;
+use std::marker::PhantomData;
 use std::sync::Arc;
 
-/// How a column is read from a row and written to it.
-enum Column {
-    Number(fn(&RunRow) -> u64, fn(&mut RunRow, u64)),
-    Truth(fn(&RunRow) -> bool, fn(&mut RunRow, bool)),
-    Text(fn(&RunRow) -> Option<&str>, fn(&mut RunRow, Option<String>)),
-    Real(fn(&RunRow) -> Option<f64>, fn(&mut RunRow, Option<f64>)),
-    Declarations,
-}
+/// A Parquet file of records, written group by group.
+pub(super) struct TableWriter<T, W: Write + Send>(SerializedFileWriter<W>, PhantomData<T>);
 
-macro_rules! number {
-    ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Number(|r| r.$f, |r, v| r.$f = v),
-        )
-    };
-}
-macro_rules! text {
-    ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Text(|r| Some(&r.$f), |r, v| r.$f = v.unwrap_or_default()),
-        )
-    };
-}
-macro_rules! real {
-    ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Real(|r| Some(r.$f), |r, v| r.$f = v.unwrap_or_default()),
-        )
-    };
-}
-macro_rules! maybe {
-    ($f:ident) => {
-        (
-            stringify!($f),
-            true,
-            Column::Real(|r| r.$f, |r, v| r.$f = v),
-        )
-    };
-}
-
-/// Name, whether it may be empty, and access.
-const COLUMNS: [(&str, bool, Column); 34] = [
-    number!(run),
-    text!(arm),
-    text!(condition),
-    number!(seed_index),
-    number!(seed),
-    text!(outcome),
-    (
-        "success",
-        false,
-        Column::Truth(|r| r.success, |r, v| r.success = v),
-    ),
-    (
-        "error",
-        true,
-        Column::Text(|r| r.error.as_deref(), |r, v| r.error = v),
-    ),
-    text!(digest),
-    real!(mission_s),
-    maybe!(first_detection_s),
-    maybe!(declared_s),
-    maybe!(declared_east_m),
-    maybe!(declared_north_m),
-    maybe!(error_m),
-    maybe!(error_along_m),
-    maybe!(error_across_m),
-    maybe!(zone_points),
-    maybe!(zone_since_s),
-    maybe!(traced_m),
-    ("declarations", false, Column::Declarations),
-    number!(sources_declared),
-    real!(travelled_m),
-    number!(detections),
-    maybe!(sweep_s),
-    maybe!(speed_m_s),
-    maybe!(ngdr),
-    maybe!(far_speed_m_s),
-    maybe!(near_speed_m_s),
-    maybe!(far_offset_m),
-    maybe!(near_offset_m),
-    maybe!(correct_cell_s),
-    real!(spin_up_wall_s),
-    real!(mission_wall_s),
-];
-
-/// A Parquet file of rows, written group by group.
-pub(super) struct TableWriter<W: Write + Send>(SerializedFileWriter<W>);
-
-impl<W: Write + Send> TableWriter<W> {
+impl<T: Record, W: Write + Send> TableWriter<T, W> {
     /// Begins a table with these notes in its footer.
     pub(super) fn new(to: W, notes: &[(&str, String)]) -> Result<Self> {
-        let mut schema = String::from("message runs {\n");
-        for (name, optional, column) in &COLUMNS {
+        let mut schema = format!("message {} {{\n", T::TABLE);
+        for (name, optional, column) in T::COLUMNS {
             let presence = if *optional { "OPTIONAL" } else { "REQUIRED" };
             let (kind, logical) = match column {
                 Column::Number(..) => ("INT64", " (INTEGER(64,false))"),
                 Column::Truth(..) => ("BOOLEAN", ""),
-                Column::Text(..) | Column::Declarations => ("BYTE_ARRAY", " (STRING)"),
+                Column::Text(..) => ("BYTE_ARRAY", " (STRING)"),
                 Column::Real(..) => ("DOUBLE", ""),
             };
             schema.push_str(&format!("  {presence} {kind} {name}{logical};\n"));
@@ -133,11 +42,8 @@ impl<W: Write + Send> TableWriter<W> {
             .set_key_value_metadata(Some(notes))
             .build();
         let schema = Arc::new(parse_message_type(&schema)?);
-        Ok(Self(SerializedFileWriter::new(
-            to,
-            schema,
-            Arc::new(properties),
-        )?))
+        let file = SerializedFileWriter::new(to, schema, Arc::new(properties))?;
+        Ok(Self(file, PhantomData))
     }
 
     /// Puts bytes before the first column; readers skip them.
@@ -145,11 +51,30 @@ impl<W: Write + Send> TableWriter<W> {
         Ok(self.0.write_all(bytes)?)
     }
 
-    /// Adds rows as a group.
-    pub(super) fn rows(&mut self, rows: &[RunRow]) -> Result<()> {
+    /// Adds records as a group.
+    pub(super) fn rows(&mut self, rows: &[T]) -> Result<()> {
+        if rows.is_empty() {
+            return Ok(());
+        }
         let mut group = self.0.next_row_group()?;
-        for (_, optional, column) in &COLUMNS {
-            write_column(&mut group, rows, *optional, column)?;
+        for (_, optional, column) in T::COLUMNS {
+            let to = group.next_column()?;
+            let to = to.ok_or_else(|| odd("the schema has fewer columns than a row"))?;
+            let rows = rows.iter();
+            match column {
+                Column::Number(get, _) => {
+                    let values = rows.map(|r| get(r).map(u64::cast_signed));
+                    put::<Int64Type>(to, *optional, values)?;
+                }
+                Column::Truth(get, _) => {
+                    put::<BoolType>(to, *optional, rows.map(|r| Some(get(r))))?
+                }
+                Column::Text(get, _) => {
+                    let values = rows.map(|r| get(r).map(ByteArray::from));
+                    put::<ByteArrayType>(to, *optional, values)?;
+                }
+                Column::Real(get, _) => put::<DoubleType>(to, *optional, rows.map(get))?,
+            }
         }
         group.close().map(drop)
     }
@@ -160,65 +85,29 @@ impl<W: Write + Send> TableWriter<W> {
     }
 }
 
-fn write_column<W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<'_, W>,
-    rows: &[RunRow],
+fn put<D: DataType>(
+    mut to: SerializedColumnWriter<'_>,
     optional: bool,
-    column: &Column,
+    values: impl Iterator<Item = Option<D::T>>,
 ) -> Result<()> {
-    let missing = || ParquetError::General("the schema has fewer columns than a row".to_string());
-    let mut writer = group.next_column()?.ok_or_else(missing)?;
-    let levels = |there: Vec<bool>| -> Option<Vec<i16>> {
-        optional.then(|| there.into_iter().map(i16::from).collect())
-    };
-    match column {
-        Column::Number(get, _) => {
-            let values: Vec<i64> = rows.iter().map(|r| get(r).cast_signed()).collect();
-            writer
-                .typed::<Int64Type>()
-                .write_batch(&values, None, None)?;
-        }
-        Column::Truth(get, _) => {
-            let values: Vec<bool> = rows.iter().map(get).collect();
-            writer
-                .typed::<BoolType>()
-                .write_batch(&values, None, None)?;
-        }
-        Column::Text(get, _) => {
-            let values: Vec<ByteArray> = rows
-                .iter()
-                .filter_map(|r| get(r).map(ByteArray::from))
-                .collect();
-            let levels = levels(rows.iter().map(|r| get(r).is_some()).collect());
-            writer
-                .typed::<ByteArrayType>()
-                .write_batch(&values, levels.as_deref(), None)?;
-        }
-        Column::Declarations => {
-            let words = |r: &RunRow| ByteArray::from(DeclaredAt::words(&r.declarations).as_str());
-            let values: Vec<ByteArray> = rows.iter().map(words).collect();
-            writer
-                .typed::<ByteArrayType>()
-                .write_batch(&values, None, None)?;
-        }
-        Column::Real(get, _) => {
-            let values: Vec<f64> = rows.iter().filter_map(get).collect();
-            let levels = levels(rows.iter().map(|r| get(r).is_some()).collect());
-            writer
-                .typed::<DoubleType>()
-                .write_batch(&values, levels.as_deref(), None)?;
-        }
-    }
-    writer.close()
+    let values: Vec<Option<D::T>> = values.collect();
+    let levels: Option<Vec<i16>> =
+        optional.then(|| values.iter().map(|v| i16::from(v.is_some())).collect());
+    let there: Vec<D::T> = values.into_iter().flatten().collect();
+    (to.typed::<D>()).write_batch(&there, levels.as_deref(), None)?;
+    to.close()
+}
+
+fn odd(what: &str) -> ParquetError {
+    ParquetError::General(what.to_string())
 }
 
 /// All rows of a table of at most `most` rows, and the notes in its footer. What footer and pages claim is first
 /// compared with the file and with that number, because the library would reserve memory for any claim.
-pub(super) fn read<R: ChunkReader + 'static>(
-    from: R,
+pub(super) fn read<T: Record>(
+    from: impl ChunkReader + 'static,
     most: usize,
-) -> Result<(Vec<RunRow>, Vec<KeyValue>)> {
-    let odd = |what: &str| ParquetError::General(what.to_string());
+) -> Result<(Vec<T>, Vec<KeyValue>)> {
     let length = from.len();
     let reader = SerializedFileReader::new(from)?;
     let meta = reader.metadata().file_metadata();
@@ -228,18 +117,18 @@ pub(super) fn read<R: ChunkReader + 'static>(
         .iter()
         .map(|f| f.name())
         .collect();
-    if !names.iter().eq(COLUMNS.iter().map(|(name, ..)| name)) {
-        return Err(odd("its columns are not those of a campaign"));
+    if !names.iter().eq(T::COLUMNS.iter().map(|(name, ..)| name)) {
+        return Err(odd("its columns are not those of this table"));
     }
     let fits = |n: i64| usize::try_from(n).is_ok_and(|n| n <= most);
     let mut n = 0;
     for (k, group) in reader.metadata().row_groups().iter().enumerate() {
         if !fits(group.num_rows()) {
-            return Err(odd("it says to hold more rows than a block has"));
+            return Err(odd("it says to hold more rows than it can"));
         }
         n += group.num_rows();
         if !fits(n) {
-            return Err(odd("it says to hold more rows than a block has"));
+            return Err(odd("it says to hold more rows than it can"));
         }
         let pages = reader.get_row_group(k)?;
         for (c, column) in group.columns().iter().enumerate() {
@@ -261,61 +150,24 @@ pub(super) fn read<R: ChunkReader + 'static>(
     Ok((rows, notes))
 }
 
-fn row_of(fields: &Row) -> Result<RunRow> {
-    let mut row = RunRow::default();
-    for ((name, _, column), (_, field)) in COLUMNS.iter().zip(fields.get_column_iter()) {
+fn row_of<T: Record>(fields: &Row) -> Result<T> {
+    let mut row = T::default();
+    for ((name, _, column), (_, field)) in T::COLUMNS.iter().zip(fields.get_column_iter()) {
         match (column, field) {
             (Column::Number(_, set), Field::ULong(v)) => set(&mut row, *v),
             (Column::Truth(_, set), Field::Bool(v)) => set(&mut row, *v),
-            (Column::Text(_, set), Field::Str(v)) => set(&mut row, Some(v.clone())),
-            (Column::Real(_, set), Field::Double(v)) => set(&mut row, Some(*v)),
-            (Column::Declarations, Field::Str(v)) => {
-                let read = DeclaredAt::read(v);
-                row.declarations = read.ok_or_else(|| {
-                    ParquetError::General(format!("{v:?} is no list of declarations"))
-                })?;
-            }
-            (Column::Text(..) | Column::Real(..), Field::Null) => {}
-            _ => {
-                return Err(ParquetError::General(format!(
-                    "column {name} has another type"
-                )));
-            }
+            (Column::Text(_, set), Field::Str(v)) => set(&mut row, v.clone()),
+            (Column::Real(_, set), Field::Double(v)) => set(&mut row, *v),
+            (Column::Number(..) | Column::Text(..) | Column::Real(..), Field::Null) => {}
+            _ => return Err(odd(&format!("column {name} has another type"))),
         }
     }
     Ok(row)
 }
 
-/// The names of the columns as a line of CSV.
-pub(super) fn csv_head() -> String {
-    let names: Vec<&str> = COLUMNS.iter().map(|(name, ..)| *name).collect();
-    names.join(",")
-}
-
-/// A row as a line of CSV; a missing value is empty. Numbers read back bit for bit.
-pub(super) fn csv_line(row: &RunRow) -> String {
-    let cells: Vec<String> = (COLUMNS.iter())
-        .map(|(_, _, column)| match column {
-            Column::Number(get, _) => get(row).to_string(),
-            Column::Truth(get, _) => get(row).to_string(),
-            Column::Text(get, _) => get(row).map(quoted).unwrap_or_default(),
-            Column::Real(get, _) => get(row).map(|v| v.to_string()).unwrap_or_default(),
-            Column::Declarations => quoted(&DeclaredAt::words(&row.declarations)),
-        })
-        .collect();
-    cells.join(",")
-}
-
-fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_string()
-    }
-}
-
 #[cfg(test)]
 mod tests {
+    use super::super::row::{DeclarationRow, RunRow};
     use super::*;
 
     #[test]
@@ -330,18 +182,6 @@ mod tests {
             declared_s: Some(f64::MIN_POSITIVE),
             error_along_m: Some(-0.0),
             detections: 7,
-            declarations: vec![
-                DeclaredAt {
-                    rule: "up_flow_edge".to_string(),
-                    verdict: "unchecked".to_string(),
-                    region: Some(3),
-                    east_m: 0.1 + 0.2,
-                    error_along_m: Some(-1e-300),
-                    fix_m: Some(9.5),
-                    ..DeclaredAt::default()
-                };
-                2
-            ],
             ..RunRow::default()
         };
         let rows = vec![RunRow::default(), full.clone(), RunRow { run: 3, ..full }];
@@ -352,14 +192,14 @@ mod tests {
         let read_bytes = |bytes: &[u8]| {
             let mut file = tempfile::tempfile().unwrap();
             file.write_all(bytes).unwrap();
-            read(file, 3)
+            read::<RunRow>(file, 3)
         };
         let (back, notes) = read_bytes(&bytes).unwrap();
         assert_eq!(back, rows);
         let mut file = tempfile::tempfile().unwrap();
         file.write_all(&bytes).unwrap();
-        let said = read(file, 2).unwrap_err().to_string();
-        assert!(said.contains("more rows than a block has"), "{said}");
+        let said = read::<RunRow>(file, 2).unwrap_err().to_string();
+        assert!(said.contains("more rows than it can"), "{said}");
         assert!(
             notes
                 .iter()
@@ -368,11 +208,27 @@ mod tests {
         for cut in 0..bytes.len() {
             assert!(read_bytes(&bytes[..cut]).is_err(), "cut at {cut}");
         }
-        let line = csv_line(&rows[1]);
-        assert!(
-            line.contains("\"a, \"\"b\"\"\"") && line.contains("0.30000000000000004"),
-            "{line}"
-        );
-        assert_eq!(csv_head().split(',').count(), COLUMNS.len());
+    }
+
+    #[test]
+    fn declarations_come_back_bit_for_bit_and_an_empty_table_stays_empty() {
+        let one = DeclarationRow {
+            robot: "auv, 0".to_string(),
+            region: Some(3),
+            east_m: 0.1 + 0.2,
+            error_along_m: Some(-1e-300),
+            fix_m: Some(9.5),
+            ..DeclarationRow::default()
+        };
+        for rows in [vec![one.clone(), DeclarationRow::default()], Vec::new()] {
+            let mut table = TableWriter::new(tempfile::tempfile().unwrap(), &[]).unwrap();
+            table.rows(&rows).unwrap();
+            let (back, _) = read::<DeclarationRow>(table.finish().unwrap(), 2).unwrap();
+            assert_eq!(back, rows);
+        }
+        let mut table = TableWriter::new(tempfile::tempfile().unwrap(), &[]).unwrap();
+        table.rows(&[one]).unwrap();
+        let said = read::<RunRow>(table.finish().unwrap(), 2).unwrap_err();
+        assert!(said.to_string().contains("its columns are not"), "{said}");
     }
 }

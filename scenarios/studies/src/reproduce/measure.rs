@@ -1,13 +1,13 @@
 //! Events and measures of a run, with the names that row files use.
 
 use crate::campaign::report::Unit;
-use crate::campaign::{DeclaredAt, RunRow};
+use crate::campaign::{DeclarationRow, RunRow};
 use serde::{Deserialize, Serialize};
 
 /// Something that did or did not happen in a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Event {
+pub enum RunEvent {
     /// It succeeded as the scenario defines it.
     Success,
     /// A source was declared, at any place.
@@ -31,35 +31,32 @@ pub enum Event {
     RegionAcrossOver(u32, u32),
 }
 
-/// The rule named in declarations on a subregion's up-flow edge.
-const EDGE: &str = "up_flow_edge";
-
 /// The first declaration of a subregion that the vehicle did not reject.
-fn of_region(r: &RunRow, k: u32) -> Option<&DeclaredAt> {
-    (r.declarations.iter()).find(|d| d.region == Some(k) && d.verdict != "rejected")
+fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
+    (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.stands())
 }
 
-impl Event {
+impl RunEvent {
     /// Whether it happened; `None` if the run cannot tell.
     #[must_use]
     pub fn of(self, r: &RunRow) -> Option<bool> {
         match self {
-            Event::Success => Some(r.success),
-            Event::Declared => Some(r.declared_s.is_some()),
-            Event::MostlyAlong => {
+            RunEvent::Success => Some(r.success),
+            RunEvent::Declared => Some(r.declared_s.is_some()),
+            RunEvent::MostlyAlong => {
                 (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs())
             }
-            Event::CorrectCell => Some(r.correct_cell_s.is_some()),
-            Event::RegionDeclared(k) => Some(of_region(r, k).is_some()),
-            Event::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(|d| d.rule == EDGE)),
-            Event::RegionFixOver(k, m) => {
+            RunEvent::CorrectCell => Some(r.correct_cell_s.is_some()),
+            RunEvent::RegionDeclared(k) => Some(of_region(r, k).is_some()),
+            RunEvent::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(DeclarationRow::at_edge)),
+            RunEvent::RegionFixOver(k, m) => {
                 of_region(r, k).map(|d| d.fix_m.is_some_and(|fix_m| fix_m >= f64::from(m)))
             }
-            Event::RegionFixUnder(k, m) => Event::RegionFixOver(k, m).of(r).map(|over| !over),
-            Event::RegionErrorOver(k, m) => of_region(r, k)?
+            RunEvent::RegionFixUnder(k, m) => RunEvent::RegionFixOver(k, m).of(r).map(|over| !over),
+            RunEvent::RegionErrorOver(k, m) => of_region(r, k)?
                 .error_m
                 .map(|error_m| error_m >= f64::from(m)),
-            Event::RegionAcrossOver(k, m) => {
+            RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
             }
         }
@@ -166,7 +163,7 @@ impl Measure {
             Measure::Declarations => sound(r.declarations.len()),
             Measure::FarDeclarations(m) => sound(
                 (r.declarations.iter())
-                    .filter(|d| d.rule != EDGE && d.error_m.is_some_and(|e| e >= f64::from(m)))
+                    .filter(|d| !d.at_edge() && d.error_m.is_some_and(|e| e >= f64::from(m)))
                     .count(),
             ),
             Measure::SourcesDeclared => sound(r.sources_declared as usize),
@@ -183,10 +180,11 @@ impl Measure {
 mod tests {
     use super::*;
     use crate::campaign::report::sample::row;
+    use robots::handoff::UP_FLOW_EDGE;
 
     #[test]
     fn of_subregions() {
-        let at = |region, rule: &str, along, across, fix_m| DeclaredAt {
+        let at = |region, rule: &str, along, across, fix_m| DeclarationRow {
             region: Some(region),
             rule: rule.to_string(),
             verdict: "unchecked".to_string(),
@@ -194,37 +192,37 @@ mod tests {
             error_along_m: Some(along),
             error_across_m: Some(across),
             fix_m,
-            ..DeclaredAt::default()
+            ..DeclarationRow::default()
         };
-        let rejected = DeclaredAt {
+        let rejected = DeclarationRow {
             verdict: "rejected".to_string(),
             ..at(2, "AlongFlow", 300.0, 0.0, None)
         };
         let row = RunRow {
             declarations: vec![
-                at(0, EDGE, 480.0, -4.0, None),
+                at(0, UP_FLOW_EDGE, 480.0, -4.0, None),
                 rejected,
                 at(2, "AlongFlow", 3.0, -31.0, Some(12.0)),
             ],
             sources_declared: 1,
             ..RunRow::default()
         };
-        let yes = |e: Event| e.of(&row);
+        let yes = |e: RunEvent| e.of(&row);
         assert_eq!(
-            [0, 1, 2].map(|k| yes(Event::RegionDeclared(k))),
+            [0, 1, 2].map(|k| yes(RunEvent::RegionDeclared(k))),
             [Some(true), Some(false), Some(true)]
         );
         assert_eq!(
-            [0, 1, 2].map(|k| yes(Event::RegionAtEdge(k))),
+            [0, 1, 2].map(|k| yes(RunEvent::RegionAtEdge(k))),
             [Some(true), Some(false), Some(false)]
         );
-        assert_eq!(yes(Event::RegionFixOver(2, 12)), Some(true));
-        assert_eq!(yes(Event::RegionFixUnder(2, 12)), Some(false));
-        assert_eq!(yes(Event::RegionFixOver(0, 1)), Some(false));
-        assert_eq!(yes(Event::RegionFixOver(1, 1)), None);
-        assert_eq!(yes(Event::RegionAcrossOver(2, 31)), Some(true));
-        assert_eq!(yes(Event::RegionAcrossOver(2, 32)), Some(false));
-        assert_eq!(yes(Event::RegionErrorOver(1, 1)), None);
+        assert_eq!(yes(RunEvent::RegionFixOver(2, 12)), Some(true));
+        assert_eq!(yes(RunEvent::RegionFixUnder(2, 12)), Some(false));
+        assert_eq!(yes(RunEvent::RegionFixOver(0, 1)), Some(false));
+        assert_eq!(yes(RunEvent::RegionFixOver(1, 1)), None);
+        assert_eq!(yes(RunEvent::RegionAcrossOver(2, 31)), Some(true));
+        assert_eq!(yes(RunEvent::RegionAcrossOver(2, 32)), Some(false));
+        assert_eq!(yes(RunEvent::RegionErrorOver(1, 1)), None);
         let of = |m: Measure| m.of(&row);
         assert_eq!(of(Measure::Declarations), Some(3.0));
         assert_eq!(of(Measure::FarDeclarations(40)), Some(1.0));

@@ -8,7 +8,7 @@ mod run;
 mod write;
 
 pub use compare::{Compared, Standing, compare};
-pub use measure::{Event, Measure};
+pub use measure::{Measure, RunEvent};
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};
 pub use run::{Plan, Reproduced, reproduce};

@@ -1,6 +1,6 @@
 //! What is computed from the rows of many runs for comparison with a paper's figure.
 
-use super::measure::{Event, Measure};
+use super::measure::{Measure, RunEvent};
 use crate::campaign::RunRow;
 use crate::campaign::report::Unit;
 use crate::campaign::stats::{
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Quantity {
     /// Share of runs in which something happened.
-    Share(Event),
+    Share(RunEvent),
     /// Mean of a measure over the runs that have it.
     Mean(Measure),
     /// Median of a measure over the runs that have it.
@@ -137,14 +137,14 @@ mod tests {
                 ..row(3, None)
             },
         ];
-        let declared = Quantity::Share(Event::Declared).of(&rows);
+        let declared = Quantity::Share(RunEvent::Declared).of(&rows);
         assert_eq!((declared.count, declared.n), (Some(2), 4));
-        let success = Quantity::Share(Event::Success).of(&rows);
+        let success = Quantity::Share(RunEvent::Success).of(&rows);
         assert_eq!(
             (success.count, success.interval),
             (Some(1), Some(wilson(1, 4)))
         );
-        let along = Quantity::Share(Event::MostlyAlong).of(&rows);
+        let along = Quantity::Share(RunEvent::MostlyAlong).of(&rows);
         assert_eq!((along.count, along.n), (Some(0), 2));
         let median = |m| Quantity::Median(m).of(&rows).value;
         assert_eq!(median(Measure::ErrorM), Some(27.5));
@@ -180,10 +180,10 @@ mod tests {
     #[test]
     fn of_no_run_there_is_no_figure() {
         for q in [
-            Quantity::Share(Event::Success),
+            Quantity::Share(RunEvent::Success),
             Quantity::Median(Measure::ErrorM),
             Quantity::Mean(Measure::ErrorM),
-            Quantity::Share(Event::MostlyAlong),
+            Quantity::Share(RunEvent::MostlyAlong),
         ] {
             let e = q.of(&[]);
             assert_eq!((e.n, e.value, e.interval), (0, None, None));

@@ -1,6 +1,6 @@
 //! What a paper reports, and the scenario with which we compare it: one row file each.
 
-use super::measure::Event;
+use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, put};
 use output::files::ReportError;
@@ -45,7 +45,7 @@ pub struct Figure {
     pub arm: Option<String>,
     /// Only runs in which this happened count.
     #[serde(default)]
-    pub among: Option<Event>,
+    pub among: Option<RunEvent>,
     /// What is computed from our runs.
     pub quantity: Quantity,
     /// The paper's figure; absent if there is nothing to compare.

@@ -8,6 +8,7 @@ use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use rheotaxis::scenario::Loaded;
 use std::sync::atomic::{AtomicBool, Ordering};
+use world::seeds::Key;
 
 /// Seeds after which the current results are written, so that little is lost if the program is killed.
 const BATCH: u64 = 50;
@@ -19,6 +20,8 @@ pub struct Plan {
     pub n: u64,
     /// The first seed; the others follow it.
     pub first_seed: u64,
+    /// The key of the runs.
+    pub key: Key,
     /// Stop when the half width of the success interval is at most this.
     pub until_half_width: Option<f64>,
     /// Number of threads; 0 means one for each core.
@@ -82,7 +85,7 @@ pub fn reproduce(
                             arm: arm.clone(),
                             condition: String::new(),
                             seed_index: index,
-                            seed: plan.first_seed + index,
+                            seed: plan.key.seed(plan.first_seed + index),
                         };
                         let row = sharing_run(loaded, &name, &mut spun);
                         heard(&row, planned * n_arms);

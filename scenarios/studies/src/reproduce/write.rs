@@ -3,8 +3,9 @@
 use super::compare::{Compared, Standing};
 use super::row::Paper;
 use super::run::Reproduced;
-use crate::campaign::report::{Walls, align, csv_field, range, runs_csv};
-use output::files::{ReportError, make_folder, write_whole};
+use crate::campaign::as_csv;
+use crate::campaign::report::{Walls, align, range};
+use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -85,17 +86,19 @@ pub fn table(r: &Reproduced) -> String {
     out
 }
 
-/// Writes REPRODUCTION.md, figures.csv and rows.csv into a folder, which is made if necessary.
+/// Writes REPRODUCTION.md, figures.csv, rows.csv and declarations.csv into a folder, which is made if necessary.
 ///
 /// # Errors
 /// If the folder or a file cannot be written; all other files are written.
 pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError> {
     make_folder(dir)?;
     let runs: Vec<_> = all.iter().flat_map(|r| r.runs.iter().cloned()).collect();
+    let [rows, declarations] = as_csv(&runs);
     let files = [
         ("REPRODUCTION.md", markdown(all)),
         ("figures.csv", figures_csv(all)),
-        ("rows.csv", runs_csv(&runs)),
+        ("rows.csv", rows),
+        ("declarations.csv", declarations),
     ];
     // If one file cannot be written, the others are not affected.
     let mut failures = Vec::new();
@@ -111,7 +114,8 @@ pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError
 
 fn markdown(all: &[Reproduced]) -> String {
     let mut out = format!(
-        "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every figure in figures.csv.\n\n\
+        "# Reproduction\n\nWritten by `rheotaxis reproduce`, version {}. Every run is in rows.csv, every declaration in \
+         declarations.csv, every figure in figures.csv.\n\n\
          Shares come with Wilson's 95 % interval (in brackets the paper's own, from its counts); quantiles (linear \
          between order statistics) with a 95 % bootstrap interval of the quantile (percentile, {} resamples, seed 1); means with Student's, of \
          quantities that cannot be below 0 on the scale of the logarithm; of fewer than 5 values there is none. Errors are of those \
@@ -155,35 +159,32 @@ fn markdown(all: &[Reproduced]) -> String {
 }
 
 fn figures_csv(all: &[Reproduced]) -> String {
-    let mut out = String::from(
-        "row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing\n",
-    );
-    let number = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
-    for r in all {
-        for c in &r.figures {
+    let figures = all.iter().flat_map(|r| {
+        r.figures.iter().map(|c| {
             let (i, s, p) = (c.ours.interval, c.ours.spread, c.papers_interval);
-            let standing = if c.standing == Standing::None {
-                ""
-            } else {
-                c.standing.words()
+            let standing = match c.standing {
+                Standing::None => "",
+                standing => standing.words(),
             };
-            let fields = [
+            [
                 r.row.id.clone(),
-                csv_field(&c.figure.name),
+                c.figure.name.clone(),
                 c.ours.n.to_string(),
                 c.ours.count.map_or(String::new(), |k| k.to_string()),
-                number(c.ours.value),
-                number(i.map(|i| i.low)),
-                number(i.map(|i| i.high)),
-                number(s.map(|i| i.low)),
-                number(s.map(|i| i.high)),
-                number(c.figure.paper.map(Paper::value)),
-                number(p.map(|i| i.low)),
-                number(p.map(|i| i.high)),
-                csv_field(standing),
-            ];
-            writeln!(out, "{}", fields.join(",")).expect(TEXT);
-        }
-    }
-    out
+                csv_number(c.ours.value),
+                csv_number(i.map(|i| i.low)),
+                csv_number(i.map(|i| i.high)),
+                csv_number(s.map(|i| i.low)),
+                csv_number(s.map(|i| i.high)),
+                csv_number(c.figure.paper.map(Paper::value)),
+                csv_number(p.map(|i| i.low)),
+                csv_number(p.map(|i| i.high)),
+                standing.to_string(),
+            ]
+        })
+    });
+    csv_text(
+        "row,figure,n,count,ours,low,high,runs_low,runs_high,paper,paper_low,paper_high,standing",
+        figures,
+    )
 }

@@ -16,6 +16,6 @@ pub use methods::{METHODS, Method};
 pub use pixels::{Counts, Ratio, precision, recall};
 pub use render::{Shot, SizePx, shoot};
 pub use roc::{Roc, Scored};
-pub use run::{Row, ScoreError, score};
+pub use run::{SceneRow, ScoreError, score};
 pub use save::save;
-pub use write::{Plan, table, write};
+pub use write::{ScenePlan, table, write};

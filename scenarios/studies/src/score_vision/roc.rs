@@ -7,6 +7,8 @@
 //! *Parameters*: limit of the score, 1; 2000 resamples; 95 %.
 //!
 //! *Deviations*: none.
+//!
+//! *Written here*: no light crate has this area with ties and an interval.
 
 use super::pixels::RESAMPLES;
 use crate::campaign::stats::{Interval, quantile, wilson};

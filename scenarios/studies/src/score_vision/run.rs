@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 /// The result of one method for one scene.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Row {
+pub struct SceneRow {
     /// The scene.
     pub scene: Drawn,
     /// The method.
@@ -67,7 +67,7 @@ pub fn score(
     jobs: usize,
     stop: &AtomicBool,
     done: impl Fn(&Drawn, &Shot) + Sync,
-) -> Result<Vec<Row>, ScoreError> {
+) -> Result<Vec<SceneRow>, ScoreError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(jobs).build();
     let pool = pool.map_err(|e| ScoreError::Threads {
         jobs,
@@ -82,15 +82,15 @@ pub fn score(
         done(&scene, &shot);
         Ok(rows(&scene, &shot, spec))
     };
-    let all: Result<Vec<Vec<Row>>, ScoreError> =
+    let all: Result<Vec<Vec<SceneRow>>, ScoreError> =
         pool.install(|| (0..scenes).into_par_iter().map(one).collect());
     Ok(all?.concat())
 }
 
-fn rows(scene: &Drawn, shot: &Shot, spec: &VerifierSpec) -> Vec<Row> {
+fn rows(scene: &Drawn, shot: &Shot, spec: &VerifierSpec) -> Vec<SceneRow> {
     let row = |method: Method| {
         let (dye, body, seen) = method.look(&shot.picture, spec);
-        Row {
+        SceneRow {
             scene: scene.clone(),
             method,
             dye: Counts::of(&dye, &shot.dye),

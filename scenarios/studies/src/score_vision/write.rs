@@ -5,9 +5,9 @@ use super::figures::{curves, shares};
 use super::methods::{METHODS, Method};
 use super::pixels::{Counts, Ratio, precision, recall};
 use super::roc::{Roc, Scored};
-use super::run::Row;
+use super::run::SceneRow;
 use crate::campaign::stats::Interval;
-use output::files::{Kept, ReportError};
+use output::files::{Kept, ReportError, csv_number, csv_text};
 use robots::vision::VerifierSpec;
 use serde::Serialize;
 use std::fmt::Write as _;
@@ -15,7 +15,7 @@ use world::files::Folder;
 
 /// The plan of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Plan {
+pub struct ScenePlan {
     /// Seed of the scenes.
     pub seed: u64,
     /// Number of scenes.
@@ -40,13 +40,13 @@ pub(super) struct Figures {
 }
 
 /// The figures of each method: all scenes, then each range.
-fn figures(rows: &[Row]) -> Vec<Figures> {
+fn figures(rows: &[SceneRow]) -> Vec<Figures> {
     let mut all = Vec::new();
     for method in METHODS {
-        let of_method: Vec<&Row> = rows.iter().filter(|r| r.method == method).collect();
+        let of_method: Vec<&SceneRow> = rows.iter().filter(|r| r.method == method).collect();
         all.push(one(method, None, &of_method));
         for (k, range) in BINS.into_iter().enumerate() {
-            let within: Vec<&Row> = (of_method.iter().copied())
+            let within: Vec<&SceneRow> = (of_method.iter().copied())
                 .filter(|r| bin(r.scene.visibility_m) == k)
                 .collect();
             all.push(one(method, Some(range), &within));
@@ -55,7 +55,7 @@ fn figures(rows: &[Row]) -> Vec<Figures> {
     all
 }
 
-fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&Row]) -> Figures {
+fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&SceneRow]) -> Figures {
     let name = |what: &str| format!("{} {visibility_m:?} {what}", method.name());
     let dye: Vec<Counts> = rows.iter().map(|r| r.dye).collect();
     let source: Vec<Counts> = rows.iter().map(|r| r.source).collect();
@@ -78,7 +78,7 @@ fn one(method: Method, visibility_m: Option<(f64, f64)>, rows: &[&Row]) -> Figur
 
 /// The figures as a table, with 95 % intervals.
 #[must_use]
-pub fn table(rows: &[Row]) -> String {
+pub fn table(rows: &[SceneRow]) -> String {
     let mut out = String::from(
         "| way | visibility | dye: precision | recall | source: precision | recall | verified of those with a source | of those without | area under the curve |\n\
          | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n",
@@ -129,7 +129,7 @@ fn percent(r: &Ratio) -> String {
 ///
 /// # Errors
 /// If files cannot be written; names each such file. All others are written.
-pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError> {
+pub fn write(out: &Folder, plan: &ScenePlan, rows: &[SceneRow]) -> Result<(), ReportError> {
     let mut kept = Kept::new(out);
     let all = figures(rows);
     let head = format!(
@@ -141,7 +141,7 @@ pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError>
     kept.write("scenes.csv", scenes_csv(rows).as_bytes());
     #[derive(Serialize)]
     struct Scores<'a> {
-        plan: &'a Plan,
+        plan: &'a ScenePlan,
         figures: &'a [Figures],
     }
     let json = serde_json::to_string_pretty(&Scores {
@@ -156,90 +156,83 @@ pub fn write(out: &Folder, plan: &Plan, rows: &[Row]) -> Result<(), ReportError>
     kept.done().map(drop)
 }
 
+/// The name without the commas, so that simple readers of CSV get along.
+fn plain(method: Method) -> String {
+    method.name().replace(',', "")
+}
+
 fn scores_csv(all: &[Figures]) -> String {
-    let mut out =
-        String::from("method,visibility_low_m,visibility_high_m,figure,n,count,value,low,high\n");
-    for f in all {
-        let range = f
-            .visibility_m
-            .map_or(",".to_string(), |(l, h)| format!("{l},{h}"));
+    let of_method = |f: &Figures| {
+        let (low_m, high_m) = f.visibility_m.unzip();
         let v = &f.verification;
-        let mut line =
-            |name: &str, n: u64, count: Option<u64>, value: Option<f64>, i: Option<Interval>| {
-                let text = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
-                let _ = writeln!(
-                    out,
-                    "{},{range},{name},{n},{},{},{},{}",
-                    f.method.name().replace(',', ""),
-                    count.map_or(String::new(), |c| c.to_string()),
-                    text(value),
-                    text(i.map(|i| i.low)),
-                    text(i.map(|i| i.high))
-                );
-            };
-        for (name, r) in [
+        let line = |name: &str, n: u64, count: Option<u64>, value, i: Option<Interval>| {
+            [
+                plain(f.method),
+                csv_number(low_m),
+                csv_number(high_m),
+                name.to_string(),
+                n.to_string(),
+                count.map_or(String::new(), |c| c.to_string()),
+                csv_number(value),
+                csv_number(i.map(|i| i.low)),
+                csv_number(i.map(|i| i.high)),
+            ]
+        };
+        let of_pixels = [
             ("dye_precision", &f.dye_precision),
             ("dye_recall", &f.dye_recall),
             ("source_precision", &f.source_precision),
             ("source_recall", &f.source_recall),
-        ] {
-            line(name, r.pictures as u64, None, r.value, r.interval);
-        }
-        for (name, (n, k), i) in [
+        ]
+        .map(|(name, r)| line(name, r.pictures as u64, None, r.value, r.interval));
+        let of_verdicts = [
             ("verified_with_source", v.with, v.true_share),
             ("verified_without_source", v.without, v.false_share),
-        ] {
-            line(
-                name,
-                n,
-                Some(k),
-                (n > 0).then(|| k as f64 / n as f64),
-                Some(i),
-            );
-        }
-        line(
-            "area_under_curve",
-            v.with.0 + v.without.0,
-            None,
-            v.area,
-            v.area_interval,
-        );
-    }
-    out
+        ]
+        .map(|(name, (n, k), i)| {
+            let share = (n > 0).then(|| k as f64 / n as f64);
+            line(name, n, Some(k), share, Some(i))
+        });
+        let both = v.with.0 + v.without.0;
+        let area = line("area_under_curve", both, None, v.area, v.area_interval);
+        of_pixels.into_iter().chain(of_verdicts).chain([area])
+    };
+    csv_text(
+        "method,visibility_low_m,visibility_high_m,figure,n,count,value,low,high",
+        all.iter().flat_map(of_method),
+    )
 }
 
-fn scenes_csv(rows: &[Row]) -> String {
-    let mut out = String::from(
-        "scene,content,visibility_m,illuminance_klx,sun_elevation_deg,current_m_s,dye_g_min,albedo,range_m,height_m,\
-         method,dye_hit,dye_false,dye_missed,source_hit,source_false,source_missed,score,verified\n",
-    );
-    for r in rows {
+fn scenes_csv(rows: &[SceneRow]) -> String {
+    let one = |r: &SceneRow| {
         let s = &r.scene;
-        let _ = writeln!(
-            out,
-            "{},{},{:.3},{:.2},{:.1},{},{:.3},{:.4},{:.3},{:.3},{},{},{},{},{},{},{},{},{}",
-            s.n,
-            s.content.name(),
-            s.visibility_m,
-            s.illuminance_klx,
-            s.sun_elevation_deg,
-            s.current_m_s,
-            s.dye_g_min,
-            s.albedo,
-            s.range_m,
-            s.height_m,
-            r.method.name().replace(',', ""),
-            r.dye.hit,
-            r.dye.false_alarm,
-            r.dye.missed,
-            r.source.hit,
-            r.source.false_alarm,
-            r.source.missed,
-            r.score,
-            r.verified
-        );
-    }
-    out
+        [
+            s.n.to_string(),
+            s.content.name().to_string(),
+            format!("{:.3}", s.visibility_m),
+            format!("{:.2}", s.illuminance_klx),
+            format!("{:.1}", s.sun_elevation_deg),
+            s.current_m_s.to_string(),
+            format!("{:.3}", s.dye_g_min),
+            format!("{:.4}", s.albedo),
+            format!("{:.3}", s.range_m),
+            format!("{:.3}", s.height_m),
+            plain(r.method),
+            r.dye.hit.to_string(),
+            r.dye.false_alarm.to_string(),
+            r.dye.missed.to_string(),
+            r.source.hit.to_string(),
+            r.source.false_alarm.to_string(),
+            r.source.missed.to_string(),
+            r.score.to_string(),
+            r.verified.to_string(),
+        ]
+    };
+    csv_text(
+        "scene,content,visibility_m,illuminance_klx,sun_elevation_deg,current_m_s,dye_g_min,albedo,range_m,height_m,\
+         method,dye_hit,dye_false,dye_missed,source_hit,source_false,source_missed,score,verified",
+        rows.iter().map(one),
+    )
 }
 
 #[cfg(test)]
@@ -247,7 +240,7 @@ mod tests {
     use super::super::draw::draw;
     use super::*;
 
-    fn rows() -> Vec<Row> {
+    fn rows() -> Vec<SceneRow> {
         (0..24)
             .flat_map(|n| METHODS.map(|method| (n, method)))
             .map(|(n, method)| {
@@ -258,7 +251,7 @@ mod tests {
                     false_alarm: 5,
                     missed: 5,
                 };
-                Row {
+                SceneRow {
                     dye: counts(15),
                     source: if there { counts(5) } else { Counts::default() },
                     score: if there { 2.0 } else { 0.5 },
@@ -281,7 +274,7 @@ mod tests {
     #[test]
     fn all_files_are_written() {
         let folder = tempfile::tempdir().unwrap();
-        let plan = Plan {
+        let plan = ScenePlan {
             seed: 1,
             scenes: 24,
             size_px: [320, 240],

@@ -5,7 +5,7 @@ const FACTOR: f64 = 2.0;
 
 /// A figure of ours and its expected value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Figure {
+pub struct PlumeFigure {
     /// What it is.
     pub name: String,
     /// Its unit; empty for a ratio.
@@ -18,7 +18,7 @@ pub struct Figure {
     pub source: &'static str,
 }
 
-impl Figure {
+impl PlumeFigure {
     /// Our value divided by the expected one.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
@@ -43,5 +43,5 @@ pub struct Statistics {
     /// How long the plume was observed after the spin-up, s.
     pub watched_s: f64,
     /// The figures.
-    pub figures: Vec<Figure>,
+    pub figures: Vec<PlumeFigure>,
 }

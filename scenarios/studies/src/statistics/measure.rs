@@ -8,7 +8,7 @@
 //! where the water at the source goes at the end of the spin-up. Heights are parts of the water depth at the source.
 
 use super::expected::Expected;
-use super::figure::{Figure, Statistics};
+use super::figure::{PlumeFigure, Statistics};
 use super::series::Series;
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
@@ -17,6 +17,7 @@ use rheotaxis::error::AssembleError;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
 use world::fields::{Concentration, Flow};
+use world::seeds::Seed;
 
 /// Odour counts above this part of the time mean on the centreline at the nearest distance.
 const THRESHOLD: f64 = 0.01;
@@ -86,11 +87,12 @@ pub(super) struct Watch {
 /// If the scenario cannot be built or has no plume to measure.
 pub fn statistics(
     loaded: &Loaded,
-    seed: u64,
+    seed: impl Into<Seed>,
     seconds: Option<f64>,
     mut heard: impl FnMut(f64) -> bool,
 ) -> Result<Statistics, StatisticsError> {
     let scenario = &loaded.scenario;
+    let seed = seed.into();
     let (mut water, mut plume) = built(loaded, seed)?;
     let Some(source) = plume.sources().first().map(|s| s.p_W) else {
         return Err(StatisticsError::NoSource(loaded.name.clone()));
@@ -131,13 +133,13 @@ pub fn statistics(
     let figures = watch.figures(loaded, &water, &plume, watched_s)?;
     Ok(Statistics {
         name: loaded.name.clone(),
-        seed,
+        seed: seed.number(),
         watched_s,
         figures,
     })
 }
 
-fn built(loaded: &Loaded, seed: u64) -> Result<(Water, Plume), AssembleError> {
+fn built(loaded: &Loaded, seed: Seed) -> Result<(Water, Plume), AssembleError> {
     let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
     Ok(origin.build(&loaded.base_dir)?.state())
 }
@@ -256,7 +258,7 @@ impl Watch {
         water: &Water,
         plume: &Plume,
         watched_s: f64,
-    ) -> Result<Vec<Figure>, StatisticsError> {
+    ) -> Result<Vec<PlumeFigure>, StatisticsError> {
         let threshold = THRESHOLD * self.odour[0][0].mean();
         if threshold <= 0.0 {
             return Err(StatisticsError::Clean {

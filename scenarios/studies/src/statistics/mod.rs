@@ -8,6 +8,6 @@ mod results;
 mod series;
 mod write;
 
-pub use figure::{Figure, Statistics};
+pub use figure::{PlumeFigure, Statistics};
 pub use measure::{StatisticsError, statistics};
 pub use write::{table, write};

@@ -10,7 +10,7 @@
 //! is elsewhere.
 
 use super::expected::Expected;
-use super::figure::Figure;
+use super::figure::PlumeFigure;
 use super::gamma;
 use super::measure::{PROFILE, Watch};
 use plumes::filaments::Plume;
@@ -25,8 +25,8 @@ fn figure(
     ours: f64,
     expected: Option<f64>,
     source: &'static str,
-) -> Figure {
-    Figure {
+) -> PlumeFigure {
+    PlumeFigure {
         name,
         unit,
         ours,
@@ -36,7 +36,7 @@ fn figure(
 }
 
 impl Watch {
-    pub(super) fn widths(&self, expected: Option<&Expected>, to: &mut Vec<Figure>) {
+    pub(super) fn widths(&self, expected: Option<&Expected>, to: &mut Vec<PlumeFigure>) {
         let mut variances = Vec::new();
         for (sums, x) in self.slices.iter().zip(&self.distances) {
             let mean = sums[1] / sums[0];
@@ -77,7 +77,7 @@ impl Watch {
         expected: Option<&Expected>,
         volume_m3_s: Option<f64>,
         plume: &Plume,
-        to: &mut Vec<Figure>,
+        to: &mut Vec<PlumeFigure>,
     ) {
         let source = &plume.sources()[0];
         let kg_s = source.filament_kg * source.release.rate_hz.get();
@@ -102,7 +102,7 @@ impl Watch {
         }
     }
 
-    pub(super) fn spikes(&self, threshold: f64, to: &mut Vec<Figure>) {
+    pub(super) fn spikes(&self, threshold: f64, to: &mut Vec<PlumeFigure>) {
         let felt = "share of the time above 1 % of the nearest centreline mean; falls with distance and height";
         for (records, x) in self.odour.iter().zip(&self.distances) {
             for (record, height) in records.iter().zip(&self.heights) {
@@ -178,7 +178,7 @@ impl Watch {
         }
     }
 
-    pub(super) fn water(&self, channel: &Channel, to: &mut Vec<Figure>) {
+    pub(super) fn water(&self, channel: &Channel, to: &mut Vec<PlumeFigure>) {
         to.push(figure(
             "friction velocity".to_owned(),
             "m/s",

@@ -1,7 +1,7 @@
 //! The figures as a table to read and as CSV.
 
 use super::figure::Statistics;
-use output::files::{ReportError, make_folder, write_whole};
+use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -57,32 +57,30 @@ fn number(v: f64) -> String {
 /// # Errors
 /// If the folder or the file cannot be written.
 pub fn write(folder: &Path, statistics: &Statistics) -> Result<PathBuf, ReportError> {
-    let mut csv = String::from("figure,unit,ours,expected,ratio,outside_factor_2,source\n");
-    for f in &statistics.figures {
-        let optional = |v: Option<f64>| v.map_or(String::new(), |v| v.to_string());
-        let _ = writeln!(
-            csv,
-            "\"{}\",{},{},{},{},{},\"{}\"",
-            f.name,
-            f.unit,
-            f.ours,
-            optional(f.expected),
-            optional(f.ratio()),
-            f.flagged(),
-            f.source
-        );
-    }
+    let figures = statistics.figures.iter().map(|f| {
+        [
+            f.name.clone(),
+            f.unit.to_string(),
+            f.ours.to_string(),
+            csv_number(f.expected),
+            csv_number(f.ratio()),
+            f.flagged().to_string(),
+            f.source.to_string(),
+        ]
+    });
+    let columns = "figure,unit,ours,expected,ratio,outside_factor_2,source";
+    let csv = csv_text(columns, figures);
     make_folder(folder)?;
     write_whole(&folder.join("statistics.csv"), csv.as_bytes())
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::figure::Figure;
+    use super::super::figure::PlumeFigure;
     use super::*;
 
     fn statistics() -> Statistics {
-        let figure = |name: &str, ours, expected| Figure {
+        let figure = |name: &str, ours, expected| PlumeFigure {
             name: name.into(),
             unit: "m",
             ours,
@@ -124,7 +122,7 @@ mod tests {
         assert_eq!(text.lines().count(), 4);
         assert_eq!(
             text.lines().nth(2).unwrap(),
-            "\"far off\",m,0.05,0.2,0.25,true,\"somewhere\""
+            "far off,m,0.05,0.2,0.25,true,somewhere"
         );
     }
 }

@@ -1,4 +1,4 @@
-//! Fields, elements and choices of a value, one after the other.
+//! serde's access to the fields, elements and choices of a value.
 
 use super::fail::{Fail, What};
 use super::tree::{Item, Kind};
@@ -7,7 +7,7 @@ use serde::de::{
     DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, VariantAccess, Visitor,
 };
 
-/// A name; what a type says to it is about the value that it stands in.
+/// The name of a field or choice. A failure about it is one about the value that it belongs to.
 struct Name<'n, 'a, 'b> {
     of: Value<'a, 'b>,
     name: &'n str,
@@ -84,7 +84,7 @@ impl SeqAccess<'static> for Elements<'_, '_> {
     }
 }
 
-/// A choice by its name, and what stands in its parentheses.
+/// A choice: its name and the value in its parentheses.
 pub(super) struct Choice<'a, 'b> {
     pub of: Value<'a, 'b>,
     pub name: String,
@@ -104,7 +104,7 @@ impl<'b, 'a> EnumAccess<'static> for Choice<'a, 'b> {
 }
 
 impl<'a, 'b> Choice<'a, 'b> {
-    /// What stands in its parentheses.
+    /// The value in its parentheses.
     fn content(&self) -> Result<Value<'a, 'b>, Fail> {
         match self.of.node().kind {
             Kind::Hole(_) => Ok(self.of.hole_kid(&self.name)),

@@ -1,18 +1,19 @@
-//! Fields, tuples and lists in one another's place: told, and read as what was meant.
+//! Fields, tuples and lists that are used in place of each other: reported, and read as what was meant.
 
+use super::fail::Misfit;
 use super::hint::{Form, choose};
 use super::mend::{Mender, SHORT};
-use super::tree::{Group, Item, Kind, Node};
+use super::tree::{Group, Item, Kind, Node, Wanted};
 use crate::scenario::fault::Found;
 
 impl Mender<'_> {
-    /// Values where fields belong.
+    /// Values without names where fields belong.
     pub(super) fn nameless(
         &mut self,
         id: usize,
         node: &Node,
         place: usize,
-        legal: &'static [&'static str],
+        legal: &[&'static str],
     ) -> bool {
         let Kind::Group(group) = &node.kind else {
             return false;
@@ -51,39 +52,40 @@ impl Mender<'_> {
             };
             let found = Found::error(&node.path, "the fields here have names").hint(hint);
             self.tell(at, found, Form::Whole);
+            let own: Vec<String> = legal.iter().map(|l| self.own(id, l).to_string()).collect();
             let items = &mut self.group(id).expect("it is one").items;
-            for (item, name) in items.iter_mut().zip(legal) {
-                item.key = Some((*name).to_string());
+            for (item, name) in items.iter_mut().zip(own) {
+                item.key = Some(name);
             }
             return true;
         }
+        let own = self.own(id, &written).to_string();
         let items = &mut self.group(id).expect("it is one").items;
         if let Some(name) = legal.iter().find(|l| **l == written) {
-            items[place].key = Some(written.clone());
+            items[place].key = Some(own);
             let hole = items[place].node;
             self.dig(hole);
             let found = Found::error(&node.path, format!("the field `{name}` has no value"));
-            self.tell(at, found, Form::Missing(name, hole));
+            self.tell(at, found, Form::Missing((*name).to_string(), hole));
         } else {
             items.remove(place);
-            let found = self.got(&inner, "expected `name: value`".to_string());
-            let found = found.of(&node.path);
-            self.tell(at, found.hint(choose("", legal, "fields")), Form::Whole);
+            let problem = self.got(&inner, &Misfit::Kind(Wanted::Plain("`name: value`")));
+            let found = Found::error(&node.path, problem).hint(choose("", legal, "fields"));
+            self.tell(at, found, Form::Whole);
         }
         true
     }
 
-    /// Something of another kind than what belongs there.
-    pub(super) fn another_kind(&mut self, id: usize, node: &Node, words: String) -> bool {
-        let list = words.starts_with("expected a list");
-        let tuple = words.ends_with("values in parentheses");
-        // Such a message says the whole range.
-        let ranged = words.starts_with("must be at least")
-            || words.starts_with("must be a whole number from");
-        let mut form = if ranged { Form::Whole } else { Form::Kind(id) };
-        let mut found = self.got(node, words);
-        match &node.kind {
-            Kind::Group(group) if list && group.bracket == '(' => {
+    /// A value of another kind than the one that belongs there.
+    pub(super) fn another_kind(&mut self, id: usize, node: &Node, misfit: &Misfit) -> bool {
+        let mut form = if misfit.says_range() {
+            Form::Whole
+        } else {
+            Form::Kind(id)
+        };
+        let mut found = Found::error(&node.path, self.got(node, misfit));
+        match (&node.kind, misfit) {
+            (Kind::Group(group), Misfit::Kind(Wanted::List)) if group.bracket == '(' => {
                 found = found.hint("write `[ ]` around it");
                 form = Form::Whole;
                 let tree = self.tree();
@@ -103,7 +105,9 @@ impl Mender<'_> {
                     items: vec![inner],
                 });
             }
-            Kind::Group(group) if tuple && group.bracket == '[' && group.name.is_none() => {
+            (Kind::Group(group), Misfit::Kind(Wanted::Tuple(_)))
+                if group.bracket == '[' && group.name.is_none() =>
+            {
                 found = found.hint("write `( )` in place of `[ ]`");
                 form = Form::Whole;
                 self.group(id).expect("it is one").bracket = '(';

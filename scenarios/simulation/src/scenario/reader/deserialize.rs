@@ -1,7 +1,7 @@
-//! The values of a tree as serde's data format.
+//! serde's data format on the values of a tree.
 
 use super::access::Choice;
-use super::fail::{Fail, What};
+use super::fail::{Fail, Misfit, What};
 use super::scalar;
 use super::tree::{Kind, Wanted, is_name};
 use super::value::Value;
@@ -49,7 +49,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         match value.word() {
             Some("true") => visitor.visit_bool(true),
             Some("false") => visitor.visit_bool(false),
-            _ => value.wanted("expected true or false"),
+            _ => value.wanted(Wanted::Plain("true or false")),
         }
     }
 
@@ -85,7 +85,7 @@ impl Deserializer<'static> for Value<'_, '_> {
             .and_then(|w| w.strip_prefix('\'')?.strip_suffix('\''))
         {
             Some(c) => visitor.visit_str(c),
-            None => value.wanted("expected a character in quotes"),
+            None => value.wanted(Wanted::Plain("a character in quotes")),
         }
         .map_err(|e: Fail| value.about(e))
     }
@@ -103,10 +103,8 @@ impl Deserializer<'static> for Value<'_, '_> {
         }
         match value.word().map(scalar::text) {
             Some(Some(Ok(text))) => visitor.visit_string(text).map_err(|e: Fail| value.about(e)),
-            Some(Some(Err(escape))) => {
-                value.wanted(format!("the text has the unknown escape `\\{escape}`"))
-            }
-            _ => value.wanted("expected a text in quotes"),
+            Some(Some(Err(escape))) => value.misfit(Misfit::Escape(escape)),
+            _ => value.wanted(Wanted::Plain("a text in quotes")),
         }
     }
 
@@ -144,7 +142,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         if self.asks(Wanted::Fields) || empty {
             return visitor.visit_unit();
         }
-        self.wanted("expected `()`")
+        self.wanted(Wanted::Plain("`()`"))
     }
 
     fn deserialize_unit_struct<V: Visitor<'static>>(
@@ -185,11 +183,11 @@ impl Deserializer<'static> for Value<'_, '_> {
             .group()
             .filter(|g| g.bracket == '[' && g.name.is_none())
         {
-            // Names in a list have been told of while its tree was made.
+            // The parser has reported names in a list already.
             Some(group) => {
                 value.visit_elements(group.items.iter().map(|i| i.node).collect(), visitor)
             }
-            None => value.wanted("expected a list in square brackets"),
+            None => value.wanted(Wanted::List),
         }
     }
 
@@ -217,7 +215,7 @@ impl Deserializer<'static> for Value<'_, '_> {
         }
         match value.group().filter(|g| g.bracket == '{') {
             Some(group) => value.visit_fields(&group, &[], visitor),
-            None => value.wanted("expected names and values in braces"),
+            None => value.wanted(Wanted::Plain("names and values in braces")),
         }
     }
 
@@ -257,7 +255,7 @@ impl Deserializer<'static> for Value<'_, '_> {
     fn deserialize_identifier<V: Visitor<'static>>(self, visitor: V) -> Result<V::Value, Fail> {
         match self.word() {
             Some(word) => visitor.visit_string(word.to_string()),
-            None => self.wanted("expected a name"),
+            None => self.wanted(Wanted::Plain("a name")),
         }
     }
 

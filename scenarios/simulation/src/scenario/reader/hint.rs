@@ -1,25 +1,25 @@
-//! How to put a mistake right: the nearest name, what to write, the legal range.
+//! Hints how to correct a mistake: the nearest name, what to write, or the legal range.
 
 use super::tree::{Hole, Kind, Placed, Tree, Wanted};
 use crate::scenario::fault::Found;
 use std::ops::Range;
 
-/// A mistake; its hint is known only when the whole has been read.
+/// A mistake. Its hint is known only after the whole text has been read.
 pub(super) struct Told {
     pub at: Range<usize>,
     pub found: Found,
     pub form: Form,
 }
 
-/// What its hint is made from.
+/// What the hint is made from.
 pub(super) enum Form {
-    /// It has it, or needs none.
+    /// The hint is complete, or none is needed.
     Whole,
-    /// A field and the stand-in in its place.
-    Missing(&'static str, usize),
-    /// The stand-in in place of something of another kind.
+    /// A missing field and the stand-in in its place.
+    Missing(String, usize),
+    /// The stand-in in place of a value of another kind.
     Kind(usize),
-    /// A choice and the parentheses it got.
+    /// A choice without parentheses, and the group that stands in for them.
     Parentheses(String, usize),
 }
 
@@ -61,7 +61,7 @@ impl Told {
     }
 }
 
-/// What a number without a narrower range says.
+/// The words of a number without a narrower range.
 const FINITE: &str = "must be a finite number";
 
 fn hole(tree: &Tree, id: usize) -> Option<&Hole> {
@@ -71,7 +71,7 @@ fn hole(tree: &Tree, id: usize) -> Option<&Hole> {
     }
 }
 
-/// What to write in a place: its parentheses and the fields it cannot do without.
+/// What to write in a place: parentheses and the required fields.
 fn shape(tree: &Tree, id: usize) -> String {
     let field = |name: &str, id: usize| format!("{name}: {}", shape(tree, id));
     match &tree.nodes[id].kind {
@@ -101,7 +101,7 @@ fn shape(tree: &Tree, id: usize) -> String {
     }
 }
 
-/// What is legal in a place, in words.
+/// The legal values of a place in words.
 fn legal(hole: &Hole) -> Option<String> {
     let range = hole.range.as_ref().filter(|r| *r != FINITE);
     let kind = match hole.wanted.as_ref()? {
@@ -117,7 +117,7 @@ fn legal(hole: &Hole) -> Option<String> {
     Some(range.map_or(kind.clone(), |range| format!("{kind}, {range}")))
 }
 
-/// "did you mean" with what there is to choose from.
+/// "did you mean" with all legal names.
 pub(super) fn choose(given: &str, legal: &[&str], what: &str) -> String {
     let all = legal.join(", ");
     let near = (legal.iter())
@@ -131,7 +131,7 @@ pub(super) fn choose(given: &str, legal: &[&str], what: &str) -> String {
     }
 }
 
-/// The one that is surely meant: two edits away at most, and no other so near.
+/// The name that is surely meant: at most two edits away, and no other name is as near.
 pub(super) fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
     let mut near: Vec<(usize, &str)> = legal.iter().map(|l| (distance(given, l), *l)).collect();
     near.sort_unstable();
@@ -143,7 +143,7 @@ pub(super) fn nearest<'l>(given: &str, legal: &[&'l str]) -> Option<&'l str> {
     }
 }
 
-/// Edits (insert, delete, replace) between two words, case ignored.
+/// Number of edits (insert, delete, replace) between two words, ignoring case.
 pub(crate) fn distance(a: &str, b: &str) -> usize {
     let (a, b) = (a.to_ascii_lowercase(), b.to_ascii_lowercase());
     let mut row: Vec<usize> = (0..=b.chars().count()).collect();

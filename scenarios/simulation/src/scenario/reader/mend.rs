@@ -1,8 +1,8 @@
-//! Reads a value to its end: what cannot be read is told and replaced, until nothing is left to tell.
+//! Reads a value completely: reports what cannot be read and replaces it, until there is nothing more to report.
 
-use super::fail::{Fail, What};
+use super::fail::{Fail, Misfit, What};
 use super::hint::{Form, Told, choose, nearest};
-use super::scalar;
+use super::names::Renamed;
 use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
 use super::value::{Reading, Value};
 use crate::scenario::fault::Found;
@@ -11,23 +11,25 @@ use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::ops::Range;
 
-/// Most rounds of one reading; each tells a mistake or gives a stand-in another value.
+/// Most rounds of one reading. Each reports a mistake or gives a stand-in another value.
 const ROUNDS: usize = 4000;
-/// Most mistakes told of one text.
+/// Most mistakes reported for one text.
 const MOST: usize = 200;
-/// Most values that a stand-in tries.
+/// Most values tried for a stand-in.
 const TRIES: usize = 12;
-/// Longest value repeated in a message, bytes.
+/// Longest value that a message repeats, bytes.
 pub(super) const SHORT: usize = 40;
 
-/// A text in reading.
+/// A text while it is read.
 pub(super) struct Mender<'a> {
     pub(super) reading: Reading<'a>,
     told: Vec<Told>,
+    /// The field that has another name in some texts.
+    pub(super) renamed: Option<Renamed>,
 }
 
 impl<'a> Mender<'a> {
-    pub(super) fn new(text: &'a str, tree: Tree) -> Self {
+    pub(super) fn new(text: &'a str, tree: Tree, renamed: Option<Renamed>) -> Self {
         let tree = RefCell::new(tree);
         let reading = Reading {
             text,
@@ -38,10 +40,11 @@ impl<'a> Mender<'a> {
         Self {
             reading,
             told: Vec::new(),
+            renamed,
         }
     }
 
-    /// Reads the whole, with one of the sets of stand-ins. `None` where none of them fits.
+    /// Reads the whole text with one set of stand-ins. `None` if none of their values fits.
     pub(super) fn read<T: DeserializeOwned>(&mut self, filling: usize) -> Option<T> {
         self.reading.filling = filling;
         for node in &mut self.tree().nodes {
@@ -74,7 +77,7 @@ impl<'a> Mender<'a> {
         None
     }
 
-    /// All mistakes so far.
+    /// All mistakes found so far.
     pub(super) fn told(&mut self) -> Vec<Placed> {
         let tree = self.reading.tree.get_mut();
         let mut found = std::mem::take(&mut tree.faults);
@@ -82,7 +85,7 @@ impl<'a> Mender<'a> {
         found
     }
 
-    /// Whether a path leads to, or into, what could not be read.
+    /// Whether a path leads to, or into, a value that could not be read.
     pub(super) fn in_hole(&self, path: &str) -> bool {
         self.reading.tree.borrow().nodes.iter().any(|n| {
             let within = path.strip_prefix(n.path.as_str());
@@ -91,7 +94,7 @@ impl<'a> Mender<'a> {
         })
     }
 
-    /// Where a path stands in the text.
+    /// The place of a path in the text.
     pub(super) fn place(&self, path: &str) -> Range<usize> {
         let outline = Outline::of(self.reading.text);
         outline.find(path).map_or(0..0, |n| n.whole.clone())
@@ -112,7 +115,7 @@ impl<'a> Mender<'a> {
         }
     }
 
-    /// Whether no stand-in is left that is no number: what a type says to such a one has been heard.
+    /// Whether every stand-in for a number has been tried with NaN, so that its type has named the legal range.
     fn settled(&mut self) -> bool {
         let mut settled = true;
         for node in &mut self.tree().nodes {
@@ -137,7 +140,7 @@ impl<'a> Mender<'a> {
         node.kind = Kind::Hole(Hole::default());
     }
 
-    /// Tells a failure and puts something readable in its place; `false` where that cannot be done.
+    /// Reports a failure and puts something readable in its place. `false` if that cannot be done.
     fn mend(&mut self, fail: Fail) -> bool {
         let root = self.tree().root;
         let id = fail.at.unwrap_or(root);
@@ -146,14 +149,12 @@ impl<'a> Mender<'a> {
             (Kind::Hole(_), what) => self.refill(id, what),
             (Kind::Group(_), What::Missing(field)) => self.missing(id, &node, field),
             (Kind::Group(group), What::Field(name, legal)) => {
-                let known: Vec<&str> = group
-                    .items
-                    .iter()
+                let legal = self.legal(id, legal);
+                let known: Vec<&str> = (group.items.iter())
                     .filter_map(|i| i.key.as_deref())
+                    .map(|key| self.shown(id, key))
                     .collect();
-                let free: Vec<&str> = legal
-                    .iter()
-                    .copied()
+                let free: Vec<&str> = (legal.iter().copied())
                     .filter(|l| !known.contains(l))
                     .collect();
                 let Some(i) = group
@@ -164,9 +165,9 @@ impl<'a> Mender<'a> {
                     return false;
                 };
                 let found = Found::error(&node.path, format!("there is no field `{name}`"))
-                    .hint(choose(&name, legal, "fields"));
+                    .hint(choose(&name, &legal, "fields"));
                 let at = group.items[i].key_at.clone();
-                let meant = nearest(&name, &free).map(str::to_string);
+                let meant = nearest(&name, &free).map(|meant| self.own(id, meant).to_string());
                 let group = self.group(id).expect("it is one");
                 match meant {
                     Some(meant) => group.items[i].key = Some(meant),
@@ -183,7 +184,8 @@ impl<'a> Mender<'a> {
                 else {
                     return false;
                 };
-                let found = Found::error(&node.path, format!("the field `{field}` is given twice"));
+                let shown = self.shown(id, field);
+                let found = Found::error(&node.path, format!("the field `{shown}` is given twice"));
                 self.group(id).expect("it is one").items.remove(i);
                 self.tell(group.items[i].key_at.clone(), found, Form::Whole);
                 true
@@ -200,8 +202,8 @@ impl<'a> Mender<'a> {
                 true
             }
             (_, What::Unnamed(legal)) => {
-                let found = self.got(&node, "expected the name of a choice".to_string());
-                let found = found.hint(choose("", legal, "choices"));
+                let problem = self.got(&node, &Misfit::Kind(Wanted::Choice(legal)));
+                let found = Found::error(&node.path, problem).hint(choose("", legal, "choices"));
                 self.tell(node.value.clone(), found, Form::Whole);
                 self.dig(id);
                 true
@@ -240,7 +242,7 @@ impl<'a> Mender<'a> {
                 true
             }
             (Kind::Group(_), What::Nameless { place, legal }) => {
-                self.nameless(id, &node, place, legal)
+                self.nameless(id, &node, place, &self.legal(id, legal))
             }
             (_, What::Named(name)) => {
                 let groups = |n: &&mut Node| matches!(&n.kind, Kind::Group(g) if g.items.iter().any(|i| i.node == id));
@@ -257,11 +259,10 @@ impl<'a> Mender<'a> {
                 self.tell(node.whole.clone(), found, Form::Whole);
                 true
             }
-            (_, What::Wanted(words)) => self.another_kind(id, &node, words),
-            (_, What::Refused(message)) => {
-                let odd = ["NaN", "inf"].iter().any(|w| message.contains(w));
-                let found = Found::error(&node.path, message);
-                let found = if odd {
+            (_, What::Misfit(misfit)) => self.another_kind(id, &node, &misfit),
+            (_, What::Refused(refusal)) => {
+                let found = Found::error(&node.path, refusal.to_string());
+                let found = if refusal.is_not_finite() {
                     found.hint("give a finite number")
                 } else {
                     found
@@ -274,7 +275,7 @@ impl<'a> Mender<'a> {
         }
     }
 
-    /// A stand-in was refused, or learns what must be in it.
+    /// Lets a stand-in learn from a failure: a field that must be in it, or a legal range.
     fn refill(&mut self, id: usize, what: What) -> bool {
         let Kind::Hole(hole) = &mut self.node(id).kind else {
             return false;
@@ -284,25 +285,15 @@ impl<'a> Mender<'a> {
                 hole.fields.push(field);
                 return true;
             }
-            What::Refused(message) | What::Wanted(message) => {
-                let legal = message
-                    .rsplit_once(", got ")
-                    .map_or(message.as_str(), |(legal, _)| legal);
-                match scalar::bounds(legal) {
-                    Some(bounds) => {
-                        hole.bounds = Some(bounds);
-                        hole.range = Some(legal.to_string());
-                    }
-                    None => drop(hole.range.get_or_insert(legal.to_string())),
-                }
-            }
+            What::Refused(refusal) => hole.learn(refusal.bounds(), refusal.legal),
+            What::Misfit(misfit) => hole.learn(misfit.bounds(), misfit.to_string()),
             _ => {}
         }
         hole.refused += 1;
         hole.refused < TRIES
     }
 
-    /// A field is missing: it is told, and a stand-in takes its place.
+    /// Reports a missing field and puts a stand-in in its place.
     fn missing(&mut self, id: usize, node: &Node, field: &'static str) -> bool {
         let Kind::Group(group) = &node.kind else {
             return false;
@@ -310,7 +301,7 @@ impl<'a> Mender<'a> {
         // `0`: the value of a choice.
         let key = (field != "0").then(|| field.to_string());
         if let Some(item) = group.items.iter().find(|i| key.is_some() && i.key == key) {
-            // Left out for its default, and it has none.
+            // It was left out for its default, but it has none.
             let Kind::Hole(hole) = &mut self.node(item.node).kind else {
                 return false;
             };
@@ -327,11 +318,14 @@ impl<'a> Mender<'a> {
         });
         if !node.silent {
             let (problem, at, form) = match key {
-                Some(_) => (
-                    format!("the field `{field}` is missing"),
-                    node.whole.clone(),
-                    Form::Missing(field, hole),
-                ),
+                Some(_) => {
+                    let shown = self.shown(id, field).to_string();
+                    (
+                        format!("the field `{shown}` is missing"),
+                        node.whole.clone(),
+                        Form::Missing(shown, hole),
+                    )
+                }
                 None => (
                     "expected a value in the parentheses".to_string(),
                     node.value.clone(),
@@ -343,17 +337,14 @@ impl<'a> Mender<'a> {
         true
     }
 
-    /// With what was given, where that is short.
-    pub(super) fn got(&self, node: &Node, wanted: String) -> Found {
+    /// What is wrong with a value, and the value itself if it is short.
+    pub(super) fn got(&self, node: &Node, misfit: &Misfit) -> String {
         let given = &self.reading.text[node.value.clone()];
         let short = (1..=SHORT).contains(&given.len()) && !given.contains('\n');
-        Found::error(
-            &node.path,
-            if short {
-                format!("{wanted}, got {given}")
-            } else {
-                wanted
-            },
-        )
+        if short {
+            format!("{misfit}, got {given}")
+        } else {
+            misfit.to_string()
+        }
     }
 }

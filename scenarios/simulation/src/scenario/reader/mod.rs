@@ -1,10 +1,10 @@
-//! All mistakes of a RON text in one round.
+//! Reads a RON text, or reports all its mistakes at once.
 //!
-//! A text that ron reads is read by ron. One that it refuses is made a tree of values with their places (`tree`),
-//! from which the same types are read again (`value`). Whatever a type refuses is told and replaced by a stand-in
-//! (`mend`), until the whole can be read: so every type that serde reads is checked to its end, without a list of
-//! its fields. What the values mean is then checked under several sets of stand-ins; a mistake that not all of
-//! them bring comes from a stand-in, not from the file.
+//! If ron can read the text, its result is used. If not, the text is parsed into a tree of values with their places
+//! (`tree`), and the same types are read from the tree (`value`). A value that a type refuses is reported and replaced
+//! by a stand-in (`mend`), until the whole text can be read. So every type that serde reads is checked completely,
+//! without a list of its fields. Then the meaning is checked with several sets of stand-ins. A mistake that does not
+//! appear with all of them comes from a stand-in, not from the file.
 
 mod access;
 mod confuse;
@@ -12,6 +12,7 @@ mod deserialize;
 mod fail;
 mod hint;
 mod mend;
+mod names;
 mod parse;
 mod scalar;
 mod token;
@@ -23,31 +24,44 @@ use super::fault::{Fault, Found, ScenarioError};
 use super::unread::unread;
 pub(crate) use hint::distance;
 use mend::Mender;
+pub(super) use names::Renamed;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
 use tree::{Placed, Tree};
 
-/// Sets of stand-ins: two of values, one of defaults.
+/// Number of sets of stand-ins: two of values, one of defaults.
 const FILLINGS: usize = 3;
 
-/// Reads a text; errors call it `name`. `meaning` is asked only where the text has mistakes, and adds those that do
-/// not hang on them.
+/// Reads a text; errors call it `name`. `meaning` is called only if the text has mistakes. It adds mistakes of meaning
+/// that do not depend on them.
 ///
 /// # Errors
-/// All mistakes, in the text's order.
+/// All mistakes, in the order of the text.
 pub fn read<T: DeserializeOwned>(
     name: &str,
     text: &str,
     meaning: &dyn Fn(&T) -> Vec<Found>,
 ) -> Result<T, ScenarioError> {
+    read_renamed(name, text, None, meaning)
+}
+
+/// The same for a type of which one field has another name in some texts.
+pub(super) fn read_renamed<T: DeserializeOwned>(
+    name: &str,
+    text: &str,
+    renamed: Option<Renamed>,
+    meaning: &dyn Fn(&T) -> Vec<Found>,
+) -> Result<T, ScenarioError> {
     let reader = ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
     let error = match reader.from_str(text) {
+        // The type reads both names, so ron does not notice the wrong one.
+        Ok(_) if renamed.as_ref().is_some_and(|r| r.misused(text)) => None,
         Ok(value) => return Ok(value),
-        Err(error) => error,
+        Err(error) => Some(error),
     };
-    let mut found = mistakes(text, meaning);
-    if found.is_empty() {
+    let mut found = mistakes(text, renamed, meaning);
+    if let (true, Some(error)) = (found.is_empty(), error) {
         found.push(unread(text, &error));
     }
     let faults = found.into_iter();
@@ -55,14 +69,19 @@ pub fn read<T: DeserializeOwned>(
     Err(ScenarioError::of(name, faults.collect()))
 }
 
-fn mistakes<T: DeserializeOwned>(text: &str, meaning: &dyn Fn(&T) -> Vec<Found>) -> Vec<Placed> {
+fn mistakes<T: DeserializeOwned>(
+    text: &str,
+    renamed: Option<Renamed>,
+    meaning: &dyn Fn(&T) -> Vec<Found>,
+) -> Vec<Placed> {
     let Some(tree) = Tree::of(text) else {
         let problem = "brackets are nested more than 128 deep";
         return vec![(0..0, Found::error("", problem))];
     };
-    let mut mender = Mender::new(text, tree);
+    let mut mender = Mender::new(text, tree, renamed);
+    mender.rename();
     let first = mender.read(0);
-    // What later readings would tell of comes from their stand-ins.
+    // Mistakes that only later readings find come from their stand-ins.
     let mut found = mender.told();
     let others = (1..FILLINGS).filter_map(|filling| mender.read(filling));
     let values: Vec<T> = first.into_iter().chain(others).collect();

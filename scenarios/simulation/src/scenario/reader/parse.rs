@@ -1,4 +1,4 @@
-//! Makes the tree of a text, reading on after mistakes of syntax.
+//! Parses a text into a tree and continues after mistakes of syntax.
 
 use super::token::{Token, Tokens};
 use super::tree::{Group, Hole, Item, Kind, Node, Tree, is_name};
@@ -8,14 +8,14 @@ use crate::scenario::outline::joined;
 use std::ops::Range;
 
 impl Tree {
-    /// Reads a text. `None` where brackets are nested too deep.
+    /// Parses a text. `None` if brackets are nested too deep.
     pub(super) fn of(text: &str) -> Option<Self> {
         let tokens = Tokens::of(text);
         let plain = Parser::new(text, &tokens, false).whole()?;
         if plain.brackets == 0 && !plain.cut {
             return Some(plain);
         }
-        // Where the brackets do not match, the indentation tells which one is missing.
+        // If the brackets do not match, the indentation shows which one is missing.
         let indented = Parser::new(text, &tokens, true).whole()?;
         let better = !indented.cut && indented.brackets <= plain.brackets.max(1);
         Some(if better { indented } else { plain })
@@ -68,7 +68,7 @@ impl<'a> Parser<'a> {
         if self.tree.cut
             && let Some(last) = self.tokens.all.last()
         {
-            // The piece of a token at the end of a text that was cut off says nothing.
+            // The last token of a text that was cut off may be incomplete.
             for node in &mut self.tree.nodes {
                 if node.value.end == last.at.end && matches!(node.kind, Kind::Word) {
                     node.kind = Kind::Hole(Hole::default());
@@ -130,7 +130,7 @@ impl<'a> Parser<'a> {
         id
     }
 
-    /// A value at the place that is read; there is one.
+    /// Parses the value at the current place; there is one.
     fn value(&mut self, path: &str, key: Range<usize>, depth: usize) -> Option<usize> {
         if depth > DEEPEST {
             return None;
@@ -174,7 +174,7 @@ impl<'a> Parser<'a> {
         Some(id)
     }
 
-    /// What is between brackets, and whether their end is missing.
+    /// Parses what is between brackets. Also returns whether the closing bracket is missing.
     fn items(
         &mut self,
         path: &str,
@@ -238,7 +238,7 @@ impl<'a> Parser<'a> {
                     if depth == 0 && self.peek().is_some() && self.goes_on() {
                         self.tree.brackets += 1;
                         let problem = format!("this `{}` is one too many", token.first);
-                        let hint = "the scenario goes on after it: remove it";
+                        let hint = "the scenario continues after it: remove it";
                         self.fault(token.at.clone(), path, &problem, hint);
                         continue;
                     }
@@ -276,12 +276,12 @@ impl<'a> Parser<'a> {
             }
             let item = self.item(key, &item_path, bracket, depth)?;
             items.push(item);
-            // Brackets that end without their own may have taken the comma after them.
+            // A value whose closing bracket is missing may include the comma after it.
             comma = self.tokens.all[self.at - 1].first == ',';
         }
     }
 
-    /// Tokens from the name to the value, if the item has a name: 2 with a colon, 1 where it is missing.
+    /// Number of tokens before the value, if the item has a name: 2 with a colon, 1 if the colon is missing.
     fn key(&self, bracket: char) -> Option<usize> {
         let word = self.word().filter(|w| is_name(w))?;
         if matches!(self.first(1), ':' | '=') {
@@ -342,7 +342,7 @@ impl<'a> Parser<'a> {
         })
     }
 
-    /// The text ends within these brackets: told of the innermost.
+    /// Reports that the text ends within these brackets; only the innermost ones are reported.
     fn cut(&mut self, path: &str, bracket: char, opener: usize) {
         let lines = self.text.lines().count();
         let problem = format!("the file ends at line {lines} before this `{bracket}` is closed");
@@ -352,7 +352,7 @@ impl<'a> Parser<'a> {
         self.tree.faults.push((at, found));
     }
 
-    /// A line that begins no deeper than the line on which the bracket was opened, but does not close it.
+    /// Whether this line is indented no deeper than the line that opened the bracket, but does not close it.
     fn outdented(&self, opener: usize) -> bool {
         let (Some(token), open) = (self.peek(), &self.tokens.all[opener]) else {
             return false;
@@ -368,7 +368,7 @@ impl<'a> Parser<'a> {
         here > there && blank(here, token.at.start) && indent(here) <= indent(there) && !closes
     }
 
-    /// After the bracket that closes the whole: more fields, and another such bracket at the end.
+    /// Whether more fields, and another closing bracket at the end, follow the bracket that closes the whole.
     fn goes_on(&self) -> bool {
         self.first(0) == ',' && self.tokens.all.last().is_some_and(|t| t.first == ')')
     }

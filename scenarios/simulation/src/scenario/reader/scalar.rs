@@ -1,13 +1,13 @@
-//! Numbers and texts of RON; and those that stand in for what could not be read.
+//! Numbers and texts of RON, and the numbers that stand in for values that could not be read.
 
-/// Numbers tried where one could not be read, in two sets: a mistake of meaning that only one set brings comes
-/// from the number, not from the file. The first is none, to hear what the type says to it.
+/// Numbers that are tried in place of one that could not be read, in two sets. A mistake of meaning that appears with
+/// only one set comes from the number, not from the file. The first is NaN, so that the type names its legal range.
 const STAND_INS: [[f64; 7]; 2] = [
     [f64::NAN, 1.0, 0.5, 0.0, 10.0, 100.0, -1.0],
     [f64::NAN, 30.0, 0.9, 2.0, 0.1, 300.0, -30.0],
 ];
 
-/// The stand-in of a set, after so many were refused; within bounds, where they are known.
+/// The stand-in of a set after `refused` others. It lies within the bounds, if they are known.
 pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)>) -> f64 {
     let set = STAND_INS[filling % STAND_INS.len()];
     let tried = set[refused % set.len()];
@@ -18,7 +18,7 @@ pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)
             } else {
                 0.5 * (low + high)
             };
-            // The second set's lies higher.
+            // The second set takes a higher value.
             if filling.is_multiple_of(STAND_INS.len()) {
                 middle
             } else {
@@ -29,7 +29,7 @@ pub(super) fn stand_in(filling: usize, refused: usize, bounds: Option<(f64, f64)
     }
 }
 
-/// The bounds in what a type says of a number that it refuses: `must be from 900 to 1400 kg/m3`.
+/// The bounds in a type's words about a number that it refuses: `must be from 900 to 1400 kg/m3`.
 pub(super) fn bounds(said: &str) -> Option<(f64, f64)> {
     let (_, range) = said.split_once("from ")?;
     let mut words = range.split(' ');
@@ -38,7 +38,7 @@ pub(super) fn bounds(said: &str) -> Option<(f64, f64)> {
     (low < high).then_some((low, high))
 }
 
-/// The same for whole numbers; the first is 0, to hear what the type says to it.
+/// The same for whole numbers. The first is 0, so that the type names its legal range.
 pub(super) fn stand_in_whole(filling: usize, refused: usize) -> i128 {
     let set = [[0, 1, 10, 100], [0, 3, 30, 300]][filling % 2];
     set[refused % set.len()]
@@ -114,7 +114,7 @@ pub(super) fn text(word: &str) -> Option<Result<String, char>> {
             'r' => text.push('\r'),
             '0' => text.push('\0'),
             same @ ('\\' | '"' | '\'') => text.push(same),
-            // By number: which one matters to nobody, for a text with a mistake elsewhere is only checked.
+            // A character by its number. Which one does not matter: a text with a mistake elsewhere is only checked.
             'u' | 'x' => text.push('?'),
             other => return Some(Err(other)),
         }

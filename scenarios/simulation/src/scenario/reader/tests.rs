@@ -1,4 +1,4 @@
-//! What is told of broken texts, on a small schema with every kind of value.
+//! Reports about broken texts, with a small schema that has every kind of value.
 
 use super::*;
 use serde::Deserialize;
@@ -105,7 +105,7 @@ fn too_shallow(pond: &Pond) -> Vec<Found> {
     found
 }
 
-/// What is said of a text, on one line each, with hints.
+/// The mistakes of a text with their hints, one line each.
 fn said(text: &str) -> Vec<String> {
     match read::<Pond>("p", text, &too_shallow) {
         Ok(_) => Vec::new(),
@@ -290,7 +290,7 @@ fn brackets_that_do_not_match_are_told_where_they_are() {
     assert_eq!(
         wrong("width_m: 5)", "width_m: 5))"),
         [
-            "p:3:37: this `)` is one too many | the scenario goes on after it: remove it",
+            "p:3:37: this `)` is one too many | the scenario continues after it: remove it",
             size
         ]
     );

@@ -1,4 +1,4 @@
-//! The tokens of a RON text: brackets, separators, words and texts in quotes; blanks and comments are read over.
+//! The tokens of a RON text: brackets, separators, words and texts in quotes. Blanks and comments are skipped.
 
 use crate::scenario::outline::{is_blank, token_len};
 use std::ops::Range;
@@ -8,23 +8,24 @@ use std::ops::Range;
 pub(super) struct Token {
     /// Its place, in bytes.
     pub at: Range<usize>,
-    /// Its first character: what it is.
+    /// Its first character, which tells what it is.
     pub first: char,
 }
 
 /// The tokens of a text, and where a text in quotes is not closed.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tokens {
-    /// In the text's order.
+    /// The tokens in the order of the text.
     pub all: Vec<Token>,
-    /// Texts in quotes that their line does not close, but the file goes on.
+    /// Texts in quotes that are not closed on their line, although the file continues.
     pub unclosed: Vec<Range<usize>>,
     /// The file ends within a text in quotes.
     pub cut: bool,
 }
 
 impl Tokens {
-    /// Of a text. One quote too few turns all later texts inside out; then a text is taken to end with its line.
+    /// Scans a text. A missing quote would exchange inside and outside of all later texts; then each text in quotes is
+    /// taken to end with its line.
     pub(super) fn of(text: &str) -> Self {
         let whole = scan(text, false);
         if !whole.cut {
@@ -71,8 +72,8 @@ fn scan(text: &str, by_line: bool) -> Tokens {
     tokens
 }
 
-/// Where a text that its line does not close ends, most likely: before the next field, or before the brackets and the
-/// comma at the end of the line.
+/// The likely end of a text that is not closed on its line: before the next field, or before the brackets and the comma
+/// at the end of the line.
 fn meant(line: &str) -> usize {
     let next_field = line.match_indices(',').find(|(i, _)| {
         let rest = line[i + 1..].trim_start();
@@ -83,7 +84,7 @@ fn meant(line: &str) -> usize {
     next_field.map_or(end, |(i, _)| i).max(1)
 }
 
-/// Whether the last quote is not an escaped one.
+/// Whether its last quote is not escaped.
 fn ends_its_text(token: &str) -> bool {
     let body = &token[1..token.len() - 1];
     (body.len() - body.trim_end_matches('\\').len()).is_multiple_of(2)

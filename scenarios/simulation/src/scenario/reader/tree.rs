@@ -1,4 +1,4 @@
-//! A RON text as a tree of values with their places.
+//! A tree of the values of a RON text with their places.
 
 use crate::scenario::fault::Found;
 use crate::scenario::outline::joined;
@@ -13,35 +13,35 @@ pub(super) type Placed = (Range<usize>, Found);
 pub(super) struct Node {
     /// Its path, such as `robots[1].start`.
     pub path: String,
-    /// With its name, in bytes.
+    /// Its place with its name, in bytes.
     pub whole: Range<usize>,
-    /// Without it.
+    /// Its place without its name.
     pub value: Range<usize>,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// What is lacking in it follows from a mistake that is told already.
+    /// Fields missing in it follow from a mistake that is reported already.
     pub silent: bool,
 }
 
-/// What a value is.
+/// The kind of a value.
 #[derive(Clone, Debug)]
 pub(super) enum Kind {
-    /// A word, a number, a text in quotes.
+    /// A word, a number or a text in quotes.
     Word,
-    /// Brackets and what is in them.
+    /// Brackets with items.
     Group(Group),
-    /// A value that could not be read or is missing; stands for any.
+    /// A stand-in for a value that could not be read or is missing.
     Hole(Hole),
 }
 
-/// Brackets and what is in them.
+/// Brackets with items.
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     /// The word before them.
     pub name: Option<String>,
     /// `(`, `[` or `{`.
     pub bracket: char,
-    /// What is between them.
+    /// The items between them.
     pub items: Vec<Item>,
 }
 
@@ -56,35 +56,47 @@ pub(super) struct Item {
     pub node: usize,
 }
 
-/// A value that could not be read: what it is asked for, and what it answered so far.
+/// A stand-in: what the types want in its place, and which values were tried.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hole {
-    /// Answers that were refused.
+    /// Values that were refused.
     pub refused: usize,
-    /// Left out, for a default to take its place.
+    /// It is left out, so that the default takes its place.
     pub absent: bool,
-    /// Values in it.
+    /// Stand-ins inside it.
     pub kids: BTreeMap<String, usize>,
     /// Fields that must be in it.
     pub fields: Vec<&'static str>,
-    /// What would be right, as far as the reader said.
+    /// The kind of value that belongs there, if it is known.
     pub wanted: Option<Wanted>,
-    /// The legal range, as the type says it.
+    /// The legal range in the type's words.
     pub range: Option<String>,
-    /// The same in numbers, once the type has said them.
+    /// The legal range in numbers, if the type has named it.
     pub bounds: Option<(f64, f64)>,
+}
+
+impl Hole {
+    /// Keeps what a type says is legal. Bounds replace words.
+    pub(super) fn learn(&mut self, bounds: Option<(f64, f64)>, legal: String) {
+        if bounds.is_some() {
+            self.bounds = bounds;
+            self.range = Some(legal);
+        } else {
+            self.range.get_or_insert(legal);
+        }
+    }
 }
 
 /// What kind of value belongs in a place.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Wanted {
-    /// A number, a text, true or false: in words.
+    /// A value named in words: a number, a text, true or false.
     Plain(&'static str),
     /// A whole number between bounds.
     Whole(i128, i128),
     /// Fields in parentheses.
     Fields,
-    /// So many values in parentheses.
+    /// A number of values in parentheses.
     Tuple(usize),
     /// A list.
     List,
@@ -92,23 +104,23 @@ pub(super) enum Wanted {
     Choice(&'static [&'static str]),
 }
 
-/// A text as a tree.
+/// The tree of a text.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tree {
     /// All values.
     pub nodes: Vec<Node>,
-    /// The outermost.
+    /// The outermost value.
     pub root: usize,
     /// Mistakes of syntax.
     pub faults: Vec<Placed>,
     /// The text ends before its brackets are closed.
     pub cut: bool,
-    /// Brackets that do not match.
+    /// Number of brackets that do not match.
     pub brackets: usize,
 }
 
 impl Tree {
-    /// A new stand-in.
+    /// Adds a stand-in.
     pub(super) fn hole(&mut self, path: &str, at: usize) -> usize {
         self.nodes.push(Node {
             path: path.to_string(),
@@ -120,7 +132,7 @@ impl Tree {
         self.nodes.len() - 1
     }
 
-    /// A stand-in within a stand-in.
+    /// Adds a stand-in inside a stand-in, or returns the one that is there.
     pub(super) fn hole_kid(&mut self, id: usize, name: &str) -> usize {
         let Node {
             path,
@@ -134,7 +146,7 @@ impl Tree {
         if let Some(kid) = hole.kids.get(name) {
             return *kid;
         }
-        // A choice (`Depth(5)`) is a value, not a field.
+        // The name of a choice (`Depth(5)`) is no part of a path.
         let path = if name.starts_with(|c: char| c.is_ascii_uppercase()) {
             path.clone()
         } else {

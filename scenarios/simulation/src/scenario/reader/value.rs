@@ -1,22 +1,22 @@
-//! The tree of a text as what serde reads from; each error knows the value that it is about.
+//! A value of the tree, from which serde reads. Each failure knows the value that it is about.
 
 use super::access::{Elements, Fields};
-use super::fail::{Fail, What};
+use super::fail::{Fail, Misfit, What};
 use super::scalar;
 use super::tree::{Group, Item, Kind, Node, Tree, Wanted};
 use serde::de::Visitor;
 use std::cell::RefCell;
 
-/// A text that is read, and which of the stand-ins take the place of what could not be read.
+/// A text that is read, and the set of stand-ins in use.
 pub(super) struct Reading<'a> {
     /// The text.
     pub text: &'a str,
-    /// Its values; stand-ins learn what is asked of them.
+    /// Its values. Stand-ins learn what the types want of them.
     pub tree: RefCell<Tree>,
-    /// Which set of stand-ins.
+    /// Number of the set of stand-ins.
     pub filling: usize,
-    /// The first failure whose place is known. It ends the reading; what comes of it on the way out, through types that
-    /// are chosen by name, may have lost its place.
+    /// The first failure whose value is known. It ends the reading. serde may lose the value on the way out, through
+    /// types that are chosen by name.
     pub first: RefCell<Option<Fail>>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Value<'a, 'b> {
     pub reading: &'b Reading<'a>,
     /// Its index.
     pub id: usize,
-    /// It is what stands in the parentheses of a choice, whose name has been read.
+    /// It is the value in the parentheses of a choice whose name has been read.
     pub unwrapped: bool,
 }
 
@@ -62,8 +62,13 @@ impl<'a, 'b> Value<'a, 'b> {
         self.reading.about(self.id, fail)
     }
 
-    pub(super) fn wanted<T>(&self, words: impl Into<String>) -> Result<T, Fail> {
-        self.fail(What::Wanted(words.into()))
+    pub(super) fn misfit<T>(&self, misfit: Misfit) -> Result<T, Fail> {
+        self.fail(What::Misfit(misfit))
+    }
+
+    /// Something of this kind belongs here.
+    pub(super) fn wanted<T>(&self, kind: Wanted) -> Result<T, Fail> {
+        self.misfit(Misfit::Kind(kind))
     }
 
     pub(super) fn word(&self) -> Option<&'a str> {
@@ -79,7 +84,7 @@ impl<'a, 'b> Value<'a, 'b> {
         }
     }
 
-    /// Whether a stand-in is read, which is told what belongs here.
+    /// Whether this is a stand-in. If it is, it learns what belongs here.
     pub(super) fn asks(&self, wanted: Wanted) -> bool {
         match &mut self.reading.tree.borrow_mut().nodes[self.id].kind {
             Kind::Hole(hole) => {
@@ -91,7 +96,7 @@ impl<'a, 'b> Value<'a, 'b> {
         }
     }
 
-    /// Answers of a stand-in that were refused so far.
+    /// Number of values of a stand-in that were refused so far.
     pub(super) fn refused(&self) -> usize {
         match &self.reading.tree.borrow().nodes[self.id].kind {
             Kind::Hole(hole) => hole.refused,
@@ -104,7 +109,7 @@ impl<'a, 'b> Value<'a, 'b> {
         self.kid(self.reading.tree.borrow_mut().hole_kid(self.id, name))
     }
 
-    /// The one value in the parentheses of a choice, if there is one; of any other value itself.
+    /// The one value in the parentheses of a choice, if there is exactly one. Any other value is returned itself.
     pub(super) fn only(&self) -> Option<Self> {
         match self.group().filter(|_| self.unwrapped) {
             None => Some(*self),
@@ -119,16 +124,16 @@ impl<'a, 'b> Value<'a, 'b> {
         }
     }
 
-    /// The same, told where there is none.
+    /// The same; a failure if there is none.
     pub(super) fn inner(&self) -> Result<Self, Fail> {
         match (self.only(), self.group()) {
             (Some(value), _) => Ok(value),
             (None, Some(group)) if group.items.is_empty() => self.fail(What::Missing("0")),
-            _ => self.wanted("expected one value in the parentheses"),
+            _ => self.wanted(Wanted::Plain("one value in the parentheses")),
         }
     }
 
-    /// The elements between parentheses or brackets, all without names.
+    /// The elements between parentheses or brackets; a failure if one has a name.
     pub(super) fn elements(&self, group: &Group) -> Result<Vec<usize>, Fail> {
         if let Some(item) = group.items.iter().find(|i| i.key.is_some()) {
             let name = item.key.clone().unwrap_or_default();
@@ -197,12 +202,12 @@ impl<'a, 'b> Value<'a, 'b> {
                 .map_err(|e| self.about(e));
         }
         let Some(group) = self.group().filter(|g| g.bracket == '(') else {
-            return self.wanted("expected fields in parentheses");
+            return self.wanted(Wanted::Fields);
         };
         match &group.name {
-            Some(given) if !self.unwrapped && given != name => self.wanted(format!(
-                "expected fields in parentheses without the name `{given}`"
-            )),
+            Some(given) if !self.unwrapped && given != name => {
+                self.misfit(Misfit::Name(given.clone()))
+            }
             _ => self.visit_fields(&group, legal, visitor),
         }
     }
@@ -220,14 +225,14 @@ impl<'a, 'b> Value<'a, 'b> {
             .group()
             .filter(|g| g.bracket == '(' && (self.unwrapped || g.name.is_none()))
         else {
-            return self.wanted(format!("expected {len} values in parentheses"));
+            return self.wanted(Wanted::Tuple(len));
         };
         let elements = self.elements(&group)?;
         if elements.len() != len {
-            return self.wanted(format!(
-                "expected {len} values in parentheses, not {}",
-                elements.len()
-            ));
+            return self.misfit(Misfit::Count {
+                wanted: len,
+                got: elements.len(),
+            });
         }
         self.visit_elements(elements, visitor)
     }
@@ -246,7 +251,7 @@ impl<'a, 'b> Value<'a, 'b> {
         }
         match self.word().and_then(scalar::number) {
             Some(v) => Ok(v),
-            None => self.wanted("expected a number"),
+            None => self.wanted(Wanted::Plain("a number")),
         }
     }
 
@@ -258,11 +263,9 @@ impl<'a, 'b> Value<'a, 'b> {
         }
         match self.word().map(|w| (scalar::whole(w), scalar::number(w))) {
             Some((Some(v), _)) if (least..=most).contains(&v) => Ok(v),
-            Some((Some(_), _)) => {
-                self.wanted(format!("must be a whole number from {least} to {most}"))
-            }
-            Some((None, Some(_))) => self.wanted("must be a whole number"),
-            _ => self.wanted("expected a whole number"),
+            Some((Some(_), _)) => self.wanted(Wanted::Whole(least, most)),
+            Some((None, Some(_))) => self.misfit(Misfit::Fraction),
+            _ => self.wanted(Wanted::Plain("a whole number")),
         }
     }
 }

@@ -3,10 +3,25 @@
 use super::*;
 use crate::campaign::report::sample::row;
 use crate::campaign::{Campaign, load, merge, read_rows};
+use std::ops::Range;
 use world::seeds::Stream;
 
 fn campaign() -> Campaign {
     load(Path::new("uniform_beta")).unwrap()
+}
+
+fn declared(run: u64, number: u64) -> DeclarationRow {
+    DeclarationRow {
+        run,
+        robot: "auv0".to_string(),
+        number,
+        rule: "AlongFlow".to_string(),
+        verdict: "unchecked".to_string(),
+        t_s: 100.0 * number as f64,
+        east_m: run as f64,
+        region: (number == 1).then_some(2),
+        ..DeclarationRow::default()
+    }
 }
 
 /// Rows of some runs, as if the runs had been made.
@@ -17,8 +32,9 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
             run,
             arm: campaign.arm(place.arm).name.clone(),
             condition: campaign.condition_name(place.condition),
-            seed: place.seed,
+            seed: place.seed.number(),
             error: (run == 3).then(|| "no water".to_string()),
+            declarations: (0..run % 3).map(|number| declared(run, number)).collect(),
             ..row(
                 place.seed_index,
                 run.is_multiple_of(3).then_some((run as f64, 0.1)),
@@ -28,20 +44,17 @@ fn rows(campaign: &Campaign, runs: Range<u64>) -> Vec<RunRow> {
     runs.map(one).collect()
 }
 
-/// A folder of blocks of 8 runs with its manifest; if not sealed, as an older program wrote it.
-fn folder(sealed: bool) -> (tempfile::TempDir, Manifest) {
+/// A folder of blocks of 8 runs with its manifest.
+fn folder() -> (tempfile::TempDir, Manifest) {
     let dir = tempfile::tempdir().unwrap();
-    let manifest = Manifest {
-        sealed,
-        ..Manifest::new(&campaign(), 8)
-    };
+    let manifest = Manifest::new(&campaign(), 8);
     manifest.write(dir.path()).unwrap();
     (dir, manifest)
 }
 
 #[test]
 fn a_block_grows_row_by_row_and_never_shrinks() {
-    let ((dir, manifest), campaign) = (folder(true), campaign());
+    let ((dir, manifest), campaign) = (folder(), campaign());
     let dir = dir.path();
     let state = || read_block(dir, &manifest, 1);
     assert!(matches!(state(), BlockState::Missing));
@@ -66,7 +79,7 @@ fn a_block_grows_row_by_row_and_never_shrinks() {
 
 #[test]
 fn what_is_read_follows_from_what_is_there_not_from_what_is_planned() {
-    let ((dir, manifest), campaign) = (folder(true), campaign());
+    let ((dir, manifest), campaign) = (folder(), campaign());
     let dir = dir.path();
     for block in [4, 0] {
         write_block(dir, block, &rows(&campaign, manifest.runs_of(block))).unwrap();
@@ -90,7 +103,7 @@ fn what_is_read_follows_from_what_is_there_not_from_what_is_planned() {
 #[cfg(unix)]
 #[test]
 fn what_is_no_regular_file_is_said_and_never_waited_for_nor_replaced() {
-    let ((dir, manifest), campaign) = (folder(true), campaign());
+    let ((dir, manifest), campaign) = (folder(), campaign());
     let path = block_path(dir.path(), 0);
     let pipe = std::process::Command::new("mkfifo").arg(&path).status();
     if !pipe.is_ok_and(|s| s.success()) {
@@ -148,26 +161,21 @@ fn damaged(bytes: &[u8], draw: &mut Stream) -> Vec<u8> {
     odd
 }
 
-/// Reads `n` damaged blocks. Returns how many of them are reported as not whole; the others are unchanged.
-fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
-    let ((dir, manifest), campaign) = (folder(sealed), campaign());
-    let (dir, path) = (dir.path(), block_path(dir.path(), 0));
+/// Reads `n` blocks of which one file is damaged. Returns how many are reported as not whole; the others are unchanged.
+fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
+    let ((dir, manifest), campaign) = (folder(), campaign());
+    let (dir, path) = (dir.path(), damage(dir.path(), 0));
     let good = rows(&campaign, 0..8);
     write_block(dir, 0, &good).unwrap();
-    let mut bytes = fs::read(&path).unwrap();
-    if !sealed {
-        // As an older program wrote it: nothing between Parquet's mark and the first column is ever looked at.
-        bytes[4..4 + seal::room().len()].fill(b' ');
-        fs::write(&path, &bytes).unwrap();
-        assert!(matches!(read_block(dir, &manifest, 0), BlockState::Done(there) if there == good));
-    }
+    let bytes = fs::read(&path).unwrap();
     let mut draw = Stream::new(seed, "damage", "of blocks");
     let mut broken = 0;
     for k in 0..n {
         fs::write(&path, damaged(&bytes, &mut draw)).unwrap();
         match read_block(dir, &manifest, 0) {
             BlockState::Broken(said) => {
-                assert!(said.to_string().contains("part-000000.parquet"), "{said}");
+                let name = path.file_name().unwrap().to_str().unwrap();
+                assert!(said.to_string().contains(name), "{said}");
                 broken += 1;
             }
             BlockState::Done(there) => assert_eq!(there, good, "damage {k}"),
@@ -177,19 +185,114 @@ fn survives(sealed: bool, n: u64, seed: u64) -> u64 {
     broken
 }
 
+/// For more: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib damaged_blocks`.
 #[test]
-fn damaged_blocks_are_not_whole_whatever_the_library_does() {
-    assert!(survives(true, 1000, 1) >= 990);
-    // Without a seal, the library reads whatever bytes it gets, and its panics count as answers.
-    assert!(survives(false, 1000, 2) >= 900);
+fn damaged_blocks_are_not_whole() {
+    let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
+    let n: u64 = n.and_then(|n| n.parse().ok()).unwrap_or(1000);
+    assert!(survives(block_path, n, 1) >= n * 99 / 100);
+    assert!(survives(declarations_path, n, 2) >= n * 99 / 100);
 }
 
-/// By hand: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib many_damaged -- --ignored`.
+/// Bytes whose seal fits them all the same: as if the program had written nonsense.
 #[test]
-#[ignore = "takes minutes"]
-fn many_damaged_blocks() {
-    let n = std::env::var("RHEOTAXIS_DAMAGES").ok();
-    let n = n.and_then(|n| n.parse().ok()).unwrap_or(20_000);
-    let broken = (survives(true, n, 11), survives(false, n, 12));
-    assert!(broken.0 > n / 2 && broken.1 > n / 2, "{broken:?}");
+fn damage_under_a_seal_is_an_answer_and_no_panic() {
+    let ((dir, manifest), campaign) = (folder(), campaign());
+    let dir = dir.path();
+    let good = rows(&campaign, 0..8);
+    for path in [block_path(dir, 0), declarations_path(dir, 0)] {
+        write_block(dir, 0, &good).unwrap();
+        let bytes = fs::read(&path).unwrap();
+        let mut draw = Stream::new(3, "damage", "under seals");
+        let mut broken = 0;
+        for k in 0..1000 {
+            let head = 4 + seal::room().len();
+            let mut odd = [&bytes[..4], &seal::room()].concat();
+            odd.extend(damaged(&bytes[head..], &mut draw));
+            seal::close(&mut odd);
+            fs::write(&path, odd).unwrap();
+            match read_block(dir, &manifest, 0) {
+                BlockState::Broken(_) => broken += 1,
+                BlockState::Done(there) => assert_eq!(there, good, "damage {k}"),
+                BlockState::Part(_) | BlockState::Missing => panic!("damage {k} is no part"),
+            }
+        }
+        assert!(broken >= 900, "{broken} at {}", path.display());
+    }
+}
+
+#[test]
+fn a_kill_between_the_two_files_loses_no_row() {
+    let ((dir, manifest), campaign) = (folder(), campaign());
+    let dir = dir.path();
+    let (some, more) = (rows(&campaign, 8..12), rows(&campaign, 8..16));
+    assert!(some.iter().any(|r| r.declarations.len() == 2));
+    write_block(dir, 1, &some).unwrap();
+    let before = fs::read(block_path(dir, 1)).unwrap();
+    // The declarations of all eight runs are written, the rows of the last four are not.
+    write_block(dir, 1, &more).unwrap();
+    fs::write(block_path(dir, 1), before).unwrap();
+    assert!(matches!(read_block(dir, &manifest, 1), BlockState::Part(there) if there == some));
+    add_to_block(dir, &manifest, 1, &more).unwrap();
+    assert!(matches!(read_block(dir, &manifest, 1), BlockState::Done(there) if there == more));
+}
+
+#[test]
+fn rows_without_their_declarations_are_not_whole() {
+    let ((dir, manifest), campaign) = (folder(), campaign());
+    let dir = dir.path();
+    let good = rows(&campaign, 0..8);
+    let said = || match read_block(dir, &manifest, 0) {
+        BlockState::Broken(error) => error.to_string(),
+        other => panic!("{other:?}"),
+    };
+    write_block(dir, 0, &good).unwrap();
+    let sound = fs::read(block_path(dir, 0)).unwrap();
+    fs::remove_file(declarations_path(dir, 0)).unwrap();
+    let missing = said();
+    assert!(
+        missing.ends_with("declarations-000000.parquet is not whole: it does not exist"),
+        "{missing}"
+    );
+    // Those of other rows: sound in themselves, but one is missing.
+    let mut other = good.clone();
+    other[2].declarations.pop();
+    write_block(dir, 0, &other).unwrap();
+    fs::write(block_path(dir, 0), sound).unwrap();
+    let wrong = said();
+    assert!(
+        wrong.contains("its rows and declarations are not those"),
+        "{wrong}"
+    );
+    write_block(dir, 0, &good).unwrap();
+    assert!(matches!(read_block(dir, &manifest, 0), BlockState::Done(there) if there == good));
+}
+
+#[test]
+fn a_merge_has_a_line_for_every_declaration() {
+    let ((dir, _), campaign) = (folder(), campaign());
+    let dir = dir.path();
+    let all = rows(&campaign, 0..16);
+    write_block(dir, 0, &all[..8]).unwrap();
+    write_block(dir, 1, &all[8..]).unwrap();
+    let csv = dir.join("all.csv");
+    let merged = merge(dir, &dir.join("all.parquet"), Some(&csv)).unwrap();
+    let declarations: Vec<_> = all.iter().flat_map(|r| r.declarations.clone()).collect();
+    assert_eq!(
+        (merged.rows, merged.declarations),
+        (16, declarations.len() as u64)
+    );
+    assert_eq!(
+        merged.declarations_path,
+        dir.join("all-declarations.parquet")
+    );
+    let file = fs::File::open(&merged.declarations_path).unwrap();
+    let (back, _) = read::<DeclarationRow>(file, 1000).unwrap();
+    assert_eq!(back, declarations);
+    let [runs, lines] = as_csv(&all);
+    assert_eq!(fs::read_to_string(csv).unwrap(), runs);
+    assert_eq!(
+        fs::read_to_string(dir.join("all-declarations.csv")).unwrap(),
+        lines
+    );
 }

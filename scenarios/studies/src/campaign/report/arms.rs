@@ -12,7 +12,7 @@ pub(super) const SEED: u64 = 1;
 
 /// A quantity measured in each run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
+pub enum ArmMeasure {
     /// Time of the first declaration, for runs that declared.
     Time,
     /// Distance travelled by all robots, for runs that did not fail.
@@ -21,17 +21,17 @@ pub enum Measure {
     Error,
 }
 
-impl Measure {
+impl ArmMeasure {
     /// All measures, in the order of the tables.
-    pub const ALL: [Measure; 3] = [Measure::Time, Measure::Path, Measure::Error];
+    pub const ALL: [ArmMeasure; 3] = [ArmMeasure::Time, ArmMeasure::Path, ArmMeasure::Error];
 
     /// Its name for people.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Measure::Time => "time to declaration",
-            Measure::Path => "path",
-            Measure::Error => "error",
+            ArmMeasure::Time => "time to declaration",
+            ArmMeasure::Path => "path",
+            ArmMeasure::Error => "error",
         }
     }
 
@@ -39,8 +39,8 @@ impl Measure {
     #[must_use]
     pub fn unit(self) -> Unit {
         match self {
-            Measure::Time => Unit::Seconds,
-            Measure::Path | Measure::Error => Unit::Metres,
+            ArmMeasure::Time => Unit::Seconds,
+            ArmMeasure::Path | ArmMeasure::Error => Unit::Metres,
         }
     }
 
@@ -48,9 +48,9 @@ impl Measure {
     #[must_use]
     pub fn of(self, row: &RunRow) -> Option<f64> {
         match self {
-            Measure::Time => row.declared_s,
-            Measure::Path => row.error.is_none().then_some(row.travelled_m),
-            Measure::Error => row.error_m,
+            ArmMeasure::Time => row.declared_s,
+            ArmMeasure::Path => row.error.is_none().then_some(row.travelled_m),
+            ArmMeasure::Error => row.error_m,
         }
     }
 }
@@ -59,7 +59,7 @@ impl Measure {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// The measure.
-    pub measure: Measure,
+    pub measure: ArmMeasure,
     /// Number of runs.
     pub n: u64,
     /// Median.
@@ -143,11 +143,11 @@ pub(super) fn figures(arm: &str, rows: &[&RunRow], limit_s: f64) -> ArmFigures {
         success: Share::of(rows, |r| r.success),
         declared: Share::of(rows, |r| r.declared_s.is_some()),
         restricted: restricted(rows, limit_s),
-        measured: Measure::ALL.map(|m| measured(m, rows)).to_vec(),
+        measured: ArmMeasure::ALL.map(|m| measured(m, rows)).to_vec(),
     }
 }
 
-fn measured(measure: Measure, rows: &[&RunRow]) -> Measured {
+fn measured(measure: ArmMeasure, rows: &[&RunRow]) -> Measured {
     let sorted = finite_sorted(rows.iter().filter_map(|r| measure.of(r)));
     let interval = |p| {
         let enough = sorted.len() >= LEAST_VALUES;

@@ -17,12 +17,12 @@ pub(crate) mod sample;
 #[cfg(test)]
 mod tests;
 
-pub use arms::{ArmFigures, ConditionFigures, Measure, Measured};
+pub use arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
 pub use curves::{Curve, Point};
 pub use pairs::{Compares, Comparison};
 pub use restricted::Restricted;
 pub(crate) use tables::range;
-pub(crate) use text::{align, csv_field, runs_csv};
+pub(crate) use text::align;
 pub use unit::Unit;
 pub(crate) use walls::Walls;
 pub use write::{About, Written, write};

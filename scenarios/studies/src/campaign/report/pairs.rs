@@ -1,11 +1,11 @@
 //! Comparison of arms on the same seeds and conditions.
 
-use super::arms::{Measure, SEED, of_arm};
+use super::arms::{ArmMeasure, SEED, of_arm};
 use super::restricted::time_s;
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{
-    Better, Difference, Verdict, paired_mean, paired_median, paired_share,
+    Better, Difference, Separation, paired_mean, paired_median, paired_share,
 };
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ pub enum Compares {
     /// Mean time to success; failures count as the limit.
     Restricted,
     /// Median of the differences of a measure, over pairs where both have it.
-    Measure(Measure),
+    Measure(ArmMeasure),
 }
 
 impl Compares {
@@ -28,9 +28,9 @@ impl Compares {
     pub const ALL: [Compares; 5] = [
         Compares::Success,
         Compares::Restricted,
-        Compares::Measure(Measure::Time),
-        Compares::Measure(Measure::Path),
-        Compares::Measure(Measure::Error),
+        Compares::Measure(ArmMeasure::Time),
+        Compares::Measure(ArmMeasure::Path),
+        Compares::Measure(ArmMeasure::Error),
     ];
 
     /// Its name for people.
@@ -129,10 +129,10 @@ fn compared(first: &str, second: &str, rows: &[RunRow], limit_s: f64) -> Vec<Com
                 Compares::Restricted => {
                     format!("{k} of {n} pairs; no success counts as {limit_s:.0} s")
                 }
-                Compares::Measure(Measure::Path) => format!("{k} of {n} pairs: both ran"),
+                Compares::Measure(ArmMeasure::Path) => format!("{k} of {n} pairs: both ran"),
                 Compares::Measure(_) => format!("{k} of {n} pairs: both declared"),
             },
-            warning: (difference.filter(|_| by == Compares::Measure(Measure::Time)))
+            warning: (difference.filter(|_| by == Compares::Measure(ArmMeasure::Time)))
                 .and_then(|d| looks_faster([first, second], &pairs, d, restricted)),
         }
     };
@@ -161,9 +161,9 @@ fn looks_faster(
         return None;
     }
     let verdict = match restricted.map(|d| d.verdict) {
-        Some(Verdict::Better) => format!("{} is better", names[0]),
-        Some(Verdict::Worse) => format!("{} is better", names[1]),
-        Some(Verdict::NotSeparable) | None => "they are not separable at this n".to_string(),
+        Some(Separation::Better) => format!("{} is better", names[0]),
+        Some(Separation::Worse) => format!("{} is better", names[1]),
+        Some(Separation::NotSeparable) | None => "they are not separable at this n".to_string(),
     };
     Some(format!(
         "{} looks faster than {} by the time to declaration: that rests on the {} of {n} pairs where both declared; but it \

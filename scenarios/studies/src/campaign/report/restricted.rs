@@ -39,7 +39,7 @@ pub(super) fn time_s(row: &RunRow, limit_s: f64) -> Option<f64> {
 /// several; without any declaration, at its end.
 fn success_s(row: &RunRow) -> f64 {
     let mut kept = (row.declarations.iter())
-        .filter(|d| d.verdict != "rejected")
+        .filter(|d| d.stands())
         .map(|d| d.t_s);
     let at = if row.sources_declared > 1 {
         kept.next_back()
@@ -71,7 +71,7 @@ pub(super) fn restricted(rows: &[&RunRow], limit_s: f64) -> Restricted {
 mod tests {
     use super::super::sample::row;
     use super::*;
-    use crate::campaign::DeclaredAt;
+    use crate::campaign::DeclarationRow;
 
     #[test]
     fn failures_count_as_the_limit_and_errors_not_at_all() {
@@ -100,10 +100,10 @@ mod tests {
 
     #[test]
     fn success_is_at_the_declaration_that_did_it() {
-        let at = |t_s, verdict: &str| DeclaredAt {
+        let at = |t_s, verdict: &str| DeclarationRow {
             t_s,
             verdict: verdict.to_string(),
-            ..DeclaredAt::default()
+            ..DeclarationRow::default()
         };
         let all = vec![
             at(100.0, "rejected"),

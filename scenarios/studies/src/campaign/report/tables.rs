@@ -3,12 +3,9 @@
 use super::arms::{ArmFigures, ConditionFigures};
 use super::curves::Curve;
 use super::pairs::{Compares, Comparison};
-use super::text::csv_field;
 use super::unit::Unit;
 use crate::campaign::stats::{Difference, Interval, LEAST_VALUES};
-use std::fmt::Write as _;
-
-const TEXT: &str = "writing to a String succeeds";
+use output::files::{csv_number, csv_text};
 
 fn shown(unit: Unit, value: Option<f64>) -> String {
     value.map_or("-".to_string(), |v| unit.show(v))
@@ -156,83 +153,91 @@ pub(super) fn conditions(conditions: &[ConditionFigures]) -> Vec<[String; 5]> {
     conditions.iter().map(one).collect()
 }
 
-fn number(value: Option<f64>) -> String {
-    value.map_or(String::new(), |v| v.to_string())
-}
-
-fn ends(interval: Option<Interval>) -> String {
-    format!(
-        "{},{}",
-        number(interval.map(|i| i.low)),
-        number(interval.map(|i| i.high))
-    )
+/// Value, lower and upper end, as fields.
+fn fields(value: Option<f64>, interval: Option<Interval>) -> [String; 3] {
+    [value, interval.map(|i| i.low), interval.map(|i| i.high)].map(csv_number)
 }
 
 pub(super) fn arms_csv(arms: &[ArmFigures]) -> String {
-    let mut out = String::from("arm,quantity,n,count,value,low,high\n");
-    for a in arms {
-        let arm = csv_field(&a.arm);
-        for (name, share) in [("success", a.success), ("declared", a.declared)] {
-            let (value, i) = (number(share.value()), ends(Some(share.interval())));
-            writeln!(out, "{arm},{name},{},{},{value},{i}", share.n, share.count).expect(TEXT);
-        }
-        writeln!(out, "{arm},failed,{},{},,,", a.success.n, a.failed).expect(TEXT);
+    let of_arm = |a: &ArmFigures| {
+        let line = |what: &str, n: u64, count: Option<u64>, value, interval| {
+            let [value, low, high] = fields(value, interval);
+            let count = count.map_or_else(String::new, |k| k.to_string());
+            let what = what.to_string();
+            [a.arm.clone(), what, n.to_string(), count, value, low, high]
+        };
+        let mut lines: Vec<[String; 7]> = [("success", a.success), ("declared", a.declared)]
+            .map(|(what, s)| line(what, s.n, Some(s.count), s.value(), Some(s.interval())))
+            .to_vec();
+        lines.push(line("failed", a.success.n, Some(a.failed), None, None));
         let r = a.restricted;
-        let (value, i) = (number(r.mean_s), ends(r.interval));
         let what = format!("time to success at most {} s mean", r.limit_s);
-        writeln!(out, "{arm},{what},{},{},{value},{i}", r.n, r.n - r.at_limit).expect(TEXT);
+        let in_time = Some(r.n - r.at_limit);
+        lines.push(line(&what, r.n, in_time, r.mean_s, r.interval));
         for m in &a.measured {
-            let what = m.measure.words();
-            let (value, i) = (number(m.median), ends(m.median_interval));
-            writeln!(out, "{arm},{what} median,{},,{value},{i}", m.n).expect(TEXT);
-            let (value, i) = (number(m.q90), ends(m.q90_interval));
-            writeln!(out, "{arm},{what} 90 % quantile,{},,{value},{i}", m.n).expect(TEXT);
+            let what = format!("{} median", m.measure.words());
+            lines.push(line(&what, m.n, None, m.median, m.median_interval));
+            let what = format!("{} 90 % quantile", m.measure.words());
+            lines.push(line(&what, m.n, None, m.q90, m.q90_interval));
         }
-    }
-    out
+        lines
+    };
+    csv_text(
+        "arm,quantity,n,count,value,low,high",
+        arms.iter().flat_map(of_arm),
+    )
 }
 
 pub(super) fn pairs_csv(comparisons: &[Comparison]) -> String {
-    let mut out =
-        String::from("first,second,by,pairs,difference,low,high,first_is,rests_on,warning\n");
-    for c in comparisons {
+    let one = |c: &Comparison| {
         let d = c.difference;
-        writeln!(
-            out,
-            "{},{},{},{},{},{},{},{},{}",
-            csv_field(&c.first),
-            csv_field(&c.second),
-            c.by.words(),
-            d.map_or(0, |d| d.pairs),
-            number(d.map(|d| d.estimate)),
-            ends(sound_interval(c)),
-            d.map_or("", |d| d.verdict.words()),
-            csv_field(&c.rests_on),
-            csv_field(c.warning.as_deref().unwrap_or_default())
-        )
-        .expect(TEXT);
-    }
-    out
+        let [value, low, high] = fields(d.map(|d| d.estimate), sound_interval(c));
+        [
+            c.first.clone(),
+            c.second.clone(),
+            c.by.words().to_string(),
+            d.map_or(0, |d| d.pairs).to_string(),
+            value,
+            low,
+            high,
+            d.map_or("", |d| d.verdict.words()).to_string(),
+            c.rests_on.clone(),
+            c.warning.clone().unwrap_or_default(),
+        ]
+    };
+    csv_text(
+        "first,second,by,pairs,difference,low,high,first_is,rests_on,warning",
+        comparisons.iter().map(one),
+    )
 }
 
 pub(super) fn conditions_csv(conditions: &[ConditionFigures]) -> String {
-    let mut out = String::from("condition,arm,runs,successes,share,low,high\n");
-    for c in conditions {
+    let one = |c: &ConditionFigures| {
         let s = c.success;
-        let (condition, arm) = (csv_field(&c.condition), csv_field(&c.arm));
-        let (value, i) = (number(s.value()), ends(Some(s.interval())));
-        writeln!(out, "{condition},{arm},{},{},{value},{i}", s.n, s.count).expect(TEXT);
-    }
-    out
+        let [value, low, high] = fields(s.value(), Some(s.interval()));
+        let (n, count) = (s.n.to_string(), s.count.to_string());
+        [
+            c.condition.clone(),
+            c.arm.clone(),
+            n,
+            count,
+            value,
+            low,
+            high,
+        ]
+    };
+    csv_text(
+        "condition,arm,runs,successes,share,low,high",
+        conditions.iter().map(one),
+    )
 }
 
 pub(super) fn curves_csv(x: &str, curves: &[Curve]) -> String {
-    let mut out = format!("arm,{x},share,low,high\n");
-    for c in curves {
-        for p in &c.points {
-            let i = ends(Some(p.interval));
-            writeln!(out, "{},{},{},{i}", csv_field(&c.arm), p.x, p.y).expect(TEXT);
-        }
-    }
-    out
+    let points = curves.iter().flat_map(|c| {
+        c.points.iter().map(|p| {
+            let [share, low, high] = fields(Some(p.y), Some(p.interval));
+            [c.arm.clone(), p.x.to_string(), share, low, high]
+        })
+    });
+    csv_text(&format!("arm,{x},share,low,high"), points)
 }

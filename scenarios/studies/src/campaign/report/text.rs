@@ -1,7 +1,5 @@
-//! Plain tables and CSV.
+//! Plain tables.
 
-use crate::campaign::RunRow;
-use crate::campaign::table::{csv_head, csv_line};
 use std::fmt::Write as _;
 
 /// Widest column, characters; longer cells are not aligned.
@@ -37,29 +35,8 @@ pub(crate) fn align<const N: usize>(head: &[&str; N], rows: &[[String; N]]) -> S
     out
 }
 
-/// A field of a CSV file, quoted if necessary (RFC 4180).
-pub(crate) fn csv_field(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_string()
-    }
-}
-
-/// Rows of runs as CSV, with all columns.
-pub(crate) fn runs_csv(rows: &[RunRow]) -> String {
-    let mut out = csv_head();
-    out.push('\n');
-    for row in rows {
-        out.push_str(&csv_line(row));
-        out.push('\n');
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::sample::row;
     use super::*;
 
     /// The formatter's widest field has 65 535 characters; a row file may contain a longer name.
@@ -80,21 +57,5 @@ mod tests {
             align(&["x", "value"], &rows),
             "x    value\n---  -----\na    12\nbcd  3\n"
         );
-    }
-
-    #[test]
-    fn fields_are_quoted_where_they_must_be() {
-        assert_eq!(csv_field("a,b\n"), "\"a,b\n\"");
-        assert_eq!(csv_field("no \"bed\""), "\"no \"\"bed\"\"\"");
-        assert_eq!(csv_field("plain"), "plain");
-    }
-
-    #[test]
-    fn every_run_is_a_line_under_the_names() {
-        let text = runs_csv(&[row(0, Some((1.0, 2.0))), row(1, None)]);
-        let commas: Vec<usize> = text.lines().map(|l| l.matches(',').count()).collect();
-        assert_eq!(commas.len(), 3);
-        assert!(commas.iter().all(|n| *n == commas[0]));
-        assert!(text.starts_with("run,") && !text.contains("NaN"));
     }
 }

@@ -9,6 +9,7 @@
 //! %).
 //! *Deviations*: none in distribution. With n < 36, even the greatest value lies below the true 90 % quantile in more
 //! than 2.5 % of samples (0.9^n), so the upper end then covers less than stated.
+//! *Written here*: crates draw whole resamples, and from their own random numbers.
 
 use super::Interval;
 use super::quantile::{between, place, quantile};

@@ -4,6 +4,7 @@
 //! *Parameters*: none.
 //! *Deviations*: the sample may belong to a larger number of trials (errors exist only for trials that declared). Then
 //! the shares are of all trials, and the curve ends below 1.
+//! *Written here*: the one in statrs counts neither trials without a value nor intervals.
 
 use super::{Interval, finite_sorted, wilson};
 

@@ -24,7 +24,7 @@ pub enum Better {
 
 /// The verdict of a difference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Verdict {
+pub enum Separation {
     /// The first arm is better than the second.
     Better,
     /// The first arm is worse.
@@ -33,14 +33,14 @@ pub enum Verdict {
     NotSeparable,
 }
 
-impl Verdict {
+impl Separation {
     /// The verdict in words.
     #[must_use]
     pub fn words(self) -> &'static str {
         match self {
-            Verdict::Better => "better",
-            Verdict::Worse => "worse",
-            Verdict::NotSeparable => "not separable at this n",
+            Separation::Better => "better",
+            Separation::Worse => "worse",
+            Separation::NotSeparable => "not separable at this n",
         }
     }
 }
@@ -55,21 +55,21 @@ pub struct Difference {
     /// Its 95 % interval.
     pub interval: Interval,
     /// What it says about the first arm.
-    pub verdict: Verdict,
+    pub verdict: Separation,
 }
 
 impl Difference {
     fn new(pairs: usize, estimate: f64, interval: Interval, better: Better) -> Self {
         let more = match better {
-            Better::More => Verdict::Better,
-            Better::Less => Verdict::Worse,
+            Better::More => Separation::Better,
+            Better::Less => Separation::Worse,
         };
         let less = match better {
-            Better::More => Verdict::Worse,
-            Better::Less => Verdict::Better,
+            Better::More => Separation::Worse,
+            Better::Less => Separation::Better,
         };
         let verdict = if pairs < LEAST_PAIRS || interval.contains(0.0) {
-            Verdict::NotSeparable
+            Separation::NotSeparable
         } else if interval.low > 0.0 {
             more
         } else {
@@ -168,9 +168,9 @@ mod tests {
         assert!((d.estimate - 0.15).abs() < 1e-12);
         assert!((d.interval.low - 0.1008).abs() < 2e-4, "{d:?}");
         assert!((d.interval.high - 0.1972).abs() < 2e-4, "{d:?}");
-        assert_eq!(d.verdict, Verdict::Better);
+        assert_eq!(d.verdict, Separation::Better);
         let turned = paired_share(shares(200, 8, 53, 39), Better::More).unwrap();
-        assert_eq!(turned.verdict, Verdict::Worse);
+        assert_eq!(turned.verdict, Separation::Worse);
         assert!((turned.interval.low + d.interval.high).abs() < 1e-12);
     }
 
@@ -182,12 +182,12 @@ mod tests {
             shares(30, 5, 5, 3),
         ] {
             let d = paired_share(pairs, Better::More).unwrap();
-            assert_eq!((d.estimate, d.verdict), (0.0, Verdict::NotSeparable));
+            assert_eq!((d.estimate, d.verdict), (0.0, Separation::NotSeparable));
             assert!(d.interval.low < 0.0 && d.interval.high > 0.0);
         }
         let same = (0..9).map(|k| (f64::from(k), f64::from(k)));
         let d = paired_median(same, Better::Less, 1, "x").unwrap();
-        assert_eq!((d.estimate, d.verdict), (0.0, Verdict::NotSeparable));
+        assert_eq!((d.estimate, d.verdict), (0.0, Separation::NotSeparable));
     }
 
     #[test]
@@ -196,31 +196,37 @@ mod tests {
         let d = paired_median(closer.clone(), Better::Less, 1, "x").unwrap();
         assert_eq!(
             (d.pairs, d.estimate, d.verdict),
-            (40, -3.0, Verdict::Better)
+            (40, -3.0, Separation::Better)
         );
         let d = paired_median(closer.map(|(a, b)| (b, a)), Better::Less, 1, "x").unwrap();
-        assert_eq!(d.verdict, Verdict::Worse);
+        assert_eq!(d.verdict, Separation::Worse);
     }
 
     #[test]
     fn means_of_differences_have_students_interval() {
         let pairs = (0..9).map(|k| (f64::from(k), 10.0 + 2.0 * f64::from(k % 3)));
         let d = paired_mean(pairs, Better::Less).unwrap();
-        assert_eq!((d.pairs, d.estimate, d.verdict), (9, -8.0, Verdict::Better));
+        assert_eq!(
+            (d.pairs, d.estimate, d.verdict),
+            (9, -8.0, Separation::Better)
+        );
         assert!(d.interval.contains(-8.0) && d.interval.high < 0.0, "{d:?}");
         let few = paired_mean([(1.0, 9.0); 4], Better::Less).unwrap();
-        assert_eq!(few.verdict, Verdict::NotSeparable);
+        assert_eq!(few.verdict, Separation::NotSeparable);
         assert_eq!(paired_mean([], Better::Less), None);
     }
 
     #[test]
     fn few_or_no_pairs_say_nothing() {
         let five = paired_median([(1.0, 9.0); 5], Better::Less, 1, "x").unwrap();
-        assert_eq!((five.estimate, five.verdict), (-8.0, Verdict::NotSeparable));
+        assert_eq!(
+            (five.estimate, five.verdict),
+            (-8.0, Separation::NotSeparable)
+        );
         assert_eq!(paired_median([(1.0, f64::NAN)], Better::Less, 1, "x"), None);
         assert_eq!(paired_share([], Better::More), None);
         let one = paired_share([(true, false)], Better::More).unwrap();
-        assert_eq!((one.estimate, one.verdict), (1.0, Verdict::NotSeparable));
+        assert_eq!((one.estimate, one.verdict), (1.0, Separation::NotSeparable));
         assert!(one.interval.high <= 1.0);
     }
 }

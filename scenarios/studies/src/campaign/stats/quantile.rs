@@ -4,6 +4,7 @@
 //! h = (n - 1) p counted from 0 (the default of R and NumPy).
 //! *Parameters*: p, from 0 to 1.
 //! *Deviations*: none; values that are not finite are left out first.
+//! *Written here*: statrs has definition 8, which gives other numbers than R and NumPy.
 
 /// The finite values, sorted.
 #[must_use]

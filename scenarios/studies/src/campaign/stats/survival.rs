@@ -6,6 +6,7 @@
 //! *Parameters*: z = 1.96 (pointwise 95 %).
 //! *Deviations*: where the curve has reached 0, or is 1 before the first event, Greenwood's formula gives nothing.
 //! There, the interval is Wilson's for that share of those at risk (before the first event: of all trials).
+//! *Written here*: no maintained crate has this curve with these intervals.
 
 use super::{Interval, Z95, wilson};
 use world::math;

@@ -4,6 +4,7 @@
 //! Stat. Sci. 16 (2001) 101-133, eq. (4).
 //! *Parameters*: z, [`Z95`] = 1.96, two-sided 95 %.
 //! *Deviations*: none; no correction for continuity. Without trials nothing is known: 0 to 1.
+//! *Written here*: crates of statistics (statrs) have no interval of a share.
 
 use super::Interval;
 

@@ -1,30 +1,31 @@
-//! Navigation fixes as a planner sees them: how far they moved the vehicle, and what that says of older places.
+//! Navigation fixes as a planner sees them: how far they moved the vehicle, and how far remembered places should
+//! move.
 //!
-//! *Source*: Pang 2009, section 6, which puts its largest error of a declared place down to navigation fixes near the time
-//! of the declaration; the moving rules are ours.
+//! *Source*: Pang 2009, section 6, which explains its largest error of a declared place by navigation fixes near the
+//! time of the declaration; the moving rules are ours.
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: the papers give no rule. `Share`: dead reckoning drifts off steadily between fixes, so a fix at T that
-//! moves the vehicle by J shows a drift J (t - T0) / (T - T0) at a time t since the fix before it at T0 (since the start,
-//! where there was none); older points were set right by the earlier fix and stay. That is exact for a
-//! steady drift, and for fixes that are themselves noisy it is the straight line between two of them. `Whole`: every
-//! point moves by J, so that all lie as dead reckoning has them to each other and the newest fix alone says where:
-//! right where fixes are noisier than dead reckoning drifts.
+//! *Deviations*: the papers give no rule. `Share`: dead reckoning drifts steadily between fixes. If a fix at T moves
+//! the vehicle by J and the fix before it (or the start) was at T0, the drift at a time t between them was J (t - T0)
+//! / (T - T0), and a point stored at t moves by that. Older points were already corrected by the earlier fix and
+//! stay. This is exact for a steady drift; for noisy fixes it is the straight line between two of them. `Whole`:
+//! every point moves by J. The points then keep the distances that dead reckoning gave them, and only the newest fix
+//! places them: this is right if fixes are noisier than the drift of dead reckoning.
 
-use super::Estimate;
+use crate::handoff::Estimate;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-/// What becomes of the places remembered when a fix moves the vehicle.
+/// What happens to remembered places when a fix moves the vehicle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 pub enum FixMove {
     /// They stay, as in the papers.
     #[default]
     Stay,
-    /// Each moves by the share of the jump that had come about when it was stored.
+    /// Each moves by the share of the jump that had accumulated when it was stored.
     Share,
     /// All move by the whole jump.
     Whole,
@@ -33,9 +34,9 @@ pub enum FixMove {
 /// A fix that moved the believed position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NavigationFix {
-    /// When the drift began: the fix before, or the start, s.
+    /// When the drift began, s: at the fix before, or at the start.
     pub since_s: f64,
-    /// When it came, s.
+    /// When the fix came, s.
     pub t_s: f64,
     /// How far it moved the vehicle (east, north), m.
     pub jump: Vector2<f64>,
@@ -59,21 +60,22 @@ impl NavigationFix {
     }
 }
 
-/// How many jumps the scale looks back on.
+/// Number of newest jumps from which the scale is estimated.
 const LOOK_BACK: usize = 16;
-/// Median of a Rayleigh distribution of scale 1, times √2: the jump between two fixes that err independently by 1 an axis.
+/// Median of a Rayleigh distribution of scale 1, times √2: the jump between two fixes with independent errors of 1 in
+/// each axis.
 const MEDIAN_JUMP: f64 = 1.665_109_222_315_395_5;
 
 /// Watches the fixes of a mission.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FixWatch {
-    /// The fix before, or the start; `None` before the first estimate.
+    /// Time of the fix before, or of the start; `None` before the first estimate.
     since_s: Option<f64>,
     jumps_m: VecDeque<f64>,
 }
 
 impl FixWatch {
-    /// Takes in the estimate of a tick; a fix, if one moved it.
+    /// Takes in the estimate of a tick; returns a fix if one moved the estimate.
     pub fn observe(&mut self, estimate: &Estimate) -> Option<NavigationFix> {
         let since_s = *self.since_s.get_or_insert(estimate.t_s);
         if estimate.fix_jump == Vector2::zeros() {
@@ -91,7 +93,7 @@ impl FixWatch {
         })
     }
 
-    /// Standard deviation of a fix along one axis, m, from the median of the last 16 jumps; zero without a fix.
+    /// Standard deviation of a fix along one axis, m, from the median of the last 16 jumps; zero if there was no fix.
     #[must_use]
     pub fn scale_m(&self) -> f64 {
         let mut sorted: Vec<f64> = self.jumps_m.iter().copied().collect();
@@ -128,7 +130,7 @@ mod tests {
             let drift = Vector2::new(0.1 * (stored_s - 100.0), 0.0);
             assert!((fix.shift_of(stored_s, FixMove::Share) + drift).norm() < 1e-12);
         }
-        // Set right by the fix at 100 s already.
+        // The fix at 100 s has already corrected it.
         assert_eq!(fix.shift_of(99.0, FixMove::Share), Vector2::zeros());
         assert_eq!(fix.shift_of(99.0, FixMove::Whole), fix.jump);
         assert_eq!(fix.shift_of(150.0, FixMove::Stay), Vector2::zeros());

@@ -1,69 +1,35 @@
-//! What a behaviour is, what it shares with the others and what it answers.
+//! What the behaviours of a vehicle remember together: the flow, the last detection, and where the plume was lost.
+//!
+//! *Source*: Pang 2009, section 5.3 (lost points); Tian et al. 2013, section 3 (LCDP queue).
+//!
+//! *Parameters*: most lost points, 6 in Pang 2009; most last detection points, [`LCDPS`].
+//!
+//! *Deviations*: in the papers a navigation fix moves no remembered place; [`FixMove`] lists what can be done.
 
-use super::{FixMove, FixWatch, Lcdp, LcdpQueue, LostPoints, Manoeuvre, Observation};
+use super::{FixMove, FixWatch, LcdpQueue, LostPoints};
+use crate::handoff::{Lcdp, Observation, Side};
 use nalgebra::Vector2;
-use std::fmt::Debug;
 use std::num::NonZeroUsize;
-use world::seeds::Stream;
 use world::units::Heading;
 
-/// A side, looking up-flow.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Left of up-flow.
-    Left,
-    /// Right of up-flow.
-    Right,
-}
-
-impl Side {
-    /// +1 to the right (clockwise), -1 to the left.
-    #[must_use]
-    pub fn sign(self) -> f64 {
-        match self {
-            Side::Left => -1.0,
-            Side::Right => 1.0,
-        }
-    }
-
-    /// The side of a signed distance or turn, right positive.
-    #[must_use]
-    pub fn of(rightward: f64) -> Self {
-        if rightward < 0.0 {
-            Side::Left
-        } else {
-            Side::Right
-        }
-    }
-
-    /// The other one.
-    #[must_use]
-    pub fn other(self) -> Self {
-        match self {
-            Side::Left => Side::Right,
-            Side::Right => Side::Left,
-        }
-    }
-}
-
-/// What the behaviours know together.
+/// What the behaviours know in common.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlumeMemory {
-    /// Up-flow by the newest flow estimate; `None` until a flow was measured.
+    /// Up-flow by the newest flow estimate; `None` until a flow has been measured.
     pub up_flow: Option<Heading>,
-    /// The newest detection that was heeded.
+    /// The newest detection that the strategy acted on.
     pub last_detection: Option<Lcdp>,
     /// The side on which the vehicle is expected to leave the plume (LHS = +1: left).
     pub leaves: Side,
-    /// Where the plume was lost and is looked for again: a short list that the reacquisition works off.
+    /// Where the plume was lost: a short list that the reacquisition works through.
     pub lost: LostPoints,
-    /// Every place where it was lost in this mission: what a source is declared from.
+    /// Every place where the plume was lost in this mission; declaration rules read it.
     pub lcdps: LcdpQueue,
     /// The navigation fixes so far.
     pub fixes: FixWatch,
 }
 
-/// The longest queue of last detection points unless a scenario says otherwise: more than one in 8 s for 2 h.
+/// The longest queue of last detection points if a scenario gives none: more than one point in 8 s for 2 h.
 pub const LCDPS: NonZeroUsize = NonZeroUsize::new(1000).expect("1000 is not zero");
 
 impl Default for PlumeMemory {
@@ -74,7 +40,7 @@ impl Default for PlumeMemory {
 }
 
 impl PlumeMemory {
-    /// Nothing known; room for so many lost points to work off, and so many last detection points in all.
+    /// An empty memory with room for `lost` lost points and `lcdps` last detection points.
     #[must_use]
     pub fn new(lost: NonZeroUsize, lcdps: NonZeroUsize) -> Self {
         Self {
@@ -93,13 +59,13 @@ impl PlumeMemory {
         self.lcdps.add(point);
     }
 
-    /// Forgets where the plume was lost within a distance of a place.
+    /// Forgets the places within a distance of `place` where the plume was lost.
     pub fn forget_near(&mut self, place: Vector2<f64>, within_m: f64) {
         self.lost.forget_near(place, within_m);
         self.lcdps.forget_near(place, within_m);
     }
 
-    /// Takes in the estimate of a tick: after a navigation fix the places remembered are moved by `rule`.
+    /// Takes in the estimate of a tick: after a navigation fix, remembered places move by `rule`.
     pub fn take_fixes(&mut self, seen: &Observation, rule: FixMove) {
         let Some(fix) = self.fixes.observe(&seen.estimate) else {
             return;
@@ -111,52 +77,17 @@ impl PlumeMemory {
         self.lcdps.take_fix(&fix, rule);
     }
 
-    /// Up-flow, or the vehicle's own heading as long as no flow is known.
+    /// Up-flow, or the vehicle's heading as long as no flow is known.
     #[must_use]
     pub fn up_flow_or_nose(&self, seen: &Observation) -> Heading {
         self.up_flow.unwrap_or(seen.estimate.attitude.heading)
     }
 }
 
-/// What a behaviour answers in a tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Stride {
-    /// A new goal.
-    Start(Manoeuvre),
-    /// The same goal, its course changed.
-    Adjust(Manoeuvre),
-    /// The same goal.
-    Keep,
-    /// It has come to its end.
-    Over,
-}
-
-/// A behaviour: a plain state machine with one purpose.
-pub trait Behave: Debug + Send + Sync {
-    /// Begins afresh; the next step answers [`Stride::Start`] or [`Stride::Over`].
-    fn enter(&mut self, seen: &Observation, memory: &PlumeMemory);
-
-    /// One tick. `arrived`: the guidance has reached the goal last given.
-    fn step(
-        &mut self,
-        seen: &Observation,
-        arrived: bool,
-        memory: &mut PlumeMemory,
-        rng: &mut Stream,
-    ) -> Stride;
-}
-
-/// The chemical sensor reported a detection in this tick.
-#[must_use]
-pub fn detects(seen: &Observation) -> bool {
-    seen.chemical.is_some_and(|c| c.detected)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::handoff::testing::seen;
-    use nalgebra::Vector2;
 
     #[test]
     fn a_fix_moves_all_that_is_remembered() {

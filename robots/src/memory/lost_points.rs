@@ -1,6 +1,8 @@
-//! Where the plume was lost: the list that Track-In writes and Track-Out, Reacquire and the declaration read.
+//! Where the plume was lost: the list that Track-In writes and that Track-Out, Reacquire and the declaration rules
+//! read.
 
-use super::{FixMove, Lcdp, NavigationFix};
+use super::{FixMove, NavigationFix};
+use crate::handoff::Lcdp;
 use nalgebra::Vector2;
 use std::num::NonZeroUsize;
 use world::units::Heading;
@@ -22,14 +24,14 @@ impl LostPoints {
         }
     }
 
-    /// Adds a point, in the order along the present flow.
+    /// Adds a point; the list stays in order along the present flow.
     pub fn add(&mut self, point: Lcdp, up_flow: Heading) {
         self.points.push(point);
         self.sort(up_flow);
         self.points.truncate(self.most);
     }
 
-    /// Puts the points in the order along the present flow, most up-flow first; equal ones in order of time.
+    /// Sorts the points along the present flow, most up-flow first; points equally far in order of time.
     pub fn sort(&mut self, up_flow: Heading) {
         let up = up_flow.unit();
         self.points.sort_by(|a, b| {
@@ -38,14 +40,14 @@ impl LostPoints {
         });
     }
 
-    /// Takes the first point off the list.
+    /// Removes the first point.
     pub fn drop_first(&mut self) {
         if !self.points.is_empty() {
             self.points.remove(0);
         }
     }
 
-    /// The most up-flow point, by the flow of the last sorting.
+    /// The most up-flow point, by the flow at the last sorting.
     #[must_use]
     pub fn first(&self) -> Option<Lcdp> {
         self.points.first().copied()
@@ -57,7 +59,7 @@ impl LostPoints {
         &self.points
     }
 
-    /// A fix has moved the believed position: moves the points by the rule.
+    /// A navigation fix has moved the believed position: moves the points by the rule.
     pub fn take_fix(&mut self, fix: &NavigationFix, rule: FixMove) {
         for point in &mut self.points {
             point.position += fix.shift_of(point.t_s, rule);

@@ -1,10 +1,10 @@
-//! Places in the operating area: its edges seen from a point, and points brought inside.
+//! Places in the operating area: distances to its edges, and moving a point inside.
 
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
 
-/// Distance (positive inside, m) to and outward normal (east, north) of each edge.
+/// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
 #[must_use]
 pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
     let q = area.local(p);
@@ -18,10 +18,11 @@ pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
     ]
 }
 
-/// Places to go to are held this far inside the area, m: the cage's 5 m and as much again.
+/// Distance from the area's edge, m, within which no destination is placed: twice the 5 m of the cage's edge.
 pub const MARGIN_M: f64 = 10.0;
 
-/// `p` moved to the nearest place at least `margin_m` inside the area (its middle line where it is narrower).
+/// The nearest place to `p` that is at least `margin_m` inside the area. Where the area is narrower than two margins,
+/// its middle line.
 #[must_use]
 pub fn inside(area: &Area, p: Vector2<f64>, margin_m: f64) -> Vector2<f64> {
     let q = area.local(p);

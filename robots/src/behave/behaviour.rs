@@ -1,0 +1,40 @@
+//! What every behaviour does: it looks at an observation and answers with a goal.
+//!
+//! *Source*: this project's own.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none.
+
+use crate::handoff::{Manoeuvre, Observation};
+use crate::memory::PlumeMemory;
+use std::fmt::Debug;
+use world::seeds::Stream;
+
+/// What a behaviour answers in a tick.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Stride {
+    /// A new goal.
+    Start(Manoeuvre),
+    /// The same goal with a new course.
+    Adjust(Manoeuvre),
+    /// The same goal.
+    Keep,
+    /// The behaviour has ended.
+    Over,
+}
+
+/// A behaviour: a plain state machine with one purpose.
+pub trait Behave: Debug + Send + Sync {
+    /// Starts afresh; the next step answers [`Stride::Start`] or [`Stride::Over`].
+    fn enter(&mut self, seen: &Observation, memory: &PlumeMemory);
+
+    /// One tick. `arrived` says whether the guidance has reached the last goal.
+    fn step(
+        &mut self,
+        seen: &Observation,
+        arrived: bool,
+        memory: &mut PlumeMemory,
+        rng: &mut Stream,
+    ) -> Stride;
+}

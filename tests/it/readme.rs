@@ -1,0 +1,65 @@
+//! README's example of how to add an algorithm is the one that `docs/check_add_an_algorithm.sh` builds and runs.
+
+use std::fs;
+use std::path::Path;
+
+fn read(name: &str) -> String {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The code blocks of README's section, of one language.
+fn blocks<'a>(section: &'a str, language: &str) -> Vec<&'a str> {
+    let fence = format!("```{language}\n");
+    let parts = section.split(&fence).skip(1);
+    parts
+        .map(|part| part.split("```").next().expect("split gives one part"))
+        .collect()
+}
+
+/// The parts of the patch, one for each file: its name and its lines.
+fn parts(patch: &str) -> Vec<(&str, Vec<&str>)> {
+    let parts = patch.split("+++ b/").skip(1);
+    parts
+        .map(|part| {
+            let (name, rest) = part.split_once('\n').expect("a name has a line of its own");
+            let rest = rest.split("diff --git ").next().expect("one part");
+            let marked = |l: &&str| l.starts_with(['+', '-', ' ']);
+            (name, rest.lines().filter(marked).collect())
+        })
+        .collect()
+}
+
+#[test]
+fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
+    let (readme, patch) = (read("README.md"), read("docs/add_an_algorithm.patch"));
+    let from = readme.find("## To add an algorithm").expect("the section");
+    let section = &readme[from..];
+    let section = &section[..section.find("\n## Checks").expect("the next section")];
+
+    let parts = parts(&patch);
+    let (new, old): (Vec<_>, Vec<_>) =
+        (parts.iter()).partition(|(name, _)| name.ends_with("spiral.rs"));
+    let [(_, lines)] = new[..] else {
+        panic!("the patch makes one file");
+    };
+    let file: String = lines.iter().map(|l| format!("{}\n", &l[1..])).collect();
+    let (code, tests) = file.split_once("\n#[cfg(test)]").expect("it has tests");
+    assert_eq!(blocks(section, "rust"), [code]);
+    assert!(tests.contains("#[test]"));
+
+    let shown = blocks(section, "diff");
+    assert_eq!(shown.len(), old.len());
+    for (name, lines) in old {
+        let changed = lines.iter().filter(|l| !l.starts_with(' '));
+        for line in changed {
+            assert!(
+                shown.iter().any(|block| block.lines().any(|l| l == *line)),
+                "{name}: README does not show {line}"
+            );
+        }
+    }
+    for line in shown.iter().flat_map(|block| block.lines()) {
+        assert!(patch.lines().any(|l| l == line), "the patch has no {line}");
+    }
+}
