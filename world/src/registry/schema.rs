@@ -27,6 +27,10 @@ impl<K: Kind> JsonSchema for Choice<K> {
                 .to_value()
             })
             .collect();
+        if variants.is_empty() {
+            // `oneOf` of nothing is no legal schema; an `enum` of nothing is one that allows nothing.
+            return json_schema!({ "description": K::WHAT.trim(), "enum": [] });
+        }
         json_schema!({ "description": K::WHAT.trim(), "oneOf": variants })
     }
 }

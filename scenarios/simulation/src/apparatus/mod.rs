@@ -80,5 +80,5 @@ pub trait Apparatus: Spec {
 
 kind! {
     /// A machine of a kind that another crate adds.
-    pub ApparatusSpec = Apparatuses of Apparatus { heading: "Apparatus of other crates", rows: [] }
+    pub ApparatusSpec = Apparatuses of Apparatus { heading: "Machines of other crates", rows: [] }
 }

@@ -102,7 +102,7 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
 }
 
 /// Reads a scenario from its text, with what a registry adds. Errors call it `name`. Paths in it are relative to the
-/// working folder. It serves programs that change the text of a [`template`](catalog::template).
+/// working folder. It serves programs that change the text of a [`template`](super::template).
 ///
 /// # Errors
 /// As [`load`].

@@ -9,7 +9,6 @@ use std::collections::BTreeSet;
 use std::path::PathBuf;
 use world::digest::Digest;
 use world::math;
-use world::registry::Registry;
 use world::seeds::{Key, Seed, Stream};
 
 /// A campaign, read and laid out.
@@ -25,10 +24,8 @@ pub struct Campaign {
     pub text: String,
     /// Hash of the text, 32 hexadecimal digits.
     pub hash: String,
-    /// The scenario that arms and conditions change.
+    /// The scenario that arms and conditions change; they may ask for what its registry adds.
     pub base: Loaded,
-    /// What its scenarios may ask for beside what comes with the program.
-    registry: Registry,
     /// The key of its runs.
     pub key: Key,
 }
@@ -61,7 +58,6 @@ impl Campaign {
             text: text.to_string(),
             hash: hash(text),
             base,
-            registry: Registry::now(),
             key: Key::public(),
         })
     }
@@ -160,13 +156,13 @@ impl Campaign {
     pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
         let (shown, text) = self.text_of(condition, arm)?;
         Ok(Loaded {
-            scenario: parse_with(&self.registry, &shown, &text)?,
+            scenario: parse_with(&self.base.registry, &shown, &text)?,
             path: PathBuf::from(shown),
             name: self.base.name.clone(),
             base_dir: self.base.base_dir.clone(),
             hash: hash(&text),
             text,
-            registry: self.registry.clone(),
+            registry: self.base.registry.clone(),
         })
     }
 
@@ -276,6 +272,14 @@ mod tests {
         let base = scenario::load(Path::new("uniform_channel")).unwrap();
         let text = format!("(version: 2, title: \"t\", base: \"uniform_channel\", {rest})");
         Campaign::new("c.ron", "c", &text, base).unwrap()
+    }
+
+    /// Systems and topics of other crates are in every run, on whatever thread it is made.
+    #[test]
+    fn every_arm_keeps_the_registry_of_the_base() {
+        let registry = world::registry::Registry::default().carrying(7_u8);
+        let arm = registry.scope(|| campaign(ARMS)).loaded(0, 1).unwrap();
+        assert_eq!(arm.registry.carried::<u8>().collect::<Vec<_>>(), [&7]);
     }
 
     const ARMS: &str = r#"seeds: 3, arms: [(name: "slow", set: [("robots[0].strategy.speed_m_s", "1")]), (name: "fast")]"#;
