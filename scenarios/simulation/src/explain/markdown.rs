@@ -96,6 +96,9 @@ fn shape(r: &Reference, out: &mut String, shape: &Shape) {
                 field(r, out, f);
             }
         }
+        Shape::Choice(variants) if variants.is_empty() => {
+            out.push_str("None comes with the program.\n");
+        }
         Shape::Choice(variants) => {
             out.push_str("| one of | holds | meaning |\n| --- | --- | --- |\n");
             for v in variants {

@@ -105,6 +105,9 @@ fn inside(r: &Reference, out: &mut String, shape: &Shape, path: &str) {
             }
         }
         Shape::Choice(variants) => {
+            if variants.is_empty() {
+                out.push_str("\n  None comes with the program.\n");
+            }
             for v in variants {
                 variant(r, out, v);
             }

@@ -41,6 +41,13 @@ fn prose_of_the_reference_fits_on_its_lines() {
 }
 
 #[test]
+fn a_kind_without_rows_says_so() {
+    let none = "None comes with the program.";
+    assert!(explain("apparatus").unwrap().contains(none));
+    assert!(markdown().contains(none));
+}
+
+#[test]
 fn a_kind_says_what_it_is_for() {
     let text = explain("robots.strategy.Amp.reacquire").unwrap();
     assert!(text.contains("search around the last detections"), "{text}");
