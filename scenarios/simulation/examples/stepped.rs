@@ -20,7 +20,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let ocean = trial.simulation.ocean();
             let water = ocean.velocity(&place, trial.simulation.t_s());
             println!(
-                "{minute:.0} min: {} at {:.0} m east, {:.0} m north (believes {:.0}, {:.0}), water {:.2} m/s, {} filaments",
+                "{minute:.0} min: {} at {:.0} m east, {:.0} m north (believes {:.0}, {:.0}), \
+                 water {:.2} m/s, {} filaments",
                 robot.behaviour.name(),
                 place.x,
                 place.y,

@@ -45,10 +45,13 @@
 //! | --- | --- | --- |
 //! | a current | a row of `Currents` | `own_current.rs` |
 //! | a sensor | a row of `Sensors` | `own_sensor.rs` |
-//! | a behaviour, declaration rule, source map, planner, a gantry's searcher | a row of its kind | like `own_strategy.rs` |
-//! | a system in a stage of the tick, with data of its own | [`with_systems`](extend::Extend::with_systems) | `own_system.rs` |
-//! | a value that live state, recording and summary show | [`with_topic`](extend::Extend::with_topic) | `own_topic.rs` |
+//! | a behaviour, a rule of declaration, a source map, a planner | a row of its kind | like `own_strategy.rs` |
+//! | a system in a stage of the tick, with data of its own | [`with_systems`] | `own_system.rs` |
+//! | a value that live state, recording and summary show | [`with_topic`] | `own_topic.rs` |
 //! | a machine beside robots and gantries | a row of [`Apparatuses`](apparatus::Apparatuses) | `own_apparatus.rs` |
+//!
+//! [`with_systems`]: extend::Extend::with_systems
+//! [`with_topic`]: extend::Extend::with_topic
 //!
 //! Run an example with `cargo run --release -p rheotaxis --example own_current`.
 //!

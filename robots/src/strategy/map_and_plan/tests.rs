@@ -353,7 +353,7 @@ fn impossible_missions_are_refused() {
         maps: false,
         ..setting(vec![])
     };
-    assert!(says(&spec(), &blind).contains("give it one, as in map: Pomdp()"));
+    assert!(says(&spec(), &blind).contains("add one, for example map: Pomdp()"));
     let full = setting(vec![block("b", 50.0, 50.0, [300.0, 300.0, 8.0])]);
     assert!(says(&spec(), &full).contains("no cell of the planner's room is free"));
     let tiny = world::ranges::Positive::new(0.01);

@@ -93,7 +93,7 @@ fn compositions_that_make_no_sense_are_refused() {
     }
     let got = refused(vec![find(), maintain(), plume_map()], false);
     assert!(
-        got.starts_with("strategy.Subsumption.layers[2]: goes where the robot's map"),
+        got.starts_with("strategy.Subsumption.layers[2]: needs a source map"),
         "{got}"
     );
     let wrong = AvoidParams {

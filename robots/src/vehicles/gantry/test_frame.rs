@@ -258,7 +258,7 @@ fn broken_masses_and_shapes_are_told() {
     fails(
         "<box size=\"0.1 1.25 0.1\"/>",
         "<mesh filename=\"beam.stl\"/>",
-        "link \"beam\", collision 1: mesh \"beam.stl\": No such file or directory (os error 2)",
+        "link \"beam\", collision 1: mesh \"beam.stl\": there is no such file",
     );
 }
 

@@ -87,8 +87,8 @@ impl<'a> Systems<'a> {
         for (id, what) in self.truth {
             if reads(&access, *id) {
                 self.faults.push(format!(
-                    "the system `{name}` works for a searcher and reads {what}, which holds the truth: let it read what \
-                     instruments and navigation say, or add it with `add` if it only measures or judges"
+                    "the system `{name}` works for a searcher and reads {what}, which holds the truth: let it read \
+                     what instruments and navigation say, or add it with `add` if it only measures or judges"
                 ));
             }
         }

@@ -152,7 +152,8 @@ pub(crate) fn read_bodies(
         *truth = physics.truth(hull.body);
         assert!(
             truth.is_finite(),
-            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the water there",
+            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the \
+             water there",
             id.name,
             clock.step
         );

@@ -201,7 +201,7 @@ fn declaration(name: &RunName, robot: &str, d: &DeclarationSummary) -> Declarati
         arm: name.arm.clone(),
         condition: name.condition.clone(),
         seed_index: name.seed_index,
-        seed: name.seed,
+        seed: name.seed.number(),
         robot: robot.to_string(),
         number: d.number.into(),
         region: d.region.map(u64::from),

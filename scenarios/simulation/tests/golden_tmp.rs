@@ -1,0 +1,3 @@
+#![allow(missing_docs)]
+#[path = "../../../tests/it/golden.rs"]
+mod golden;
