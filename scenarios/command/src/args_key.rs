@@ -5,10 +5,10 @@ use world::seeds::{Key, Seed};
 /// The key of the runs.
 #[derive(Clone, Debug, Default, PartialEq, Eq, clap::Args)]
 pub struct KeyArgs {
-    /// Secret text on which all random numbers depend beside the seed. Without it, anyone who knows the seed can compute
-    /// every random number of the run. The text itself is stored nowhere; summary.json and campaign.json hold a hash, by
-    /// which it is recognised. Use at least 20 random characters. The environment variable keeps the text out of the
-    /// list of processes.
+    /// Secret text on which all random numbers depend beside the seed. Without it, anyone who knows the seed can
+    /// compute every random number of the run. The text itself is stored nowhere; summary.json and campaign.json hold
+    /// a hash, by which it is recognised. Use at least 20 random characters. The environment variable keeps the text
+    /// out of the list of processes.
     #[arg(
         long,
         value_name = "TEXT",

@@ -162,14 +162,13 @@ impl<'a> Onlooker<'a> {
             Some(_) => RunOutcome::Failed,
             None => ended.outcome,
         };
-        (self.builder).went_wrong(&trial.score().abnormal);
         self.builder.added(trial);
         let summary = self.builder.finish(
             &RunEnd {
                 outcome,
                 error: self.failure.as_ref().map(ToString::to_string),
                 digest: ended.digest.clone(),
-                declarations: ended.declarations.clone(),
+                score: trial.score().clone(),
                 totals: Totals {
                     mission_s: ended.t_s,
                     spin_up_s: self.spin_up_s,

@@ -3,12 +3,12 @@
 use crate::results::{RobotInfo, RunInfo, SourceTruth};
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
+use rheotaxis::score::Score;
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
     FlowEstimate, Layer, LayerState, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
-use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use world::area::Area;
@@ -238,14 +238,38 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
         .collect()
 }
 
-/// The declarations in the last frame, as the score has them.
-pub(crate) fn declared(frames: &[Frame]) -> BTreeMap<String, Vec<Declaration>> {
-    let last = frames.last();
-    let robots = last.iter().flat_map(|f| &f.robots);
-    let robots = robots.map(|r| (r.id.clone(), r.declarations.clone()));
-    let gantries = last.iter().flat_map(|f| &f.gantries);
-    let gantries = gantries.map(|g| (g.id.clone(), g.declaration.into_iter().collect()));
-    robots.chain(gantries).collect()
+/// The score of a run with these frames.
+pub(crate) fn scored(frames: &[Frame]) -> Score {
+    let mut score = Score::new(vec![source().position]);
+    for f in frames {
+        for r in &f.robots {
+            let p = r.truth.pose.p_WB;
+            let n = place(&mut score, &r.id);
+            score.at(n, &p);
+            let own = &mut score.searchers[n];
+            own.misplaced((r.estimate.position - p.xy()).norm());
+            if r.detected {
+                own.detected(f.t_s, p.xy());
+            }
+            r.declarations.iter().for_each(|d| own.declared(*d));
+        }
+        for g in &f.gantries {
+            let n = place(&mut score, &g.id);
+            let own = &mut score.searchers[n];
+            own.moved(&g.head_W);
+            if g.decision.working.spike.contains(&true) {
+                own.detected(f.t_s, g.head_W.xy());
+            }
+            g.declaration.iter().for_each(|d| own.declared(*d));
+        }
+        score.abnormal.clone_from(&f.abnormal);
+    }
+    score
+}
+
+fn place(score: &mut Score, id: &str) -> usize {
+    let known = score.searchers.iter().position(|s| s.id == id);
+    known.unwrap_or_else(|| score.join(id))
 }
 
 /// A meandering plume that thins out and widens.

@@ -11,7 +11,7 @@ use crate::results::{
     BeliefTrack, Echoes, ObstacleOutline, RunEnd, RunReport, SourceTruth, SummaryBuilder, Totals,
     TrackTable,
 };
-use crate::sample::{area, declared, frames, info, plume, robots, source, terrain};
+use crate::sample::{area, frames, info, plume, robots, scored, source, terrain};
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
@@ -40,7 +40,7 @@ fn reported<T>(
         outcome: RunOutcome::Found,
         error: None,
         digest: "00ff".into(),
-        declarations: declared(frames),
+        score: scored(frames),
         totals: Totals::default(),
     };
     of(&RunReport {

@@ -5,7 +5,7 @@ use crate::record::Recorder;
 use crate::results::{
     BeliefTrack, MassBalance, RunEnd, RunReport, Summary, SummaryBuilder, Totals, Track, TrackTable,
 };
-use crate::sample::{area, declared, folder, frames, info, plume, robots, source, terrain};
+use crate::sample::{area, folder, frames, info, plume, robots, scored, source, terrain};
 use image::RgbImage;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame};
@@ -22,7 +22,7 @@ fn end(outcome: RunOutcome, frames: &[Frame]) -> RunEnd {
         outcome,
         error: None,
         digest: "00ff".into(),
-        declarations: declared(frames),
+        score: scored(frames),
         totals: Totals {
             mission_s: 100.0,
             spin_up_s: 50.0,

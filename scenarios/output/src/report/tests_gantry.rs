@@ -6,7 +6,7 @@ use crate::record::Recorder;
 use crate::results::{
     GantryInfo, ProbeTables, RunEnd, RunReport, SourceTruth, Summary, SummaryBuilder, Totals, Track,
 };
-use crate::sample::{declared, folder, info};
+use crate::sample::{folder, info, scored};
 use crate::sample_gantry as sample;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
@@ -117,7 +117,7 @@ fn summary(frames: &[Frame]) -> Summary {
         outcome: RunOutcome::Found,
         error: None,
         digest: "00ff".into(),
-        declarations: declared(frames),
+        score: scored(frames),
         totals: Totals::default(),
     };
     builder.finish(&end, &[source()])

@@ -130,7 +130,7 @@ pub struct RobotSummary {
     pub first_detection_s: Option<f64>,
     /// True position at that time.
     pub first_detection: Option<Position>,
-    /// Frames with a detection (frames come at 10 Hz, the sensor's rate).
+    /// Readings with a detection.
     pub detections: u64,
     /// Straight distance from the first detection to the first declaration, m: how far it traced the plume.
     pub traced_m: Option<f64>,

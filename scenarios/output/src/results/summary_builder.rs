@@ -5,17 +5,15 @@ use super::MapEnd;
 use super::RunInfo;
 use super::sources::SourceTruth;
 use super::summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, RegionSummary, RobotSummary, RunSummary,
-    SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
+    RunSummary, SourceSummary, Summary, Totals, Versions,
 };
-use nalgebra::{Vector2, Vector3};
-use rheotaxis::abnormal::Abnormal;
+use nalgebra::Vector2;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::score::{Score, SearcherScore};
 use rheotaxis::trial::Trial;
-use robots::handoff::{
-    Behaviour, Belief, BeliefGrid, Declaration, Region, RegionState, Regions, region_name,
-};
+use robots::handoff::{Behaviour, Belief, BeliefGrid, Region, RegionState, Regions, region_name};
 use serde_json::Value;
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
@@ -30,8 +28,8 @@ pub struct RunEnd {
     pub error: Option<String>,
     /// Digest of the state sequence.
     pub digest: String,
-    /// The declarations in the score, by robot or gantry.
-    pub declarations: BTreeMap<String, Vec<Declaration>>,
+    /// The score: what each searcher did, and what went wrong.
+    pub score: Score,
     /// Times and counts.
     pub totals: Totals,
 }
@@ -42,12 +40,8 @@ const FIX_S: f64 = 60.0;
 #[derive(Debug)]
 struct Robot {
     id: String,
-    last: Vector3<f64>,
     last_t_s: f64,
     behaviour: Behaviour,
-    travelled_m: f64,
-    first_detection: Option<(f64, Vector2<f64>)>,
-    detections: u64,
     /// What was known when a declaration was made, by its number: the straight distance from the first detection in
     /// the area or subregion, and the largest shift by a fix in the minute before, m.
     made: BTreeMap<u32, [Option<f64>; 2]>,
@@ -56,8 +50,6 @@ struct Robot {
     in_region: Option<Vector2<f64>>,
     /// Fixes of the last minute: the time, and how far each moved the estimate, m.
     fixes: VecDeque<(f64, f64)>,
-    error_m: f64,
-    greatest_error_m: f64,
     behaviour_s: Vec<(Behaviour, f64)>,
     /// The most probable cell of its map and since when, with the map's cells.
     best: Option<(f64, usize, Arc<BeliefGrid>)>,
@@ -69,18 +61,12 @@ impl Robot {
     fn new(t_s: f64, r: &RobotFrame) -> Self {
         Self {
             id: r.id.clone(),
-            last: r.truth.pose.p_WB,
             last_t_s: t_s,
             behaviour: r.behaviour,
-            travelled_m: 0.0,
-            first_detection: None,
-            detections: 0,
             made: BTreeMap::new(),
             regions: Regions::default(),
             in_region: None,
             fixes: VecDeque::new(),
-            error_m: 0.0,
-            greatest_error_m: 0.0,
             behaviour_s: Vec::new(),
             best: None,
             map: None,
@@ -88,8 +74,6 @@ impl Robot {
     }
 
     fn observe(&mut self, t_s: f64, r: &RobotFrame) {
-        let p = r.truth.pose.p_WB;
-        self.travelled_m += (p - self.last).norm();
         let spent = t_s - self.last_t_s;
         match self
             .behaviour_s
@@ -99,13 +83,8 @@ impl Robot {
             Some((_, s)) => *s += spent,
             None => self.behaviour_s.push((self.behaviour, spent)),
         }
-        self.last = p;
         self.last_t_s = t_s;
         self.behaviour = r.behaviour;
-        if r.detected {
-            self.detections += 1;
-            self.first_detection.get_or_insert((t_s, p.xy()));
-        }
         self.declared(t_s, r);
         if let Some(b) = r.belief.as_ref().filter(|b| b.informed)
             && self
@@ -119,8 +98,6 @@ impl Robot {
             // A copy is cheap: it only counts two references, because the cells are shared.
             self.map = Some(b.clone());
         }
-        self.error_m = (r.estimate.position - p.xy()).norm();
-        self.greatest_error_m = self.greatest_error_m.max(self.error_m);
     }
 
     /// Notes what is known about a declaration only at the time when it is made.
@@ -143,10 +120,8 @@ impl Robot {
         }
     }
 
-    fn summary(&self, said: &[Declaration], sources: &[SourceTruth]) -> RobotSummary {
-        let traced_m = (self.first_detection.zip(said.first()))
-            .map(|((_, from), d)| (d.position - from).norm());
-        let mut declarations: Vec<DeclarationSummary> = (said.iter())
+    fn summary(&self, score: &SearcherScore, sources: &[SourceTruth]) -> RobotSummary {
+        let mut declarations: Vec<DeclarationSummary> = (score.declarations.iter())
             .map(|d| {
                 let [traced_m, fix_m] = self.made.get(&d.number).copied().unwrap_or_default();
                 DeclarationSummary {
@@ -168,7 +143,7 @@ impl Robot {
             sources_declared,
             declarations,
             regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
-            map: (self.map.as_ref()).map(|last| MapEnd::of(last, said, sources)),
+            map: (self.map.as_ref()).map(|last| MapEnd::of(last, &score.declarations, sources)),
             regions: (self.regions.all.iter().zip(0..))
                 .map(|(region, k)| RegionSummary {
                     name: region_name(k),
@@ -178,10 +153,10 @@ impl Robot {
                     until_s: region.until_s,
                 })
                 .collect(),
-            first_detection_s: self.first_detection.map(|d| d.0),
-            first_detection: self.first_detection.map(|d| d.1.into()),
-            detections: self.detections,
-            traced_m,
+            first_detection_s: score.first_detection_s,
+            first_detection: score.first_detection.map(Position::from),
+            detections: score.detections,
+            traced_m: score.traced_m(),
             correct_cell_s: (self.best.as_ref())
                 .filter(|(_, best, grid)| {
                     sources
@@ -189,9 +164,9 @@ impl Robot {
                         .any(|s| grid.cell(&s.position) == Some(*best))
                 })
                 .map(|(since_s, ..)| *since_s),
-            travelled_m: self.travelled_m,
-            final_position_error_m: self.error_m,
-            greatest_position_error_m: self.greatest_error_m,
+            travelled_m: score.travelled_m,
+            final_position_error_m: score.final_position_error_m,
+            greatest_position_error_m: score.greatest_position_error_m,
             last_behaviour: self.behaviour.name().to_owned(),
             behaviour_s: self
                 .behaviour_s
@@ -209,7 +184,6 @@ pub struct SummaryBuilder {
     run: RunInfo,
     robots: Vec<Robot>,
     gantries: Vec<GantryPath>,
-    abnormal: Vec<Abnormal>,
     apparatus: BTreeMap<String, Value>,
     published: BTreeMap<String, Value>,
 }
@@ -222,7 +196,6 @@ impl SummaryBuilder {
             run: run.clone(),
             robots: Vec::new(),
             gantries: Vec::new(),
-            abnormal: Vec::new(),
             apparatus: BTreeMap::new(),
             published: BTreeMap::new(),
         }
@@ -235,14 +208,8 @@ impl SummaryBuilder {
         self.published = last.collect();
     }
 
-    /// Everything that went wrong up to the end, which may lie between two frames.
-    pub fn went_wrong(&mut self, abnormal: &[Abnormal]) {
-        self.abnormal = abnormal.to_vec();
-    }
-
     /// Adds a frame.
     pub fn observe(&mut self, frame: &Frame) {
-        self.abnormal.clone_from(&frame.abnormal);
         if self.robots.is_empty() {
             let new = |r| Robot::new(frame.t_s, r);
             self.robots = frame.robots.iter().map(new).collect();
@@ -263,7 +230,10 @@ impl SummaryBuilder {
     #[must_use]
     pub fn finish(&self, end: &RunEnd, sources: &[SourceTruth]) -> Summary {
         let t = end.totals;
-        let said = |id: &str| end.declarations.get(id).map_or(&[][..], Vec::as_slice);
+        let score = |id: &str| {
+            let found = end.score.searchers.iter().find(|s| s.id == id);
+            found.unwrap_or_else(|| panic!("{id} is in a frame and has no score: let it join"))
+        };
         let ratio = |wall: f64| (wall > 0.0).then(|| t.mission_s / wall);
         Summary {
             scenario: self.run.scenario_name.clone(),
@@ -287,16 +257,18 @@ impl SummaryBuilder {
             robots: self
                 .robots
                 .iter()
-                .map(|r| r.summary(said(&r.id), sources))
+                .map(|r| r.summary(score(&r.id), sources))
                 .collect(),
             gantries: self
                 .gantries
                 .iter()
-                .map(|g| g.summary(said(g.id()).first(), sources))
+                .map(|g| g.summary(score(g.id()), sources))
                 .collect(),
             apparatus: self.apparatus.clone(),
             published: self.published.clone(),
-            abnormal: self.abnormal.iter().map(AbnormalSummary::from).collect(),
+            abnormal: (end.score.abnormal.iter())
+                .map(AbnormalSummary::from)
+                .collect(),
             run: RunSummary {
                 totals: t,
                 real_time_factor: ratio(t.mission_wall_s),

@@ -14,7 +14,7 @@ use world::registry::Registry;
 pub(super) const FILE: &str = "campaign.json";
 /// Version of the format of a campaign's folder. Since 2, the declarations stand in a table of their own, in the files
 /// `declarations-<block>.parquet`, and every file of a block has a seal.
-pub const FORMAT: u32 = 2;
+const FORMAT: u32 = 2;
 
 fn first_format() -> u32 {
     1

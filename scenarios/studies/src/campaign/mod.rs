@@ -31,7 +31,7 @@ pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
 pub use error::CampaignError;
 pub use load::{CAMPAIGNS, load};
-pub use manifest::{FORMAT, Manifest};
+pub use manifest::Manifest;
 pub(crate) use one_run::sharing_run;
 pub use one_run::{RunName, one_run};
 pub use overrides::put;

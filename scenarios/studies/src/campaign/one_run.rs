@@ -77,7 +77,7 @@ fn attempt(
         outcome: ended.outcome,
         error: None,
         digest: ended.digest.clone(),
-        declarations: ended.declarations.clone(),
+        score: trial.score().clone(),
         totals: Totals {
             mission_s: ended.t_s,
             mission_wall_s: gatherer.mission_begun.elapsed().as_secs_f64(),

@@ -1,3 +1,0 @@
-#![allow(missing_docs)]
-#[path = "../../../tests/it/golden.rs"]
-mod golden;
