@@ -62,6 +62,13 @@ impl Panel {
         c.clip(self.left, self.top, self.width, self.height);
     }
 
+    /// The same, on a black ground.
+    pub fn clip_black(&self, c: &mut Canvas) {
+        self.clip(c);
+        let ground = Style::fill("#000000");
+        c.rect(self.left, self.top, self.width, self.height, &ground);
+    }
+
     /// Draws the panel's edge.
     pub fn frame(&self, c: &mut Canvas, width: f64) {
         c.rect(
@@ -99,6 +106,12 @@ impl Panel {
             let at = [self.left - 7.0, y + 0.36 * size];
             c.text(at, size, Anchor::End, &number(v, step));
         }
+    }
+
+    /// A faint line and a tick at a height of the sheet, px, for axes whose numbers are not evenly spaced.
+    pub fn mark_y(&self, c: &mut Canvas, y: f64) {
+        c.line([self.left, y], [self.right(), y], &Style::line(GRID, 0.7));
+        c.line([self.left - 4.0, y], [self.left, y], &Style::line(INK, 0.8));
     }
 
     /// Faint lines at the ticks of both axes.

@@ -2,7 +2,6 @@
 
 use super::belief::remark;
 use crate::charts::canvas::{Anchor, Canvas, Style};
-use crate::charts::palette::INK;
 use crate::charts::panel::{Panel, decade, power_of_ten, range_of};
 use crate::results::RunReport;
 use crate::results::belief_track::{BeliefRow, RobotBelief, off};
@@ -139,16 +138,7 @@ fn curve(
 fn decades(c: &mut Canvas, panel: &Panel) {
     for d in panel.y[0].ceil() as i32..=panel.y[1].floor() as i32 {
         let y = panel.py(f64::from(d));
-        c.line(
-            [panel.left, y],
-            [panel.right(), y],
-            &Style::line("#e3e3e3", 0.7),
-        );
-        c.line(
-            [panel.left - 4.0, y],
-            [panel.left, y],
-            &Style::line(INK, 0.8),
-        );
+        panel.mark_y(c, y);
         let v = power_of_ten(d);
         let text = if decade(v) < 0 {
             format!("{v}")

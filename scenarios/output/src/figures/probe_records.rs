@@ -136,16 +136,7 @@ fn whole(c: &mut Canvas, panel: &Panel, t: &GantryTrack, k: usize) {
     let at = |v: f64| log10((v - bottom).max(LOWEST_V));
     for n in ticks(panel.y, 1.0) {
         let (y, v) = (panel.py(n), power_of_ten(n.round() as i32));
-        c.line(
-            [panel.left, y],
-            [panel.right(), y],
-            &Style::line("#e3e3e3", 0.7),
-        );
-        c.line(
-            [panel.left - 4.0, y],
-            [panel.left, y],
-            &Style::line(INK, 0.8),
-        );
+        panel.mark_y(c, y);
         c.text(
             [panel.left - 7.0, y + 3.6],
             10.0,

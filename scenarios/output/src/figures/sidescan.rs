@@ -195,14 +195,7 @@ fn waterfall(c: &mut Canvas, panel: &Panel, pass: &Waterfall, level: &Levels) {
     let rows = pass.rows();
     let begin = rows[0].along_m;
     let width = BLOCK as f64 * pass.cell_m();
-    panel.clip(c);
-    c.rect(
-        panel.left,
-        panel.top,
-        panel.width,
-        panel.height,
-        &Style::fill("#000000"),
-    );
+    panel.clip_black(c);
     let mut cells = ShadedCells::new();
     for lines in rows.chunks(BLOCK) {
         let along = |r: &Row| r.along_m - begin;
@@ -258,14 +251,7 @@ fn mosaic(c: &mut Canvas, panel: &Panel, passes: &[&Waterfall], level: &Levels) 
             }
         }
     }
-    panel.clip(c);
-    c.rect(
-        panel.left,
-        panel.top,
-        panel.width,
-        panel.height,
-        &Style::fill("#000000"),
-    );
+    panel.clip_black(c);
     let mut cells = ShadedCells::new();
     for j in 0..n {
         let of = |(sum, m): &(f64, u32)| (*m > 0).then(|| level.shade(sum / f64::from(*m)));

@@ -21,40 +21,30 @@ pub(super) trait Record: Default + 'static {
     const COLUMNS: &'static [(&'static str, bool, Column<Self>)];
 }
 
+/// A column with a field's name: whether it may be empty, its kind, how it is read and written.
+macro_rules! column {
+    ($f:ident, $empty:literal, $kind:ident, $read:expr, $write:expr) => {
+        (stringify!($f), $empty, Column::$kind($read, $write))
+    };
+}
 macro_rules! number {
     ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Number(|r| Some(r.$f), |r, v| r.$f = v),
-        )
+        column!($f, false, Number, |r| Some(r.$f), |r, v| r.$f = v)
     };
 }
 macro_rules! text {
     ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Text(|r| Some(&r.$f), |r, v| r.$f = v),
-        )
+        column!($f, false, Text, |r| Some(&r.$f), |r, v| r.$f = v)
     };
 }
 macro_rules! real {
     ($f:ident) => {
-        (
-            stringify!($f),
-            false,
-            Column::Real(|r| Some(r.$f), |r, v| r.$f = v),
-        )
+        column!($f, false, Real, |r| Some(r.$f), |r, v| r.$f = v)
     };
 }
 macro_rules! maybe {
     ($f:ident) => {
-        (
-            stringify!($f),
-            true,
-            Column::Real(|r| r.$f, |r, v| r.$f = Some(v)),
-        )
+        column!($f, true, Real, |r| r.$f, |r, v| r.$f = Some(v))
     };
 }
 
@@ -67,16 +57,9 @@ impl Record for RunRow {
         number!(seed_index),
         number!(seed),
         text!(outcome),
-        (
-            "success",
-            false,
-            Column::Truth(|r| r.success, |r, v| r.success = v),
-        ),
-        (
-            "error",
-            true,
-            Column::Text(|r| r.error.as_deref(), |r, v| r.error = Some(v)),
-        ),
+        column!(success, false, Truth, |r| r.success, |r, v| r.success = v),
+        column!(error, true, Text, |r| r.error.as_deref(), |r, v| r.error =
+            Some(v)),
         text!(digest),
         real!(mission_s),
         maybe!(first_detection_s),
@@ -115,11 +98,8 @@ impl Record for DeclarationRow {
         number!(seed),
         text!(robot),
         number!(number),
-        (
-            "region",
-            true,
-            Column::Number(|d| d.region, |d, v| d.region = Some(v)),
-        ),
+        column!(region, true, Number, |d| d.region, |d, v| d.region =
+            Some(v)),
         text!(rule),
         text!(verdict),
         real!(t_s),
