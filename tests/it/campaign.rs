@@ -361,7 +361,7 @@ fn a_plan_counts_and_a_mistaken_arm_is_named_before_anything_runs() {
     let (said, _) = ends(dir, 0, &["plan", "c.ron", "--block", "5"]);
     for part in [
         "c: Two speeds\n  12 runs: 2 arms x 2 conditions x 3 seeds on pond\n  2 blocks of 6 runs\n  seeds 1 to 3\n",
-        "  run 0 is `rheotaxis run --seed 1` of pond with what arm slow and its condition set\n",
+        "  run 0 is `rheotaxis run --seed 1` of pond with the values of arm slow and its condition\n",
         "  arm slow: robots[0].strategy.speed_m_s=1.2\n  arm fast: as it is\n",
         "  condition 1: sources[0].rate_g_s=0.04\n",
         "the first run took",

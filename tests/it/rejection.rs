@@ -59,15 +59,13 @@ fn rejected_and_searched_on(dir: &Path, name: &str, text: &str) -> Value {
     assert!(all.len() > 1, "{summary:#}");
     assert_eq!(all[0]["verdict"], "rejected");
     let t_s = |d: &Value| d["t_s"].as_f64().expect("a time");
+    let near = |d: &Value| d["error"]["total_m"].as_f64().expect("a source") < WITHIN_M;
+    // A good place: only the look at it was in vain.
+    assert!(near(&all[0]), "{}", all[0]);
     for (k, d) in all.iter().enumerate() {
         assert_eq!(d["number"], k);
-        // Good places all of them: only the look at them was in vain.
-        assert!(
-            d["error"]["total_m"].as_f64().expect("a source") < WITHIN_M,
-            "{d}"
-        );
     }
-    let stands = all.iter().any(|d| d["verdict"] != "rejected");
+    let stands = (all.iter()).any(|d| d["verdict"] != "rejected" && near(d));
     let end = if stands {
         (0, "found")
     } else {

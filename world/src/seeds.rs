@@ -229,7 +229,11 @@ mod tests {
         let mut stream = Stream::new(1, "auv0", "lbl");
         assert_eq!(
             [key(1, "auv0", "lbl"), stream.bits(), stream.bits()],
-            [0, 0, 0]
+            [
+                13124532052829722062,
+                12648757074421929392,
+                4532425916095895845
+            ]
         );
     }
 

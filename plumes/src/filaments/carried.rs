@@ -17,7 +17,7 @@
 
 use super::fetch::highest;
 use super::kernel::{BLOCK, Block, Path};
-use super::lookup::Lookup;
+use super::lookup::{Column, Lookup};
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
 use crate::quad::Quad;
@@ -228,12 +228,7 @@ impl Carrier {
         }
         for l in 0..BLOCK {
             let rise = (to[2][l] - part[2][l]) * self.ds[level[l] as usize];
-            let bed = lookup.bed(super::lookup::Column {
-                at: column[l],
-                f: to[0][l],
-                g: to[1][l],
-                outside: false,
-            });
+            let bed = lookup.bed(Column::inside(column[l], to[0][l], to[1][l]));
             b.z[l] = b.z[l] * (bed / b.bed[l]) - bed * rise;
             b.bed[l] = bed;
         }

@@ -33,12 +33,7 @@ impl Columns {
 
     #[inline(always)]
     pub(super) fn get(&self, l: usize) -> Column {
-        Column {
-            at: self.at[l],
-            f: self.f[l],
-            g: self.g[l],
-            outside: false,
-        }
+        Column::inside(self.at[l], self.f[l], self.g[l])
     }
 }
 

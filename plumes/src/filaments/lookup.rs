@@ -42,6 +42,15 @@ pub(super) struct Column {
     pub(super) outside: bool,
 }
 
+impl Column {
+    /// A position inside the grid.
+    #[inline(always)]
+    pub(super) fn inside(at: u32, f: f32, g: f32) -> Self {
+        let outside = false;
+        Self { at, f, g, outside }
+    }
+}
+
 /// Position of a height among the levels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Level {

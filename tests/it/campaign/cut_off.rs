@@ -169,7 +169,7 @@ fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() 
     let (said, said_of_missing) = ends(dir, 0, &["merge", "out", "-o", "all.parquet"]);
     assert!(said.starts_with(&format!("{n} row")), "{said}");
     assert!(
-        said_of_missing.contains(&format!("{} runs are missing", 800 - n)),
+        said_of_missing.contains(&format!("{} runs missing", 800 - n)),
         "{said_of_missing}"
     );
     // What is done is not done again, and all is as if it had never been cut off, by whatever blocks.
