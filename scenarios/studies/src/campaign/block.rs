@@ -185,12 +185,15 @@ fn sound(
     Ok(Some(rows))
 }
 
+/// The lines of a table, and the notes in its footer.
+type Noted<T> = (Vec<T>, Vec<KeyValue>);
+
 /// The lines of a table and the notes in its footer; `None` if there is no file. If it is not known how many lines
 /// there may be, there are at most as many as the file has bytes.
 fn read_table<T: Record>(
     path: &Path,
     most: Option<usize>,
-) -> Result<Option<(Vec<T>, Vec<KeyValue>)>, CampaignError> {
+) -> Result<Option<Noted<T>>, CampaignError> {
     let path = || path.to_owned();
     let unread = |e: std::io::Error| {
         let (path, problem) = (path(), e.to_string());
