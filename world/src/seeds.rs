@@ -3,7 +3,7 @@
 //! A keyed hash (BLAKE3) of the seed and the two names gives the key of a stream. So adding a sensor does not change the
 //! numbers of the others, and nobody can work out one stream from the numbers of another. Seeds are public: whoever
 //! knows one can make all streams of its runs. A contest that must prevent this gives its runs a secret key beside the
-//! seed ([`Seed::keyed`]); without one only independence is promised.
+//! seed ([`Key::secret`]); without one only independence is promised.
 
 use crate::math;
 use rand::{Rng, RngExt, SeedableRng};

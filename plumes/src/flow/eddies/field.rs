@@ -12,7 +12,9 @@
 //! in the moving frame then has the integral time 8T/π² = k/ε. It is the same for eddies of all sizes, although small
 //! ones live shorter in reality: a filament is decorrelated from them because large ones, and shear, sweep it through
 //! them. For each channel, all seeds take their patches from one stretch of 32 depths, drawn once per process; the
-//! water of a run follows from its seed alone. The patches move with the depth mean at all heights.
+//! water of a run follows from its seed alone. So runs of different seeds share the eddies of that stretch, and what
+//! depends on single eddies, such as a tracker's rate of success, differs between stretches by more than an interval
+//! over seeds says (docs/results.md). The patches move with the depth mean at all heights.
 
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
