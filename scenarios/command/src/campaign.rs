@@ -134,7 +134,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         }
         RunEnded::Waiting { missing } => {
             say_so(&format!(
-                "{}: this share is done for now; whether more runs are needed depends on {} of other shares: \
+                "{}: this share is done; whether more runs are needed depends on {} of other shares: \
                  run the same command again when they are done",
                 campaign.name,
                 count(missing, "missing block")
