@@ -4,7 +4,7 @@ use rheotaxis::ocean::{Ocean, Origin};
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
 use std::path::Path;
-use world::clock::{Clock, Every};
+use world::clock::Clock;
 use world::digest::Digest;
 
 fn plume_of(ocean: &Ocean) -> String {
@@ -30,15 +30,9 @@ fn nobodys_search_changes_the_ocean() {
     let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 3);
     let mut alone = origin.build(&loaded.base_dir).unwrap();
     alone.spin_up(|_| true);
-    let dt_s = time.step_s.get();
-    let every = Every::period(time.drift_period_s.get(), dt_s);
-    let mut clock = Clock::new(dt_s);
+    let mut clock = Clock::new(time.step_s.get());
     while clock.t_s() < 30.0 - 1e-9 {
-        alone.advance_water(clock.t_next_s());
-        if (clock.step + 1).is_multiple_of(every.steps) {
-            let t_s = clock.t_next_s();
-            alone.drift_plume(t_s - every.period_s(dt_s), t_s);
-        }
+        alone.advance(clock.t_next_s());
         clock.advance();
     }
     assert_eq!(plume_of(&alone), with);

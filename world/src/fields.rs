@@ -47,6 +47,11 @@ pub trait Flow: Send + Sync {
     /// Velocity over ground at `p` (ENU, m) and time `t_s`, m/s.
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64>;
 
+    /// Whether [`Flow::column`] never changes.
+    fn is_steady(&self) -> bool {
+        false
+    }
+
     /// Density at `p`, kg/m³.
     fn density(&self, _p: &Vector3<f64>, _t_s: f64) -> f64 {
         1026.0

@@ -16,13 +16,14 @@
 //! to face in f64. No step is too long: nothing passes a closed face, and the volume of any cloud is conserved.
 
 use super::fetch::highest;
-use super::kernel::{BLOCK, Block, Path};
+use super::kernel::{BLOCK, Block};
 use super::lookup::{Column, Lookup};
+use super::path::Path;
+use super::series::{current_time, expansion, logarithm, series};
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
 use crate::quad::Quad;
 use world::fields::Flow;
-use world::math;
 
 /// Greatest growth over a step (rate · time) for the series.
 const GENTLE: f32 = 0.25;
@@ -129,7 +130,16 @@ impl Carrier {
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 => unsafe { self.body_avx2(lookup, grid, block, way) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => unsafe { self.body_avx512(lookup, grid, block, way) },
         }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+    fn body_avx512(&self, lookup: &Lookup, grid: &FlowGrid, block: &mut Block, way: &mut Way) {
+        self.body(lookup, grid, block, way);
     }
 
     #[cfg(target_arch = "x86_64")]
@@ -361,37 +371,4 @@ impl Carrier {
             "a filament passed {MOST_FACES} faces of blocked water's cells in one step: take larger water.blockage.cell_m or a shorter drift period"
         );
     }
-}
-
-/// (e^x − 1)/x for a gentle x, to 3e-8.
-#[inline(always)]
-fn series(x: f32) -> f32 {
-    1.0 + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x * (1.0 / 720.0)))))
-}
-
-/// −ln(1 − x)/x for a gentle x, to 1e-6.
-#[inline(always)]
-fn current_time(x: f32) -> f32 {
-    1.0 + x * (0.5 + x * (1.0 / 3.0 + x * (0.25 + x * (0.2 + x * (1.0 / 6.0)))))
-}
-
-/// (e^x − 1)/x.
-fn expansion(x: f64) -> f64 {
-    if x.abs() < 1e-2 {
-        return 1.0
-            + x * (0.5 + x * (1.0 / 6.0 + x * (1.0 / 24.0 + x * (1.0 / 120.0 + x / 720.0))));
-    }
-    (math::exp(x) - 1.0) / x
-}
-
-/// ln(1 + x)/x; infinite at −1 and below, which is never reached.
-fn logarithm(x: f64) -> f64 {
-    if x.abs() < 1e-2 {
-        return 1.0
-            - x * (0.5 - x * (1.0 / 3.0 - x * (0.25 - x * (0.2 - x * (1.0 / 6.0 - x / 7.0)))));
-    }
-    if x <= -1.0 {
-        return f64::INFINITY;
-    }
-    math::ln(1.0 + x) / x
 }

@@ -31,12 +31,13 @@
 //! K_h varies, its gradient is added as drift (Itô form). The bed is that of the grid, bilinear in a cell; where the
 //! slope bends within a cell, it may lie some centimetres below the terrain's.
 //!
-//! All arithmetic is f32 and written once. The compiler makes a portable version and one for AVX2 from it (no fused
-//! multiply-add in either), which give the same bits.
+//! All arithmetic is f32 and written once. The compiler makes a version for each of `path` from it (no fused
+//! multiply-add in any), which give the same bits.
 
 use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::normals;
+use super::path::Path;
 
 /// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
@@ -92,43 +93,6 @@ impl Work {
     }
 }
 
-/// Which version of the step the machine can run.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Path {
-    /// Runs on every machine of the target.
-    Portable,
-    /// AVX2.
-    #[cfg(target_arch = "x86_64")]
-    Avx2,
-}
-
-impl Path {
-    /// The fastest version that this machine can run.
-    pub(super) fn detect() -> Self {
-        #[cfg(target_arch = "x86_64")]
-        if std::arch::is_x86_feature_detected!("avx2") {
-            return Path::Avx2;
-        }
-        Path::Portable
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Path::Portable if cfg!(target_arch = "x86_64") => "SSE2",
-            Path::Portable => "portable",
-            #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => "AVX2",
-        }
-    }
-}
-
-/// Names the vector instructions that the filaments' step uses on this machine. The results have the same bits with
-/// all of them.
-#[must_use]
-pub fn instructions() -> &'static str {
-    Path::detect().name()
-}
-
 /// Moves all filaments of the block, each by its `dt`.
 pub(super) fn step(
     path: Path,
@@ -143,7 +107,22 @@ pub(super) fn step(
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block, work) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx512 => unsafe { body_avx512(cells, nodes, key, block, work) },
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+fn body_avx512(
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    key: [u32; 2],
+    block: &mut Block,
+    work: &mut Work,
+) {
+    body(cells, nodes, key, block, work);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -290,7 +269,7 @@ mod tests {
         let mut grid = FlowGrid::new(&area, &terrain, shape);
         grid.refresh(&Swirl, 0.0);
         let mut cells = Lookup::new(&grid);
-        cells.refresh(&grid);
+        cells.refresh(&grid, None);
         (grid, cells)
     }
 
@@ -343,35 +322,21 @@ mod tests {
     }
 
     #[test]
-    fn both_versions_give_the_same_bits() {
+    fn all_versions_give_the_same_bits() {
         let (grid, cells) = scene(GridShape::default());
         let start = block(&cells);
-        let (mut a, mut b) = (start.clone(), start.clone());
-        let mut work = Work::new();
-        for n in 0..200 {
-            step(
-                Path::Portable,
-                &cells,
-                &grid.data,
-                [n, 7],
-                &mut a,
-                &mut work,
-            );
-            step(
-                Path::detect(),
-                &cells,
-                &grid.data,
-                [n, 7],
-                &mut b,
-                &mut work,
-            );
+        let run = |path| {
+            let (mut b, mut work) = (start.clone(), Work::new());
+            for n in 0..200 {
+                step(path, &cells, &grid.data, [n, 7], &mut b, &mut work);
+            }
+            [&b.x, &b.y, &b.z, &b.bed].map(|v| v.map(f32::to_bits))
+        };
+        let portable = run(Path::Portable);
+        assert_ne!(portable[0], start.x.map(f32::to_bits));
+        for path in Path::all() {
+            assert_eq!(run(path), portable, "{path:?}");
         }
-        let bits = |v: &[f32; BLOCK]| v.map(f32::to_bits);
-        assert_eq!(bits(&a.x), bits(&b.x));
-        assert_eq!(bits(&a.y), bits(&b.y));
-        assert_eq!(bits(&a.z), bits(&b.z));
-        assert_eq!(bits(&a.bed), bits(&b.bed));
-        assert_ne!(bits(&a.x), bits(&start.x));
     }
 
     #[test]

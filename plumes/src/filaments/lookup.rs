@@ -81,10 +81,10 @@ impl Lookup {
         }
     }
 
-    /// Takes over the values that a refresh of the grid has changed.
-    pub(super) fn refresh(&mut self, grid: &FlowGrid) {
-        let first = grid.k_h[0];
-        self.even_k_h = grid.k_h.iter().all(|k| *k == first).then_some(first);
+    /// Takes over the values that a refresh of the grid has changed; `even_k_h` is the horizontal diffusivity if it is
+    /// the same in all columns that are used.
+    pub(super) fn refresh(&mut self, grid: &FlowGrid, even_k_h: Option<f32>) {
+        self.even_k_h = even_k_h;
         if self.even_k_h.is_none() {
             self.k_h = bilinear(&grid.k_h, grid.dims[0], grid.dims[1]);
         }

@@ -1,5 +1,6 @@
 //! Filaments: store, drift, concentration.
 
+mod bands;
 mod carried;
 mod cut_off;
 mod displaced;
@@ -13,14 +14,21 @@ mod longest_step;
 mod lookup;
 mod noise;
 mod open_place;
+mod part;
+mod path;
 mod plume;
 mod rebound;
 mod room;
+mod sampled;
+mod series;
 mod size;
 mod solids;
+mod step;
 mod store;
 mod sweep;
 mod tally;
+#[cfg(test)]
+mod tests_bands;
 #[cfg(test)]
 mod tests_drift;
 #[cfg(test)]
@@ -47,12 +55,11 @@ mod tests_round;
 mod tests_water;
 #[cfg(test)]
 mod tests_waves;
-mod thread;
 mod walls;
 
 pub use cut_off::cut_off;
 pub use displaced::Displaced;
 pub use index::CUT_SIGMAS;
-pub use kernel::instructions;
 pub use longest_step::{EVEN, SharpestMixing, Uneven};
+pub use path::instructions;
 pub use plume::{Plume, PlumeSettings};

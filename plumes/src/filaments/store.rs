@@ -5,23 +5,32 @@
 //! *Parameters*: none.
 //!
 //! *Deviations*: none. A filament that leaves the domain is removed in the sweep that moves the others. The order is
-//! kept, so the oldest are always first. The arrays grow as needed: no filament is dropped to save memory.
+//! kept, so the oldest are always first, and each band of steps is a range. The arrays grow as needed: no filament is
+//! dropped to save memory.
 
+use super::bands::{Bands, MOST, Scales};
 use super::size::Size;
+use std::ops::Range;
 
 /// Arrays of one source's filaments, oldest first.
 #[derive(Clone, Debug)]
 pub(super) struct Store {
-    /// East, north, up, m.
+    /// East, north, up at the end of the step that each filament takes, m.
     pub(super) x: Vec<f32>,
     pub(super) y: Vec<f32>,
     pub(super) z: Vec<f32>,
-    /// Height of the bed under each filament, m (negative).
+    /// The same at the start of the step, or at its release if that was later.
+    pub(super) start: [Vec<f32>; 3],
+    /// Height of the bed under each filament at the end of its step, m (negative).
     pub(super) bed: Vec<f32>,
     /// Number in the order of release; it is the counter of the filament's noise.
     pub(super) number: Vec<u32>,
     /// Time of release, s.
     pub(super) born_s: Vec<f64>,
+    /// The first filament of each band.
+    pub(super) first: [usize; MOST],
+    /// Age from which a filament may be in each band, s.
+    least_age_s: [f64; MOST],
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.
@@ -38,9 +47,12 @@ impl Store {
             x: Vec::new(),
             y: Vec::new(),
             z: Vec::new(),
+            start: Default::default(),
             bed: Vec::new(),
             number: Vec::new(),
             born_s: Vec::new(),
+            first: [0; MOST],
+            least_age_s: [f64::NEG_INFINITY; MOST],
             size,
             filament_kg,
             released: 0,
@@ -48,8 +60,14 @@ impl Store {
         }
     }
 
+    /// Number of filaments, with those that are released before their band's step ends.
     pub(super) fn len(&self) -> usize {
         self.x.len()
+    }
+
+    /// Number of filaments that are released after a time, s; they are the last ones.
+    pub(super) fn unborn(&self, now_s: f64) -> usize {
+        self.born_s.iter().rev().take_while(|b| **b > now_s).count()
     }
 
     /// Adds the newest filament.
@@ -57,25 +75,127 @@ impl Store {
         self.x.push(p[0]);
         self.y.push(p[1]);
         self.z.push(p[2]);
+        for (start, p) in self.start.iter_mut().zip(p) {
+            start.push(p);
+        }
         self.bed.push(bed);
         self.number.push(self.released as u32);
         self.born_s.push(born_s);
         self.released += 1;
     }
 
-    /// In the two arrays that the drift does not write, moves the entries `from..from + n` down to `to`.
-    pub(super) fn shift_labels(&mut self, from: usize, to: usize, n: usize) {
-        self.number.copy_within(from..from + n, to);
-        self.born_s.copy_within(from..from + n, to);
+    /// The filaments of a band.
+    pub(super) fn band(&self, band: usize, bands: &Bands) -> Range<usize> {
+        let end = if band < bands.last() {
+            self.first[band + 1]
+        } else {
+            self.len()
+        };
+        self.first[band]..end
+    }
+
+    /// Puts all filaments into one band; they must have reached the same time.
+    pub(super) fn join(&mut self) {
+        self.first = [0; MOST];
+        self.least_age_s = [f64::NEG_INFINITY; MOST];
+    }
+
+    /// Takes the water's scales, by which the bands of the next longest step are chosen.
+    pub(super) fn scaled(&mut self, bands: &Bands, scales: &Scales) {
+        for band in 0..bands.last() {
+            self.least_age_s[band] = scales.age_s(&self.size, bands.step_s(band));
+        }
+        self.least_age_s[bands.last()] = f64::NEG_INFINITY;
+    }
+
+    /// Divides the filaments whose steps start now among the bands whose steps start now.
+    pub(super) fn divide(&mut self, bands: &Bands) {
+        let t_s = bands.next_s();
+        for band in bands.due()..bands.last() {
+            let from = self.first[band];
+            let least_s = self.least_age_s[band];
+            let old = self.born_s[from..].partition_point(|born| t_s - born >= least_s);
+            self.first[band + 1] = from + old;
+        }
+    }
+
+    /// Where a filament is at a time (s) of its band's step, of which this part has passed: east, north, up, m. `None`
+    /// if it is not released yet.
+    pub(super) fn place(
+        &self,
+        n: usize,
+        bands: &Bands,
+        band: usize,
+        now_s: f64,
+    ) -> Option<[f32; 3]> {
+        let span = bands.span(band);
+        let born_s = self.born_s[n];
+        let part = if born_s <= span.from_s {
+            span.part(now_s)
+        } else if born_s <= now_s {
+            let from_s = born_s;
+            super::bands::Span { from_s, ..span }.part(now_s)
+        } else {
+            return None;
+        };
+        let on = |start: f32, end: f32| {
+            if part < 1.0 {
+                start + part * (end - start)
+            } else {
+                end
+            }
+        };
+        Some([
+            on(self.start[0][n], self.x[n]),
+            on(self.start[1][n], self.y[n]),
+            on(self.start[2][n], self.z[n]),
+        ])
+    }
+
+    /// The band of a filament.
+    pub(super) fn band_of(&self, n: usize, bands: &Bands) -> usize {
+        (1..=bands.last())
+            .rev()
+            .find(|b| n >= self.first[*b])
+            .unwrap_or(0)
+    }
+
+    /// Moves the entries of `from` down to `to`, in all arrays.
+    pub(super) fn shift(&mut self, from: Range<usize>, to: usize) {
+        if from.start == to {
+            return;
+        }
+        let [sx, sy, sz] = &mut self.start;
+        for v in [
+            &mut self.x,
+            &mut self.y,
+            &mut self.z,
+            &mut self.bed,
+            sx,
+            sy,
+            sz,
+        ] {
+            v.copy_within(from.clone(), to);
+        }
+        self.number.copy_within(from.clone(), to);
+        self.born_s.copy_within(from, to);
     }
 
     /// Keeps the first `n` entries; the others were moved down or have left.
     pub(super) fn truncate(&mut self, n: usize) {
         self.left += (self.len() - n) as u64;
-        self.x.truncate(n);
-        self.y.truncate(n);
-        self.z.truncate(n);
-        self.bed.truncate(n);
+        let [sx, sy, sz] = &mut self.start;
+        for v in [
+            &mut self.x,
+            &mut self.y,
+            &mut self.z,
+            &mut self.bed,
+            sx,
+            sy,
+            sz,
+        ] {
+            v.truncate(n);
+        }
         self.number.truncate(n);
         self.born_s.truncate(n);
     }

@@ -1,49 +1,206 @@
-//! Moves a store by one step, block by block, and reflects at walls what was kicked or carried through them.
+//! Moves a band of filaments by one step, block by block, and reflects at walls what was kicked or carried through them.
 //!
 //! *Source*: none.
 //!
-//! *Parameters*: none.
+//! *Parameters*: [`CHUNK`], the filaments that one thread takes at a time.
 //!
-//! *Deviations*: none.
+//! *Deviations*: none. Blocks do not depend on each other, so any number of threads gives the same bits.
 
-use super::kernel::{BLOCK, Block, Work};
+use super::bands::Span;
+use super::carried::{Carrier, Way};
+use super::kernel::{self, BLOCK, Block, Work};
 use super::lookup::Lookup;
+use super::path::Path;
 use super::rebound::Kick;
 use super::room::Room;
+use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::FlowGrid;
+use rayon::prelude::*;
+use std::ops::Range;
 
-/// Reflects filaments of a block at walls through which their kicks led. Returns their number.
-pub(super) fn keep_out(
-    room: &Room,
-    cells: &Lookup,
-    grid: &FlowGrid,
-    from: &[[f32; BLOCK]; 3],
-    b: &mut Block,
-    work: &Work,
-) -> u64 {
-    let mut turned = 0;
-    let near = room.near_walls(cells, from, [&b.x, &b.y, &b.z]);
-    for l in (0..b.used).filter(|l| near[*l]) {
-        let (start, end) = (from.map(|v| v[l]), [b.x[l], b.y[l], b.z[l]]);
-        if !room.by_walls(cells, start, end) {
-            continue;
-        }
-        let kick = Kick {
-            noise: work.upward(l),
-            dt_s: b.dt[l],
-            part: b.kicked[l],
-        };
-        let to = room.turn_back(cells, grid, start, end, Some(kick));
-        turned += u64::from(to.met);
-        [b.x[l], b.y[l], b.z[l]] = to.p;
-        b.bed[l] = cells.bed(cells.column(to.p[0], to.p[1]));
-        b.outside[l] = u32::from(to.left);
-    }
-    turned
+/// Filaments in a chunk: 16 blocks, a quarter of a millisecond.
+const CHUNK: usize = 16 * BLOCK;
+
+/// What a sweep needs to know of the plume.
+pub(super) struct Sweep<'a> {
+    pub(super) path: Path,
+    pub(super) cells: &'a Lookup,
+    pub(super) room: &'a Room,
+    pub(super) grid: &'a FlowGrid,
+    pub(super) carrier: Option<&'a Carrier>,
+    pub(super) key: [u32; 2],
+    pub(super) span: Span,
 }
 
-/// As `keep_out`, for a store that was carried away from earlier positions.
+/// What came of a sweep.
+#[derive(Default)]
+pub(super) struct Swept {
+    /// Number of reflections at walls.
+    pub(super) turned: u64,
+    /// Columns of the grid in whose cells filaments arrived; some more than once.
+    pub(super) columns: Vec<u32>,
+    kept: usize,
+}
+
+/// The part of a store that one thread moves.
+struct Chunk<'a> {
+    x: &'a mut [f32],
+    y: &'a mut [f32],
+    z: &'a mut [f32],
+    start: [&'a mut [f32]; 3],
+    bed: &'a mut [f32],
+    number: &'a mut [u32],
+    born_s: &'a mut [f64],
+    size: Size,
+    swept: Swept,
+}
+
+impl Sweep<'_> {
+    /// Moves a range of the store. Filaments released within the step move from their release on. Those that leave are
+    /// removed. `first` of later bands is corrected.
+    pub(super) fn over(&self, store: &mut Store, band: Range<usize>, threads: bool) -> Swept {
+        let mut chunks = chunks(store, band.clone());
+        if threads && chunks.len() > 1 {
+            chunks.par_iter_mut().for_each(|c| self.through(c));
+        } else {
+            chunks.iter_mut().for_each(|c| self.through(c));
+        }
+        let swept: Vec<Swept> = chunks.into_iter().map(|c| c.swept).collect();
+        let (mut all, mut to) = (Swept::default(), band.start);
+        for (n, part) in swept.into_iter().enumerate() {
+            let from = band.start + n * CHUNK;
+            store.shift(from..from + part.kept, to);
+            to += part.kept;
+            all.turned += part.turned;
+            all.columns.extend(part.columns);
+        }
+        let gone = band.end - to;
+        if gone > 0 {
+            let end = store.len();
+            store.shift(band.end..end, to);
+            store.truncate(end - gone);
+            for first in store.first.iter_mut().filter(|f| **f >= band.end) {
+                *first -= gone;
+            }
+        }
+        all
+    }
+
+    fn through(&self, c: &mut Chunk) {
+        let mut b = Block {
+            x: [0.0; BLOCK],
+            y: [0.0; BLOCK],
+            z: [0.0; BLOCK],
+            bed: [-1.0; BLOCK],
+            dt: [0.0; BLOCK],
+            number: [0; BLOCK],
+            kicked: [1.0; BLOCK],
+            outside: [0; BLOCK],
+            used: 0,
+        };
+        let (mut work, mut way) = (Work::new(), self.carrier.map(|_| Way::new()));
+        let Span { from_s, to_s } = self.span;
+        let (total, mut to) = (c.x.len(), 0);
+        for from in (0..total).step_by(BLOCK) {
+            let n = BLOCK.min(total - from);
+            b.used = n;
+            b.x[..n].copy_from_slice(&c.x[from..from + n]);
+            b.y[..n].copy_from_slice(&c.y[from..from + n]);
+            b.z[..n].copy_from_slice(&c.z[from..from + n]);
+            b.bed[..n].copy_from_slice(&c.bed[from..from + n]);
+            b.number[..n].copy_from_slice(&c.number[from..from + n]);
+            let born_s = &c.born_s[from..from + n];
+            b.dt[..n].fill((to_s - from_s) as f32);
+            // The newest filaments come last.
+            for (dt, born) in b.dt[..n].iter_mut().zip(born_s).rev() {
+                if *born <= from_s {
+                    break;
+                }
+                *dt = (to_s - born) as f32;
+            }
+            if c.size.shares() {
+                for l in 0..n {
+                    let middle = to_s - 0.5 * f64::from(b.dt[l]);
+                    b.kicked[l] = c.size.kicked(middle - born_s[l]);
+                }
+            }
+            let start = [b.x, b.y, b.z];
+            if let (Some(carrier), Some(way)) = (self.carrier, &mut way) {
+                carrier.carry(self.path, self.cells, self.grid, &mut b, way);
+            }
+            let carried = [b.x, b.y, b.z];
+            kernel::step(
+                self.path,
+                self.cells,
+                &self.grid.data,
+                self.key,
+                &mut b,
+                &mut work,
+            );
+            if let Some(way) = &way {
+                for (outside, gone) in b.outside.iter_mut().zip(&way.gone) {
+                    *outside |= gone;
+                }
+            }
+            if self.room.has_solids() {
+                c.swept.turned += self.keep_out(&carried, &mut b, &work);
+            }
+            self.note(&b, &mut c.swept.columns);
+            if b.outside[..n].iter().any(|o| *o != 0) {
+                for l in (0..n).filter(|l| b.outside[*l] == 0) {
+                    c.put(&b, &start, l, from + l, to, 1);
+                    to += 1;
+                }
+            } else {
+                c.put(&b, &start, 0, from, to, n);
+                to += n;
+            }
+        }
+        c.swept.kept = to;
+    }
+
+    /// Notes the columns of the cells in which the filaments of a block have arrived.
+    fn note(&self, b: &Block, columns: &mut Vec<u32>) {
+        let mut at = [0; BLOCK];
+        for l in 0..BLOCK {
+            at[l] = self.cells.column(b.x[l], b.y[l]).at;
+        }
+        let mut last = columns.last().copied().unwrap_or(u32::MAX);
+        for at in &at[..b.used] {
+            if *at != last {
+                columns.push(*at);
+                last = *at;
+            }
+        }
+    }
+
+    /// Reflects filaments of a block at walls through which their kicks led. Returns their number.
+    fn keep_out(&self, from: &[[f32; BLOCK]; 3], b: &mut Block, work: &Work) -> u64 {
+        let (room, cells) = (self.room, self.cells);
+        let mut turned = 0;
+        let near = room.near_walls(cells, from, [&b.x, &b.y, &b.z]);
+        for l in (0..b.used).filter(|l| near[*l]) {
+            let (start, end) = (from.map(|v| v[l]), [b.x[l], b.y[l], b.z[l]]);
+            if !room.by_walls(cells, start, end) {
+                continue;
+            }
+            let kick = Kick {
+                noise: work.upward(l),
+                dt_s: b.dt[l],
+                part: b.kicked[l],
+            };
+            let to = room.turn_back(cells, self.grid, start, end, Some(kick));
+            turned += u64::from(to.met);
+            [b.x[l], b.y[l], b.z[l]] = to.p;
+            b.bed[l] = cells.bed(cells.column(to.p[0], to.p[1]));
+            b.outside[l] = u32::from(to.left);
+        }
+        turned
+    }
+}
+
+/// As `Sweep::keep_out`, for a store that was carried away from earlier positions.
 pub(super) fn hold(
     room: &Room,
     cells: &Lookup,
@@ -68,65 +225,73 @@ pub(super) fn hold(
     turned
 }
 
-/// Applies `step` to the store, block by block. The first `old` filaments move for the whole step, newer ones from
-/// their release on. Filaments that leave are removed.
-pub(super) fn sweep(
-    store: &mut Store,
-    old: usize,
-    t0_s: f64,
-    t1_s: f64,
-    mut step: impl FnMut(&mut Block),
-) {
-    let mut b = Block {
-        x: [0.0; BLOCK],
-        y: [0.0; BLOCK],
-        z: [0.0; BLOCK],
-        bed: [-1.0; BLOCK],
-        dt: [(t1_s - t0_s) as f32; BLOCK],
-        number: [0; BLOCK],
-        kicked: [1.0; BLOCK],
-        outside: [0; BLOCK],
-        used: 0,
-    };
-    let (total, mut to) = (store.len(), 0);
-    for from in (0..total).step_by(BLOCK) {
-        let n = BLOCK.min(total - from);
-        b.used = n;
-        b.x[..n].copy_from_slice(&store.x[from..from + n]);
-        b.y[..n].copy_from_slice(&store.y[from..from + n]);
-        b.z[..n].copy_from_slice(&store.z[from..from + n]);
-        b.bed[..n].copy_from_slice(&store.bed[from..from + n]);
-        b.number[..n].copy_from_slice(&store.number[from..from + n]);
-        for l in old.saturating_sub(from).min(n)..n {
-            b.dt[l] = (t1_s - store.born_s[from + l]) as f32;
+/// The chunks of a range, in order; all but the last are full.
+fn chunks(store: &mut Store, band: Range<usize>) -> Vec<Chunk<'_>> {
+    let size = store.size;
+    let [sx, sy, sz] = &mut store.start;
+    let mut rest = (
+        [
+            &mut store.x,
+            &mut store.y,
+            &mut store.z,
+            &mut store.bed,
+            sx,
+            sy,
+            sz,
+        ]
+        .map(|v| &mut v[band.clone()]),
+        &mut store.number[band.clone()],
+        &mut store.born_s[band],
+    );
+    let mut all = Vec::with_capacity(rest.1.len().div_ceil(CHUNK));
+    while !rest.1.is_empty() {
+        let n = CHUNK.min(rest.1.len());
+        let mut heads: [&mut [f32]; 7] = Default::default();
+        for (v, head) in rest.0.iter_mut().zip(&mut heads) {
+            let tail;
+            (*head, tail) = std::mem::take(v).split_at_mut(n);
+            *v = tail;
         }
-        if store.size.shares() {
-            for l in 0..n {
-                let middle = t1_s - 0.5 * f64::from(b.dt[l]);
-                b.kicked[l] = store.size.kicked(middle - store.born_s[from + l]);
-            }
-        }
-        step(&mut b);
-        if b.outside[..n].iter().any(|o| *o != 0) {
-            for l in (0..n).filter(|l| b.outside[*l] == 0) {
-                put(store, &b, l, to, 1);
-                store.shift_labels(from + l, to, 1);
-                to += 1;
-            }
-        } else {
-            put(store, &b, 0, to, n);
-            if to != from {
-                store.shift_labels(from, to, n);
-            }
-            to += n;
-        }
+        let (number, numbers) = std::mem::take(&mut rest.1).split_at_mut(n);
+        let (born_s, borns) = std::mem::take(&mut rest.2).split_at_mut(n);
+        (rest.1, rest.2) = (numbers, borns);
+        let [x, y, z, bed, sx, sy, sz] = heads;
+        all.push(Chunk {
+            x,
+            y,
+            z,
+            start: [sx, sy, sz],
+            bed,
+            number,
+            born_s,
+            size,
+            swept: Swept::default(),
+        });
     }
-    store.truncate(to);
+    all
 }
 
-fn put(store: &mut Store, b: &Block, l: usize, to: usize, n: usize) {
-    store.x[to..to + n].copy_from_slice(&b.x[l..l + n]);
-    store.y[to..to + n].copy_from_slice(&b.y[l..l + n]);
-    store.z[to..to + n].copy_from_slice(&b.z[l..l + n]);
-    store.bed[to..to + n].copy_from_slice(&b.bed[l..l + n]);
+impl Chunk<'_> {
+    /// Writes `n` filaments of a block, from its place `l` on, to `to`; their labels are at `from`.
+    fn put(
+        &mut self,
+        b: &Block,
+        start: &[[f32; BLOCK]; 3],
+        l: usize,
+        from: usize,
+        to: usize,
+        n: usize,
+    ) {
+        self.x[to..to + n].copy_from_slice(&b.x[l..l + n]);
+        self.y[to..to + n].copy_from_slice(&b.y[l..l + n]);
+        self.z[to..to + n].copy_from_slice(&b.z[l..l + n]);
+        self.bed[to..to + n].copy_from_slice(&b.bed[l..l + n]);
+        for (to_start, start) in self.start.iter_mut().zip(start) {
+            to_start[to..to + n].copy_from_slice(&start[l..l + n]);
+        }
+        if from != to {
+            self.number.copy_within(from..from + n, to);
+            self.born_s.copy_within(from..from + n, to);
+        }
+    }
 }

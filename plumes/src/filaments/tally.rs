@@ -9,7 +9,7 @@ use crate::release::Source;
 use world::digest::Digest;
 
 impl Plume {
-    /// End of the latest drift, s.
+    /// The time to which the plume was brought last, s.
     #[must_use]
     pub fn now_s(&self) -> f64 {
         self.now_s
@@ -18,7 +18,12 @@ impl Plume {
     /// Number of filaments in the domain.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.stores.iter().map(Store::len).sum()
+        self.stores.iter().map(|s| self.count(s)).sum()
+    }
+
+    /// Filaments of a store that are released.
+    fn count(&self, s: &Store) -> usize {
+        s.len() - s.unborn(self.now_s)
     }
 
     /// Whether there are no filaments.
@@ -30,7 +35,12 @@ impl Plume {
     /// Number of filaments ever released.
     #[must_use]
     pub fn released(&self) -> u64 {
-        self.stores.iter().map(|s| s.released).sum()
+        self.stores.iter().map(|s| self.ever(s)).sum()
+    }
+
+    /// Filaments that a store has released up to now.
+    fn ever(&self, s: &Store) -> u64 {
+        s.released - s.unborn(self.now_s) as u64
     }
 
     /// Number of filaments that have left the domain.
@@ -48,13 +58,13 @@ impl Plume {
     /// Mass in the domain, kg.
     #[must_use]
     pub fn mass_in_kg(&self) -> f64 {
-        self.total(|s| s.len() as f64)
+        self.total(|s| self.count(s) as f64)
     }
 
     /// Mass ever released, kg.
     #[must_use]
     pub fn mass_released_kg(&self) -> f64 {
-        self.total(|s| s.released as f64)
+        self.total(|s| self.ever(s) as f64)
     }
 
     /// Mass that has left the domain, kg.
@@ -84,7 +94,7 @@ impl Plume {
     pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
         self.stores
             .iter()
-            .flat_map(move |s| (0..s.len()).map(move |n| self.filament(s, n)))
+            .flat_map(move |s| (0..self.count(s)).map(move |n| self.filament(s, n)))
     }
 
     /// Every k-th filament of each source, with the smallest k that leaves at most `max_n` (but at least one of each
@@ -92,16 +102,20 @@ impl Plume {
     /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
     #[must_use]
     pub fn decimated(&self, max_n: usize) -> Vec<[f32; 6]> {
-        let shown =
-            |every: usize| -> usize { (self.stores.iter()).map(|s| s.len().div_ceil(every)).sum() };
-        let longest = self.stores.iter().map(Store::len).max().unwrap_or(0);
+        let shown = |every: usize| -> usize {
+            (self.stores.iter())
+                .map(|s| self.count(s).div_ceil(every))
+                .sum()
+        };
+        let longest = self.stores.iter().map(|s| self.count(s)).max().unwrap_or(0);
         let mut every = self.len().div_ceil(max_n.max(1)).max(1);
         while shown(every) > max_n && every < longest {
             every += 1;
         }
         let of = |s: &Store| {
-            let stands_for = s.len() as f32 / s.len().div_ceil(every).max(1) as f32;
-            let shown = (0..s.len()).step_by(every);
+            let count = self.count(s);
+            let stands_for = count as f32 / count.div_ceil(every).max(1) as f32;
+            let shown = (0..count).step_by(every);
             let rows = shown.map(|n| {
                 let [x, y, z, size, mass] = self.filament(s, n);
                 [x, y, z, size, mass * stands_for, stands_for]
@@ -113,11 +127,13 @@ impl Plume {
 
     fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
         let size = s.size.horizontal(self.now_s - s.born_s[n]);
-        let [x, y, z] = self.room.shown([s.x[n], s.y[n], s.z[n]]);
+        let band = s.band_of(n, &self.bands);
+        let place = s.place(n, &self.bands, band, self.now_s);
+        let [x, y, z] = self.room.shown(place.expect("it is released"));
         [x, y, z, size, s.filament_kg as f32]
     }
 
-    /// Takes the whole state into a digest.
+    /// Takes the whole state into a digest: every filament at the end of the step that it takes.
     pub fn digest_into(&self, digest: &mut Digest) {
         for (s, r) in self.stores.iter().zip(&self.releases) {
             digest.f64s(&[
@@ -142,7 +158,7 @@ impl Plume {
 
     #[cfg(test)]
     pub(super) fn stores_mut(&mut self) -> &mut [Store] {
-        self.index.take();
+        self.index.clear(self.stores.len());
         &mut self.stores
     }
 }

@@ -17,7 +17,7 @@ mod solenoidal;
 #[cfg(test)]
 mod tests_sea;
 #[cfg(test)]
-mod tests_water;
+pub(crate) mod tests_water;
 pub mod tide;
 pub mod uniform;
 pub mod water;

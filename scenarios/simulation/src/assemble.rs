@@ -4,7 +4,7 @@ use crate::apparatus::{Launch, Systems};
 use crate::error::AssembleError;
 use crate::extend::Addition;
 use crate::fleet::Fleet;
-use crate::ocean::{DriftEvery, Ocean, Origin};
+use crate::ocean::{Ocean, Origin};
 use crate::outbox::Outbox;
 use crate::registry::topics;
 use crate::scenario::Scenario;
@@ -62,7 +62,9 @@ impl Simulation {
         let dt_s = scenario.time.step_s.get();
         let origin = Origin::of(scenario, base_dir, seed);
         let mut world = World::new();
-        furnish(&mut world, scenario, origin.build(base_dir)?)?;
+        let mut ocean = origin.build(base_dir)?;
+        ocean.step_at_most(scenario.time.drift_period_s.get());
+        furnish(&mut world, scenario, ocean)?;
         world.insert_resource(Topics::new(topics(registry)));
         let fleet = Fleet::of(scenario);
         let launch = Launch {
@@ -130,7 +132,6 @@ fn furnish(world: &mut World, scenario: &Scenario, ocean: Ocean) -> Result<(), A
     world.insert_resource(Score::new(
         ocean.plume().sources().iter().map(|s| s.p_W).collect(),
     ));
-    world.insert_resource(DriftEvery(every(scenario.time.drift_period_s.get())));
     world.insert_resource(Outbox::new(
         every(scenario.record.frame_period_s.get()),
         every(scenario.record.plume_period_s.get()),

@@ -163,6 +163,7 @@ impl Trial {
 
     fn set_out(&mut self, phase: RunPhase) {
         self.phase = phase;
+        self.simulation.ocean_mut().set_out();
         let world = &mut self.simulation.world;
         world.resource_scope::<Digest, ()>(|world, mut digest| {
             world.resource::<Ocean>().plume().digest_into(&mut digest);

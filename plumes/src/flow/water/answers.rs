@@ -14,6 +14,10 @@ impl Flow for Water {
         }
     }
 
+    fn is_steady(&self) -> bool {
+        Water::is_steady(self)
+    }
+
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let turned = (self.blocked.as_ref())
             .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));

@@ -17,7 +17,7 @@ use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
 use plumes::flow::Water;
 use world::area::Area;
-use world::clock::Every;
+use world::digest::Digest;
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
@@ -35,7 +35,10 @@ pub struct Ocean {
     plume: Plume,
     /// Age of the water when the mission starts, s.
     spin_up_s: f64,
-    spin_up_steps: (u64, f64),
+    /// Longest steps of the plume during the spin-up and during the mission, s.
+    longest_s: [f64; 2],
+    /// Digest of the plume at the checkpoint that the latest advance reached.
+    checkpoint: Option<String>,
 }
 
 impl Ocean {
@@ -55,7 +58,8 @@ impl Ocean {
             water,
             plume,
             spin_up_s: origin.spin_up_s(),
-            spin_up_steps: origin.spin_up_steps(),
+            longest_s: [origin.spin_up_period_s(); 2],
+            checkpoint: None,
         }
     }
 
@@ -87,30 +91,50 @@ impl Ocean {
     /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it
     /// returns `false`, the spin-up ends early.
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
-        if self.plume.sources().is_empty() {
-            self.water.advance(self.spin_up_s);
-            return;
-        }
-        let (steps, dt_s) = self.spin_up_steps;
-        for n in 0..steps {
-            let (t0, t1) = (n as f64 * dt_s, (n + 1) as f64 * dt_s);
-            self.water.advance(t1);
-            self.plume.drift(&self.water, t0, t1);
-            if !heard((n + 1) as f64 / steps as f64) {
-                return;
+        let (mut t_s, end_s) = (0.0, self.spin_up_s);
+        if !self.plume.sources().is_empty() && end_s > 0.0 {
+            self.plume.pace(&self.water, 0.0, end_s, self.longest_s[0]);
+            while t_s < end_s {
+                self.water.advance(t_s);
+                t_s = self.plume.next_meeting_s();
+                self.plume.advance(&self.water, t_s);
+                if !heard(t_s / end_s) {
+                    return;
+                }
             }
         }
+        self.water.advance(end_s);
     }
 
-    /// Advances the water to a time of the mission, s.
-    pub fn advance_water(&mut self, t_s: f64) {
-        self.water.advance(t_s + self.spin_up_s);
+    /// Starts the mission, in which the plume takes steps of at most `longest_s`.
+    pub(crate) fn set_out(&mut self) {
+        let [_, longest_s] = self.longest_s;
+        self.plume
+            .pace(&self.water, self.spin_up_s, f64::INFINITY, longest_s);
     }
 
-    /// Lets the plume drift between two times of the mission, s; the water must be at the later one.
-    pub fn drift_plume(&mut self, from_s: f64, to_s: f64) {
-        let t0_s = self.spin_up_s;
-        self.plume.drift(&self.water, from_s + t0_s, to_s + t0_s);
+    /// Limits the plume's steps during the mission, s.
+    pub(crate) fn step_at_most(&mut self, longest_s: f64) {
+        self.longest_s[1] = longest_s;
+    }
+
+    /// Brings water and plume to a time of the mission, s.
+    pub fn advance(&mut self, t_s: f64) {
+        let t_s = t_s + self.spin_up_s;
+        self.water.advance(t_s);
+        let meets = self.plume.advance(&self.water, t_s);
+        self.checkpoint = meets.then(|| {
+            let mut digest = Digest::default();
+            self.plume.digest_into(&mut digest);
+            digest.hex()
+        });
+    }
+
+    /// Digest of the plume, if the latest advance reached a checkpoint: the first tick after all filaments have met at
+    /// the end of a longest step.
+    #[must_use]
+    pub fn checkpoint(&self) -> Option<&str> {
+        self.checkpoint.as_deref()
     }
 
     /// Copies of the present water and plume.
@@ -126,13 +150,12 @@ impl Ocean {
     }
 }
 
-/// How often the plume drifts during the mission.
-#[derive(Resource, Clone, Copy, Debug)]
-pub struct DriftEvery(pub Every);
-
 impl Flow for Ocean {
     fn advance(&mut self, t_s: f64) {
-        self.advance_water(t_s);
+        Ocean::advance(self, t_s);
+    }
+    fn is_steady(&self) -> bool {
+        Flow::is_steady(&self.water)
     }
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.water.velocity(p, t_s + self.spin_up_s)

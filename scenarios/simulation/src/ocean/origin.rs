@@ -89,10 +89,9 @@ impl Origin {
         self.spin_up_s.get()
     }
 
-    /// Number of steps of the spin-up, and the length of each, s.
-    pub fn spin_up_steps(&self) -> (u64, f64) {
-        let steps = (self.spin_up_s() / self.spin_up_period_s.get()).ceil();
-        (steps as u64, self.spin_up_s() / steps)
+    /// Longest step of the plume during the spin-up, s.
+    pub fn spin_up_period_s(&self) -> f64 {
+        self.spin_up_period_s.get()
     }
 
     /// The run's seed.

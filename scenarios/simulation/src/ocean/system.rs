@@ -1,28 +1,18 @@
 //! The ocean in the tick: the only systems that write to it.
 
-use super::{DriftEvery, Ocean};
+use super::Ocean;
 use bevy_ecs::prelude::{Res, ResMut};
 use world::clock::Clock;
 use world::digest::Digest;
 
 /// Advances water and plume to the end of this step.
-pub(crate) fn drift(clock: Res<Clock>, every: Res<DriftEvery>, mut ocean: ResMut<Ocean>) {
-    let t1 = clock.t_next_s();
-    ocean.advance_water(t1);
-    if (clock.step + 1).is_multiple_of(every.0.steps) {
-        let t0 = t1 - every.0.period_s(clock.dt_s);
-        ocean.drift_plume(t0, t1);
-    }
+pub(crate) fn drift(clock: Res<Clock>, mut ocean: ResMut<Ocean>) {
+    ocean.advance(clock.t_next_s());
 }
 
-/// Adds the plume to the digest, in the steps in which it has drifted.
-pub(crate) fn digest_plume(
-    clock: Res<Clock>,
-    every: Res<DriftEvery>,
-    ocean: Res<Ocean>,
-    mut digest: ResMut<Digest>,
-) {
-    if (clock.step + 1).is_multiple_of(every.0.steps) {
-        ocean.plume().digest_into(&mut digest);
+/// Adds the plume to the digest at its checkpoints.
+pub(crate) fn digest_plume(ocean: Res<Ocean>, mut digest: ResMut<Digest>) {
+    if let Some(plume) = ocean.checkpoint() {
+        digest.text(plume);
     }
 }

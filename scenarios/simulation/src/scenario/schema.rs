@@ -296,10 +296,11 @@ pub struct TimeSpec {
     pub spin_up_s: NonNegative,
     /// The mission ends after this time at the latest, s.
     pub limit_s: Positive,
-    /// Step of the plume during the mission, s.
+    /// Longest step of a filament during the mission, s. Young filaments, and all in water that changes over short
+    /// distances, take shorter ones.
     #[serde(default = "drift_period")]
     pub drift_period_s: Positive,
-    /// Step of the plume during the spin-up, s.
+    /// Longest step of a filament during the spin-up, s.
     #[serde(default = "spin_up_period")]
     pub spin_up_period_s: Positive,
     /// Period at which the plume renews its currents from the water, s. It should be short against meander and waves.
@@ -312,7 +313,7 @@ fn step() -> Positive {
 }
 
 fn drift_period() -> Positive {
-    Positive::new(0.5)
+    Positive::new(5.0)
 }
 
 fn flow_period() -> NonNegative {
@@ -320,7 +321,7 @@ fn flow_period() -> NonNegative {
 }
 
 fn spin_up_period() -> Positive {
-    Positive::new(1.0)
+    Positive::new(5.0)
 }
 
 /// What is recorded, and how often.

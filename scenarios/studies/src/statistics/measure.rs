@@ -62,6 +62,9 @@ pub enum StatisticsError {
     },
 }
 
+/// Period of the readings at sea and in a channel, s.
+const LOOK_S: [f64; 2] = [0.5, 0.05];
+
 /// Data collected during the observation.
 pub(super) struct Watch {
     pub(super) source: Vector3<f64>,
@@ -104,29 +107,33 @@ pub fn statistics(
     } else {
         time.limit_s.get()
     });
-    let before = (spin_up / time.spin_up_period_s.get()).ceil() as u64;
-    let after = (watched_s / time.drift_period_s.get()).ceil() as u64;
-    let share = |n: u64| n as f64 / (before + after) as f64;
-    for n in 0..before {
-        let dt = spin_up / before as f64;
-        water.advance((n + 1) as f64 * dt);
-        plume.drift(&water, n as f64 * dt, (n + 1) as f64 * dt);
-        if !heard(share(n)) {
-            return Err(StatisticsError::Interrupted);
+    let whole_s = spin_up + watched_s;
+    if spin_up > 0.0 {
+        plume.pace(&water, 0.0, spin_up, time.spin_up_period_s.get());
+        let mut t_s = 0.0;
+        while t_s < spin_up {
+            water.advance(t_s);
+            t_s = plume.next_meeting_s();
+            plume.advance(&water, t_s);
+            if !heard(t_s / whole_s) {
+                return Err(StatisticsError::Interrupted);
+            }
         }
     }
     let mut watch = Watch::new(loaded, &water, source, spin_up)?;
-    let dt = time.drift_period_s.get();
+    let channel = water.channel().is_some();
+    let dt = if channel { LOOK_S[1] } else { LOOK_S[0] };
     for record in watch.odour.iter_mut().flatten() {
         record.step_s = dt;
     }
     watch.speed.step_s = dt;
-    for n in 0..after {
+    plume.pace(&water, spin_up, f64::INFINITY, time.drift_period_s.get());
+    for n in 0..(watched_s / dt).ceil() as u64 {
         let t = spin_up + (n + 1) as f64 * dt;
         water.advance(t);
-        plume.drift(&water, t - dt, t);
+        plume.advance(&water, t);
         watch.look(&water, &plume, t);
-        if !heard(share(before + n)) {
+        if !heard((t / whole_s).min(1.0)) {
             return Err(StatisticsError::Interrupted);
         }
     }

@@ -1,0 +1,214 @@
+//! A part of a group of filaments: halved where a question falls near, down to a leaf.
+//!
+//! *Source*: see `index`.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none.
+
+use super::bands::Bands;
+use super::image::{Felt, Spot};
+use super::index::Group;
+use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
+use super::path::Path;
+use super::store::Store;
+use std::sync::OnceLock;
+
+/// Members of a group in the order of release, with the box that holds all of them during their step.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    members: Vec<u16>,
+    lo: [f32; 3],
+    hi: [f32; 3],
+    inside: OnceLock<Inside>,
+}
+
+#[derive(Clone, Debug)]
+enum Inside {
+    Halves(Box<[Part; 2]>),
+    /// At the present time.
+    Leaf(OnceLock<Box<Bounded>>),
+}
+
+/// A leaf with its bounds, and the filaments that feel a wall and are therefore not in the leaf.
+#[derive(Clone, Debug)]
+struct Bounded {
+    leaf: Leaf,
+    walled: Vec<Felt>,
+    lo: [f32; 3],
+    hi: [f32; 3],
+}
+
+/// A question, and the data that answer it.
+pub(super) struct Asked<'a> {
+    pub(super) p: [f32; 3],
+    pub(super) spot: &'a Spot<'a>,
+    pub(super) path: Path,
+    pub(super) g: &'a Group,
+    pub(super) s: &'a Store,
+    pub(super) bands: &'a Bands,
+    pub(super) band: usize,
+    pub(super) now_s: f64,
+}
+
+impl Part {
+    /// Members of a group that begins at `from`.
+    pub(super) fn new(s: &Store, from: usize, members: Vec<u16>) -> Self {
+        let (mut lo, mut hi) = ([f32::MAX; 3], [f32::MIN; 3]);
+        for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
+            for m in &members {
+                let i = from + usize::from(*m);
+                let (a, b) = (start[i], end[i]);
+                lo[d] = lo[d].min(a.min(b));
+                hi[d] = hi[d].max(a.max(b));
+            }
+        }
+        Self {
+            members,
+            lo,
+            hi,
+            inside: OnceLock::new(),
+        }
+    }
+
+    /// Forgets what holds only for the present time.
+    pub(super) fn forget(&mut self) {
+        match self.inside.get_mut() {
+            Some(Inside::Halves(halves)) => halves.iter_mut().for_each(Self::forget),
+            Some(Inside::Leaf(leaf)) => {
+                leaf.take();
+            }
+            None => {}
+        }
+    }
+
+    /// Adds the contributions of its leaves, one after the other.
+    pub(super) fn add(&self, asked: &Asked, total: &mut f64) {
+        // More than the leaves' own bounds, which decide.
+        let reach = asked.g.largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
+        let reach = [reach[0], reach[0], reach[1] + asked.g.steep];
+        let lo = std::array::from_fn(|d| self.lo[d] - reach[d]);
+        let hi = std::array::from_fn(|d| self.hi[d] + reach[d]);
+        if !within(asked.p, lo, hi) {
+            return;
+        }
+        match self.inside.get_or_init(|| self.part(asked)) {
+            Inside::Halves(halves) => {
+                for half in &**halves {
+                    half.add(asked, total);
+                }
+            }
+            Inside::Leaf(leaf) => {
+                let b = leaf.get_or_init(|| Box::new(self.leaf(asked)));
+                if within(asked.p, b.lo, b.hi) {
+                    *total += f64::from(b.leaf.at(asked.path, asked.p));
+                    for felt in &b.walled {
+                        *total += felt.add(asked.spot);
+                    }
+                }
+            }
+        }
+    }
+
+    fn part(&self, asked: &Asked) -> Inside {
+        if self.members.len() <= LEAF {
+            return Inside::Leaf(OnceLock::new());
+        }
+        Inside::Halves(Box::new(self.halves(asked)))
+    }
+
+    fn leaf(&self, asked: &Asked) -> Bounded {
+        let Asked { g, s, spot, .. } = asked;
+        let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
+        let (room, lookup) = (spot.room, spot.lookup);
+        for m in &self.members {
+            let i = g.from + usize::from(*m);
+            let Some(mut p) = s.place(i, asked.bands, asked.band, asked.now_s) else {
+                continue;
+            };
+            let bed = lookup.bed(lookup.column(p[0], p[1]));
+            // On the straight line over a bed that is not straight.
+            p[2] = p[2].max(bed);
+            let sh = s.size.horizontal(asked.now_s - s.born_s[i]);
+            let sizes = [sh, s.size.vertical(sh, bed)];
+            match Felt::new(room, lookup, p, sizes, s.filament_kg) {
+                Some(felt) => walled.push(felt),
+                None => leaf.push(p, bed, sizes, s.filament_kg),
+            }
+        }
+        let (mut lo, mut hi) = leaf.bounds();
+        for felt in &walled {
+            let (low, high) = felt.bounds(room);
+            for d in 0..3 {
+                (lo[d], hi[d]) = (lo[d].min(low[d]), hi[d].max(high[d]));
+            }
+        }
+        Bounded {
+            leaf,
+            walled,
+            lo,
+            hi,
+        }
+    }
+
+    /// Halves the members along their longest side (in units of the kernel's reach), so that leaves are full.
+    fn halves(&self, Asked { g, s, .. }: &Asked) -> [Self; 2] {
+        let n = self.members.len();
+        let horizontal = g.largest[0];
+        let vertical = s.size.vertical(horizontal, s.bed[g.from]);
+        let weight = [1.0 / horizontal, 1.0 / horizontal, 1.0 / vertical];
+        let side = |d: usize| self.hi[d] - self.lo[d];
+        let mut d = 0;
+        for other in 1..3 {
+            if side(other) * weight[other] > side(d) * weight[d] {
+                d = other;
+            }
+        }
+        // Coordinate in 22 bits, member in 10 bits: plain numbers without ties are fast to select from.
+        let (lo, side) = (self.lo[d], side(d));
+        let scale = if side > 0.0 { 4_194_300.0 / side } else { 0.0 };
+        let ends = [&s.x, &s.y, &s.z][d];
+        let key = |m: &u16| {
+            (((ends[g.from + usize::from(*m)] - lo) * scale) as u32) << 10 | u32::from(*m)
+        };
+        let keys: Vec<u32> = self.members.iter().map(key).collect();
+        let half = n.div_ceil(LEAF) / 2 * LEAF;
+        let least_high = *keys.clone().select_nth_unstable(half).1;
+        let (mut low, mut high) = (Vec::with_capacity(half), Vec::with_capacity(n - half));
+        for (m, key) in self.members.iter().zip(&keys) {
+            let to = if *key < least_high {
+                &mut low
+            } else {
+                &mut high
+            };
+            to.push(*m);
+        }
+        [low, high].map(|members| Self::new(s, g.from, members))
+    }
+}
+
+pub(super) fn within(p: [f32; 3], lo: [f32; 3], hi: [f32; 3]) -> bool {
+    (0..3).all(|d| p[d] >= lo[d] && p[d] <= hi[d])
+}
+
+/// Least and greatest value.
+pub(super) fn extent(v: &[f32]) -> (f32, f32) {
+    let mut lo = [f32::MAX; 8];
+    let mut hi = [f32::MIN; 8];
+    let mut chunks = v.chunks_exact(8);
+    for c in &mut chunks {
+        for l in 0..8 {
+            lo[l] = if c[l] < lo[l] { c[l] } else { lo[l] };
+            hi[l] = if c[l] > hi[l] { c[l] } else { hi[l] };
+        }
+    }
+    let rest = chunks.remainder();
+    (
+        lo.into_iter()
+            .chain(rest.iter().copied())
+            .fold(f32::MAX, f32::min),
+        hi.into_iter()
+            .chain(rest.iter().copied())
+            .fold(f32::MIN, f32::max),
+    )
+}

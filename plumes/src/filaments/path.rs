@@ -1,0 +1,61 @@
+//! The versions of the vector code, of which a machine runs the fastest that it can. All give the same bits.
+//!
+//! *Source*: none.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none. The arithmetic is written once, without fused multiply-add, and compiled for each version.
+
+/// Which version of the vector code runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Path {
+    /// Runs on every machine of the target.
+    Portable,
+    /// AVX2.
+    #[cfg(target_arch = "x86_64")]
+    Avx2,
+    /// AVX-512 with its foundation, byte and word, doubleword and quadword instructions, at all vector lengths.
+    #[cfg(target_arch = "x86_64")]
+    Avx512,
+}
+
+impl Path {
+    /// The versions that this machine can run, the fastest last.
+    pub(super) fn all() -> Vec<Self> {
+        let mut all = vec![Path::Portable];
+        #[cfg(target_arch = "x86_64")]
+        {
+            use std::arch::is_x86_feature_detected as has;
+            if has!("avx2") {
+                all.push(Path::Avx2);
+            }
+            if has!("avx512f") && has!("avx512bw") && has!("avx512dq") && has!("avx512vl") {
+                all.push(Path::Avx512);
+            }
+        }
+        all
+    }
+
+    /// The fastest version that this machine can run.
+    pub(super) fn detect() -> Self {
+        Self::all().pop().unwrap_or(Path::Portable)
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Path::Portable if cfg!(target_arch = "x86_64") => "SSE2",
+            Path::Portable => "portable",
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => "AVX2",
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => "AVX-512",
+        }
+    }
+}
+
+/// Names the vector instructions that the filaments' step uses on this machine. The results have the same bits with
+/// all of them.
+#[must_use]
+pub fn instructions() -> &'static str {
+    Path::detect().name()
+}

@@ -1,0 +1,263 @@
+//! The plume in time: which filaments step when, and on which water.
+//!
+//! *Source*: see `bands` for steps of different length, `kernel` for the step itself.
+//!
+//! *Parameters*: the longest step (s); `refresh_s`, how often the flow is evaluated on the grid (s).
+//!
+//! *Deviations*: the flow of a period is that at its start, or at most half a second later, so that the water needs to
+//! be known no further ahead. A filament that leaves the grid is removed at the start of the step in which it leaves.
+
+use super::bands::Bands;
+use super::kernel::folded;
+use super::lookup::Lookup;
+use super::noise::step_key;
+use super::plume::Plume;
+use super::sweep::{Sweep, hold};
+use super::walls::{CARRY_S, carry, keep_between};
+use nalgebra::Vector3;
+use std::sync::Arc;
+use world::fields::Flow;
+
+/// Distance over which a filament may step near solids in water that does not flow round them, m.
+const REACH_BY_SOLIDS_M: f64 = 2.0;
+
+impl Plume {
+    /// Uses this many threads for its steps; the result is the same with any number.
+    ///
+    /// # Errors
+    /// If the threads cannot be started.
+    pub fn with_threads(mut self, n: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
+        self.threads = match n {
+            1 => None,
+            n => Some(Arc::new(
+                rayon::ThreadPoolBuilder::new().num_threads(n).build()?,
+            )),
+        };
+        Ok(self)
+    }
+
+    /// From `start_s` to `end_s` (which may be infinite), filaments take steps of at most `longest_s`, each as long as
+    /// its age and the water allow. All filaments must have reached `start_s`.
+    ///
+    /// # Panics
+    /// If the times do not increase, or if the step is not positive: a mistake in the code.
+    pub fn pace(&mut self, flow: &dyn Flow, start_s: f64, end_s: f64, longest_s: f64) {
+        assert!(
+            end_s > start_s && longest_s > 0.0,
+            "a plume steps forward, not from {start_s} s to {end_s} s in steps of {longest_s} s"
+        );
+        // Eddies between walls carry all filaments at the same times.
+        let one_step = flow.walls().is_some();
+        self.bands = Bands::new(start_s, end_s, longest_s, self.refresh_s, one_step);
+        self.join(start_s);
+    }
+
+    /// The time at which all filaments meet next, at the end of the longest step that starts now or last started, s.
+    #[must_use]
+    pub fn next_meeting_s(&self) -> f64 {
+        self.bands.next_meeting_s()
+    }
+
+    /// Brings the plume to a time within its pace. `flow` must have been advanced to a time between the start of the
+    /// longest step and `t_s`. Returns whether a longest step has started meanwhile.
+    ///
+    /// # Panics
+    /// If the flow returns NaN.
+    pub fn advance(&mut self, flow: &dyn Flow, t_s: f64) -> bool {
+        let mut met = false;
+        while self.bands.next_s() < t_s - 1e-9 {
+            met |= self.bands.due() == 0;
+            self.take_steps(flow);
+        }
+        self.now_s = t_s;
+        self.index.forget();
+        met
+    }
+
+    /// Moves every filament from `t0_s` to `t1_s` in one step and releases those that are due meanwhile. `flow` must
+    /// have been advanced to `t0_s` or `t1_s`.
+    ///
+    /// # Panics
+    /// If time does not increase, or if the flow returns NaN.
+    pub fn drift(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
+        assert!(
+            t1_s > t0_s,
+            "plume drift needs growing time, got {t0_s} s to {t1_s} s: check the drift period"
+        );
+        self.bands = Bands::single(t0_s, t1_s);
+        self.join(t0_s);
+        self.take_steps(flow);
+        self.now_s = t1_s;
+    }
+
+    fn join(&mut self, t_s: f64) {
+        self.now_s = t_s;
+        for store in &mut self.stores {
+            store.join();
+        }
+        self.index.clear(self.stores.len());
+    }
+
+    /// Takes the steps of all bands that are due.
+    fn take_steps(&mut self, flow: &dyn Flow) {
+        let pool = self.threads.clone();
+        match &pool {
+            Some(pool) => pool.install(|| self.take_steps_here(flow)),
+            None => self.take_steps_here(flow),
+        }
+    }
+
+    fn take_steps_here(&mut self, flow: &dyn Flow) {
+        let t0_s = self.bands.next_s();
+        let due = self.bands.due();
+        if due == 0 {
+            self.renew(flow, t0_s);
+        }
+        let walls = flow.walls();
+        if let Some(walls) = &walls {
+            self.room.between(walls);
+        }
+        let until_s = t0_s + self.bands.step_s(self.bands.last());
+        self.release(flow, t0_s, until_s.min(self.bands.end_s()));
+        self.bands.pass();
+        let t1_s = self.bands.span(self.bands.last()).to_s;
+        let carried_s = *self.carried_s.get_or_insert(t0_s);
+        // Slightly early, as for the refresh.
+        let carries = t1_s - carried_s >= CARRY_S - 1e-6;
+        for n in 0..self.stores.len() {
+            self.index.changed(n, due);
+            for band in due..=self.bands.last() {
+                self.sweep(flow, n, band);
+            }
+            let Some(walls) = &walls else { continue };
+            let store = &mut self.stores[n];
+            if carries {
+                let before = self
+                    .room
+                    .has_solids()
+                    .then(|| [store.x.clone(), store.y.clone(), store.z.clone()]);
+                carry(flow, store, carried_s, t1_s);
+                if let Some(before) = before {
+                    let held = hold(&self.room, &self.cells, &self.grid, &before, store);
+                    self.turned_back += held;
+                }
+            }
+            keep_between(walls, store);
+        }
+        if carries {
+            self.carried_s = Some(t1_s);
+        }
+        self.steps += 1;
+    }
+
+    /// Moves the filaments of a band of a store.
+    fn sweep(&mut self, flow: &dyn Flow, n: usize, band: usize) {
+        let threads = self.threads.is_some();
+        if self.sampled.complete(flow, &mut self.grid, threads) {
+            self.cells.refresh(&self.grid, self.sampled.even_k_h);
+        }
+        let store = &mut self.stores[n];
+        let range = store.band(band, &self.bands);
+        if range.is_empty() {
+            return;
+        }
+        let sweep = Sweep {
+            path: self.path,
+            cells: &self.cells,
+            room: &self.room,
+            grid: &self.grid,
+            carrier: self.carrier.as_ref(),
+            key: step_key(self.keys[n], self.steps),
+            span: self.bands.span(band),
+        };
+        let swept = sweep.over(store, range, threads);
+        self.turned_back += swept.turned;
+        for column in swept.columns {
+            self.sampled.note(column);
+        }
+    }
+
+    /// Releases what is due within the shortest step, and divides the filaments into bands.
+    fn release(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
+        for n in 0..self.stores.len() {
+            let p_W = self.sources[n].p_W;
+            let store = &mut self.stores[n];
+            if self.sources[n].release.eddy_size_m.is_some() {
+                store.size.stirred_by(flow.mixing(&p_W, t0_s).k_h_m2_s);
+            }
+            let (cells, room, sampled) = (&self.cells, &self.room, &mut self.sampled);
+            let (start, bed) = released(cells, p_W);
+            self.releases[n].until(t0_s, t1_s, |t| {
+                let (start, bed) = match flow.displacement(&p_W, t) {
+                    None => (start, bed),
+                    Some(way) => {
+                        let (start, bed) = released(cells, p_W - way);
+                        (room.in_water(cells, start), bed)
+                    }
+                };
+                sampled.note(cells.column(start[0], start[1]).at);
+                store.push(start, bed, t);
+            });
+            store.divide(&self.bands);
+        }
+    }
+
+    /// At the start of a longest step: evaluates the flow again if it is due, and chooses the bands by it.
+    fn renew(&mut self, flow: &dyn Flow, t0_s: f64) {
+        if self.next_refresh_s.is_none_or(|next| t0_s >= next) {
+            if self.next_refresh_s.is_none() || !flow.is_steady() {
+                self.refresh(flow, t0_s);
+            }
+            self.next_refresh_s = Some(if self.refresh_s > 0.0 {
+                // Slightly early, so that times that are sums of steps do not miss their multiple by rounding.
+                ((t0_s / self.refresh_s + 1e-9).floor() + 1.0) * self.refresh_s - 1e-6
+            } else {
+                t0_s
+            });
+        }
+        let narrow_m = self.grid.spacing[0].min(self.grid.spacing[1]);
+        let mut reach_m = f64::from(narrow_m);
+        if self.room.has_solids() && self.carrier.is_none() {
+            reach_m = reach_m.min(REACH_BY_SOLIDS_M);
+        }
+        let scales = self.sampled.scales(reach_m);
+        for store in &mut self.stores {
+            store.scaled(&self.bands, &scales);
+        }
+    }
+
+    /// Evaluates the flow where filaments are: for the middle of the step, and at most half a second ahead.
+    fn refresh(&mut self, flow: &dyn Flow, t0_s: f64) {
+        let ahead_s = (0.5 * self.bands.step_s(0)).min(0.5);
+        if self.carrier.is_some() || flow.walls().is_some() {
+            self.sampled.everywhere(true);
+        }
+        self.sampled.renew(&mut self.grid, t0_s + ahead_s);
+        for store in &self.stores {
+            for (x, y) in store.x.iter().zip(&store.y) {
+                self.sampled.note(self.cells.column(*x, *y).at);
+            }
+        }
+        for source in &self.sources {
+            let p = source.p_W.map(|v| v as f32);
+            self.sampled.note(self.cells.column(p.x, p.y).at);
+        }
+        let threads = self.threads.is_some();
+        self.sampled.complete(flow, &mut self.grid, threads);
+        self.cells.refresh(&self.grid, self.sampled.even_k_h);
+        if let Some(carrier) = &mut self.carrier {
+            carrier.refresh(flow, self.grid.t_s);
+            // The cells hold the velocity that carries filaments; the grid keeps the diffusivity.
+            for v in &mut self.grid.data {
+                *v = [0.0, 0.0, 0.0, v[3]];
+            }
+        }
+    }
+}
+
+/// Where a source at a point releases filaments, and the height of the bed there, m.
+fn released(cells: &Lookup, p_W: Vector3<f64>) -> ([f32; 3], f32) {
+    let p = p_W.map(|v| v as f32);
+    let bed = cells.bed(cells.column(p.x, p.y));
+    ([p.x, p.y, folded(p.z, bed, -1.0 / bed)], bed)
+}
