@@ -21,23 +21,24 @@ use world::fields::Flow;
 /// Distance over which a filament may step near solids in water that does not flow round them, m.
 const REACH_BY_SOLIDS_M: f64 = 2.0;
 
+/// Filaments from which on their step is worth waking other threads.
+const WORTH_THREADS: usize = 8192;
+
 impl Plume {
-    /// Uses this many threads for its steps; the result is the same with any number.
-    ///
-    /// # Errors
-    /// If the threads cannot be started.
-    pub fn with_threads(mut self, n: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
-        self.threads = match n {
-            1 => None,
-            n => Some(Arc::new(
-                rayon::ThreadPoolBuilder::new().num_threads(n).build()?,
-            )),
-        };
-        Ok(self)
+    /// Takes its steps with the threads of a pool, or with its caller's thread alone. The result is the same.
+    pub fn use_threads(&mut self, pool: Option<Arc<rayon::ThreadPool>>) {
+        self.threads = pool;
+    }
+
+    /// The threads that it uses.
+    #[must_use]
+    pub fn threads(&self) -> Option<Arc<rayon::ThreadPool>> {
+        self.threads.clone()
     }
 
     /// From `start_s` to `end_s` (which may be infinite), filaments take steps of at most `longest_s`, each as long as
-    /// its age and the water allow. All filaments must have reached `start_s`.
+    /// its age and the water allow. All filaments must have reached `start_s`. The flow is evaluated anew, so that what
+    /// follows depends on the filaments alone.
     ///
     /// # Panics
     /// If the times do not increase, or if the step is not positive: a mistake in the code.
@@ -49,6 +50,7 @@ impl Plume {
         // Eddies between walls carry all filaments at the same times.
         let one_step = flow.walls().is_some();
         self.bands = Bands::new(start_s, end_s, longest_s, self.refresh_s, one_step);
+        self.next_refresh_s = None;
         self.join(start_s);
     }
 
@@ -100,18 +102,19 @@ impl Plume {
 
     /// Takes the steps of all bands that are due.
     fn take_steps(&mut self, flow: &dyn Flow) {
-        let pool = self.threads.clone();
-        match &pool {
-            Some(pool) => pool.install(|| self.take_steps_here(flow)),
-            None => self.take_steps_here(flow),
+        let due = self.bands.due();
+        let moved: usize = self.stores.iter().map(|s| s.len() - s.first[due]).sum();
+        match &self.threads.clone() {
+            Some(pool) if moved >= WORTH_THREADS => pool.install(|| self.take_steps_by(flow, true)),
+            _ => self.take_steps_by(flow, false),
         }
     }
 
-    fn take_steps_here(&mut self, flow: &dyn Flow) {
+    fn take_steps_by(&mut self, flow: &dyn Flow, threads: bool) {
         let t0_s = self.bands.next_s();
         let due = self.bands.due();
         if due == 0 {
-            self.renew(flow, t0_s);
+            self.renew(flow, t0_s, threads);
         }
         let walls = flow.walls();
         if let Some(walls) = &walls {
@@ -127,7 +130,7 @@ impl Plume {
         for n in 0..self.stores.len() {
             self.index.changed(n, due);
             for band in due..=self.bands.last() {
-                self.sweep(flow, n, band);
+                self.sweep(flow, n, band, threads);
             }
             let Some(walls) = &walls else { continue };
             let store = &mut self.stores[n];
@@ -151,8 +154,7 @@ impl Plume {
     }
 
     /// Moves the filaments of a band of a store.
-    fn sweep(&mut self, flow: &dyn Flow, n: usize, band: usize) {
-        let threads = self.threads.is_some();
+    fn sweep(&mut self, flow: &dyn Flow, n: usize, band: usize, threads: bool) {
         if self.sampled.complete(flow, &mut self.grid, threads) {
             self.cells.refresh(&self.grid, self.sampled.even_k_h);
         }
@@ -203,10 +205,10 @@ impl Plume {
     }
 
     /// At the start of a longest step: evaluates the flow again if it is due, and chooses the bands by it.
-    fn renew(&mut self, flow: &dyn Flow, t0_s: f64) {
+    fn renew(&mut self, flow: &dyn Flow, t0_s: f64, threads: bool) {
         if self.next_refresh_s.is_none_or(|next| t0_s >= next) {
             if self.next_refresh_s.is_none() || !flow.is_steady() {
-                self.refresh(flow, t0_s);
+                self.refresh(flow, t0_s, threads);
             }
             self.next_refresh_s = Some(if self.refresh_s > 0.0 {
                 // Slightly early, so that times that are sums of steps do not miss their multiple by rounding.
@@ -227,7 +229,7 @@ impl Plume {
     }
 
     /// Evaluates the flow where filaments are: for the middle of the step, and at most half a second ahead.
-    fn refresh(&mut self, flow: &dyn Flow, t0_s: f64) {
+    fn refresh(&mut self, flow: &dyn Flow, t0_s: f64, threads: bool) {
         let ahead_s = (0.5 * self.bands.step_s(0)).min(0.5);
         if self.carrier.is_some() || flow.walls().is_some() {
             self.sampled.everywhere(true);
@@ -242,7 +244,6 @@ impl Plume {
             let p = source.p_W.map(|v| v as f32);
             self.sampled.note(self.cells.column(p.x, p.y).at);
         }
-        let threads = self.threads.is_some();
         self.sampled.complete(flow, &mut self.grid, threads);
         self.cells.refresh(&self.grid, self.sampled.even_k_h);
         if let Some(carrier) = &mut self.carrier {

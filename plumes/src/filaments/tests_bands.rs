@@ -36,11 +36,10 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
         refresh_s: 10.0,
         grid: GridShape::fitting(&duck_area()),
     };
-    let spec = source(0.2, 50.0, 0.001, 0.03);
-    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings)
-        .unwrap()
-        .with_threads(threads)
-        .unwrap();
+    let spec = source(0.2, 100.0, 0.001, 0.03);
+    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    plume.use_threads((threads > 1).then(|| pool.build().unwrap().into()));
     plume.pace(&water, 0.0, f64::INFINITY, 5.0);
     let mut felt = 0.0;
     for n in 1..=8000 {
