@@ -10,6 +10,7 @@ mod determinism;
 mod flume;
 mod golden;
 mod interrupt;
+mod lanes;
 mod live;
 mod memory;
 mod ocean;

@@ -108,8 +108,9 @@ pub enum Command {
 /// Arguments of `run`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Runs scenarios one after the other. In each, the plume first develops (spin-up); then the mission \
-        begins.\n\n\
+    long_about = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. Scenarios that \
+        differ only in the searcher share one plume and run together, with the same results; the others run one after \
+        the other.\n\n\
         The results are in runs/SCENARIO-SEED/ unless --out names another folder. Open report.html first. The folder \
         also holds summary.json, track.csv (of a gantry: probes-GANTRY.csv), the figures, and the recording run.mcap \
         for Foxglove, Lichtblick or Rerun.\n\n\

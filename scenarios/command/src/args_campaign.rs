@@ -18,7 +18,9 @@ use studies::campaign::Shard;
         means hashed seeds; it is still read so, with a warning.\n\n\
         `run` writes blocks of rows, each a Parquet file. A run that has a row is done, so a campaign can be \
         interrupted and continued at any time, and any number of machines can work in the same folder. A row does not \
-        depend on how the work was divided.",
+        depend on how the work was divided.\n\n\
+        Arms that differ only in the searcher share one plume for each seed and run in it together, in lanes. Each row \
+        is that of the run alone.",
     after_help = AFTER
 )]
 pub struct CampaignArgs {

@@ -4,6 +4,7 @@ use super::args::{RunArgs, Speed};
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
 use super::campaign_plan::{count, plan};
 use super::campaign_report;
+use super::company::Company;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::run::RunError;
@@ -258,9 +259,10 @@ fn rerun(args: &RerunArgs) -> Exit {
     };
     let again = || -> Result<(RunOutcome, String), RunError> {
         let mut trial = Trial::assemble(&loaded, seed)?;
-        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, stop::listen())?;
+        let mut alone = Company::default();
+        let mut onlooker = Onlooker::new(&loaded, &as_run, &out, &mut alone, stop::listen())?;
         let ended = trial.run(&mut onlooker);
-        Ok((onlooker.finish(&trial, &ended)?, ended.digest))
+        Ok((onlooker.finish(&trial, &ended, &mut alone)?, ended.digest))
     };
     match again() {
         Err(error) => {

@@ -81,7 +81,7 @@ fn cost(campaign: &Campaign, by_cost: bool) -> Result<Exit, CampaignError> {
     let (apart, shared) = (runs as f64, runs as f64 / campaign.n_arms() as f64);
     say::line(format_args!(
         "  the first run took {spin_up:.2} s for the spin-up and {mission:.2} s for the mission; all runs take \
-         about {} on one core, or {} if the arms have the same water and sources",
+         about {} on one core, or at most {} if the arms have the same water and sources",
         hours(apart * (spin_up + mission)),
         hours(shared * spin_up + apart * mission)
     ));

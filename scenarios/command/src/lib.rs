@@ -17,6 +17,7 @@ mod campaign;
 mod campaign_plan;
 mod campaign_report;
 mod check;
+mod company;
 mod exit;
 mod explain;
 mod init;

@@ -5,6 +5,7 @@
 )]
 
 use super::args::{RunArgs, Speed};
+use super::company::Company;
 use super::progress::Progress;
 use output::files::{ReportError, begin_folder};
 use output::live::{Live, LiveMeta, LiveOptions, run_id};
@@ -53,7 +54,6 @@ pub(super) struct Onlooker<'a> {
     begun: Instant,
     mission_begun: Instant,
     spin_up_s: f64,
-    linger: Duration,
     permeable: Vec<String>,
     interfaces: Vec<f64>,
 }
@@ -64,6 +64,7 @@ impl<'a> Onlooker<'a> {
         loaded: &Loaded,
         args: &RunArgs,
         out: &Path,
+        company: &mut Company,
         stop: &'a AtomicBool,
     ) -> Result<Self, RunError> {
         let scenario = &loaded.scenario;
@@ -76,8 +77,8 @@ impl<'a> Onlooker<'a> {
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
         let gantries = gantries(loaded)?;
-        let progress = Progress::new(loaded, args);
-        let live = live(args, &run, &progress)?;
+        let progress = Progress::new(loaded, args, &company.bars);
+        let live = live(args, &run, &progress, company)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
@@ -120,7 +121,6 @@ impl<'a> Onlooker<'a> {
             begun: now,
             mission_begun: now,
             spin_up_s: scenario.time.spin_up_s.get(),
-            linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
             permeable: scenario.permeable.clone(),
             interfaces: (scenario.water.currents.iter())
                 .flat_map(|c| c.interfaces_m())
@@ -140,11 +140,12 @@ impl<'a> Onlooker<'a> {
         }
     }
 
-    /// Writes the results of the run and prints where they are.
+    /// Writes the results of the run and prints where they are. Its live state stays with those of the other lanes.
     pub(super) fn finish(
         mut self,
         trial: &Trial,
         ended: &Ended,
+        company: &mut Company,
     ) -> Result<RunOutcome, ReportError> {
         let mission_wall = self.mission_begun.elapsed();
         let spin_up_wall = self.mission_begun - self.begun;
@@ -222,8 +223,7 @@ impl<'a> Onlooker<'a> {
         );
         self.progress.finish(&summary, self.out.dir());
         if let Some(live) = self.live.take() {
-            live.linger(self.linger, || self.stop.load(Ordering::Relaxed));
-            live.finish(&ended.digest);
+            company.keep(live);
         }
         let failures = self.failure.into_iter().chain(written.err()).collect();
         ReportError::of(failures).map_or(Ok(outcome), Err)
@@ -240,7 +240,12 @@ fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
 }
 
 /// Starts publishing over zenoh.
-fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Live>, RunError> {
+fn live(
+    args: &RunArgs,
+    run: &RunInfo,
+    progress: &Progress,
+    company: &mut Company,
+) -> Result<Option<Live>, RunError> {
     if args.no_zenoh {
         return Ok(None);
     }
@@ -253,7 +258,7 @@ fn live(args: &RunArgs, run: &RunInfo, progress: &Progress) -> Result<Option<Liv
         seed: run.seed.number(),
         version: run.version.clone(),
     };
-    let live = Live::start(&options, meta)?;
+    let live = company.live(&options, meta)?;
     progress.say(&format!(
         "live on {} under rheotaxis/{}",
         live.endpoint(),

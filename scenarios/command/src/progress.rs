@@ -1,7 +1,7 @@
 //! The progress bar of a run, and the lines at its end.
 
 use super::args::RunArgs;
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use nalgebra::Vector2;
 use output::results::GantrySummary;
 use output::results::{DeclarationSummary, DeclaredKind, RobotSummary, Summary};
@@ -31,12 +31,13 @@ pub(super) struct Progress {
 }
 
 impl Progress {
-    pub(super) fn new(loaded: &Loaded, args: &RunArgs) -> Self {
+    /// Adds its bar to those of the runs in lanes beside it.
+    pub(super) fn new(loaded: &Loaded, args: &RunArgs, bars: &MultiProgress) -> Self {
         let scenario = &loaded.scenario;
         let bar = if args.quiet {
             ProgressBar::hidden()
         } else {
-            ProgressBar::new(PARTS)
+            bars.add(ProgressBar::new(PARTS))
         };
         bar.set_style(style(
             "{prefix} spin-up [{bar:30}] {percent:>3} %, {eta} left",
@@ -127,9 +128,13 @@ impl Progress {
     /// Removes the bar and prints how the run ended and where the results are.
     pub(super) fn finish(&self, summary: &Summary, out: &Path) {
         self.bar.finish_and_clear();
-        if self.quiet {
-            return;
+        if !self.quiet {
+            // The bars of lanes that go on would break the lines.
+            self.bar.suspend(|| self.tell(summary, out));
         }
+    }
+
+    fn tell(&self, summary: &Summary, out: &Path) {
         let run = &summary.run;
         println!(
             "{}: {} after {:.0} s ({} filaments, {})",

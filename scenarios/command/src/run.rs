@@ -1,17 +1,19 @@
 //! `rheotaxis run`: runs scenarios, shows their progress, and writes a folder of results for each.
 
 use super::args::RunArgs;
+use super::company::Company;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::{say, stop};
 use output::files::ReportError;
 use output::live::LiveError;
 use rheotaxis::error::AssembleError;
+use rheotaxis::lanes::{LaneError, Lanes, alike};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
-use rheotaxis::trial::Trial;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 /// Why a run could not start or finish.
 #[derive(Debug, thiserror::Error)]
@@ -21,6 +23,8 @@ pub(super) enum RunError {
     #[error(transparent)]
     Assemble(#[from] AssembleError),
     #[error(transparent)]
+    Lane(#[from] LaneError),
+    #[error(transparent)]
     Live(#[from] LiveError),
     #[error(transparent)]
     Report(#[from] ReportError),
@@ -28,28 +32,35 @@ pub(super) enum RunError {
     Taken(PathBuf),
 }
 
-/// Runs every file. An error is reported, and the next file is run all the same.
+/// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 pub(super) fn run(args: &RunArgs) -> Exit {
     let stop = stop::listen();
     let mut exit = Exit::Success;
-    let mut taken = Vec::new();
+    let mut ready: Vec<(Loaded, PathBuf)> = Vec::new();
     for file in &args.files {
-        exit = exit.worse(match one(file, args, &mut taken, stop) {
-            Ok(outcome) => code(outcome),
-            Err(RunError::Scenario(error)) => {
-                say::scenario_error(error);
-                Exit::Error
-            }
-            Err(error) => {
-                say::error(error, None);
-                Exit::Error
-            }
-        });
+        match prepared(file, args, &ready) {
+            Ok(one) => ready.push(one),
+            Err(error) => exit = exit.worse(refused(error)),
+        }
+    }
+    let seed = args.key.seed(args.seed);
+    let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
+    for group in alike(&runs, cost::limit()) {
+        let group: Vec<_> = group.into_iter().map(|n| &ready[n]).collect();
+        exit = exit.worse(together(&group, args, stop));
         if stop.load(Ordering::Relaxed) {
             break;
         }
     }
     exit
+}
+
+fn refused(error: RunError) -> Exit {
+    match error {
+        RunError::Scenario(error) => say::scenario_error(error),
+        error => say::error(error, None),
+    }
+    Exit::Error
 }
 
 fn code(outcome: RunOutcome) -> Exit {
@@ -61,28 +72,49 @@ fn code(outcome: RunOutcome) -> Exit {
     }
 }
 
-/// Runs one file, unless another file of this command has used its folder.
-fn one(
+/// The scenario of a file and the folder of its results, unless another file of this command uses that.
+fn prepared(
     file: &Path,
     args: &RunArgs,
-    taken: &mut Vec<PathBuf>,
-    stop: &AtomicBool,
-) -> Result<RunOutcome, RunError> {
+    before: &[(Loaded, PathBuf)],
+) -> Result<(Loaded, PathBuf), RunError> {
     let loaded = load(file)?;
     say::warnings(loaded.check()?);
     let folder = folder(&loaded, args);
-    if taken.contains(&folder) {
+    if before.iter().any(|(_, taken)| *taken == folder) {
         return Err(RunError::Taken(folder));
     }
-    taken.push(folder.clone());
-    if !args.quiet {
-        let estimate = cost::estimate(&cost::cost(&loaded.scenario));
-        eprintln!("{}: takes at most {estimate}", loaded.name);
+    Ok((loaded, folder))
+}
+
+/// Runs scenarios with the same ocean in lanes.
+fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, stop: &AtomicBool) -> Exit {
+    let mut exit = Exit::Success;
+    let mut company = Company::default();
+    let mut lanes = Lanes::default();
+    for (loaded, folder) in group {
+        if !args.quiet {
+            let estimate = cost::estimate(&cost::cost(&loaded.scenario));
+            eprintln!("{}: takes at most {estimate}", loaded.name);
+        }
+        let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
+        if let Err(error) = lanes.add(loaded, args.key.seed(args.seed), onlooker) {
+            exit = exit.worse(refused(error));
+        }
     }
-    let mut trial = Trial::assemble(&loaded, args.key.seed(args.seed))?;
-    let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
-    let ended = trial.run(&mut onlooker);
-    Ok(onlooker.finish(&trial, &ended)?)
+    lanes.run(|onlooker, run| {
+        let ended = match run {
+            Ok(trial) => {
+                let finished = onlooker.finish(trial, &trial.ended(), &mut company);
+                finished.map_err(RunError::from)
+            }
+            Err(error) => Err(error.into()),
+        };
+        exit = exit.worse(ended.map_or_else(refused, code));
+    });
+    let linger = Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO);
+    company.part(linger, stop);
+    exit
 }
 
 /// The folder of the results: `--out`, or `runs/<scenario>-<seed>`.

@@ -4,15 +4,16 @@ use crate::apparatus::{Launch, Systems};
 use crate::error::AssembleError;
 use crate::extend::Addition;
 use crate::fleet::Fleet;
+use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin};
 use crate::outbox::Outbox;
 use crate::registry::topics;
 use crate::scenario::Scenario;
 use crate::score::Score;
-use crate::tick::tick;
+use crate::tick::Tick;
 use crate::topic::Topics;
 use bevy_ecs::component::ComponentId;
-use bevy_ecs::prelude::{Mut, Schedule, World};
+use bevy_ecs::prelude::{Mut, World};
 use nalgebra::Vector3;
 use robots::handoff::Outcome;
 use robots::sense::camera::Optics;
@@ -29,7 +30,7 @@ use world::seeds::Seed;
 pub struct Simulation {
     /// All entities and resources.
     pub world: World,
-    tick: Schedule,
+    tick: Tick,
     pub(crate) origin: Origin,
 }
 
@@ -58,29 +59,45 @@ impl Simulation {
         base_dir: &Path,
         seed: impl Into<Seed>,
     ) -> Result<Self, AssembleError> {
-        let seed = seed.into();
-        let dt_s = scenario.time.step_s.get();
         let origin = Origin::of(scenario, base_dir, seed);
         let mut world = World::new();
-        let mut ocean = origin.build(base_dir)?;
-        ocean.step_at_most(scenario.time.drift_period_s.get());
-        furnish(&mut world, scenario, ocean)?;
+        world.insert_resource(origin.build(base_dir)?);
+        let tick = Self::furnish(&mut world, registry, scenario, base_dir, origin.seed())?;
+        Ok(Self::of(world, tick, origin))
+    }
+
+    /// Puts everything into a world that has an ocean.
+    ///
+    /// # Errors
+    /// As [`Simulation::assemble_with`].
+    pub(crate) fn furnish(
+        world: &mut World,
+        registry: &Registry,
+        scenario: &Scenario,
+        base_dir: &Path,
+        seed: Seed,
+    ) -> Result<Tick, AssembleError> {
+        furnish(world, scenario)?;
         world.insert_resource(Topics::new(topics(registry)));
         let fleet = Fleet::of(scenario);
         let launch = Launch {
             base_dir,
             seed,
-            dt_s,
+            dt_s: scenario.time.step_s.get(),
         };
         for apparatus in fleet.all() {
-            apparatus.spawn(&mut world, &launch)?;
+            apparatus.spawn(world, &launch)?;
         }
-        let tick = schedule(&mut world, &fleet, registry)?;
-        Ok(Self {
+        schedule(world, &fleet, registry)
+    }
+
+    /// Of a world that is furnished.
+    pub(crate) fn of(world: World, tick: Tick, origin: Origin) -> Self {
+        Self {
             world,
             tick,
             origin,
-        })
+        }
     }
 
     /// The ocean as it is.
@@ -96,7 +113,25 @@ impl Simulation {
 
     /// One tick.
     pub fn tick(&mut self) {
-        self.tick.run(&mut self.world);
+        self.search();
+        let clock = self.clock();
+        drift(&clock, &mut self.ocean_mut());
+        self.report();
+    }
+
+    /// The half of a tick before the step of the ocean.
+    pub(crate) fn search(&mut self) {
+        self.tick.search(&mut self.world);
+    }
+
+    /// The half of a tick after it.
+    pub(crate) fn report(&mut self) {
+        self.tick.report(&mut self.world);
+    }
+
+    /// The time.
+    pub(crate) fn clock(&self) -> Clock {
+        *self.world.resource()
     }
 
     /// Mission time, s.
@@ -118,27 +153,27 @@ impl Simulation {
     }
 }
 
-/// Puts in what every run has: ocean, physics, clock, score, outbox.
-fn furnish(world: &mut World, scenario: &Scenario, ocean: Ocean) -> Result<(), AssembleError> {
+/// Puts in what every run has beside the ocean: physics, clock, score, outbox.
+fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> {
     let dt_s = scenario.time.step_s.get();
     let every = |period_s: f64| Every::period(period_s, dt_s);
     let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
+    let mut ocean = world.resource_mut::<Ocean>();
+    ocean.step_at_most(scenario.time.drift_period_s.get());
+    let sources = ocean.sources();
     let mut physics = Physics::new(dt_s);
     physics.add_terrain(&ocean.terrain, &ocean.area);
     for obstacle in &ocean.obstacles.0 {
         physics.add_obstacle(obstacle);
     }
     world.insert_resource(Clock::new(dt_s));
-    world.insert_resource(Score::new(
-        ocean.plume().sources().iter().map(|s| s.p_W).collect(),
-    ));
+    world.insert_resource(Score::new(sources));
     world.insert_resource(Outbox::new(
         every(scenario.record.frame_period_s.get()),
         every(scenario.record.plume_period_s.get()),
         scenario.record.plume_points as usize,
     ));
     world.insert_resource(optics);
-    world.insert_resource(ocean);
     world.insert_resource(physics);
     world.insert_resource(Digest::default());
     Ok(())
@@ -149,31 +184,28 @@ fn schedule(
     world: &mut World,
     fleet: &Fleet,
     registry: &Registry,
-) -> Result<Schedule, AssembleError> {
+) -> Result<Tick, AssembleError> {
     let additions: Vec<&Addition> = registry.carried().collect();
     let kinds = fleet.kinds();
-    let mut tick = tick(kinds.len() + additions.len(), fleet.own_kinds());
+    let mut tick = Tick::new(kinds.len() + additions.len(), fleet.own_kinds());
     let truth = truth(world);
     let mut faults = Vec::new();
     for (turn, kind) in kinds.iter().enumerate() {
-        let mut systems = Systems::new(&mut tick, world, &truth, turn);
+        let mut systems = Systems::new(tick.halves(), world, &truth, turn);
         kind.systems(&mut systems);
         faults.extend(systems.faults());
     }
     for (turn, addition) in (kinds.len()..).zip(additions) {
-        let mut systems = Systems::new(&mut tick, world, &truth, turn);
+        let mut systems = Systems::new(tick.halves(), world, &truth, turn);
         (addition.0)(&mut systems);
         faults.extend(systems.faults());
     }
     if let Some(problem) = faults.into_iter().next() {
         return Err(AssembleError::Systems { problem });
     }
-    match tick.initialize(world) {
-        Ok(_) => Ok(tick),
-        Err(error) => Err(AssembleError::Systems {
-            problem: error.to_string(tick.graph(), world),
-        }),
-    }
+    let ordered = tick.initialize(world);
+    ordered.map_err(|problem| AssembleError::Systems { problem })?;
+    Ok(tick)
 }
 
 /// The types that hold the truth, which no system for a searcher may read.

@@ -58,7 +58,7 @@
 //! # Where things are
 //!
 //! - [`scenario`] reads and checks files; [`explain`] describes every field.
-//! - [`ocean`] holds water, plume and obstacles. No searcher changes it.
+//! - [`ocean`] holds water, plume and obstacles. No searcher changes it, so [`lanes`] lets many runs share one.
 //! - [`auv`] and [`gantry`] are the searchers; [`apparatus`] is the trait that both implement.
 //! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
 //! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
@@ -75,6 +75,7 @@ pub mod extend;
 pub mod fleet;
 pub mod frame;
 pub mod gantry;
+pub mod lanes;
 pub mod ocean;
 pub mod outbox;
 pub mod outcome;

@@ -3,82 +3,117 @@
 //! One thread, one order, and one writer for each type. If the order of two systems that touch the same data is not
 //! defined, the run is refused. Runs are parallel to each other, not inside, so a run is the same on any machine.
 //!
+//! The tick has two halves, with the step of the ocean between them. So runs in the same ocean can share that step: see
+//! [`lanes`](crate::lanes).
+//!
 //! Here stand only the systems that every run has. Each apparatus of the scenario and each extension of the registry
 //! adds its own to the stages, in a fixed order of turns.
 
 use crate::apparatus::{BodiesMove, Turn};
 use crate::ocean::system as ocean;
 use crate::outbox::system::{close_frame, open_frame};
-use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule};
+use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule, World};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 use world::clock::Clock;
 use world::physics::Physics;
 use world::stage::Stage;
 
-/// Label of the tick's schedule.
-#[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
-pub struct Tick;
+/// Label of the schedule of half a tick.
+#[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Half {
+    /// What the searchers do in the water as it is: all stages up to the physics.
+    Search,
+    /// What follows the step of the ocean.
+    Report,
+}
 
-/// The tick: `Sense → Estimate → Map → Decide → Guide → Actuate → Physics → Drift → Report`. It has room for so many
-/// turns, of which the first `own` are of this program.
-#[must_use]
-pub(crate) fn tick(turns: usize, own: usize) -> Schedule {
-    let [
-        sense,
-        estimate,
-        map,
-        decide,
-        guide,
-        actuate,
-        physics,
-        drift,
-        report,
-    ] = Stage::ALL;
+/// The tick: `Sense → Estimate → Map → Decide → Guide → Actuate → Physics`, then the ocean, then `Drift → Report`.
+pub(crate) struct Tick {
+    search: Schedule,
+    report: Schedule,
+}
 
-    let mut tick = Schedule::new(Tick);
-    tick.set_executor(SingleThreadedExecutor::new());
-    tick.set_build_settings(ScheduleBuildSettings {
+impl Tick {
+    /// A tick with room for so many turns, of which the first `own` are of this program.
+    pub(crate) fn new(turns: usize, own: usize) -> Self {
+        let [before @ .., drift, report] = Stage::ALL;
+        let mut tick = Self {
+            search: half(Half::Search, &before, turns, own),
+            report: half(Half::Report, &[drift, report], turns, own),
+        };
+        tick.search.add_systems(
+            move_bodies
+                .in_set(Stage::Physics)
+                .in_set(BodiesMove)
+                .before(Turn::Added(Stage::Physics)),
+        );
+        tick.report.add_systems((
+            ocean::digest_plume
+                .in_set(report)
+                .before(Turn::Added(report)),
+            (open_frame, close_frame, pass_time).chain().after(report),
+        ));
+        for n in 0..turns {
+            let frames = &mut tick.report;
+            frames.configure_sets(Turn::Frame(n).after(open_frame).before(close_frame));
+            if n > 0 {
+                frames.configure_sets(Turn::Frame(n).after(Turn::Frame(n - 1)));
+            }
+        }
+        tick
+    }
+
+    /// Both halves, for what is added to them.
+    pub(crate) fn halves(&mut self) -> [&mut Schedule; 2] {
+        [&mut self.search, &mut self.report]
+    }
+
+    /// Fixes the order of all systems; an error says why there is none.
+    pub(crate) fn initialize(&mut self, world: &mut World) -> Result<(), String> {
+        for half in self.halves() {
+            let done = half.initialize(world);
+            done.map_err(|error| error.to_string(half.graph(), world))?;
+        }
+        Ok(())
+    }
+
+    /// The half before the step of the ocean.
+    pub(crate) fn search(&mut self, world: &mut World) {
+        self.search.run(world);
+    }
+
+    /// The half after it.
+    pub(crate) fn report(&mut self, world: &mut World) {
+        self.report.run(world);
+    }
+}
+
+/// These stages one after the other, each with its turns.
+fn half(label: Half, stages: &[Stage], turns: usize, own: usize) -> Schedule {
+    let mut half = Schedule::new(label);
+    half.set_executor(SingleThreadedExecutor::new());
+    half.set_build_settings(ScheduleBuildSettings {
         ambiguity_detection: LogLevel::Error,
         ..Default::default()
     });
-    tick.configure_sets(
-        (
-            sense, estimate, map, decide, guide, actuate, physics, drift, report,
-        )
-            .chain(),
-    );
-    for stage in Stage::ALL {
-        tick.configure_sets(Turn::Added(stage).in_set(stage));
+    for pair in stages.windows(2) {
+        half.configure_sets(pair[0].before(pair[1]));
+    }
+    for &stage in stages {
+        half.configure_sets(Turn::Added(stage).in_set(stage));
         for n in 0..turns {
             let turn = Turn::Of(stage, n);
             if n < own {
-                tick.configure_sets(turn.in_set(stage).before(Turn::Added(stage)));
+                half.configure_sets(turn.in_set(stage).before(Turn::Added(stage)));
             } else {
-                tick.configure_sets(turn.in_set(Turn::Added(stage)));
+                half.configure_sets(turn.in_set(Turn::Added(stage)));
             }
             if n > 0 {
-                tick.configure_sets(turn.after(Turn::Of(stage, n - 1)));
+                half.configure_sets(turn.after(Turn::Of(stage, n - 1)));
             }
         }
     }
-    tick.add_systems((
-        move_bodies
-            .in_set(BodiesMove)
-            .in_set(physics)
-            .before(Turn::Added(physics)),
-        ocean::drift.in_set(drift).before(Turn::Added(drift)),
-        ocean::digest_plume
-            .in_set(report)
-            .before(Turn::Added(report)),
-        (open_frame, close_frame, pass_time).chain().after(report),
-    ));
-    for n in 0..turns {
-        tick.configure_sets(Turn::Frame(n).after(open_frame).before(close_frame));
-        if n > 0 {
-            tick.configure_sets(Turn::Frame(n).after(Turn::Frame(n - 1)));
-        }
-    }
-    tick
+    half
 }
 
 /// One step of the physics for all bodies.

@@ -96,9 +96,17 @@ impl Trial {
         let scenario: &Scenario = &loaded.scenario;
         let simulation =
             Simulation::assemble_with(&loaded.registry, scenario, &loaded.base_dir, seed)?;
-        let sources = simulation.ocean().plume().sources();
-        let sources: Vec<_> = sources.iter().map(|s| s.p_W).collect();
-        Ok(Self {
+        let sources = simulation.ocean().sources();
+        Ok(Self::of(scenario, simulation, sources))
+    }
+
+    /// A run of a scenario that is assembled, in an ocean with these sources (ENU, m).
+    pub(crate) fn of(
+        scenario: &Scenario,
+        simulation: Simulation,
+        sources: Vec<Vector3<f64>>,
+    ) -> Self {
+        Self {
             simulation,
             phase: RunPhase::Assembled,
             scenario: scenario.clone(),
@@ -106,7 +114,7 @@ impl Trial {
             flow_samples: 0,
             sources,
             frame: None,
-        })
+        }
     }
 
     /// Lets water and plume develop and returns a copy of them, which other runs can
@@ -136,7 +144,7 @@ impl Trial {
         let state = spun_up.copy_for(&self.simulation.origin)?;
         self.start_afresh();
         self.simulation.ocean_mut().put_state(state);
-        self.set_out(RunPhase::SpunUp);
+        self.set_out(false);
         Ok(())
     }
 
@@ -147,11 +155,7 @@ impl Trial {
             stopped = !watch.spun_up(share);
             !stopped
         });
-        self.set_out(if stopped {
-            RunPhase::Stopped
-        } else {
-            RunPhase::SpunUp
-        });
+        self.set_out(stopped);
     }
 
     fn start_afresh(&self) {
@@ -161,8 +165,13 @@ impl Trial {
         );
     }
 
-    fn set_out(&mut self, phase: RunPhase) {
-        self.phase = phase;
+    /// Begins the mission in the ocean as it is, unless an observer has stopped the spin-up.
+    pub(crate) fn set_out(&mut self, stopped: bool) {
+        self.phase = if stopped {
+            RunPhase::Stopped
+        } else {
+            RunPhase::SpunUp
+        };
         self.simulation.ocean_mut().set_out();
         let world = &mut self.simulation.world;
         world.resource_scope::<Digest, ()>(|world, mut digest| {
@@ -196,10 +205,20 @@ impl Trial {
         if self.phase == RunPhase::Assembled {
             self.develop(watch);
         }
-        if self.phase != RunPhase::SpunUp {
+        if !self.going() {
             return false;
         }
         self.simulation.tick();
+        self.heed(watch)
+    }
+
+    /// Whether the mission has begun and lasts.
+    pub(crate) fn going(&self) -> bool {
+        self.phase == RunPhase::SpunUp
+    }
+
+    /// Shows an observer what a tick has made; `false` once the run is over or the observer stopped it.
+    pub(crate) fn heed(&mut self, watch: &mut dyn Watch) -> bool {
         self.show(watch);
         let t_s = self.simulation.t_s();
         if !watch.go_on(t_s) {
@@ -207,7 +226,7 @@ impl Trial {
         } else if self.all_over() || t_s >= self.scenario.time.limit_s.get() - 1e-9 {
             self.phase = RunPhase::Ended;
         }
-        self.phase == RunPhase::SpunUp
+        self.going()
     }
 
     /// The result of the run so far. Before its end the outcome is the one that it would have at the time limit.

@@ -9,6 +9,8 @@ mod options;
 mod topics;
 
 #[cfg(feature = "live")]
+mod config;
+#[cfg(feature = "live")]
 mod look_message;
 #[cfg(feature = "live")]
 mod mailbox;
@@ -31,6 +33,6 @@ pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
 pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(not(feature = "live"))]
-pub use off::Live;
+pub use off::{Live, LiveSession};
 #[cfg(feature = "live")]
-pub use session::Live;
+pub use session::{Live, LiveSession};

@@ -4,6 +4,10 @@ use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::time::Duration;
 
+/// The session of a run, not built in (feature `live`).
+#[derive(Clone, Debug, Default)]
+pub struct LiveSession;
+
 /// Live state, not built in (feature `live`).
 #[derive(Debug)]
 pub struct Live;
@@ -16,6 +20,24 @@ impl Live {
     pub fn start(options: &LiveOptions, _meta: LiveMeta) -> Result<Self, LiveError> {
         options.check()?;
         Ok(Self)
+    }
+
+    /// The same.
+    ///
+    /// # Errors
+    /// As [`Live::start`].
+    pub fn start_in(
+        _session: &LiveSession,
+        options: &LiveOptions,
+        meta: LiveMeta,
+    ) -> Result<Self, LiveError> {
+        Self::start(options, meta)
+    }
+
+    /// Nothing.
+    #[must_use]
+    pub fn session(&self) -> LiveSession {
+        LiveSession
     }
 
     /// Where clients connect: nowhere.

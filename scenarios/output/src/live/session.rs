@@ -1,26 +1,21 @@
 //! The thread that owns the zenoh session, and the handle that the run has.
 
+use super::config::{configured, plain};
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
 use super::message::Message;
 use super::tree::Tree;
-use super::{DEFAULT_PORT, LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
+use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
-use std::net::{SocketAddr, TcpListener};
 use std::path::PathBuf;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
-use world::files;
-use zenoh::config::EndPoint;
-use zenoh::{Config, Session, Wait};
+use zenoh::{Session, Wait};
 
 /// How long a finished run waits for zenoh to close its connections.
 const PATIENCE: Duration = Duration::from_secs(2);
-
-/// Number of ports after the default one that are tried.
-const SPARE_PORTS: u16 = 16;
 
 /// A run's live state. If it is dropped without [`Live::finish`] or [`Live::end`], subscribers learn that the run broke
 /// off: the token disappears and no clock says `ended`.
@@ -30,10 +25,26 @@ pub struct Live {
     gone: Receiver<()>,
     endpoint: String,
     notice: Option<String>,
+    session: LiveSession,
 }
 
-/// What the thread reports when it is running.
-type Up = Result<String, LiveError>;
+/// The session of a run, which other runs may use as long as it publishes.
+#[derive(Clone, Debug, Default)]
+pub struct LiveSession(Weak<Open>);
+
+/// An open session. The last run that uses it closes it.
+#[derive(Debug)]
+struct Open(Session);
+
+impl Drop for Open {
+    fn drop(&mut self) {
+        // Explicitly, because a session that is closed when statics are dropped panics.
+        let _closed = self.0.close().wait();
+    }
+}
+
+/// What the thread reports when it is running: where clients connect, and its session.
+type Up = Result<(String, LiveSession), LiveError>;
 
 impl Live {
     /// Opens a zenoh session in its own thread and publishes what is known beforehand.
@@ -44,6 +55,40 @@ impl Live {
         options.check()?;
         let (config, notice) =
             configured(options, std::env::var_os("ZENOH_CONFIG").map(PathBuf::from))?;
+        let open = move || zenoh::open(config).wait().map(|s| Arc::new(Open(s)));
+        Self::publishing(options, meta, notice, open)
+    }
+
+    /// The same in the session of another run, at the same port, or in one of its own if that is closed.
+    ///
+    /// # Errors
+    /// As [`Live::start`].
+    pub fn start_in(
+        session: &LiveSession,
+        options: &LiveOptions,
+        meta: LiveMeta,
+    ) -> Result<Self, LiveError> {
+        match session.0.upgrade() {
+            Some(open) => {
+                options.check()?;
+                Self::publishing(options, meta, None, move || Ok(open))
+            }
+            None => Self::start(options, meta),
+        }
+    }
+
+    /// The session, for other runs.
+    #[must_use]
+    pub fn session(&self) -> LiveSession {
+        self.session.clone()
+    }
+
+    fn publishing(
+        options: &LiveOptions,
+        meta: LiveMeta,
+        notice: Option<String>,
+        open: impl FnOnce() -> zenoh::Result<Arc<Open>> + Send + 'static,
+    ) -> Result<Self, LiveError> {
         let mailbox = Arc::new(Mailbox::new(options.state_period, options.plume_period));
         let (up, is_up) = sync_channel::<Up>(1);
         let (going, gone) = sync_channel::<()>(1);
@@ -52,7 +97,7 @@ impl Live {
             // Here, because the registry is that of this thread.
             let meta = message::meta(&meta, &topics());
             move || {
-                publish(config, &options, meta, &mailbox, &up);
+                publish(open, &options, meta, &mailbox, &up);
                 // There may be nobody waiting any more.
                 let _late = going.try_send(());
             }
@@ -61,7 +106,7 @@ impl Live {
             .name("live".to_owned())
             .spawn(thread)
             .map_err(|e| LiveError::Open { why: e.to_string() })?;
-        let endpoint = is_up.recv().unwrap_or_else(|_| {
+        let (endpoint, session) = is_up.recv().unwrap_or_else(|_| {
             Err(LiveError::Open {
                 why: "its thread broke off".to_owned(),
             })
@@ -71,6 +116,7 @@ impl Live {
             gone,
             endpoint,
             notice,
+            session,
         })
     }
 
@@ -147,30 +193,28 @@ impl Drop for Live {
 
 /// Main function of the thread.
 fn publish(
-    config: Config,
+    open: impl FnOnce() -> zenoh::Result<Arc<Open>>,
     options: &LiveOptions,
     meta: Vec<Message>,
     mailbox: &Mailbox,
     up: &SyncSender<Up>,
 ) {
-    let session = match zenoh::open(config).wait() {
+    let session = match open() {
         Ok(session) => session,
         Err(e) => {
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
             return;
         }
     };
-    match Tree::grow(&session, options, meta) {
+    match Tree::grow(&session.0, options, meta) {
         Err(e) => {
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }
         Ok(mut tree) => {
-            let _nobody_waits = up.send(Ok(endpoint(&session)));
+            let _nobody_waits = up.send(Ok((endpoint(&session.0), LiveSession(Arc::downgrade(&session)))));
             serve(&mut tree, mailbox, options.plume_period);
         }
     }
-    // Explicitly, because a session that is closed when statics are dropped panics.
-    let _closed = session.close().wait();
 }
 
 fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
@@ -230,90 +274,6 @@ fn say_rest(tree: &Tree<'_>, rest: &Rest) {
     }
 }
 
-/// The configuration, and a line for the user if necessary.
-fn configured(
-    options: &LiveOptions,
-    from_env: Option<PathBuf>,
-) -> Result<(Config, Option<String>), LiveError> {
-    if let Some(path) = options.config_file.clone().or(from_env) {
-        let unread = |why: String| LiveError::Config {
-            path: path.clone(),
-            why,
-        };
-        files::open(&path).map_err(|e| unread(e.to_string()))?;
-        let mut config = Config::from_file(&path).map_err(|e| unread(plain(&e)))?;
-        if let Some(endpoint) = &options.listen {
-            free_port_of(endpoint)?;
-            set(
-                &mut config,
-                "listen/endpoints",
-                &serde_json::json!([endpoint]),
-            )?;
-        }
-        return Ok((config, None));
-    }
-    let (endpoint, notice) = match &options.listen {
-        Some(endpoint) => {
-            free_port_of(endpoint)?;
-            (endpoint.clone(), None)
-        }
-        None => default_endpoint()?,
-    };
-    let mut config = Config::default();
-    set(&mut config, "mode", &"router".into())?;
-    set(
-        &mut config,
-        "listen/endpoints",
-        &serde_json::json!([endpoint]),
-    )?;
-    // Multicast is slow or refused on many machines; clients are told the endpoint instead.
-    set(&mut config, "scouting/multicast/enabled", &false.into())?;
-    Ok((config, notice))
-}
-
-fn set(config: &mut Config, key: &str, value: &serde_json::Value) -> Result<(), LiveError> {
-    config
-        .insert_json5(key, &value.to_string())
-        .map_err(|e| LiveError::Open { why: plain(&e) })
-}
-
-fn default_endpoint() -> Result<(String, Option<String>), LiveError> {
-    let last = DEFAULT_PORT + SPARE_PORTS;
-    let free = |port: &u16| TcpListener::bind(("127.0.0.1", *port)).is_ok();
-    let port = (DEFAULT_PORT..=last)
-        .find(free)
-        .ok_or(LiveError::NoFreePort {
-            first: DEFAULT_PORT,
-            last,
-        })?;
-    let endpoint = format!("tcp/127.0.0.1:{port}");
-    let notice = (port != DEFAULT_PORT)
-        .then(|| format!("port {DEFAULT_PORT} is already in use: zenoh listens on {endpoint}"));
-    Ok((endpoint, notice))
-}
-
-/// Reports a busy port before zenoh does, with a message that names the cure.
-fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
-    let bad = || LiveError::Endpoint {
-        endpoint: endpoint.to_owned(),
-    };
-    let parsed: EndPoint = endpoint.parse().map_err(|_| bad())?;
-    if parsed.protocol().as_str() != "tcp" {
-        return Ok(());
-    }
-    // zenoh itself interprets names, and options after the address.
-    let Ok(address) = parsed.address().as_str().parse::<SocketAddr>() else {
-        return Ok(());
-    };
-    match TcpListener::bind(address) {
-        Err(e) if e.kind() == std::io::ErrorKind::AddrInUse => Err(LiveError::BusyPort {
-            endpoint: endpoint.to_owned(),
-            port: address.port(),
-        }),
-        _ => Ok(()),
-    }
-}
-
 /// Where clients connect: the loopback address first, because it is the same on every machine.
 fn endpoint(session: &Session) -> String {
     let mut locators: Vec<String> = session
@@ -328,35 +288,4 @@ fn endpoint(session: &Session) -> String {
         .into_iter()
         .next()
         .unwrap_or_else(|| "none".to_owned())
-}
-
-/// zenoh's message without positions in its source (` at /…/file.rs:12.`).
-fn plain(error: &zenoh::Error) -> String {
-    let mut words: Vec<String> = Vec::new();
-    for word in error.to_string().split_whitespace() {
-        if word.contains(".rs:") && words.last().is_some_and(|w| w == "at") {
-            words.pop();
-        } else {
-            words.push(word.to_owned());
-        }
-    }
-    words.join(" ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_file_given_goes_before_the_one_of_the_environment() {
-        let from_env = Some(PathBuf::from("/nowhere/env.json5"));
-        let mut options = LiveOptions::new("run_1".to_owned());
-        let file = |options: &LiveOptions| match configured(options, from_env.clone()) {
-            Err(LiveError::Config { path, .. }) => path,
-            other => panic!("neither file exists: {other:?}"),
-        };
-        assert_eq!(file(&options), PathBuf::from("/nowhere/env.json5"));
-        options.config_file = Some("/nowhere/given.json5".into());
-        assert_eq!(file(&options), PathBuf::from("/nowhere/given.json5"));
-    }
 }

@@ -29,7 +29,8 @@ pub struct BodiesMove;
 /// the one before. Two systems of one turn that touch the same data need an explicit order (`(a, b).chain()`,
 /// `b.after(a)`); without one the run is refused, because its result would not be defined.
 pub struct Systems<'a> {
-    schedule: &'a mut Schedule,
+    search: &'a mut Schedule,
+    report: &'a mut Schedule,
     world: &'a mut World,
     truth: &'a [(ComponentId, &'static str)],
     turn: usize,
@@ -37,15 +38,16 @@ pub struct Systems<'a> {
 }
 
 impl<'a> Systems<'a> {
-    /// For one turn. Systems added as blind may not read `truth`.
+    /// For one turn in both halves of the tick. Systems added as blind may not read `truth`.
     pub(crate) fn new(
-        schedule: &'a mut Schedule,
+        [search, report]: [&'a mut Schedule; 2],
         world: &'a mut World,
         truth: &'a [(ComponentId, &'static str)],
         turn: usize,
     ) -> Self {
         Self {
-            schedule,
+            search,
+            report,
             world,
             truth,
             turn,
@@ -59,8 +61,11 @@ impl<'a> Systems<'a> {
         stage: Stage,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
     ) -> &mut Self {
-        self.schedule
-            .add_systems(systems.in_set(Turn::Of(stage, self.turn)));
+        let half = match stage {
+            Stage::Drift | Stage::Report => &mut *self.report,
+            _ => &mut *self.search,
+        };
+        half.add_systems(systems.in_set(Turn::Of(stage, self.turn)));
         self
     }
 
@@ -70,8 +75,8 @@ impl<'a> Systems<'a> {
         &mut self,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
     ) -> &mut Self {
-        self.schedule
-            .add_systems(systems.in_set(Turn::Frame(self.turn)));
+        let systems = systems.in_set(Turn::Frame(self.turn));
+        self.report.add_systems(systems);
         self
     }
 

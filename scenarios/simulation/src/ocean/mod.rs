@@ -1,7 +1,7 @@
 //! The ocean of a run: place, water and plume. It does not depend on who searches in it.
 //!
 //! Only `system::drift` and the spin-up write to it; sensors read it. So two runs with the same [`Origin`] have the
-//! same ocean, bit for bit.
+//! same ocean, bit for bit, and can share it (see [`lanes`](crate::lanes)).
 
 mod origin;
 mod spun_up;
@@ -79,6 +79,12 @@ impl Ocean {
     #[must_use]
     pub fn plume(&self) -> &Plume {
         &self.plume
+    }
+
+    /// Places of the sources (ENU), m.
+    #[must_use]
+    pub fn sources(&self) -> Vec<Vector3<f64>> {
+        self.plume.sources().iter().map(|s| s.p_W).collect()
     }
 
     /// The dye that a sensor measures at a time of the mission, s: the plume, displaced by the orbital motion of the

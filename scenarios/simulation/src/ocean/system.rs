@@ -1,12 +1,12 @@
-//! The ocean in the tick: the only systems that write to it.
+//! The ocean in the tick: its step between the two halves, and its part of the digest.
 
 use super::Ocean;
 use bevy_ecs::prelude::{Res, ResMut};
 use world::clock::Clock;
 use world::digest::Digest;
 
-/// Advances water and plume to the end of this step.
-pub(crate) fn drift(clock: Res<Clock>, mut ocean: ResMut<Ocean>) {
+/// Advances water and plume to the end of this step. Nothing else moves them in a tick.
+pub(crate) fn drift(clock: &Clock, ocean: &mut Ocean) {
     ocean.advance(clock.t_next_s());
 }
 

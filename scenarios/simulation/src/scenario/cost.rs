@@ -54,20 +54,40 @@ pub fn times(scenario: &Scenario) -> Times {
 /// The cost of a run, computed from its fields.
 #[must_use]
 pub fn cost(scenario: &Scenario) -> Cost {
+    let mut cost = of_ocean(scenario);
+    cost.add(of_lane(scenario));
+    cost
+}
+
+/// The part of the cost that runs in the same ocean share: the program, water and plume.
+fn of_ocean(scenario: &Scenario) -> Cost {
     let (area, times) = (scenario.area.build(), times(scenario));
-    let depth_m = match &scenario.terrain {
-        TerrainSpec::Level(level) => level.depth_m.get(),
-        TerrainSpec::Slope(slope) => slope.deep_m.get().max(slope.shallow_m.get()),
-    };
     let program = Part::new("", "the program and its figures");
     let mut cost = Cost::of(program.holds(PROGRAM.0).takes(PROGRAM.1));
-    cost.add(scenario.water.cost(&area, depth_m, &times));
+    cost.add(scenario.water.cost(&area, depth_m(scenario), &times));
     let carries_m_s = scenario.water.carries_m_s();
     for (i, source) in scenario.sources.iter().enumerate() {
         let own = source.release.cost(&area, carries_m_s, &times);
         cost.add(own.under(&format!("sources[{i}].release")));
     }
-    let waves = scenario.water.waves();
+    cost
+}
+
+/// Depth of the deepest water, m.
+fn depth_m(scenario: &Scenario) -> f64 {
+    match &scenario.terrain {
+        TerrainSpec::Level(level) => level.depth_m.get(),
+        TerrainSpec::Slope(slope) => slope.deep_m.get().max(slope.shallow_m.get()),
+    }
+}
+
+/// The part of the cost that each run has for itself, also in an ocean shared with others: its searchers and what is
+/// recorded of it.
+#[must_use]
+pub fn of_lane(scenario: &Scenario) -> Cost {
+    let times = times(scenario);
+    let (depth_m, waves) = (depth_m(scenario), scenario.water.waves());
+    let mut cost = Cost::default();
     for (i, robot) in scenario.robots.iter().enumerate() {
         let path = format!("robots[{i}]");
         cost.add(robot_cost(robot, scenario, depth_m, waves, &times).under(&path));

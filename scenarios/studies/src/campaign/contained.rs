@@ -1,20 +1,17 @@
 //! Work whose panic is an answer: it is kept off the screen and returned to the caller.
 
+use rheotaxis::lanes::caught;
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind, set_hook, take_hook};
+use std::panic::{set_hook, take_hook};
 use std::sync::Once;
 
 /// The result of `work`, or the message of its panic.
 pub(super) fn contained<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     hush();
     let before = QUIET.replace(true);
-    let result = catch_unwind(AssertUnwindSafe(work));
+    let result = caught(work);
     QUIET.set(before);
-    result.map_err(|panic| {
-        (panic.downcast_ref::<&str>().map(|s| (*s).to_string()))
-            .or_else(|| panic.downcast_ref::<String>().cloned())
-            .unwrap_or_else(|| "of unknown cause".to_string())
-    })
+    result
 }
 
 thread_local! {

@@ -1,21 +1,17 @@
 //! One run of a campaign. Whatever happens to it, it becomes a row.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "wall times are columns of the table; nothing of them enters the run"
-)]
 
 use super::contained::contained;
+use super::in_lanes::{Heed, in_lanes};
 use super::row::{DeclarationRow, RunRow};
 use output::results::{
     DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth,
     Summary, SummaryBuilder, Totals,
 };
 use rheotaxis::frame::Frame;
-use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Unwatched, Watch};
-use std::time::Instant;
+use rheotaxis::trial::{Trial, Watch};
+use std::time::Duration;
 use world::seeds::Seed;
 
 /// What identifies a run in the table.
@@ -36,87 +32,87 @@ pub struct RunName {
 /// Makes the run. A run that fails or panics also becomes a row, with its error.
 #[must_use]
 pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
-    guarded(name, || attempt(loaded, name, None))
+    let heed = Heed {
+        begin: &|| true,
+        go_on: &|| true,
+        took: &|_| {},
+    };
+    let mut made = None;
+    in_lanes(&[(name.clone(), loaded)], heed, &mut |row| made = Some(row));
+    made.unwrap_or_else(|| failed(name, "it did not come to its end".to_string()))
 }
 
-/// Makes the run. It takes over a fitting spin-up from `spun`, or adds its own to it.
-pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
-    guarded(name, || attempt(loaded, name, Some(spun)))
+/// Makes a row from `run`, or from its panic.
+pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> RunRow) -> RunRow {
+    contained(run).unwrap_or_else(|said| failed(name, format!("panicked: {said}")))
 }
 
-fn attempt(
-    loaded: &Loaded,
-    name: &RunName,
-    spun: Option<&mut Vec<SpunUp>>,
-) -> Result<RunRow, String> {
-    let begun = Instant::now();
-    let mut trial = Trial::assemble(loaded, name.seed).map_err(|e| e.to_string())?;
-    let mut taken = false;
-    let mut mission_begun = begun;
-    if let Some(spun) = spun {
-        taken = spun.iter().any(|s| trial.take_over(s).is_ok());
-        if !taken {
-            spun.extend(trial.spin_up(&mut Unwatched));
-        }
-        mission_begun = Instant::now();
-    }
-    let mut gatherer = Gatherer {
-        builder: SummaryBuilder::new(&RunInfo {
+/// Gathers what a row needs while its run is made.
+pub(super) struct Gatherer<'a> {
+    /// Index of the run among those in lanes.
+    pub(super) run: usize,
+    builder: SummaryBuilder,
+    go_on: &'a dyn Fn() -> bool,
+}
+
+impl<'a> Gatherer<'a> {
+    /// For a run that goes on as long as `go_on` says so.
+    pub(super) fn new(
+        run: usize,
+        name: &RunName,
+        loaded: &Loaded,
+        go_on: &'a dyn Fn() -> bool,
+    ) -> Self {
+        let builder = SummaryBuilder::new(&RunInfo {
             scenario_name: loaded.name.clone(),
             title: loaded.scenario.title.clone(),
             success: loaded.scenario.success.words(),
             scenario_text: String::new(),
             seed: name.seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
-        }),
-        mission_begun,
-    };
-    let ended = trial.run(&mut gatherer);
-    let spin_up_wall = gatherer.mission_begun - begun;
-    let end = RunEnd {
-        outcome: ended.outcome,
-        error: None,
-        digest: ended.digest.clone(),
-        score: trial.score().clone(),
-        totals: Totals {
-            mission_s: ended.t_s,
-            mission_wall_s: gatherer.mission_begun.elapsed().as_secs_f64(),
-            spin_up_wall_s: if taken {
-                0.0
-            } else {
-                spin_up_wall.as_secs_f64()
-            },
-            ..Totals::default()
-        },
-    };
-    let summary = gatherer
-        .builder
-        .finish(&end, &SourceTruth::of(&trial, &ended));
-    let within_m = loaded.scenario.success.declared_within_m();
-    Ok(row(name, &summary, within_m))
-}
+        });
+        Self {
+            run,
+            builder,
+            go_on,
+        }
+    }
 
-/// Makes a row from `run`, from the error that it returns, or from its panic.
-pub(super) fn guarded(name: &RunName, run: impl FnOnce() -> Result<RunRow, String>) -> RunRow {
-    match contained(run) {
-        Ok(Ok(row)) => row,
-        Ok(Err(error)) => failed(name, error),
-        Err(said) => failed(name, format!("panicked: {said}")),
+    /// The row of the run at its end, with the wall times of its spin-up and mission.
+    pub(super) fn row(
+        self,
+        name: &RunName,
+        loaded: &Loaded,
+        trial: &Trial,
+        [spin_up, mission]: [Duration; 2],
+    ) -> RunRow {
+        let ended = trial.ended();
+        let end = RunEnd {
+            outcome: ended.outcome,
+            error: None,
+            digest: ended.digest.clone(),
+            score: trial.score().clone(),
+            totals: Totals {
+                mission_s: ended.t_s,
+                mission_wall_s: mission.as_secs_f64(),
+                spin_up_wall_s: spin_up.as_secs_f64(),
+                ..Totals::default()
+            },
+        };
+        let summary = self.builder.finish(&end, &SourceTruth::of(trial, &ended));
+        row(name, &summary, loaded.scenario.success.declared_within_m())
     }
 }
 
-struct Gatherer {
-    builder: SummaryBuilder,
-    mission_begun: Instant,
-}
-
-impl Watch for Gatherer {
+impl Watch for Gatherer<'_> {
     fn spun_up(&mut self, _share: f64) -> bool {
-        self.mission_begun = Instant::now();
-        true
+        (self.go_on)()
     }
     fn frame(&mut self, frame: &Frame) {
         self.builder.observe(frame);
+    }
+    fn go_on(&mut self, _t_s: f64) -> bool {
+        (self.go_on)()
     }
 }
 
@@ -219,7 +215,7 @@ fn declaration(name: &RunName, robot: &str, d: &DeclarationSummary) -> Declarati
 }
 
 /// The row of a run that failed.
-fn failed(name: &RunName, error: String) -> RunRow {
+pub(super) fn failed(name: &RunName, error: String) -> RunRow {
     RunRow {
         run: name.run,
         arm: name.arm.clone(),
@@ -233,7 +229,7 @@ fn failed(name: &RunName, error: String) -> RunRow {
 }
 
 /// The name that `summary.json` uses.
-fn outcome_name(outcome: RunOutcome) -> String {
+pub(super) fn outcome_name(outcome: RunOutcome) -> String {
     match serde_json::to_value(outcome) {
         Ok(serde_json::Value::String(name)) => name,
         _ => unreachable!("an outcome becomes a word"),
@@ -262,7 +258,5 @@ mod tests {
             (row.outcome.as_str(), row.success, row.digest.as_str()),
             ("failed", false, "")
         );
-        let row = guarded(&name, || Err("no such mesh".to_string()));
-        assert_eq!(row.error.as_deref(), Some("no such mesh"));
     }
 }

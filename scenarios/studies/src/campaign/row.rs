@@ -70,9 +70,9 @@ pub struct RunRow {
     pub near_offset_m: Option<f64>,
     /// When a belief's best cell became that of the source and stayed so to the end, s.
     pub correct_cell_s: Option<f64>,
-    /// Wall time of the spin-up, s; zero if the spin-up was taken over from another run.
+    /// Wall time of the spin-up, s; zero if another run of the seed has it, because they shared the spin-up.
     pub spin_up_wall_s: f64,
-    /// Wall time of the mission, s.
+    /// Wall time of the mission, s. Of runs in lanes each has its share.
     pub mission_wall_s: f64,
 }
 

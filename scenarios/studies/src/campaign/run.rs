@@ -107,7 +107,7 @@ pub fn run(
         let _ = manifest.set(settled);
     } else if options.shard.count > 1 {
         // The runs of this share depend on the length of blocks, so one run is made to determine it.
-        let row = work.one(0, &mut Vec::new())?;
+        let row = work.one(0)?;
         let first = new_manifest(campaign, options, &row).write_first(dir, false)?;
         if options.shard.has(0) {
             add_to_block(dir, &first, 0, &[row])?;

@@ -1,11 +1,13 @@
-//! The threads of a campaign. Each takes the arms of one seed at a time, and every row is kept as soon as its run ends.
+//! The threads of a campaign. Each takes the arms of one seed at a time, those with the same ocean in lanes, and every
+//! row is kept as soon as its run ends.
 #![allow(
     clippy::disallowed_methods,
     reason = "the limit of wall time decides when to stop, never what a run does"
 )]
 
 use super::error::CampaignError;
-use super::one_run::{RunName, sharing_run};
+use super::in_lanes::{Heed, Planned, in_lanes};
+use super::one_run::{RunName, one_run};
 use super::plan::Campaign;
 use super::row::RunRow;
 use super::run::Event;
@@ -28,7 +30,7 @@ pub(super) struct Limits<'a> {
     begun: Instant,
     max_wall: Option<Duration>,
     stop: &'a AtomicBool,
-    /// Wall time of the longest run so far, ms.
+    /// Wall time of the longest run so far, or of runs in lanes together, ms.
     longest_ms: AtomicU64,
 }
 
@@ -40,6 +42,12 @@ impl<'a> Limits<'a> {
             stop,
             longest_ms: AtomicU64::new(0),
         }
+    }
+
+    /// Notes how long a run took, or runs in lanes together.
+    fn took(&self, wall: Duration) {
+        let ms = u64::try_from(wall.as_millis()).unwrap_or(u64::MAX);
+        self.longest_ms.fetch_max(ms, Ordering::Relaxed);
     }
 
     /// Whether a run may begin: no stop was requested, and a run as long as the longest so far would end in time.
@@ -83,19 +91,20 @@ impl Work<'_> {
         let worker = || {
             while going() {
                 let Some(runs) = next() else { break };
-                // The arms of a seed one after the other, so that they can share a spun-up state.
-                let mut spun = Vec::new();
-                for run in runs {
-                    if !going() {
-                        return;
-                    }
-                    let done = self.one(run, &mut spun).and_then(|row| {
-                        (self.tell)(Event::Ran(&row));
-                        keep(row)
-                    });
-                    if let Err(error) = done {
+                let heed = Heed {
+                    begin: &going,
+                    // Whatever stops the work, runs under way end and are kept, unless they cannot be.
+                    go_on: &|| !ended.load(Ordering::Relaxed),
+                    took: &|wall| self.limits.took(wall),
+                };
+                let made = self.seed(&runs, heed, &mut |row| {
+                    (self.tell)(Event::Ran(&row));
+                    if let Err(error) = keep(row) {
                         fail(error);
                     }
+                });
+                if let Err(error) = made {
+                    fail(error);
                 }
             }
         };
@@ -126,26 +135,40 @@ impl Work<'_> {
         }
     }
 
-    /// Makes a run.
-    pub(super) fn one(
-        &self,
-        run: u64,
-        spun: &mut Vec<rheotaxis::ocean::SpunUp>,
-    ) -> Result<RunRow, CampaignError> {
+    /// Makes a run alone.
+    pub(super) fn one(&self, run: u64) -> Result<RunRow, CampaignError> {
         let place = self.campaign.place(run);
-        let name = RunName {
+        let scenarios = self.scenarios(place.condition)?;
+        let begun = Instant::now();
+        let row = one_run(&scenarios[place.arm], &self.name(run));
+        self.limits.took(begun.elapsed());
+        Ok(row)
+    }
+
+    /// Makes runs of one seed and condition.
+    fn seed(
+        &self,
+        runs: &[u64],
+        heed: Heed<'_>,
+        keep: &mut dyn FnMut(RunRow),
+    ) -> Result<(), CampaignError> {
+        let condition = runs.first().map(|run| self.campaign.place(*run).condition);
+        let scenarios = self.scenarios(condition.unwrap_or_default())?;
+        let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);
+        let planned: Vec<Planned<'_>> = runs.iter().map(planned).collect();
+        in_lanes(&planned, heed, keep);
+        Ok(())
+    }
+
+    fn name(&self, run: u64) -> RunName {
+        let place = self.campaign.place(run);
+        RunName {
             run,
             arm: self.campaign.arm(place.arm).name.clone(),
             condition: self.campaign.condition_name(place.condition),
             seed_index: place.seed_index,
             seed: place.seed,
-        };
-        let scenarios = self.scenarios(place.condition)?;
-        let begun = Instant::now();
-        let row = sharing_run(&scenarios[place.arm], &name, spun);
-        let ms = u64::try_from(begun.elapsed().as_millis()).unwrap_or(u64::MAX);
-        self.limits.longest_ms.fetch_max(ms, Ordering::Relaxed);
-        Ok(row)
+        }
     }
 
     /// The scenarios of a condition, by arm.

@@ -3,7 +3,7 @@
 use super::compare::{Compared, compare};
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
-use crate::campaign::{RunName, RunRow, sharing_run};
+use crate::campaign::{Heed, Planned, RunName, RunRow, in_lanes};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
 use rheotaxis::scenario::Loaded;
@@ -45,7 +45,7 @@ pub struct Reproduced {
 /// the row as far as it has come, every 50 seeds and at the end.
 ///
 /// # Errors
-/// If the threads cannot be started, if `kept` fails, or if `stop` was set: current runs end, and no more begin.
+/// If the threads cannot be started, if `kept` fails, or if `stop` was set: the runs under way end at once.
 pub fn reproduce(
     reference: &Reference,
     plan: Plan,
@@ -74,24 +74,30 @@ pub fn reproduce(
             (from..n)
                 .into_par_iter()
                 .map(|index| {
-                    // The arms of a seed one after the other, so that they can share a spun-up state.
-                    let mut spun = Vec::new();
-                    let one = |(k, (arm, loaded)): (usize, &(String, Loaded))| {
-                        if stop.load(Ordering::Relaxed) {
-                            return None;
-                        }
+                    let mut runs: Vec<Planned<'_>> = Vec::new();
+                    for (k, (arm, loaded)) in (0..).zip(&reference.arms) {
                         let name = RunName {
-                            run: index * n_arms + k as u64,
+                            run: index * n_arms + k,
                             arm: arm.clone(),
                             condition: String::new(),
                             seed_index: index,
                             seed: plan.key.seed(plan.first_seed + index),
                         };
-                        let row = sharing_run(loaded, &name, &mut spun);
-                        heard(&row, planned * n_arms);
-                        Some(row)
+                        runs.push((name, loaded));
+                    }
+                    let going = || !stop.load(Ordering::Relaxed);
+                    let heed = Heed {
+                        begin: &going,
+                        go_on: &going,
+                        took: &|_| {},
                     };
-                    reference.arms.iter().enumerate().map(one).collect()
+                    let mut rows = Vec::new();
+                    in_lanes(&runs, heed, &mut |row| {
+                        heard(&row, planned * n_arms);
+                        rows.push(row);
+                    });
+                    rows.sort_by_key(|row| row.run);
+                    (rows.len() == runs.len()).then_some(rows)
                 })
                 .collect()
         });

@@ -1,0 +1,126 @@
+//! The configuration of the zenoh session: where it listens, unless a file says so.
+
+use super::{DEFAULT_PORT, LiveError, LiveOptions};
+use std::net::{SocketAddr, TcpListener};
+use std::path::PathBuf;
+use world::files;
+use zenoh::Config;
+use zenoh::config::EndPoint;
+
+/// Number of ports after the default one that are tried.
+const SPARE_PORTS: u16 = 16;
+
+/// The configuration, and a line for the user if necessary.
+pub(super) fn configured(
+    options: &LiveOptions,
+    from_env: Option<PathBuf>,
+) -> Result<(Config, Option<String>), LiveError> {
+    if let Some(path) = options.config_file.clone().or(from_env) {
+        let unread = |why: String| LiveError::Config {
+            path: path.clone(),
+            why,
+        };
+        files::open(&path).map_err(|e| unread(e.to_string()))?;
+        let mut config = Config::from_file(&path).map_err(|e| unread(plain(&e)))?;
+        if let Some(endpoint) = &options.listen {
+            free_port_of(endpoint)?;
+            set(
+                &mut config,
+                "listen/endpoints",
+                &serde_json::json!([endpoint]),
+            )?;
+        }
+        return Ok((config, None));
+    }
+    let (endpoint, notice) = match &options.listen {
+        Some(endpoint) => {
+            free_port_of(endpoint)?;
+            (endpoint.clone(), None)
+        }
+        None => default_endpoint()?,
+    };
+    let mut config = Config::default();
+    set(&mut config, "mode", &"router".into())?;
+    set(
+        &mut config,
+        "listen/endpoints",
+        &serde_json::json!([endpoint]),
+    )?;
+    // Multicast is slow or refused on many machines; clients are told the endpoint instead.
+    set(&mut config, "scouting/multicast/enabled", &false.into())?;
+    Ok((config, notice))
+}
+
+fn set(config: &mut Config, key: &str, value: &serde_json::Value) -> Result<(), LiveError> {
+    config
+        .insert_json5(key, &value.to_string())
+        .map_err(|e| LiveError::Open { why: plain(&e) })
+}
+
+fn default_endpoint() -> Result<(String, Option<String>), LiveError> {
+    let last = DEFAULT_PORT + SPARE_PORTS;
+    let free = |port: &u16| TcpListener::bind(("127.0.0.1", *port)).is_ok();
+    let port = (DEFAULT_PORT..=last)
+        .find(free)
+        .ok_or(LiveError::NoFreePort {
+            first: DEFAULT_PORT,
+            last,
+        })?;
+    let endpoint = format!("tcp/127.0.0.1:{port}");
+    let notice = (port != DEFAULT_PORT)
+        .then(|| format!("port {DEFAULT_PORT} is already in use: zenoh listens on {endpoint}"));
+    Ok((endpoint, notice))
+}
+
+/// Reports a busy port before zenoh does, with a message that names the cure.
+fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
+    let bad = || LiveError::Endpoint {
+        endpoint: endpoint.to_owned(),
+    };
+    let parsed: EndPoint = endpoint.parse().map_err(|_| bad())?;
+    if parsed.protocol().as_str() != "tcp" {
+        return Ok(());
+    }
+    // zenoh itself interprets names, and options after the address.
+    let Ok(address) = parsed.address().as_str().parse::<SocketAddr>() else {
+        return Ok(());
+    };
+    match TcpListener::bind(address) {
+        Err(e) if e.kind() == std::io::ErrorKind::AddrInUse => Err(LiveError::BusyPort {
+            endpoint: endpoint.to_owned(),
+            port: address.port(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+/// zenoh's message without positions in its source (` at /…/file.rs:12.`).
+pub(super) fn plain(error: &zenoh::Error) -> String {
+    let mut words: Vec<String> = Vec::new();
+    for word in error.to_string().split_whitespace() {
+        if word.contains(".rs:") && words.last().is_some_and(|w| w == "at") {
+            words.pop();
+        } else {
+            words.push(word.to_owned());
+        }
+    }
+    words.join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_given_goes_before_the_one_of_the_environment() {
+        let from_env = Some(PathBuf::from("/nowhere/env.json5"));
+        let mut options = LiveOptions::new("run_1".to_owned());
+        let file = |options: &LiveOptions| match configured(options, from_env.clone()) {
+            Err(LiveError::Config { path, .. }) => path,
+            other => panic!("neither file exists: {other:?}"),
+        };
+        assert_eq!(file(&options), PathBuf::from("/nowhere/env.json5"));
+        options.config_file = Some("/nowhere/given.json5".into());
+        assert_eq!(file(&options), PathBuf::from("/nowhere/given.json5"));
+    }
+}

@@ -1,0 +1,298 @@
+//! Several runs in one and the same ocean.
+//!
+//! A searcher does not move the water. So runs that differ only in who searches and how (strategy, map, sensors,
+//! vehicle, start, navigation) have the same water and plume, bit by bit. Here they share them: the ocean is stepped
+//! once a tick, and each run has a lane of its own, with its own world, random numbers, observer and end. It is the
+//! run that [`Trial`] makes alone, bit by bit. A lane that ends early, fails or panics does not touch the others.
+//!
+//! ```no_run
+//! # use rheotaxis::{lanes::{Lanes, LaneError, alike}, scenario::{cost, load}, trial::Unwatched};
+//! # use world::seeds::Seed;
+//! let arms = [load("a.ron".as_ref())?, load("b.ron".as_ref())?];
+//! let runs: Vec<_> = arms.iter().map(|arm| (arm, Seed::from(7))).collect();
+//! for group in alike(&runs, cost::limit()) {
+//!     let mut lanes = Lanes::default();
+//!     for n in group {
+//!         lanes.add(runs[n].0, runs[n].1, || Ok::<_, LaneError>(Unwatched))?;
+//!     }
+//!     lanes.run(|_, run| println!("{:?}", run.map(|trial| trial.ended())));
+//! }
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod alike;
+mod caught;
+#[cfg(test)]
+mod tests;
+
+pub use alike::alike;
+pub use caught::caught;
+
+use crate::assemble::Simulation;
+use crate::error::AssembleError;
+use crate::ocean::system::drift;
+use crate::ocean::{Mismatch, Ocean, SpunUp};
+use crate::scenario::Loaded;
+use crate::trial::{Trial, Watch};
+use alike::Course;
+use bevy_ecs::prelude::World;
+use world::seeds::Seed;
+
+/// Why a lane has no end of its own.
+#[derive(Debug, thiserror::Error)]
+pub enum LaneError {
+    /// Its scenario cannot be assembled.
+    #[error(transparent)]
+    Assemble(#[from] AssembleError),
+    /// It has another ocean than the lanes before.
+    #[error("runs in lanes must have the same ocean, but `{0}` differs")]
+    Unlike(String),
+    /// It panicked; so would the run alone.
+    #[error("panicked: {0}")]
+    Panicked(String),
+}
+
+/// Runs in the same ocean, each with an observer.
+pub struct Lanes<W> {
+    course: Option<Course>,
+    /// In the world of a lane while that lane has its turn; `None` before the first lane.
+    ocean: Option<Ocean>,
+    lanes: Vec<Lane<W>>,
+    spun_up: bool,
+}
+
+struct Lane<W> {
+    trial: Trial,
+    watch: W,
+    failed: Option<String>,
+}
+
+impl<W> Default for Lanes<W> {
+    fn default() -> Self {
+        Self {
+            course: None,
+            ocean: None,
+            lanes: Vec::new(),
+            spun_up: false,
+        }
+    }
+}
+
+impl<W: Watch> Lanes<W> {
+    /// Adds the run of a scenario for a seed. `watch` makes its observer, once the run is assembled.
+    ///
+    /// # Errors
+    /// If the run cannot be assembled, if its ocean is another than that of the lanes before, or if `watch` fails. The
+    /// lanes before are not touched.
+    ///
+    /// # Panics
+    /// If the lanes have been spun up.
+    pub fn add<E: From<LaneError>>(
+        &mut self,
+        loaded: &Loaded,
+        seed: impl Into<Seed>,
+        watch: impl FnOnce() -> Result<W, E>,
+    ) -> Result<(), E> {
+        assert!(!self.spun_up, "lanes are added before the spin-up");
+        let course = Course::of(&loaded.scenario, &loaded.base_dir, seed.into());
+        if let Some(block) = self.course.as_ref().and_then(|ours| ours.unlike(&course)) {
+            return Err(LaneError::Unlike(block).into());
+        }
+        let trial = self.assembled(loaded, &course)?;
+        let watch = watch()?;
+        self.lanes.push(Lane {
+            trial,
+            watch,
+            failed: None,
+        });
+        Ok(())
+    }
+
+    /// The run of a scenario in the ocean of these lanes, which the first lane builds.
+    fn assembled(&mut self, loaded: &Loaded, course: &Course) -> Result<Trial, LaneError> {
+        let panicked = LaneError::Panicked;
+        let ocean = match self.ocean.take() {
+            Some(ocean) => ocean,
+            None => {
+                let built = caught(|| course.origin.build(&loaded.base_dir));
+                let built = built.map_err(panicked)??;
+                self.course = Some(course.clone());
+                built
+            }
+        };
+        let sources = ocean.sources();
+        let mut world = World::new();
+        world.insert_resource(ocean);
+        let seed = course.origin.seed();
+        let tick = caught(|| {
+            let (registry, scenario) = (&loaded.registry, &loaded.scenario);
+            Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed)
+        });
+        self.ocean = world.remove_resource();
+        let tick = tick.map_err(panicked)??;
+        let simulation = Simulation::of(world, tick, course.origin.clone());
+        Ok(Trial::of(&loaded.scenario, simulation, sources))
+    }
+
+    /// Takes over the spin-up of another run instead of one of its own. The state is copied.
+    ///
+    /// # Errors
+    /// If the ocean was spun up in another way. The lanes are then unchanged and can spin up themselves.
+    ///
+    /// # Panics
+    /// If the lanes have been spun up before.
+    pub fn take_over(&mut self, spun_up: &SpunUp) -> Result<(), Mismatch> {
+        assert!(!self.spun_up, "lanes are spun up once");
+        let (Some(course), Some(ocean)) = (&self.course, &mut self.ocean) else {
+            return Ok(());
+        };
+        ocean.put_state(spun_up.copy_for(&course.origin)?);
+        self.set_out(&[]);
+        Ok(())
+    }
+
+    /// Lets water and plume develop and returns a copy of them, which other runs can take over; `None` if it did not
+    /// come to its end because all observers stopped it. [`Self::run`] spins up by itself if neither this nor
+    /// [`Self::take_over`] was called before.
+    ///
+    /// # Panics
+    /// If the lanes have been spun up before.
+    pub fn spin_up(&mut self) -> Option<SpunUp> {
+        assert!(!self.spun_up, "lanes are spun up once");
+        let (Some(course), Some(ocean)) = (&self.course, &mut self.ocean) else {
+            return None;
+        };
+        let mut stopped = vec![false; self.lanes.len()];
+        let developed = caught(|| {
+            ocean.spin_up(|share| {
+                for (lane, stopped) in self.lanes.iter_mut().zip(&mut stopped) {
+                    *stopped = *stopped || lane.failed.is_some() || !lane.heard(share);
+                }
+                stopped.contains(&false)
+            });
+        });
+        let whole = developed.is_ok() && stopped.contains(&false);
+        let copy = whole.then(|| SpunUp::new(course.origin.clone(), ocean.state()));
+        if let Err(said) = developed {
+            self.all_fail(&said);
+        }
+        self.set_out(&stopped);
+        copy
+    }
+
+    /// Begins the missions, but for the lanes that an observer stopped in the spin-up.
+    fn set_out(&mut self, stopped: &[bool]) {
+        self.spun_up = true;
+        let stopped = stopped.iter().copied().chain(std::iter::repeat(false));
+        for (lane, stopped) in self.lanes.iter_mut().zip(stopped) {
+            lane.with(&mut self.ocean, |trial, _| trial.set_out(stopped));
+        }
+    }
+
+    fn all_fail(&mut self, said: &str) {
+        for lane in &mut self.lanes {
+            lane.failed.get_or_insert_with(|| said.to_string());
+        }
+    }
+
+    /// Makes all runs to their ends: the spin-up, unless it is done or taken over, and the missions. `ended` gets each
+    /// run with its observer as soon as it has ended, while the others go on, or what went wrong with it.
+    pub fn run(mut self, mut ended: impl FnMut(W, Result<&Trial, LaneError>)) {
+        if !self.spun_up {
+            self.spin_up();
+        }
+        let mut first = true;
+        while self.turns(first, &mut ended) {
+            let clock = self.lanes[0].trial.simulation.clock();
+            let ocean = &mut self.ocean;
+            let moved = caught(|| drift(&clock, ocean.as_mut().expect("it is back")));
+            if let Err(said) = moved {
+                self.all_fail(&said);
+            }
+            first = false;
+        }
+    }
+
+    /// The turn of each lane between two steps of the ocean: the second half of a tick, unless it is the `first`, and
+    /// the first half of the next. Lanes that have ended leave; `false` if there is none left.
+    fn turns(
+        &mut self,
+        first: bool,
+        ended: &mut impl FnMut(W, Result<&Trial, LaneError>),
+    ) -> bool {
+        let mut n = 0;
+        while let Some(lane) = self.lanes.get_mut(n) {
+            let going = lane.with(&mut self.ocean, |trial, watch| {
+                let going = if first {
+                    trial.going()
+                } else {
+                    trial.simulation.report();
+                    trial.heed(watch)
+                };
+                if going {
+                    trial.simulation.search();
+                }
+                going
+            });
+            if going == Some(true) {
+                n += 1;
+            } else {
+                self.lanes.remove(n).leave(&mut self.ocean, ended);
+            }
+        }
+        !self.lanes.is_empty()
+    }
+}
+
+impl<W: Watch> Lane<W> {
+    /// Tells the observer how far the spin-up is; `false` if it stops the run.
+    fn heard(&mut self, share: f64) -> bool {
+        let told = caught(|| self.watch.spun_up(share));
+        told.unwrap_or_else(|said| {
+            self.failed = Some(said);
+            false
+        })
+    }
+
+    /// Does something while the ocean is in the world of this lane; `None` if the lane has failed.
+    fn with<T>(
+        &mut self,
+        ocean: &mut Option<Ocean>,
+        work: impl FnOnce(&mut Trial, &mut W) -> T,
+    ) -> Option<T> {
+        if self.failed.is_some() {
+            return None;
+        }
+        lend(ocean, &mut self.trial);
+        let done = caught(|| work(&mut self.trial, &mut self.watch));
+        take_back(ocean, &mut self.trial);
+        done.map_err(|said| self.failed = Some(said)).ok()
+    }
+
+    /// Hands on what the run has come to.
+    fn leave(
+        mut self,
+        ocean: &mut Option<Ocean>,
+        ended: &mut impl FnMut(W, Result<&Trial, LaneError>),
+    ) {
+        if let Some(said) = self.failed {
+            return ended(self.watch, Err(LaneError::Panicked(said)));
+        }
+        lend(ocean, &mut self.trial);
+        ended(self.watch, Ok(&self.trial));
+        take_back(ocean, &mut self.trial);
+    }
+}
+
+fn lend(ocean: &mut Option<Ocean>, trial: &mut Trial) {
+    let ocean = ocean.take().expect("it comes back from each lane");
+    trial.simulation.world.insert_resource(ocean);
+}
+
+fn take_back(ocean: &mut Option<Ocean>, trial: &mut Trial) {
+    *ocean = trial.simulation.world.remove_resource();
+    assert!(
+        ocean.is_some(),
+        "a system has removed the ocean from its world: no system may"
+    );
+}

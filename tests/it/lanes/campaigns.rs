@@ -1,0 +1,128 @@
+//! Campaigns whose arms go in lanes: killed, continued, with arms that end at different times.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "a process is killed after a while, whatever it was doing"
+)]
+
+use crate::common;
+use rheotaxis::trial::Trial;
+use std::fs;
+use std::path::Path;
+use std::process::{Child, Stdio};
+use std::time::Duration;
+use studies::campaign::{RunRow, load, read_rows};
+use world::seeds::Stream;
+
+/// Arms that end one after the other; those of other water have an ocean of their own.
+const CAMPAIGN: &str = r#"(
+    version: 2,
+    title: "Lanes",
+    base: "pond.ron",
+    seeds: 60,
+    arms: [
+        (name: "long"),
+        (name: "short", set: [("time.limit_s", "2")]),
+        (name: "fast water", set: [("water.currents[0].speed_m_s", "0.3")]),
+        (name: "slow", set: [("robots[0].strategy.speed_m_s", "1.2"), ("time.limit_s", "3")]),
+        (name: "fast water, slow", set: [
+            ("water.currents[0].speed_m_s", "0.3"),
+            ("robots[0].strategy.speed_m_s", "1.2"),
+        ]),
+        (name: "seldom", set: [("time.drift_period_s", "1.5")]),
+    ],
+)
+"#;
+
+fn folder() -> tempfile::TempDir {
+    let dir = tempfile::tempdir().unwrap();
+    let channel = include_str!("../../../scenarios/catalog/uniform_channel.ron");
+    let times = [("spin_up_s", "30"), ("limit_s", "4")];
+    let pond = common::with_fields(channel, &times);
+    fs::write(dir.path().join("pond.ron"), pond).unwrap();
+    fs::write(dir.path().join("c.ron"), CAMPAIGN).unwrap();
+    dir
+}
+
+fn start(dir: &Path, out: &str) -> Child {
+    let args = [
+        "campaign", "run", "c.ron", "--out", out, "--block", "12", "--quiet", "--jobs", "2",
+    ];
+    let mut command = common::command(dir, &args);
+    for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"] {
+        command.env_remove(name);
+    }
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().expect("rheotaxis starts")
+}
+
+fn rows(dir: &Path) -> Vec<RunRow> {
+    let timeless = |row| RunRow {
+        spin_up_wall_s: 0.0,
+        mission_wall_s: 0.0,
+        ..row
+    };
+    read_rows(dir).unwrap().into_iter().map(timeless).collect()
+}
+
+#[test]
+fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
+    let folder = folder();
+    let dir = folder.path();
+    let out = dir.join("out");
+    let mut draw = Stream::new(2, "kill", "after");
+    let (mut kills, mut before) = (0_u32, Vec::new());
+    loop {
+        let mut child = start(dir, "out");
+        let patience = 0.03 + 0.004 * f64::from(kills);
+        std::thread::sleep(Duration::from_secs_f64(patience * (0.5 + draw.uniform())));
+        let over = child.try_wait().unwrap();
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let now = if out.join("campaign.json").exists() {
+            read_rows(&out).unwrap()
+        } else {
+            Vec::new()
+        };
+        // What was written stays as it was, wall times included.
+        for row in &before {
+            assert!(now.contains(row), "run {} was lost or done again", row.run);
+        }
+        before = now;
+        if let Some(status) = over {
+            assert!(status.success(), "{status}");
+            break;
+        }
+        kills += 1;
+        assert!(kills < 300, "it never comes to its end");
+    }
+    assert!(kills >= 5, "{kills} kills");
+    let done = rows(&out);
+    assert_eq!(done.len(), 360);
+    let campaign = load(&dir.join("c.ron")).unwrap();
+    for row in done.iter().take(24) {
+        let place = campaign.place(row.run);
+        let loaded = campaign.loaded(place.condition, place.arm).unwrap();
+        let alone = Trial::assemble(&loaded, place.seed).unwrap();
+        assert_eq!(row.digest, alone.finish_quietly().digest, "{}", row.arm);
+    }
+    assert!(start(dir, "straight").wait().unwrap().success());
+    assert_eq!(done, rows(&dir.join("straight")));
+}
+
+/// Wall time of a spin-up belongs to one run of those that share it, and that of the missions to all.
+#[test]
+fn lanes_share_the_spin_up_and_the_wall_time() {
+    let folder = folder();
+    let dir = folder.path();
+    assert!(start(dir, "out").wait().unwrap().success());
+    for of_seed in read_rows(&dir.join("out")).unwrap().chunks(6) {
+        let spun = |arms: &[usize]| -> usize {
+            let of_arm = |arm: &&usize| of_seed[**arm].spin_up_wall_s > 0.0;
+            arms.iter().filter(of_arm).count()
+        };
+        // The seldom drifting arm takes the spin-up of the others over.
+        assert_eq!(spun(&[0, 1, 3, 5]), 1);
+        assert_eq!(spun(&[2, 4]), 1);
+        assert!(of_seed.iter().all(|row| row.mission_wall_s > 0.0));
+    }
+}
