@@ -139,19 +139,6 @@ impl Felt {
         }
         0.5 * self.kg * sum
     }
-
-    /// Bounds beyond which the contribution is zero, m.
-    pub(super) fn bounds(&self, room: &Room) -> ([f32; 3], [f32; 3]) {
-        let p = room.point(&self.at);
-        let reach = f64::from(CUT_SIGMAS) * 1.000_01;
-        let flat = std::f64::consts::SQRT_2 * reach * self.sizes[0];
-        let r = [flat, flat, reach * self.sizes[1] + flat * room.steepest];
-        let r = r.map(|r| r as f32);
-        (
-            std::array::from_fn(|d| p[d] - r[d]),
-            std::array::from_fn(|d| p[d] + r[d]),
-        )
-    }
 }
 
 fn within(x: f64, [low, high]: [f64; 2]) -> bool {

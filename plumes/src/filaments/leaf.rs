@@ -74,22 +74,6 @@ impl Leaf {
         self.count += 1;
     }
 
-    /// Bounds beyond which the contribution is zero, m: (lowest, highest) corner.
-    pub(super) fn bounds(&self) -> ([f32; 3], [f32; 3]) {
-        let (mut lo, mut hi) = ([f32::MAX; 3], [f32::MIN; 3]);
-        for n in 0..self.count {
-            // From 1/(16σ²) back to σ, slightly enlarged against rounding.
-            let r = |eighth: f32| CUT_SIGMAS * 1.000_01 / (4.0 * eighth.sqrt());
-            let p = [self.x[n], self.y[n], self.z[n]];
-            let reach = [r(self.h[n]), r(self.h[n]), r(self.v[n])];
-            for d in 0..3 {
-                lo[d] = lo[d].min(p[d] - reach[d]);
-                hi[d] = hi[d].max(p[d] + reach[d]);
-            }
-        }
-        (lo, hi)
-    }
-
     /// Concentration at a point in the water, kg/m³.
     #[inline]
     pub(super) fn at(&self, path: Path, p: [f32; 3]) -> f32 {

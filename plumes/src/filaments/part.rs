@@ -27,16 +27,14 @@ pub(super) struct Part {
 enum Inside {
     Halves(Box<[Part; 2]>),
     /// At the present time.
-    Leaf(OnceLock<Box<Bounded>>),
+    Leaf(OnceLock<Box<Present>>),
 }
 
-/// A leaf with its bounds, and the filaments that feel a wall and are therefore not in the leaf.
+/// A leaf, and the filaments that feel a wall and are therefore not in it.
 #[derive(Clone, Debug)]
-struct Bounded {
+struct Present {
     leaf: Leaf,
     walled: Vec<Felt>,
-    lo: [f32; 3],
-    hi: [f32; 3],
 }
 
 /// A question, and the data that answer it.
@@ -84,7 +82,7 @@ impl Part {
 
     /// Adds the contributions of its leaves, one after the other.
     pub(super) fn add(&self, asked: &Asked, total: &mut f64) {
-        // More than the leaves' own bounds, which decide.
+        // Somewhat more than the reach of any member; beyond its reach, a filament contributes nothing.
         let reach = asked.g.largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
         let reach = [reach[0], reach[0], reach[1] + asked.g.steep];
         let lo = std::array::from_fn(|d| self.lo[d] - reach[d]);
@@ -99,12 +97,10 @@ impl Part {
                 }
             }
             Inside::Leaf(leaf) => {
-                let b = leaf.get_or_init(|| Box::new(self.leaf(asked)));
-                if within(asked.p, b.lo, b.hi) {
-                    *total += f64::from(b.leaf.at(asked.path, asked.p));
-                    for felt in &b.walled {
-                        *total += felt.add(asked.spot);
-                    }
+                let present = leaf.get_or_init(|| Box::new(self.leaf(asked)));
+                *total += f64::from(present.leaf.at(asked.path, asked.p));
+                for felt in &present.walled {
+                    *total += felt.add(asked.spot);
                 }
             }
         }
@@ -117,7 +113,7 @@ impl Part {
         Inside::Halves(Box::new(self.halves(asked)))
     }
 
-    fn leaf(&self, asked: &Asked) -> Bounded {
+    fn leaf(&self, asked: &Asked) -> Present {
         let Asked { g, s, spot, .. } = asked;
         let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
         let (room, lookup) = (spot.room, spot.lookup);
@@ -136,19 +132,7 @@ impl Part {
                 None => leaf.push(p, bed, sizes, s.filament_kg),
             }
         }
-        let (mut lo, mut hi) = leaf.bounds();
-        for felt in &walled {
-            let (low, high) = felt.bounds(room);
-            for d in 0..3 {
-                (lo[d], hi[d]) = (lo[d].min(low[d]), hi[d].max(high[d]));
-            }
-        }
-        Bounded {
-            leaf,
-            walled,
-            lo,
-            hi,
-        }
+        Present { leaf, walled }
     }
 
     /// Halves the members along their longest side (in units of the kernel's reach), so that leaves are full.

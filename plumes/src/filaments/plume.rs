@@ -65,7 +65,6 @@ pub struct Plume {
     pub(super) cells: Lookup,
     pub(super) refresh_s: f64,
     pub(super) next_refresh_s: Option<f64>,
-    pub(super) carried_s: Option<f64>,
     /// Number of times at which steps have started.
     pub(super) steps: u64,
     pub(super) now_s: f64,
@@ -114,7 +113,6 @@ impl Plume {
             grid,
             refresh_s: settings.refresh_s,
             next_refresh_s: None,
-            carried_s: None,
             steps: 0,
             now_s: 0.0,
             path: Path::detect(),

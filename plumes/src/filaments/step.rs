@@ -13,10 +13,10 @@ use super::lookup::Lookup;
 use super::noise::step_key;
 use super::plume::Plume;
 use super::sweep::{Sweep, hold};
-use super::walls::{CARRY_S, carry, keep_between};
+use super::walls::{carry, keep_between};
 use nalgebra::Vector3;
 use std::sync::Arc;
-use world::fields::Flow;
+use world::fields::{Flow, SideWalls};
 
 /// Distance over which a filament may step near solids in water that does not flow round them, m.
 const REACH_BY_SOLIDS_M: f64 = 2.0;
@@ -42,14 +42,12 @@ impl Plume {
     ///
     /// # Panics
     /// If the times do not increase, or if the step is not positive: a mistake in the code.
-    pub fn pace(&mut self, flow: &dyn Flow, start_s: f64, end_s: f64, longest_s: f64) {
+    pub fn pace(&mut self, start_s: f64, end_s: f64, longest_s: f64) {
         assert!(
             end_s > start_s && longest_s > 0.0,
             "a plume steps forward, not from {start_s} s to {end_s} s in steps of {longest_s} s"
         );
-        // Eddies between walls carry all filaments at the same times.
-        let one_step = flow.walls().is_some();
-        self.bands = Bands::new(start_s, end_s, longest_s, self.refresh_s, one_step);
+        self.bands = Bands::new(start_s, end_s, longest_s, self.refresh_s, false);
         self.next_refresh_s = None;
         self.join(start_s);
     }
@@ -123,32 +121,14 @@ impl Plume {
         let until_s = t0_s + self.bands.step_s(self.bands.last());
         self.release(flow, t0_s, until_s.min(self.bands.end_s()));
         self.bands.pass();
-        let t1_s = self.bands.span(self.bands.last()).to_s;
-        let carried_s = *self.carried_s.get_or_insert(t0_s);
-        // Slightly early, as for the refresh.
-        let carries = t1_s - carried_s >= CARRY_S - 1e-6;
         for n in 0..self.stores.len() {
             self.index.changed(n, due);
             for band in due..=self.bands.last() {
                 self.sweep(flow, n, band, threads);
-            }
-            let Some(walls) = &walls else { continue };
-            let store = &mut self.stores[n];
-            if carries {
-                let before = self
-                    .room
-                    .has_solids()
-                    .then(|| [store.x.clone(), store.y.clone(), store.z.clone()]);
-                carry(flow, store, carried_s, t1_s);
-                if let Some(before) = before {
-                    let held = hold(&self.room, &self.cells, &self.grid, &before, store);
-                    self.turned_back += held;
+                if let Some(walls) = &walls {
+                    self.carry(flow, walls, n, band);
                 }
             }
-            keep_between(walls, store);
-        }
-        if carries {
-            self.carried_s = Some(t1_s);
         }
         self.steps += 1;
     }
@@ -177,6 +157,27 @@ impl Plume {
         for column in swept.columns {
             self.sampled.note(column);
         }
+    }
+
+    /// Moves the filaments of a band of a store with the eddies between walls.
+    fn carry(&mut self, flow: &dyn Flow, walls: &SideWalls, n: usize, band: usize) {
+        let store = &mut self.stores[n];
+        let range = store.band(band, &self.bands);
+        let place = |v: &[f32]| v[range.clone()].to_vec();
+        let before =
+            (self.room.has_solids()).then(|| [&store.x, &store.y, &store.z].map(|v| place(v)));
+        carry(flow, store, range.clone(), self.bands.span(band));
+        if let Some(before) = before {
+            self.turned_back += hold(
+                &self.room,
+                &self.cells,
+                &self.grid,
+                &before,
+                store,
+                range.start,
+            );
+        }
+        keep_between(walls, store, range);
     }
 
     /// Releases what is due within the shortest step, and divides the filaments into bands.

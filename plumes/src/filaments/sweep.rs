@@ -200,17 +200,18 @@ impl Sweep<'_> {
     }
 }
 
-/// As `Sweep::keep_out`, for a store that was carried away from earlier positions.
+/// As `Sweep::keep_out`, for filaments from the `first` on that were carried away from earlier positions.
 pub(super) fn hold(
     room: &Room,
     cells: &Lookup,
     grid: &FlowGrid,
     before: &[Vec<f32>; 3],
     store: &mut Store,
+    first: usize,
 ) -> u64 {
     let mut turned = 0;
     let [x, y, z] = before;
-    for (n, ((x, y), z)) in x.iter().zip(y).zip(z).take(store.len()).enumerate() {
+    for (n, ((x, y), z)) in (first..).zip(x.iter().zip(y).zip(z)) {
         let start = [*x, *y, *z];
         let end = [store.x[n], store.y[n], store.z[n]];
         if room.by_walls(cells, start, end) {

@@ -40,7 +40,7 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
     let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
     plume.use_threads((threads > 1).then(|| pool.build().unwrap().into()));
-    plume.pace(&water, 0.0, f64::INFINITY, 5.0);
+    plume.pace(0.0, f64::INFINITY, 5.0);
     let mut felt = 0.0;
     for n in 1..=8000 {
         let t_s = 0.05 * f64::from(n);
@@ -76,7 +76,7 @@ fn the_columns_around_filaments_hold_the_flow_of_the_period() {
     };
     let spec = source(0.2, 50.0, 0.001, 0.03);
     let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
-    plume.pace(&water, 0.0, f64::INFINITY, 5.0);
+    plume.pace(0.0, f64::INFINITY, 5.0);
     for n in 1..=60 {
         water.advance(5.0 * f64::from(n - 1));
         plume.advance(&water, 5.0 * f64::from(n));
@@ -112,7 +112,7 @@ fn spread_is_2kt_in_all_bands_at_once() {
     let water = Given(|_| 0.2, |_| (0.02, 0.0));
     for longest_s in LONGEST_S {
         let mut p = plume(100.0, &Terrain::Level { depth_m: 40.0 });
-        p.pace(&water, 0.0, f64::INFINITY, longest_s);
+        p.pace(0.0, f64::INFINITY, longest_s);
         for (t_s, lacks) in [(400.0, 0.0), (402.5, 0.125 * 0.001 / 0.04)] {
             p.advance(&water, t_s);
             let born = p.stores_mut()[0].born_s.clone();
@@ -140,7 +140,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
     let water = Given(|_| 0.2, |_| (0.02, 1e-3));
     for longest_s in LONGEST_S {
         let mut p = plume(100.0, &Terrain::Level { depth_m: 40.0 });
-        p.pace(&water, 0.0, f64::INFINITY, longest_s);
+        p.pace(0.0, f64::INFINITY, longest_s);
         let mut across = Vec::new();
         for k in 0..40 {
             p.advance(&water, 500.0 + 13.7 * f64::from(k));
@@ -162,7 +162,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
 fn mass_is_conserved_between_steps() {
     let water = Given(|_| 1.0, |_| (0.02, 1e-3));
     let mut p = plume(7.0, &Terrain::Level { depth_m: 40.0 });
-    p.pace(&water, 0.0, 300.0, 4.0);
+    p.pace(0.0, 300.0, 4.0);
     let mut before = 0;
     for n in 1..=3000 {
         p.advance(&water, 0.1 * f64::from(n));

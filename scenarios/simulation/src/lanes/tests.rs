@@ -17,7 +17,10 @@ use world::stage::Stage;
 /// A short run of a channel in which the robot starts towards `heading_deg`.
 fn channel(registry: &Registry, heading_deg: f64, limit_s: f64) -> Loaded {
     let text = template("uniform_channel").expect("in the catalogue").text;
-    let text = text.replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 60, limit_s: 9");
+    let text = text.replace(
+        "spin_up_s: 2000, limit_s: 1800",
+        "spin_up_s: 60, limit_s: 9",
+    );
     let mut loaded = load_text(registry, "short", &text).expect("legal");
     let robot = &mut loaded.scenario.robots[0];
     robot.start.heading_deg = HeadingDeg::try_from(heading_deg).expect("legal");

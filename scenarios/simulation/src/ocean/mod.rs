@@ -99,7 +99,7 @@ impl Ocean {
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
         let (mut t_s, end_s) = (0.0, self.spin_up_s);
         if !self.plume.sources().is_empty() && end_s > 0.0 {
-            self.plume.pace(&self.water, 0.0, end_s, self.longest_s[0]);
+            self.plume.pace(0.0, end_s, self.longest_s[0]);
             while t_s < end_s {
                 self.water.advance(t_s);
                 t_s = self.plume.next_meeting_s();
@@ -115,8 +115,7 @@ impl Ocean {
     /// Starts the mission, in which the plume takes steps of at most `longest_s`.
     pub(crate) fn set_out(&mut self) {
         let [_, longest_s] = self.longest_s;
-        self.plume
-            .pace(&self.water, self.spin_up_s, f64::INFINITY, longest_s);
+        self.plume.pace(self.spin_up_s, f64::INFINITY, longest_s);
     }
 
     /// Limits the plume's steps during the mission, s.

@@ -109,7 +109,7 @@ pub fn statistics(
     });
     let whole_s = spin_up + watched_s;
     if spin_up > 0.0 {
-        plume.pace(&water, 0.0, spin_up, time.spin_up_period_s.get());
+        plume.pace(0.0, spin_up, time.spin_up_period_s.get());
         let mut t_s = 0.0;
         while t_s < spin_up {
             water.advance(t_s);
@@ -127,7 +127,7 @@ pub fn statistics(
         record.step_s = dt;
     }
     watch.speed.step_s = dt;
-    plume.pace(&water, spin_up, f64::INFINITY, time.drift_period_s.get());
+    plume.pace(spin_up, f64::INFINITY, time.drift_period_s.get());
     for n in 0..(watched_s / dt).ceil() as u64 {
         let t = spin_up + (n + 1) as f64 * dt;
         water.advance(t);
