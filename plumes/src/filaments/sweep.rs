@@ -60,8 +60,10 @@ impl Sweep<'_> {
     /// Moves a range of the store. Filaments released within the step move from their release on. Those that leave are
     /// removed. `first` of later bands is corrected.
     pub(super) fn over(&self, store: &mut Store, band: Range<usize>, threads: bool) -> Swept {
-        let mut chunks = chunks(store, band.clone());
-        if threads && chunks.len() > 1 {
+        // A single thread moves them down as it goes.
+        let many = if threads { CHUNK } else { band.len() };
+        let mut chunks = chunks(store, band.clone(), many);
+        if threads {
             chunks.par_iter_mut().for_each(|c| self.through(c));
         } else {
             chunks.iter_mut().for_each(|c| self.through(c));
@@ -69,7 +71,7 @@ impl Sweep<'_> {
         let swept: Vec<Swept> = chunks.into_iter().map(|c| c.swept).collect();
         let (mut all, mut to) = (Swept::default(), band.start);
         for (n, part) in swept.into_iter().enumerate() {
-            let from = band.start + n * CHUNK;
+            let from = band.start + n * many;
             store.shift(from..from + part.kept, to);
             to += part.kept;
             all.turned += part.turned;
@@ -226,8 +228,8 @@ pub(super) fn hold(
     turned
 }
 
-/// The chunks of a range, in order; all but the last are full.
-fn chunks(store: &mut Store, band: Range<usize>) -> Vec<Chunk<'_>> {
+/// The chunks of a range, in order, of `many` filaments each; the last may have fewer.
+fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> {
     let size = store.size;
     let [sx, sy, sz] = &mut store.start;
     let mut rest = (
@@ -244,9 +246,9 @@ fn chunks(store: &mut Store, band: Range<usize>) -> Vec<Chunk<'_>> {
         &mut store.number[band.clone()],
         &mut store.born_s[band],
     );
-    let mut all = Vec::with_capacity(rest.1.len().div_ceil(CHUNK));
+    let mut all = Vec::with_capacity(rest.1.len().div_ceil(many));
     while !rest.1.is_empty() {
-        let n = CHUNK.min(rest.1.len());
+        let n = many.min(rest.1.len());
         let mut heads: [&mut [f32]; 7] = Default::default();
         for (v, head) in rest.0.iter_mut().zip(&mut heads) {
             let tail;
