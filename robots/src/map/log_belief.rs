@@ -99,9 +99,13 @@ impl LogBelief {
     fn normalise(&mut self) {
         let max = self.ln_p.iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
         let p = Arc::make_mut(&mut self.belief.p);
+        let mut last = (0.0, 1.0);
         for (p, ln_p) in p.iter_mut().zip(&self.ln_p) {
             let x = ln_p - max;
-            *p = if x > LN_ZERO { math::exp(x) } else { 0.0 };
+            if x != last.0 {
+                last = (x, if x > LN_ZERO { math::exp(x) } else { 0.0 });
+            }
+            *p = last.1;
         }
         let total = sum(p);
         let (scale, ln_total) = (1.0 / total, max + math::ln(total));

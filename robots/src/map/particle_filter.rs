@@ -290,6 +290,9 @@ impl ParticleFilter {
 
 /// A coordinate reflected back into [0, extent].
 fn within(x: f64, extent: f64) -> f64 {
+    if (0.0..=extent).contains(&x) {
+        return x;
+    }
     let folded = x.rem_euclid(2.0 * extent);
     folded.min(2.0 * extent - folded)
 }
