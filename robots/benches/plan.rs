@@ -102,9 +102,10 @@ fn paper(bencher: divan::Bencher) {
     plan(bencher, &room, &params, [0.9, 0.9, 0.5]);
 }
 
-/// The hardest: walls that leave a gap at alternate ends, so that nearly every voxel must be opened.
-#[divan::bench(sample_count = 10, sample_size = 1)]
-fn million_voxels_between_walls(bencher: divan::Bencher) {
+/// The hardest: walls that leave a gap at alternate ends. The goal is at the near or at the far end of the last
+/// corridor: 610 000 or 680 000 of 770 000 free voxels must be opened.
+#[divan::bench(args = [0.03, 0.97], sample_count = 10, sample_size = 1)]
+fn million_voxels_between_walls(bencher: divan::Bencher, north: f64) {
     let (n, size) = ([200, 200, 25], [200.0, 200.0, 25.0]);
     let bed = Terrain::Level { depth_m: size[2] };
     let walls = (1..10).map(|k| {
@@ -134,5 +135,5 @@ fn million_voxels_between_walls(bencher: divan::Bencher) {
     };
     let mut room = Room::new(lattice, 0.5, 4.0);
     room.chart(&solids, &bed, |_, _| -size[2] / 2.0);
-    plan(bencher, &room, &AStarParams::default(), [0.98, 0.03, 0.5]);
+    plan(bencher, &room, &AStarParams::default(), [0.98, north, 0.5]);
 }

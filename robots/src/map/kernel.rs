@@ -10,6 +10,7 @@
 //! standard deviations from its middle (it is 2.3e-11 of its peak there). Chances above 1 and merged releases: see
 //! `terms` and `releases`. The vehicle's place is the middle of its cell, as in the paper.
 
+use super::anywhere::Anywhere;
 use super::flow_history::FlowHistory;
 use super::releases::Gatherer;
 use super::spec::TrajectorySpec;
@@ -19,9 +20,9 @@ use std::sync::Arc;
 use world::math;
 
 /// Standard deviations at which a Gaussian is cut off.
-const REACH: f64 = 7.0;
+pub(super) const REACH: f64 = 7.0;
 /// √(2π).
-const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
+pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
 
 /// The kernel over a grid, centred on the vehicle's place.
 #[derive(Clone, Debug)]
@@ -96,36 +97,9 @@ impl Kernel {
         self.terms.sum(out);
     }
 
-    /// γ for a source at a place (the grid's own axes, m), after [`Kernel::gather`].
-    pub(super) fn not_detecting_from(&self, place: [f64; 3]) -> f64 {
-        let mut gamma: f64 = 1.0;
-        let high = self.grid.cell_m[2] * self.grid.n[2] as f64;
-        for set in &self.gatherer.sets {
-            let mut x2 = 0.0;
-            let mut p = 1.0;
-            for (axis, s_m) in set.s_m.iter().enumerate() {
-                let d = self.at[axis] - place[axis] - s_m;
-                x2 += d * d / set.var_m2[axis];
-                p *= self.grid.cell_m[axis] / (ROOT_TAU * set.var_m2[axis].sqrt());
-            }
-            if x2 > REACH * REACH {
-                continue;
-            }
-            p *= math::exp(-0.5 * x2);
-            if self.grid.n[2] > 1 {
-                let own: f64 = [self.at[2], -self.at[2], 2.0 * high - self.at[2]]
-                    .iter()
-                    .map(|z| math::exp(-0.5 * (z - place[2]) * (z - place[2]) / set.var_m2[2]))
-                    .sum();
-                p *= own * self.grid.cell_m[2] / (ROOT_TAU * set.var_m2[2].sqrt());
-            }
-            let mut f = 1.0 - self.mu * p.min(1.0);
-            for _ in 0..set.log2 {
-                f *= f;
-            }
-            gamma = (gamma * f).max(super::terms::LEAST);
-        }
-        gamma
+    /// The same for a source at any place, after [`Kernel::gather`] or [`Kernel::aim`].
+    pub(super) fn anywhere(&self) -> Anywhere {
+        Anywhere::new(&self.grid, self.mu, self.at, &self.gatherer.sets)
     }
 
     /// The vehicle's place for which it was made, in the grid's own axes, m.

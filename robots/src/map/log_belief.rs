@@ -82,8 +82,13 @@ impl LogBelief {
 
     /// Replaces the probabilities by others (greater than or equal to zero, not all zero).
     pub(super) fn replace(&mut self, t_s: f64, detected: bool, mass: &[f64]) {
+        // Most cells of a map of particles hold none, and all those have the same mass.
+        let mut last = (f64::NAN, f64::NAN);
         for (ln_p, m) in self.ln_p.iter_mut().zip(mass) {
-            *ln_p = math::ln(m.max(1e-300));
+            if *m != last.0 {
+                last = (*m, math::ln(m.max(1e-300)));
+            }
+            *ln_p = last.1;
         }
         self.belief.t_s = t_s;
         self.belief.updates += 1;
@@ -94,9 +99,13 @@ impl LogBelief {
     fn normalise(&mut self) {
         let max = self.ln_p.iter().fold(f64::NEG_INFINITY, |m, v| m.max(*v));
         let p = Arc::make_mut(&mut self.belief.p);
+        let mut last = (0.0, 1.0);
         for (p, ln_p) in p.iter_mut().zip(&self.ln_p) {
             let x = ln_p - max;
-            *p = if x > LN_ZERO { math::exp(x) } else { 0.0 };
+            if x != last.0 {
+                last = (x, if x > LN_ZERO { math::exp(x) } else { 0.0 });
+            }
+            *p = last.1;
         }
         let total = sum(p);
         let (scale, ln_total) = (1.0 / total, max + math::ln(total));

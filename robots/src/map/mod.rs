@@ -3,6 +3,7 @@
 //! All mappers share one back-trajectory (`flow_history`, `releases`, `kernel`); each mapper's file says how it uses
 //! that.
 
+mod anywhere;
 mod bayesian;
 mod catalogue;
 mod cost;

@@ -122,6 +122,8 @@ pub struct ParticleFilter {
     /// Places in the grid's own axes, m.
     places: Vec<[f64; 3]>,
     weights: Vec<f64>,
+    /// Chance of no detection from each place, for an update.
+    gamma: Vec<f64>,
     extent_m: [f64; 3],
 }
 
@@ -164,6 +166,7 @@ impl ParticleFilter {
             rng,
             places,
             weights: vec![1.0 / count as f64; count],
+            gamma: Vec::with_capacity(count),
             extent_m,
             with,
         })
@@ -172,12 +175,12 @@ impl ParticleFilter {
     /// Bayes' rule for each particle.
     fn weigh(&mut self, detected: bool) {
         let evidence = self.with.evidence;
-        for (place, w) in self.places.iter().zip(&mut self.weights) {
-            let gamma = self.kernel.not_detecting_from(*place);
+        (self.kernel.anywhere()).not_detecting(&self.places, &mut self.gamma);
+        for (gamma, w) in self.gamma.iter().zip(&mut self.weights) {
             let likelihood = if detected {
-                evidence.some(gamma)
+                evidence.some(*gamma)
             } else {
-                evidence.none(gamma).max(evidence.epsilon)
+                evidence.none(*gamma).max(evidence.epsilon)
             };
             *w *= if evidence.share < 1.0 {
                 math::powf(likelihood, evidence.share)
@@ -287,6 +290,9 @@ impl ParticleFilter {
 
 /// A coordinate reflected back into [0, extent].
 fn within(x: f64, extent: f64) -> f64 {
+    if (0.0..=extent).contains(&x) {
+        return x;
+    }
     let folded = x.rem_euclid(2.0 * extent);
     folded.min(2.0 * extent - folded)
 }
@@ -308,55 +314,5 @@ impl Mapper for ParticleFilter {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::map::testing;
-
-    fn filter(particles: u32) -> ParticleFilter {
-        let spec = ParticleFilterSpec {
-            particles,
-            ..ParticleFilterSpec::default()
-        };
-        let grid = spec.grid.build(&testing::paper_area()).expect("grid");
-        ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map")).expect("filter")
-    }
-
-    #[test]
-    fn systematic_resampling_keeps_each_particle_near_its_share() {
-        let mut f = filter(1000);
-        f.spec.roughening = NonNegative::new(0.0);
-        f.spec.resample_below = Fraction::new(1.0);
-        let total = 1000.0 * 1001.0 / 2.0;
-        for (i, w) in f.weights.iter_mut().enumerate() {
-            *w = (i + 1) as f64 / total;
-        }
-        let (places, weights) = (f.places.clone(), f.weights.clone());
-        f.resample_if_worn();
-        for (place, w) in places.iter().zip(weights) {
-            let copies = f.places.iter().filter(|p| *p == place).count() as f64;
-            // The property that makes it systematic: floor or ceiling of N·w.
-            assert!((copies - 1000.0 * w).abs() <= 1.0 + 1e-9);
-        }
-    }
-
-    #[test]
-    fn roughened_particles_stay_in_the_area() {
-        for x in [-250.0, -1.0, 0.0, 50.0, 100.0, 101.0, 730.0] {
-            assert!((0.0..=100.0).contains(&within(x, 100.0)));
-        }
-        assert!((within(-3.0, 100.0) - 3.0).abs() < 1e-12);
-        assert!((within(103.0, 100.0) - 97.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn a_number_out_of_range_is_refused() {
-        let spec = ParticleFilterSpec {
-            particles: 3,
-            ..ParticleFilterSpec::default()
-        };
-        let grid = spec.grid.build(&testing::paper_area()).expect("grid");
-        let e = ParticleFilter::new(&spec, grid, Stream::new(5, "auv0", "map"));
-        let text = e.expect_err("three are too few").to_string();
-        assert_eq!(text, "map.particles: must be from 10 to 100000, got 3");
-    }
-}
+#[path = "tests_particles.rs"]
+mod tests;

@@ -2,10 +2,13 @@
 
 mod a_star;
 mod beam;
+mod buckets;
 mod catalogue;
 mod clearance;
 mod ends;
 mod follow;
+mod neighbours;
+mod octile;
 mod paper_cost;
 mod planner;
 mod potential_field;

@@ -7,20 +7,18 @@
 //! the least clearance, `weight`, which falls linearly to zero at `soft_m` more than that.
 //!
 //! *Deviations*: costs are whole numbers, 512 to the shortest side of a cell, each rounded up by at most two: the
-//! search is exact in them. The heuristic is the octile distance of the free grid: the longest diagonal as often as
-//! it helps, then the next one, then straight moves. It is the cheapest way without solids and without clearance
-//! costs (the length of a move is a submodular function of the axes that it changes, so that the chain of diagonals
-//! attains the minimum). Clearance only adds to costs, so the heuristic never overestimates. It is consistent
-//! (rounded down, where costs are rounded up and one added), so that no cell is opened twice.
+//! search is exact in them. The heuristic is the octile distance of the free grid, which is the cheapest way without
+//! solids and without clearance costs (see `octile.rs`). Clearance only adds to costs, so the heuristic never
+//! overestimates. It is consistent (rounded down, where costs are rounded up and one added), so that no cell is
+//! opened twice. All neighbours of a cell are weighed at once (see `neighbours.rs`).
 
+use super::buckets::Buckets;
+use super::neighbours::{BEYOND, BLOCKED, Neighbours, PARTS, ones};
+use super::octile::Octile;
 use super::{Revision, Room};
 
 /// Units of cost in the shortest side of a cell.
 const UNITS: f64 = 512.0;
-/// Clearance costs are counted in parts of the length.
-const PARTS: u32 = 64;
-/// A cell that is not free.
-const BLOCKED: u8 = u8::MAX;
 /// Not reached yet.
 const FAR: u32 = u32::MAX;
 
@@ -32,14 +30,6 @@ pub(super) struct Costs {
     pub(super) soft_m: f64,
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Move {
-    step: isize,
-    cost: u32,
-    /// Cells of the block between both ends of the move, as bits of the 27 cells around a cell.
-    needs: u32,
-}
-
 /// The search with its arrays, kept between plans.
 #[derive(Clone, Debug)]
 pub(super) struct Search {
@@ -49,16 +39,15 @@ pub(super) struct Search {
     /// Cells with a border of blocked cells all around (in the plane: no layers above and below).
     n: [usize; 3],
     penalty: Vec<u8>,
-    moves: Vec<Move>,
-    /// Units along the octile chain: lengths by the set of axes changed.
-    lengths: [f64; 8],
+    octile: Octile,
+    near: Neighbours,
+    /// Cost of the best way found to each cell; 0 in a blocked cell, to which no way is better.
     g: Vec<u32>,
+    /// The move by which that way reached the cell.
     from: Vec<u8>,
-    buckets: Vec<Vec<u32>>,
+    queue: Buckets,
     opened: usize,
 }
-
-const CLOSED: u8 = 0x80;
 
 impl Search {
     pub(super) fn new(costs: Costs) -> Self {
@@ -67,11 +56,11 @@ impl Search {
             of: None,
             n: [0; 3],
             penalty: Vec::new(),
-            moves: Vec::new(),
-            lengths: [0.0; 8],
+            octile: Octile::default(),
+            near: Neighbours::default(),
             g: Vec::new(),
             from: Vec::new(),
-            buckets: Vec::new(),
+            queue: Buckets::default(),
             opened: 0,
         }
     }
@@ -95,47 +84,38 @@ impl Search {
             self.take_in(room);
         }
         let (s, t) = (self.padded(room, start), self.padded(room, goal));
-        let target = self.place(t);
-        self.g.fill(FAR);
-        self.from.fill(0);
-        self.buckets.iter_mut().for_each(Vec::clear);
+        let (target, octile) = (self.place(t), self.octile);
+        let h = |at| {
+            if blind { 0 } else { octile.between(at, target) }
+        };
+        for (g, penalty) in self.g.iter_mut().zip(&self.penalty) {
+            *g = if *penalty == BLOCKED { 0 } else { FAR };
+        }
         self.opened = 0;
-        let mask = self.buckets.len() - 1;
-        let h = |this: &Self, cell: usize| if blind { 0 } else { this.octile(cell, target) };
         self.g[s] = 0;
-        let mut f = h(self, s) as usize;
-        self.buckets[f & mask].push(s as u32);
-        let mut waiting = 1_usize;
-        while waiting > 0 {
-            let Some(cell) = self.buckets[f & mask].pop() else {
-                f += 1;
-                continue;
-            };
-            waiting -= 1;
-            let cell = cell as usize;
-            if self.from[cell] & CLOSED != 0 {
+        let least = h(self.place(s));
+        // The cost of a cell exceeds that of the cell opened before it by at most the dearest move and as much of h.
+        (self.queue).clear(2 * self.near.dearest() as usize + 2, least);
+        self.queue.push(least, s, 0);
+        while let Some((cell, own)) = self.queue.pop() {
+            // A better way was found since, and the cell was opened by that.
+            if own != self.g[cell] {
                 continue;
             }
-            self.from[cell] |= CLOSED;
             self.opened += 1;
             if cell == t {
-                return Some((self.way(room, s, t), self.g[t]));
+                return Some((self.way(room, s, t), own));
             }
-            let free = self.free_round(cell);
-            let g = self.g[cell];
-            for (k, m) in self.moves.iter().enumerate() {
-                if free & m.needs != m.needs {
-                    continue;
-                }
-                let next = cell.wrapping_add_signed(m.step);
-                let more = m.cost + (m.cost * u32::from(self.penalty[next])).div_ceil(PARTS);
-                if g + more < self.g[next] {
-                    self.g[next] = g + more;
-                    self.from[next] = k as u8;
-                    let at = (g + more + h(self, next)) as usize;
-                    self.buckets[at & mask].push(next as u32);
-                    waiting += 1;
-                }
+            let (lanes, costs) = self.near.better(cell, own, &self.g, &self.penalty);
+            if lanes == 0 {
+                continue;
+            }
+            let at = self.place(cell);
+            for lane in ones(lanes) {
+                let (next, g) = (self.near.cell(cell, lane), costs[lane / 4][lane % 4]);
+                self.g[next] = g;
+                self.from[next] = lane as u8;
+                self.queue.push(g + h(self.near.place(at, lane)), next, g);
             }
         }
         None
@@ -146,7 +126,7 @@ impl Search {
         let plane = room.plane();
         let border = [2, 2, if plane { 0 } else { 2 }];
         self.n = [0, 1, 2].map(|a| lattice.n[a] + border[a]);
-        let all = self.n.iter().product();
+        let all = self.n.iter().product::<usize>() + BEYOND;
         self.penalty.clear();
         self.penalty.resize(all, BLOCKED);
         let parts = f64::from(PARTS) * self.costs.weight;
@@ -165,74 +145,11 @@ impl Search {
         }
         self.g.resize(all, FAR);
         self.from.resize(all, 0);
+        let unit = UNITS / room.narrowest_m();
         let c = lattice.cell_m;
-        let unit = UNITS
-            / if plane {
-                c[0].min(c[1])
-            } else {
-                c[0].min(c[1]).min(c[2])
-            };
-        let side = [c[0] * unit, c[1] * unit, c[2] * unit * self.costs.climb];
-        for set in 0..8_usize {
-            let squares = (0..3).map(|a| {
-                if set >> a & 1 == 1 {
-                    side[a] * side[a]
-                } else {
-                    0.0
-                }
-            });
-            self.lengths[set] = squares.sum::<f64>().sqrt();
-        }
-        self.set_moves(plane);
-        let dearest = self.moves.iter().map(|m| m.cost).max().unwrap_or(0);
-        let dearest = dearest + (dearest * u32::from(BLOCKED)).div_ceil(PARTS);
-        let buckets = (2 * dearest as usize + 2).next_power_of_two();
-        self.buckets.resize_with(buckets, Vec::new);
+        self.octile = Octile::new([c[0] * unit, c[1] * unit, c[2] * unit * self.costs.climb]);
+        self.near = Neighbours::new(self.n, plane, &self.octile);
         self.of = Some(room.revision().clone());
-    }
-
-    fn set_moves(&mut self, plane: bool) {
-        let strides = [1, self.n[0] as isize, (self.n[0] * self.n[1]) as isize];
-        let bit = |d: [isize; 3]| 1_u32 << ((d[2] + 1) * 9 + (d[1] + 1) * 3 + d[0] + 1);
-        self.moves.clear();
-        for code in 0..27_isize {
-            let d = [code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1];
-            if d == [0; 3] || (plane && d[2] != 0) {
-                continue;
-            }
-            let mut needs = 0;
-            for corner in 1..8_usize {
-                let part = [0, 1, 2].map(|a| if corner >> a & 1 == 1 { d[a] } else { 0 });
-                if part != [0; 3] {
-                    needs |= bit(part);
-                }
-            }
-            let set = (0..3).filter(|a| d[*a] != 0).map(|a| 1 << a).sum::<usize>();
-            self.moves.push(Move {
-                step: (0..3).map(|a| d[a] * strides[a]).sum(),
-                cost: self.lengths[set].ceil() as u32 + 1,
-                needs,
-            });
-        }
-    }
-
-    /// Which of the 27 cells around a cell (itself included) are free, as bits.
-    #[inline]
-    fn free_round(&self, cell: usize) -> u32 {
-        let layer = self.n[0] * self.n[1];
-        let mut free = 0;
-        let layers = if self.n[2] == 1 { 1..2 } else { 0..3 };
-        for k in layers {
-            for j in 0..3 {
-                let at = cell + k * layer + j * self.n[0] - layer - self.n[0] - 1;
-                let row = &self.penalty[at..at + 3];
-                let bits = u32::from(row[0] != BLOCKED)
-                    | u32::from(row[1] != BLOCKED) << 1
-                    | u32::from(row[2] != BLOCKED) << 2;
-                free |= bits << (k * 9 + j * 3);
-            }
-        }
-        free
     }
 
     fn padded(&self, room: &Room, cell: usize) -> usize {
@@ -246,26 +163,6 @@ impl Search {
         [cell % self.n[0], row % self.n[1], row / self.n[1]]
     }
 
-    #[inline]
-    fn octile(&self, cell: usize, target: [usize; 3]) -> u32 {
-        let at = self.place(cell);
-        let d = [0, 1, 2].map(|a| at[a].abs_diff(target[a]) as u32);
-        let (mut rest, mut set, mut sum) = (d, 7_usize, 0.0);
-        let gone = |rest: &[u32; 3]| {
-            let zero = rest.iter().enumerate().filter(|(_, r)| **r == 0);
-            zero.map(|(a, _)| 1_usize << a).sum::<usize>()
-        };
-        set &= !gone(&rest);
-        while set != 0 {
-            let within = |a: &usize| set >> a & 1 == 1;
-            let least = (0..3).filter(within).map(|a| rest[a]).min().unwrap_or(0);
-            sum += f64::from(least) * self.lengths[set];
-            (0..3).filter(within).for_each(|a| rest[a] -= least);
-            set &= !gone(&rest);
-        }
-        sum as u32
-    }
-
     fn way(&self, room: &Room, start: usize, goal: usize) -> Vec<usize> {
         let up = usize::from(!room.plane());
         let mut cells = Vec::new();
@@ -276,8 +173,7 @@ impl Search {
             if at == start {
                 break;
             }
-            let m = self.moves[usize::from(self.from[at] & !CLOSED)];
-            at = at.wrapping_add_signed(-m.step);
+            at = self.near.before(at, usize::from(self.from[at]));
         }
         cells.reverse();
         cells

@@ -13,6 +13,33 @@ const COSTS: Costs = Costs {
     soft_m: 4.0,
 };
 
+/// The cells to which a free cell has a move, and what the move costs, written out: no corner cut.
+fn steps(s: &Search, room: &Room, cell: usize) -> Vec<(usize, u32)> {
+    let g = room.lattice();
+    let at = g.place(cell).map(|v| v as i64);
+    let mut out = Vec::new();
+    for code in 0..27 {
+        let to = [0, 1, 2].map(|a| at[a] + code / [1, 3, 9][a] % 3 - 1);
+        if to == at || (0..3).any(|a| to[a] < 0 || to[a] >= g.n[a] as i64) {
+            continue;
+        }
+        let open = (0..8).all(|corner| {
+            let c = [0, 1, 2].map(|a| if corner >> a & 1 == 1 { to[a] } else { at[a] } as usize);
+            room.free(g.index(c))
+        });
+        if open {
+            let set = (0..3).filter(|a| to[*a] != at[*a]).map(|a| 1 << a).sum();
+            let length = s.octile.length(set).ceil() as u32 + 1;
+            let next = s.padded(room, g.index(to.map(|v| v as usize)));
+            out.push((
+                next,
+                length + (length * u32::from(s.penalty[next])).div_ceil(PARTS),
+            ));
+        }
+    }
+    out
+}
+
 /// Bellman-Ford with the same costs: relaxes until nothing changes, without queue and heuristic.
 fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
     let mut s = Search::new(costs);
@@ -23,15 +50,12 @@ fn slow(room: &Room, costs: Costs, start: usize, goal: usize) -> Option<u32> {
         let mut changed = false;
         for cell in 0..room.lattice().len() {
             let at = s.padded(room, cell);
-            if g[at] == FAR {
+            if !room.free(cell) || g[at] == FAR {
                 continue;
             }
-            let free = s.free_round(at);
-            for m in s.moves.iter().filter(|m| free & m.needs == m.needs) {
-                let next = at.wrapping_add_signed(m.step);
-                let more = g[at] + m.cost + (m.cost * u32::from(s.penalty[next])).div_ceil(PARTS);
-                if more < g[next] {
-                    g[next] = more;
+            for (next, more) in steps(&s, room, cell) {
+                if g[at] + more < g[next] {
+                    g[next] = g[at] + more;
                     changed = true;
                 }
             }
@@ -106,10 +130,10 @@ proptest! {
         let mut s = Search::new(Costs { climb, ..COSTS });
         s.take_in(&r);
         let target = to.map(|v| v + 1);
-        let here = s.padded(&r, r.lattice().index(at));
-        for m in &s.moves {
-            let there = here.wrapping_add_signed(m.step);
-            prop_assert!(s.octile(here, target) <= s.octile(there, target) + m.cost);
+        let here = r.lattice().index(at);
+        let h = |cell| s.octile.between(s.place(cell), target);
+        for (next, cost) in steps(&s, &r, here) {
+            prop_assert!(h(s.padded(&r, here)) <= h(next) + cost);
         }
     }
 }
