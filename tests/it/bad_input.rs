@@ -45,8 +45,8 @@ fn stderr(output: &Output) -> String {
 
 /// The exact message a test expects: `tests/golden/bad_input/<test>.txt`.
 fn golden(name: &str) -> String {
-    let file = format!("{}/golden/bad_input/{name}.txt", env!("CARGO_MANIFEST_DIR"));
-    std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{file}: {e}"))
+    let file = common::root().join(format!("tests/golden/bad_input/{name}.txt"));
+    std::fs::read_to_string(&file).unwrap_or_else(|e| panic!("{}: {e}", file.display()))
 }
 
 /// Writes `text` as `pond.ron` into a fresh folder and runs the command there.

@@ -1,42 +1,16 @@
-//! What several tests need: the program itself, freshly built, and scenarios with a field changed.
+//! What several tests need: the program itself and scenarios with a field changed.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
-use std::sync::OnceLock;
 
-/// The program, built once a test run in the profile and target folder of the tests.
+/// The program; cargo builds it together with these tests.
 pub(crate) fn binary() -> &'static Path {
-    static BINARY: OnceLock<PathBuf> = OnceLock::new();
-    BINARY.get_or_init(|| {
-        // target/<profile>/deps/it-<hash>
-        let this = std::env::current_exe().expect("the tests' own path");
-        let profile = this
-            .ancestors()
-            .nth(2)
-            .expect("deps lies in the profile's folder");
-        let target = profile
-            .parent()
-            .expect("the profile's folder lies in the target folder");
-        let mut cargo = Command::new(env!("CARGO"));
-        cargo
-            .args(["build", "--quiet", "--bin", "rheotaxis", "--target-dir"])
-            .arg(target)
-            .current_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/.."));
-        if profile.ends_with("release") {
-            cargo.arg("--release");
-        }
-        // What cargo tells a test of its package would make some build scripts, and all above them, run again.
-        let told =
-            |name: &str| name.starts_with("CARGO_PKG_") || name.starts_with("CARGO_MANIFEST");
-        for name in std::env::vars().map(|(name, _)| name).filter(|n| told(n)) {
-            cargo.env_remove(name);
-        }
-        let built = cargo.status().expect("cargo starts");
-        assert!(built.success(), "cargo build --bin rheotaxis failed");
-        let binary = profile.join(format!("rheotaxis{}", std::env::consts::EXE_SUFFIX));
-        assert!(binary.is_file(), "{} was not built", binary.display());
-        binary
-    })
+    Path::new(env!("CARGO_BIN_EXE_rheotaxis"))
+}
+
+/// The folder of the workspace.
+pub(crate) fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
 /// The command `rheotaxis` with these arguments, ready to start in `dir`; colour and zenoh settings

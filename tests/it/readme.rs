@@ -1,10 +1,10 @@
 //! README's example of how to add an algorithm is the one that `docs/check_add_an_algorithm.sh` builds and runs.
 
+use crate::common::root;
 use std::fs;
-use std::path::Path;
 
 fn read(name: &str) -> String {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(name);
+    let path = root().join(name);
     fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 

@@ -110,6 +110,46 @@ fn says_first_how_many_trials_it_makes() {
 }
 
 #[test]
+fn a_first_look_takes_the_seeds_of_each_row_and_says_what_is_left() {
+    let dir = tempfile::tempdir().unwrap();
+    write_row(dir.path());
+    for (id, seeds) in [("some", 3), ("few", 2)] {
+        let row = ROW.replace("id: \"channel\"", &format!("id: \"{id}\""));
+        let row = row.replace("figures:", &format!("quick: {seeds}, figures:"));
+        fs::write(dir.path().join(format!("{id}.ron")), row).unwrap();
+    }
+    let args = [
+        "reproduce",
+        "some.ron",
+        "few.ron",
+        "--quick",
+        "--jobs",
+        "1",
+        "--out",
+        "o",
+    ];
+    let end = rheotaxis_in(dir.path(), &args);
+    let said = String::from_utf8_lossy(&end.stderr).into_owned();
+    assert!(end.status.success(), "{said}");
+    let lines: Vec<&str> = said.lines().collect();
+    // A seed of each row first: then it is known what the other three take.
+    for (line, begin) in [
+        "some (3 seeds), few (2 seeds): 5 trials",
+        "some: 1 trial done",
+        "few: 1 trial done, about ",
+        "some: 3 trials done, about ",
+        "few: 2 trials done, about ",
+    ]
+    .iter()
+    .enumerate()
+    {
+        assert!(lines[line].starts_with(begin), "{begin}: {said}");
+    }
+    assert!(!lines[1].contains("left"), "{said}");
+    assert_eq!(without_walls(&dir.path().join("o/rows.csv")).len(), 1 + 5);
+}
+
+#[test]
 fn stops_by_width_or_at_the_most_allowed() {
     let dir = tempfile::tempdir().unwrap();
     write_row(dir.path());

@@ -1,12 +1,9 @@
 //! The never-rules of README, checked from manifests and `use` lines. Those of the searchers are in `structure_robots`.
 
+use crate::common::root;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::{Path, PathBuf};
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
-}
+use std::path::Path;
 
 fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
@@ -112,7 +109,7 @@ const SOURCES: [&str; 7] = [
 fn crates_know_only_those_below_them() {
     for (krate, folder, known) in CRATES {
         let mut ours = dependencies(folder);
-        ours.retain(|d| CRATES.iter().any(|(name, ..)| name == d) || d == "tests");
+        ours.retain(|d| CRATES.iter().any(|(name, ..)| name == d));
         for d in &ours {
             assert!(known.contains(&d.as_str()), "{krate} depends on {d}");
         }

@@ -2,10 +2,10 @@
 //!
 //! Reference data: `tests/reference/remus100/README.md`.
 
+use crate::common::root;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::ActuatorCommand;
 use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
-use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics, Solver};
@@ -94,9 +94,7 @@ fn against(
     water: WaterSample,
     at: fn(f64) -> ActuatorCommand,
 ) -> (f64, f64) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("reference/remus100")
-        .join(file);
+    let path = root().join("tests/reference/remus100").join(file);
     let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     let rows: Vec<Vec<f64>> = text
         .lines()

@@ -143,7 +143,8 @@ pub struct RunArgs {
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-    /// Configuration file of zenoh (JSON5), for routers, TLS or access control.
+    /// Configuration file of zenoh (JSON5), for routers or access control; TLS needs a program built with
+    /// `--features tls`.
     #[arg(long, value_name = "FILE", conflicts_with = "no_zenoh")]
     pub zenoh_config: Option<PathBuf>,
     /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].

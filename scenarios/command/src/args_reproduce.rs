@@ -2,6 +2,7 @@
 
 use super::args_key::KeyArgs;
 use std::path::PathBuf;
+use studies::reproduce::Row;
 
 /// Arguments of `reproduce`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
@@ -14,7 +15,8 @@ use std::path::PathBuf;
         `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
         The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
         renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
-        number of jobs.",
+        number of jobs. With several rows, each first runs one seed on each core: from then on it is known how long \
+        all of them take.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
@@ -39,7 +41,7 @@ pub struct ReproduceArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
-    /// Use 20 seeds for each row, for a first look.
+    /// Use few seeds, for a first look: as many as the row says under `quick`, 20 unless it does.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,
     /// Run until the success share is known to this half width; 0.05 means plus or minus 5 %.
@@ -60,15 +62,12 @@ pub struct ReproduceArgs {
     pub quiet: bool,
 }
 
-/// Seeds of a first look.
-const QUICK: u64 = 20;
-
 impl ReproduceArgs {
-    /// Seeds for each row; with a width to reach, at most.
+    /// Seeds for a row; with a width to reach, at most.
     #[must_use]
-    pub fn n(&self) -> u64 {
+    pub fn n(&self, row: &Row) -> u64 {
         match (self.quick, self.until_width) {
-            (true, _) => QUICK,
+            (true, _) => row.quick.get(),
             (false, Some(_)) => self.max,
             (false, None) => self.seeds,
         }

@@ -33,6 +33,7 @@ mod segment;
 mod shown;
 mod statistics;
 mod stop;
+mod time_left;
 mod topics;
 mod version;
 

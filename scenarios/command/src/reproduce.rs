@@ -3,6 +3,7 @@
 use super::args_reproduce::ReproduceArgs;
 use super::campaign_plan::count;
 use super::exit::Exit;
+use super::time_left::TimeLeft;
 use super::{say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -39,11 +40,23 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     if !args.quiet {
         eprintln!("{}", trials(&references, args));
     }
-    let mut done = Vec::new();
-    for reference in &references {
-        let reproduced = one(reference, args, &done)?;
-        say::line(table(&reproduced));
-        done.push(reproduced);
+    let planned = |r: &Reference| (r.arms.len() as u64).saturating_mul(args.n(&r.row));
+    let mut work = Work {
+        args,
+        left: TimeLeft::new(references.iter().map(planned), args.jobs),
+        rows: references.iter().map(Reproduced::begin).collect(),
+        references,
+    };
+    let rows = 0..work.rows.len();
+    if rows.len() > 1 && args.until_width.is_none() {
+        // Rows differ in cost, so some of each tell how long the rest takes.
+        for k in rows.clone() {
+            work.advance(k, Some(work.left.threads()))?;
+        }
+    }
+    for k in rows {
+        work.advance(k, None)?;
+        say::line(table(&work.rows[k]));
     }
     say::line(format_args!(
         "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
@@ -59,59 +72,104 @@ fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
     } else {
         ""
     };
-    let arms: usize = references.iter().map(|r| r.arms.len()).sum();
-    let rows: Vec<String> = (references.iter())
-        .map(|r| match r.arms.len() {
-            1 => r.row.id.clone(),
-            n => format!("{} ({n} arms)", r.row.id),
-        })
-        .collect();
-    let all = (arms as u64).saturating_mul(args.n());
-    let (seeds, all) = (count(args.n(), "seed"), count(all, "trial"));
-    format!("{}: {most}{seeds} each, {most}{all}", rows.join(", "))
+    let seeds: Vec<u64> = references.iter().map(|r| args.n(&r.row)).collect();
+    let alike = seeds.iter().all(|n| *n == seeds[0]);
+    let row = |(r, n): (&Reference, &u64)| {
+        let arms = (r.arms.len() > 1).then(|| count(r.arms.len() as u64, "arm"));
+        let own = (!alike).then(|| count(*n, "seed"));
+        let said: Vec<String> = arms.into_iter().chain(own).collect();
+        match said.is_empty() {
+            true => r.row.id.clone(),
+            false => format!("{} ({})", r.row.id, said.join(", ")),
+        }
+    };
+    let rows: Vec<String> = references.iter().zip(&seeds).map(row).collect();
+    let each = if alike {
+        format!("{most}{} each, ", count(seeds[0], "seed"))
+    } else {
+        String::new()
+    };
+    let of_row = |(r, n): (&Reference, &u64)| (r.arms.len() as u64).saturating_mul(*n);
+    let all = (references.iter().zip(&seeds).map(of_row)).fold(0, u64::saturating_add);
+    format!("{}: {each}{most}{}", rows.join(", "), count(all, "trial"))
 }
 
-fn one(
-    reference: &Reference,
-    args: &ReproduceArgs,
-    done: &[Reproduced],
-) -> Result<Reproduced, ReproduceError> {
-    let n = args.n();
-    let bar = if args.quiet {
+/// An experiment on its way.
+struct Work<'a> {
+    args: &'a ReproduceArgs,
+    references: Vec<Reference>,
+    /// The rows as far as they have come.
+    rows: Vec<Reproduced>,
+    left: TimeLeft,
+}
+
+impl Work<'_> {
+    /// Runs row `k` until it has `seeds`, or all that it is to have.
+    fn advance(&mut self, k: usize, seeds: Option<u64>) -> Result<(), ReproduceError> {
+        let Self {
+            args,
+            references,
+            rows,
+            left,
+        } = self;
+        let (reference, row) = (&references[k], rows[k].clone());
+        let n = args.n(&reference.row);
+        let all = n.saturating_mul(reference.arms.len() as u64);
+        let n = seeds.map_or(n, |seeds| seeds.min(n));
+        let bar = bar(reference, args.quiet, all, row.runs.len() as u64);
+        let found = AtomicU64::new(row.runs.iter().filter(|r| r.success).count() as u64);
+        let plan = Plan {
+            n,
+            first_seed: args.first_seed,
+            key: args.key.get(),
+            until_half_width: args.until_width,
+            jobs: args.jobs,
+        };
+        let heard = |run: &RunRow, planned| {
+            let planned = seeds.map_or(planned, |_| all);
+            left.heard(k, run, planned);
+            bar.set_length(planned);
+            bar.inc(1);
+            let new = u64::from(run.success);
+            let found = found.fetch_add(new, Ordering::Relaxed) + new;
+            bar.set_message(match left.words() {
+                Some(left) => format!("found {found} | about {left} left in all"),
+                None => format!("found {found}"),
+            });
+        };
+        let done = reproduce(reference, row, plan, stop::listen(), heard, |so_far| {
+            rows[k] = so_far.clone();
+            // Without a terminal there is no bar.
+            if bar.is_hidden() && !args.quiet {
+                let (id, runs) = (&reference.row.id, count(so_far.runs.len() as u64, "trial"));
+                match left.words() {
+                    Some(left) => eprintln!("{id}: {runs} done, about {left} left in all"),
+                    None => eprintln!("{id}: {runs} done"),
+                }
+            }
+            let begun = rows.iter().filter(|r| !r.runs.is_empty());
+            write(&args.out, &begun.cloned().collect::<Vec<_>>())?;
+            Ok(())
+        });
+        bar.finish_and_clear();
+        rows[k] = done?;
+        Ok(())
+    }
+}
+
+fn bar(reference: &Reference, quiet: bool, length: u64, done: u64) -> ProgressBar {
+    let bar = if quiet {
         ProgressBar::hidden()
     } else {
-        ProgressBar::new(n)
+        ProgressBar::new(length)
     };
     bar.set_style(
-        ProgressStyle::with_template(
-            "{prefix} [{bar:30}] {pos} of {len} runs, {per_sec}, {eta} left | {msg}",
-        )
-        .expect("the template is well formed")
-        .progress_chars("=> "),
+        ProgressStyle::with_template("{prefix} [{bar:30}] {pos} of {len} runs | {msg}")
+            .expect("the template is well formed")
+            .progress_chars("=> "),
     );
     bar.set_prefix(reference.row.id.clone());
+    bar.set_position(done);
     bar.enable_steady_tick(Duration::from_millis(500));
-    let found = AtomicU64::new(0);
-    let plan = Plan {
-        n,
-        first_seed: args.first_seed,
-        key: args.key.get(),
-        until_half_width: args.until_width,
-        jobs: args.jobs,
-    };
-    let heard = |row: &RunRow, planned| {
-        bar.set_length(planned);
-        bar.inc(1);
-        let found =
-            found.fetch_add(u64::from(row.success), Ordering::Relaxed) + u64::from(row.success);
-        bar.set_message(format!("found {found}"));
-    };
-    let reproduced = reproduce(reference, plan, stop::listen(), heard, |so_far| {
-        let mut all = done.to_vec();
-        all.push(so_far.clone());
-        write(&args.out, &all)?;
-        Ok(())
-    });
-    bar.finish_and_clear();
-    reproduced
+    bar
 }

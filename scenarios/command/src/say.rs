@@ -1,9 +1,10 @@
 //! How errors and other messages are printed.
 
 use super::shown::Shown;
+use console::{Term, colors_enabled_stderr};
 use miette::{MietteHandlerOpts, Report};
 use rheotaxis::scenario::{Fault, ScenarioError};
-use std::io::{IsTerminal, Write};
+use std::io::Write;
 use std::path::Path;
 
 /// Width of messages where there is no terminal to ask.
@@ -16,18 +17,19 @@ pub(super) fn set_up() {
 }
 
 fn look() -> Box<dyn miette::ReportHandler> {
-    let mut look = MietteHandlerOpts::new()
+    let terminal = Term::stderr();
+    let look = MietteHandlerOpts::new()
         .force_graphical(true)
         .terminal_links(false)
-        .context_lines(1);
-    if !std::io::stderr().is_terminal() {
+        .context_lines(1)
+        .unicode(true);
+    let look = if terminal.is_term() {
+        look.color(colors_enabled_stderr())
+            .width(terminal.size().1.into())
+    } else {
         // In a log, each message is one line, so that it can be searched for.
-        look = look
-            .unicode(true)
-            .color(false)
-            .width(WIDTH)
-            .wrap_lines(false);
-    }
+        look.color(false).width(WIDTH).wrap_lines(false)
+    };
     Box::new(look.build())
 }
 

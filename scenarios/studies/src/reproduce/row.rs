@@ -7,6 +7,7 @@ use output::files::ReportError;
 use rheotaxis::scenario::{Loaded, ScenarioError, load, parse, template};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
+use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
 use world::files;
@@ -30,8 +31,16 @@ pub struct Row {
     /// Changes to the scenario, by arm; all arms run with the same seeds. Without arms, the scenario runs as it is.
     #[serde(default)]
     pub arms: Vec<Arm>,
+    /// Seeds of a first look (`--quick`): fewer where a run takes long.
+    #[serde(default = "quick")]
+    pub quick: NonZeroU64,
     /// The figures compared.
     pub figures: Vec<Figure>,
+}
+
+/// Seeds of a first look, unless the row says otherwise.
+fn quick() -> NonZeroU64 {
+    NonZeroU64::new(20).expect("20 is not zero")
 }
 
 /// One figure of a row.

@@ -41,13 +41,27 @@ pub struct Reproduced {
     pub figures: Vec<Compared>,
 }
 
-/// Runs one row. `heard` is called for every run that ends (from the threads), with the number now planned. `kept` gets
-/// the row as far as it has come, every 50 seeds and at the end.
+impl Reproduced {
+    /// A row without runs.
+    #[must_use]
+    pub fn begin(reference: &Reference) -> Self {
+        Self {
+            row: reference.row.clone(),
+            scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
+            runs: Vec::new(),
+            figures: Vec::new(),
+        }
+    }
+}
+
+/// Runs what a row still lacks of the plan. `heard` is called for every run that ends (from the threads), with the
+/// number now planned. `kept` gets the row as far as it has come, every 50 seeds and at the end.
 ///
 /// # Errors
 /// If the threads cannot be started, if `kept` fails, or if `stop` was set: the runs under way end at once.
 pub fn reproduce(
     reference: &Reference,
+    mut row: Reproduced,
     plan: Plan,
     stop: &AtomicBool,
     heard: impl Fn(&RunRow, u64) + Sync,
@@ -61,12 +75,6 @@ pub fn reproduce(
             problem: e.to_string(),
         })?;
     let n_arms = reference.arms.len() as u64;
-    let mut row = Reproduced {
-        figures: Vec::new(),
-        row: reference.row.clone(),
-        scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
-        runs: Vec::new(),
-    };
     while let Some(planned) = next(&row.runs, reference, plan) {
         let from = row.runs.len() as u64 / n_arms;
         let n = planned.min(from + BATCH);
