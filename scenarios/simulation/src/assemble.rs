@@ -180,11 +180,7 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
 }
 
 /// The tick with the systems of each kind of apparatus and of each extension.
-fn schedule(
-    world: &mut World,
-    fleet: &Fleet,
-    registry: &Registry,
-) -> Result<Tick, AssembleError> {
+fn schedule(world: &mut World, fleet: &Fleet, registry: &Registry) -> Result<Tick, AssembleError> {
     let additions: Vec<&Addition> = registry.carried().collect();
     let kinds = fleet.kinds();
     let mut tick = Tick::new(kinds.len() + additions.len(), fleet.own_kinds());

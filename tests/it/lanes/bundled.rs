@@ -45,7 +45,9 @@ fn cut_campaign(name: &str) -> Campaign {
     let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
     let seeds = format!("seeds: {},", whole.spec.seeds.count());
     assert_eq!(whole.text.matches(&seeds).count(), 1, "{name}");
-    let text = whole.text.replace(&seeds, "seeds: Literal(first: 4, count: 1),");
+    let text = whole
+        .text
+        .replace(&seeds, "seeds: Literal(first: 4, count: 1),");
     Campaign::new(&whole.shown, &whole.name, &text, base).unwrap()
 }
 

@@ -31,7 +31,8 @@ fn results(folder: &Path) -> (Vec<(String, Vec<u8>)>, Value) {
     let mut files: Vec<_> = fs::read_dir(folder)
         .unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
         .map(|f| f.unwrap().file_name().into_string().unwrap())
-        .filter(|name| !["summary.json", "report.html"].contains(&name.as_str()))
+        // They show wall times, and the number of the process.
+        .filter(|name| !["summary.json", "report.html", "run-files.txt"].contains(&name.as_str()))
         .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
         .collect();
     files.sort();
@@ -66,11 +67,7 @@ fn scenarios_of_one_command_have_the_results_of_runs_alone() {
         );
         let folder = format!("alone/{name}");
         let file = format!("{name}.ron");
-        run(
-            dir,
-            &["--no-zenoh", "--quiet", "--out", &folder, &file],
-            3,
-        );
+        run(dir, &["--no-zenoh", "--quiet", "--out", &folder, &file], 3);
         let [in_lanes, alone] = ["lanes", "alone"].map(|of| results(&dir.join(of).join(name)));
         assert_eq!(in_lanes.1, alone.1, "{name}");
         let names = |of: &[(String, Vec<u8>)]| -> Vec<String> {
@@ -97,7 +94,9 @@ fn lanes_publish_at_one_port() {
         3,
     );
     let port = |name: &str| -> &str {
-        let line = said.lines().find(|l| l.ends_with(&format!("under rheotaxis/{name}_1")));
+        let line = said
+            .lines()
+            .find(|l| l.ends_with(&format!("under rheotaxis/{name}_1")));
         let line = line.unwrap_or_else(|| panic!("{name}: {said}"));
         line.split_whitespace().nth(2).unwrap()
     };
@@ -126,9 +125,16 @@ fn a_scenario_that_cannot_start_leaves_the_other_lane_as_it_is() {
         "long.ron",
     ];
     let (_, said) = run(dir, &args, 1);
-    assert!(said.contains("missing.ron") && said.contains("turned"), "{said}");
+    assert!(
+        said.contains("missing.ron") && said.contains("turned"),
+        "{said}"
+    );
     assert_eq!(fs::read_to_string(dir.join("out/turned")).unwrap(), "mine");
-    run(dir, &["--no-zenoh", "--quiet", "--out", "alone", "long.ron"], 3);
+    run(
+        dir,
+        &["--no-zenoh", "--quiet", "--out", "alone", "long.ron"],
+        3,
+    );
     let [a, b] = ["out/long", "alone"].map(|folder| results(&dir.join(folder)).1);
     assert_eq!(a, b);
 }

@@ -9,8 +9,8 @@ use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use std::path::PathBuf;
-use std::sync::{Arc, Weak};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
+use std::sync::{Arc, Weak};
 use std::time::Duration;
 use zenoh::{Session, Wait};
 
@@ -211,7 +211,10 @@ fn publish(
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }
         Ok(mut tree) => {
-            let _nobody_waits = up.send(Ok((endpoint(&session.0), LiveSession(Arc::downgrade(&session)))));
+            let _nobody_waits = up.send(Ok((
+                endpoint(&session.0),
+                LiveSession(Arc::downgrade(&session)),
+            )));
             serve(&mut tree, mailbox, options.plume_period);
         }
     }

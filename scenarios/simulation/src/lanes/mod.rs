@@ -215,11 +215,7 @@ impl<W: Watch> Lanes<W> {
 
     /// The turn of each lane between two steps of the ocean: the second half of a tick, unless it is the `first`, and
     /// the first half of the next. Lanes that have ended leave; `false` if there is none left.
-    fn turns(
-        &mut self,
-        first: bool,
-        ended: &mut impl FnMut(W, Result<&Trial, LaneError>),
-    ) -> bool {
+    fn turns(&mut self, first: bool, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) -> bool {
         let mut n = 0;
         while let Some(lane) = self.lanes.get_mut(n) {
             let going = lane.with(&mut self.ocean, |trial, watch| {

@@ -150,7 +150,11 @@ mod tests {
         names.zip(arms.iter().map(|(_, loaded)| loaded)).collect()
     }
 
-    fn rows(runs: &[Planned<'_>], begin: &dyn Fn() -> bool, go_on: &dyn Fn() -> bool) -> Vec<RunRow> {
+    fn rows(
+        runs: &[Planned<'_>],
+        begin: &dyn Fn() -> bool,
+        go_on: &dyn Fn() -> bool,
+    ) -> Vec<RunRow> {
         let mut rows = Vec::new();
         let heed = Heed {
             begin,
@@ -199,9 +203,8 @@ mod tests {
         };
         let whole = rows(&runs, &|| true, &|| true);
         let part = rows(&runs, &|| true, &go_on);
-        let digests = |rows: &[RunRow]| -> Vec<String> {
-            rows.iter().map(|r| r.digest.clone()).collect()
-        };
+        let digests =
+            |rows: &[RunRow]| -> Vec<String> { rows.iter().map(|r| r.digest.clone()).collect() };
         assert_eq!(digests(&part), digests(&whole)[..1]);
     }
 
