@@ -3,15 +3,15 @@
 use super::{alone, cut};
 use crate::common::with_fields;
 use rheotaxis::lanes::alike;
-use rheotaxis::scenario::{Loaded, cost};
+use rheotaxis::scenario::{Loaded, cost, load_text};
 use rheotaxis::trial::Trial;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use studies::campaign::{
-    CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, Seeds, load, one_run, read_rows,
-    run,
+    CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run,
 };
 use studies::reproduce::{Plan, reproduce, wanted};
+use world::registry::Registry;
 use world::seeds::{Key, Seed};
 
 fn timeless(row: RunRow) -> RunRow {
@@ -38,15 +38,17 @@ fn row_alone(loaded: &Loaded, name: &RunName) -> RunRow {
     row
 }
 
-/// One seed under the last condition, with a short spin-up and mission.
+/// One seed under each condition, with a short spin-up and mission.
 fn cut_campaign(name: &str) -> Campaign {
-    let mut campaign = load(Path::new(name)).unwrap();
-    campaign.base.text = with_fields(
-        &campaign.base.text,
-        &[("spin_up_s", "30"), ("limit_s", "12")],
-    );
-    campaign.spec.seeds = Seeds::Literal { first: 4, count: 1 };
-    campaign
+    let whole = load(Path::new(name)).unwrap();
+    let base = with_fields(&whole.base.text, &[("spin_up_s", "30"), ("limit_s", "12")]);
+    let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
+    let seeds = format!("seeds: {},", whole.spec.seeds.count());
+    assert_eq!(whole.text.matches(&seeds).count(), 1, "{name}");
+    let text = whole
+        .text
+        .replace(&seeds, "seeds: Literal(first: 4, count: 1),");
+    Campaign::new(&whole.shown, &whole.name, &text, base).unwrap()
 }
 
 #[test]
@@ -100,7 +102,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
         let plan = Plan {
             n: 1,
             first_seed: 5,
-            key: Key::default(),
+            key: Key::public(),
             until_half_width: None,
             jobs: 1,
         };

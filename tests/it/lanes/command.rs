@@ -31,7 +31,8 @@ fn results(folder: &Path) -> (Vec<(String, Vec<u8>)>, Value) {
     let mut files: Vec<_> = fs::read_dir(folder)
         .unwrap_or_else(|e| panic!("{}: {e}", folder.display()))
         .map(|f| f.unwrap().file_name().into_string().unwrap())
-        .filter(|name| !["summary.json", "report.html"].contains(&name.as_str()))
+        // They show wall times, and the number of the process.
+        .filter(|name| !["summary.json", "report.html", "run-files.txt"].contains(&name.as_str()))
         .map(|name| (name.clone(), fs::read(folder.join(name)).unwrap()))
         .collect();
     files.sort();

@@ -6,9 +6,8 @@ use crate::extend::{Extend, Systems};
 use crate::outcome::RunOutcome;
 use crate::scenario::{Loaded, cost, load_text, template};
 use crate::trial::{Ended, Trial, Unwatched, Watch};
-use bevy_ecs::prelude::{Query, Res};
+use bevy_ecs::prelude::World;
 use world::clock::Clock;
-use world::frames::Truth;
 use world::ranges::{HeadingDeg, Positive};
 use world::registry::Registry;
 use world::seeds::Seed;
@@ -36,11 +35,12 @@ fn with(add: impl Fn(&mut Systems) + Send + Sync + 'static) -> Loaded {
     channel(&Registry::default().with_systems(add), 77.0, 9.0)
 }
 
-/// In this half of a tick, after three seconds.
+/// A run that panics in this stage after three seconds.
 fn panicking(stage: Stage) -> Loaded {
     with(move |systems| {
-        systems.add(stage, |clock: Res<Clock>| {
-            assert!(clock.t_s() < 3.0, "the hull is {} m long", -1);
+        systems.add(stage, |world: &mut World| {
+            let t_s = world.resource::<Clock>().t_s();
+            assert!(t_s < 3.0, "the hull is {} m long", -1);
         });
     })
 }
@@ -102,7 +102,7 @@ fn lanes_that_panic_do_not_touch_the_others() {
 
 #[test]
 fn lanes_that_cannot_be_assembled_do_not_touch_the_others() {
-    fn peek(_robots: Query<&Truth>) {}
+    fn peek(_: &mut World) {}
     let fails = with(|systems| {
         systems.add_blind(Stage::Decide, peek);
     });

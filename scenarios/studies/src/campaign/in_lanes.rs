@@ -141,13 +141,16 @@ mod tests {
     }
 
     fn planned(arms: &[(String, Loaded)]) -> Vec<Planned<'_>> {
-        let named = |(run, (arm, loaded)): (u64, &'_ (String, Loaded))| RunName {
-            run,
-            arm: arm.clone(),
-            ..RunName::default()
-        };
-        let names = (0..).zip(arms).map(named);
-        names.zip(arms.iter().map(|(_, loaded)| loaded)).collect()
+        let mut runs = Vec::new();
+        for (run, (arm, loaded)) in (0..).zip(arms) {
+            let name = RunName {
+                run,
+                arm: arm.clone(),
+                ..RunName::default()
+            };
+            runs.push((name, loaded));
+        }
+        runs
     }
 
     fn rows(
