@@ -93,6 +93,34 @@ fn drift(bencher: Bencher, n: usize) {
         });
 }
 
+/// The yardstick: the same walk without any of the above. Each filament evaluates the water where it is, with the
+/// gradient of its mixing by a difference, and draws its kicks from a stream; one after the other, in f64.
+#[divan::bench(args = [10_000])]
+fn plain_loop(bencher: Bencher, n: usize) {
+    let (dt_s, h, bed) = (0.5, 1e-3, -6.0);
+    let mut all: Vec<Vector3<f64>> = plume(n)
+        .iter()
+        .map(|f| Vector3::new(f[0], f[1], f[2]).map(f64::from))
+        .collect();
+    let mut r = Stream::new(1, "bench", "plain");
+    let mut t_s = 2000.0;
+    bencher.counter(ItemsCount::new(all.len())).bench_local(|| {
+        for p in &mut all {
+            let u = TwoLayers.velocity(p, t_s);
+            let k = TwoLayers.mixing(p, t_s);
+            let above = TwoLayers.mixing(&(*p + Vector3::z() * h), t_s);
+            let rise = (above.k_z_m2_s - k.k_z_m2_s) / h;
+            let [flat, high] = [k.k_h_m2_s, k.k_z_m2_s].map(|k| (2.0 * k * dt_s).sqrt());
+            let kick = Vector3::new(flat * r.normal(), flat * r.normal(), high * r.normal());
+            *p += u * dt_s + kick + Vector3::z() * (rise * dt_s);
+            // Mirrored at surface and bed.
+            p.z = -p.z.abs();
+            p.z = bed + (p.z - bed).abs();
+        }
+        t_s += dt_s;
+    });
+}
+
 /// A stream round a block and ten piles, in cells of 2 m, with about `n` filaments among them; in it the plume follows the cells, or, as
 /// if nothing stood there, the grid.
 fn round(n: usize, led: bool) -> (plumes::flow::Water, Plume) {

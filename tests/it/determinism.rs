@@ -55,6 +55,25 @@ fn two_processes_with_and_without_zenoh_and_recording_agree() {
     assert_ne!(bare, run("other", 6, &["--no-zenoh", "--no-record"]));
 }
 
+/// So many filaments that their steps are divided among the threads.
+#[test]
+fn any_number_of_threads_gives_the_same_digest() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = short_duck(dir.path());
+    let text = std::fs::read_to_string(&file).unwrap();
+    let many = text.replace("release: (rate_hz: 5,", "release: (rate_hz: 150,");
+    assert_ne!(many, text);
+    std::fs::write(&file, many).unwrap();
+    let run = |threads: &str| {
+        let options = ["--no-zenoh", "--no-record", "--threads", threads];
+        digest_of(&file, 5, &dir.path().join(threads), &options)
+    };
+    let one = run("1");
+    for threads in ["2", "8", "0"] {
+        assert_eq!(run(threads), one, "{threads} threads");
+    }
+}
+
 /// A contest's runs: their random numbers follow from the seed and a text that only the contest knows.
 #[test]
 fn a_key_makes_another_run_that_only_its_owner_can_repeat() {

@@ -63,3 +63,4 @@ pub use index::CUT_SIGMAS;
 pub use longest_step::{EVEN, SharpestMixing, Uneven};
 pub use path::instructions;
 pub use plume::{Plume, PlumeSettings};
+pub use step::threads;

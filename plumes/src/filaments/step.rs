@@ -24,6 +24,13 @@ const REACH_BY_SOLIDS_M: f64 = 2.0;
 /// Filaments from which on their step is worth waking other threads.
 const WORTH_THREADS: usize = 8192;
 
+/// A pool of so many threads; `None` for one, or if they cannot be started.
+#[must_use]
+pub fn threads(n: usize) -> Option<Arc<rayon::ThreadPool>> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(n);
+    (n > 1).then(|| pool.build().ok().map(Arc::new)).flatten()
+}
+
 impl Plume {
     /// Takes its steps with the threads of a pool, or with its caller's thread alone. The result is the same.
     pub fn use_threads(&mut self, pool: Option<Arc<rayon::ThreadPool>>) {

@@ -38,8 +38,7 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
     };
     let spec = source(0.2, 100.0, 0.001, 0.03);
     let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    plume.use_threads((threads > 1).then(|| pool.build().unwrap().into()));
+    plume.use_threads(super::threads(threads));
     plume.pace(0.0, f64::INFINITY, 5.0);
     let mut felt = 0.0;
     for n in 1..=8000 {

@@ -158,6 +158,9 @@ pub struct RunArgs {
         conflicts_with = "no_zenoh"
     )]
     pub zenoh_linger: f64,
+    /// Threads for the plume; 0 means one for each core. The results are the same with any number.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
 }
 
 const RUN_AFTER: &str = "\

@@ -256,6 +256,7 @@ fn rerun(args: &RerunArgs) -> Exit {
         zenoh_config: None,
         zenoh_listen: None,
         zenoh_linger: 0.0,
+        threads: 1,
     };
     let again = || -> Result<(RunOutcome, String), RunError> {
         let mut trial = Trial::assemble(&loaded, seed)?;

@@ -91,7 +91,7 @@ fn prepared(
 fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, stop: &AtomicBool) -> Exit {
     let mut exit = Exit::Success;
     let mut company = Company::default();
-    let mut lanes = Lanes::default();
+    let mut lanes = Lanes::default().with_threads(args.threads);
     for (loaded, folder) in group {
         if !args.quiet {
             let estimate = cost::estimate(&cost::cost(&loaded.scenario));

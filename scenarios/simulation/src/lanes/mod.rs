@@ -59,6 +59,7 @@ pub struct Lanes<W> {
     ocean: Option<Ocean>,
     lanes: Vec<Lane<W>>,
     spun_up: bool,
+    threads: usize,
 }
 
 struct Lane<W> {
@@ -74,11 +75,19 @@ impl<W> Default for Lanes<W> {
             ocean: None,
             lanes: Vec::new(),
             spun_up: false,
+            threads: 1,
         }
     }
 }
 
 impl<W: Watch> Lanes<W> {
+    /// Steps the plume with this many threads; 0 means one for each core. The result is the same with any number.
+    #[must_use]
+    pub fn with_threads(mut self, n: usize) -> Self {
+        self.threads = n;
+        self
+    }
+
     /// Adds the run of a scenario for a seed. `watch` makes its observer, once the run is assembled.
     ///
     /// # Errors
@@ -115,7 +124,10 @@ impl<W: Watch> Lanes<W> {
             Some(ocean) => ocean,
             None => {
                 let built = caught(|| course.origin.build(&loaded.base_dir));
-                let built = built.map_err(panicked)??;
+                let mut built = built.map_err(panicked)??;
+                if self.threads != 1 {
+                    built.use_threads(self.threads);
+                }
                 self.course = Some(course.clone());
                 built
             }

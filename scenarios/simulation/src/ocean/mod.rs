@@ -145,13 +145,27 @@ impl Ocean {
     /// Copies of the present water and plume.
     #[must_use]
     pub fn state(&self) -> (Water, Plume) {
-        (self.water.clone(), self.plume.clone())
+        let mut plume = self.plume.clone();
+        plume.use_threads(None);
+        (self.water.clone(), plume)
     }
 
     /// Takes over the state of another ocean with the same origin.
     pub(crate) fn put_state(&mut self, (water, plume): (Water, Plume)) {
+        let threads = self.plume.threads();
         self.water = water;
         self.plume = plume;
+        self.plume.use_threads(threads);
+    }
+
+    /// Steps the plume with this many threads; 0 means one for each core. The result is the same with any number. If
+    /// the threads cannot be started, the plume goes on with the one it has.
+    pub fn use_threads(&mut self, n: usize) {
+        let wanted = match n {
+            0 => std::thread::available_parallelism().map_or(1, usize::from),
+            n => n,
+        };
+        self.plume.use_threads(plumes::filaments::threads(wanted));
     }
 }
 
