@@ -114,7 +114,10 @@ mod tests {
         assert_eq!(read.finish(), given.finish());
         // BLAKE3's published answer for no input.
         let none = Fingerprint::hex(&Fingerprint::default().finish());
-        assert!(none.starts_with("af1349b9f5f9a1a6a0404dea36dcc949"), "{none}");
+        assert!(
+            none.starts_with("af1349b9f5f9a1a6a0404dea36dcc949"),
+            "{none}"
+        );
     }
 
     #[test]

@@ -267,9 +267,7 @@ mod tests {
             let mut kept = Writer::default();
             stream.keep(&mut kept);
             let mut fresh = Stream::new(1, "auv0", "lbl");
-            fresh
-                .recall(&mut Reader::new(&kept.into_bytes()))
-                .unwrap();
+            fresh.recall(&mut Reader::new(&kept.into_bytes())).unwrap();
             let next = |s: &mut Stream| (s.normal().to_bits(), s.normal().to_bits(), s.bits());
             assert_eq!(next(&mut fresh), next(&mut stream), "{draws}");
         }

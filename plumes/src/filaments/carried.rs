@@ -34,7 +34,7 @@ const MOST_FACES: usize = 1_000_000;
 pub(super) struct Carrier {
     // Speeds along, across and upwards at the lower and the upper face, in cell sizes per second. Laid out as the
     // columns of the grid, without the last level.
-    rates: Vec<[f32; 6]>,
+    pub(super) rates: Vec<[f32; 6]>,
     levels: usize,
     // Columns along, across.
     n: [usize; 2],

@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis reproduce`.
 
+use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
 use std::path::PathBuf;
 
@@ -39,6 +40,9 @@ pub struct ReproduceArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
     /// Use 20 seeds for each row, for a first look.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,

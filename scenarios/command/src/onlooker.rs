@@ -53,6 +53,7 @@ pub(super) struct Onlooker<'a> {
     begun: Instant,
     mission_begun: Instant,
     spin_up_s: f64,
+    spin_up_kept: bool,
     linger: Duration,
     permeable: Vec<String>,
     interfaces: Vec<f64>,
@@ -120,6 +121,7 @@ impl<'a> Onlooker<'a> {
             begun: now,
             mission_begun: now,
             spin_up_s: scenario.time.spin_up_s.get(),
+            spin_up_kept: false,
             linger: Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO),
             permeable: scenario.permeable.clone(),
             interfaces: (scenario.water.currents.iter())
@@ -127,6 +129,15 @@ impl<'a> Onlooker<'a> {
                 .map(|depth_m| -depth_m)
                 .collect(),
         })
+    }
+
+    /// Notes that the spin-up is over, and whether it had been kept.
+    pub(super) fn developed(&mut self, kept: bool) {
+        self.mission_begun = Instant::now();
+        self.spin_up_kept = kept;
+        if kept {
+            self.progress.say("spin-up taken from the cache");
+        }
     }
 
     fn going(&self) -> bool {
@@ -174,6 +185,7 @@ impl<'a> Onlooker<'a> {
                     spin_up_s: self.spin_up_s,
                     mission_wall_s: mission_wall.as_secs_f64(),
                     spin_up_wall_s: spin_up_wall.as_secs_f64(),
+                    spin_up_kept: self.spin_up_kept,
                     steps: ended.steps,
                     filaments: plume.len(),
                     mass: (!sources.is_empty()).then(|| {

@@ -3,8 +3,9 @@
 use super::args_reproduce::ReproduceArgs;
 use super::campaign_plan::count;
 use super::exit::Exit;
-use super::{say, stop};
+use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
+use rheotaxis::cache::SpinUps;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
@@ -39,9 +40,12 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     if !args.quiet {
         eprintln!("{}", trials(&references, args));
     }
+    let kept = cache::opened(&args.cache);
     let mut done = Vec::new();
     for reference in &references {
-        let reproduced = one(reference, args, &done)?;
+        let reproduced = one(reference, args, kept.as_ref(), &done);
+        cache::tell_fault(kept.as_ref());
+        let reproduced = reproduced?;
         say::line(table(&reproduced));
         done.push(reproduced);
     }
@@ -74,6 +78,7 @@ fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
 fn one(
     reference: &Reference,
     args: &ReproduceArgs,
+    kept: Option<&SpinUps>,
     done: &[Reproduced],
 ) -> Result<Reproduced, ReproduceError> {
     let n = args.n();
@@ -106,7 +111,7 @@ fn one(
             found.fetch_add(u64::from(row.success), Ordering::Relaxed) + u64::from(row.success);
         bar.set_message(format!("found {found}"));
     };
-    let reproduced = reproduce(reference, plan, stop::listen(), heard, |so_far| {
+    let reproduced = reproduce(reference, plan, kept, stop::listen(), heard, |so_far| {
         let mut all = done.to_vec();
         all.push(so_far.clone());
         write(&args.out, &all)?;

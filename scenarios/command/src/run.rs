@@ -3,9 +3,10 @@
 use super::args::RunArgs;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
-use super::{say, stop};
+use super::{cache, say, stop};
 use output::files::ReportError;
 use output::live::LiveError;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::error::AssembleError;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
@@ -31,10 +32,11 @@ pub(super) enum RunError {
 /// Runs every file. An error is reported, and the next file is run all the same.
 pub(super) fn run(args: &RunArgs) -> Exit {
     let stop = stop::listen();
+    let kept = cache::opened(&args.cache);
     let mut exit = Exit::Success;
     let mut taken = Vec::new();
     for file in &args.files {
-        exit = exit.worse(match one(file, args, &mut taken, stop) {
+        exit = exit.worse(match one(file, args, &mut taken, kept.as_ref(), stop) {
             Ok(outcome) => code(outcome),
             Err(RunError::Scenario(error)) => {
                 say::scenario_error(error);
@@ -49,6 +51,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
             break;
         }
     }
+    cache::tell_fault(kept.as_ref());
     exit
 }
 
@@ -66,6 +69,7 @@ fn one(
     file: &Path,
     args: &RunArgs,
     taken: &mut Vec<PathBuf>,
+    kept: Option<&SpinUps>,
     stop: &AtomicBool,
 ) -> Result<RunOutcome, RunError> {
     let loaded = load(file)?;
@@ -81,6 +85,10 @@ fn one(
     }
     let mut trial = Trial::assemble(&loaded, args.key.seed(args.seed))?;
     let mut onlooker = Onlooker::new(&loaded, args, &folder, stop)?;
+    if let Some(kept) = kept {
+        let developed = trial.spin_up_with(kept, &mut onlooker);
+        onlooker.developed(developed.is_some_and(|d| d.kept));
+    }
     let ended = trial.run(&mut onlooker);
     Ok(onlooker.finish(&trial, &ended)?)
 }

@@ -84,6 +84,15 @@ impl Ocean {
         Displaced::new(&self.plume, self, t_s)
     }
 
+    /// The time to which the spin-up advances the water, s.
+    fn spun_up_s(&self) -> f64 {
+        let (steps, dt_s) = self.spin_up_steps;
+        if steps == 0 || self.plume.sources().is_empty() {
+            return self.spin_up_s;
+        }
+        steps as f64 * dt_s
+    }
+
     /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it
     /// returns `false`, the spin-up ends early.
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {

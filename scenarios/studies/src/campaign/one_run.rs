@@ -10,6 +10,7 @@ use output::results::{
     DeclarationSummary, GantrySummary, RunEnd, RunInfo, RunSummary, SourceSummary, SourceTruth,
     Summary, SummaryBuilder, Totals,
 };
+use rheotaxis::cache::SpinUps;
 use rheotaxis::frame::Frame;
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
@@ -39,24 +40,33 @@ pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
     guarded(name, || attempt(loaded, name, None))
 }
 
-/// Makes the run. It takes over a fitting spin-up from `spun`, or adds its own to it.
-pub(crate) fn sharing_run(loaded: &Loaded, name: &RunName, spun: &mut Vec<SpunUp>) -> RunRow {
-    guarded(name, || attempt(loaded, name, Some(spun)))
+/// Makes the run. It takes over a fitting spin-up from `spun`, or adds its own to it, which it takes from `kept` if one
+/// is there.
+pub(crate) fn sharing_run(
+    loaded: &Loaded,
+    name: &RunName,
+    spun: &mut Vec<SpunUp>,
+    kept: Option<&SpinUps>,
+) -> RunRow {
+    guarded(name, || attempt(loaded, name, Some((spun, kept))))
 }
 
 fn attempt(
     loaded: &Loaded,
     name: &RunName,
-    spun: Option<&mut Vec<SpunUp>>,
+    share: Option<(&mut Vec<SpunUp>, Option<&SpinUps>)>,
 ) -> Result<RunRow, String> {
     let begun = Instant::now();
     let mut trial = Trial::assemble(loaded, name.seed).map_err(|e| e.to_string())?;
     let mut taken = false;
     let mut mission_begun = begun;
-    if let Some(spun) = spun {
+    if let Some((spun, kept)) = share {
         taken = spun.iter().any(|s| trial.take_over(s).is_ok());
         if !taken {
-            spun.extend(trial.spin_up(&mut Unwatched));
+            spun.extend(match kept {
+                Some(kept) => (trial.spin_up_with(kept, &mut Unwatched)).map(|d| d.state),
+                None => trial.spin_up(&mut Unwatched),
+            });
         }
         mission_begun = Instant::now();
     }

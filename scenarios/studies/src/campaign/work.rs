@@ -9,6 +9,7 @@ use super::one_run::{RunName, sharing_run};
 use super::plan::Campaign;
 use super::row::RunRow;
 use super::run::Event;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -55,6 +56,7 @@ pub(super) struct Work<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) limits: &'a Limits<'a>,
     pub(super) threads: usize,
+    pub(super) kept: Option<&'a SpinUps>,
     pub(super) tell: &'a (dyn Fn(Event<'_>) + Sync),
     pub(super) scenarios: Mutex<BTreeMap<u64, Arc<Vec<Loaded>>>>,
 }
@@ -142,7 +144,7 @@ impl Work<'_> {
         };
         let scenarios = self.scenarios(place.condition)?;
         let begun = Instant::now();
-        let row = sharing_run(&scenarios[place.arm], &name, spun);
+        let row = sharing_run(&scenarios[place.arm], &name, spun, self.kept);
         let ms = u64::try_from(begun.elapsed().as_millis()).unwrap_or(u64::MAX);
         self.limits.longest_ms.fetch_max(ms, Ordering::Relaxed);
         Ok(row)

@@ -6,6 +6,7 @@ use crate::campaign::stats::next_n;
 use crate::campaign::{RunName, RunRow, sharing_run};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::seeds::Key;
@@ -41,17 +42,18 @@ pub struct Reproduced {
     pub figures: Vec<Compared>,
 }
 
-/// Runs one row. `heard` is called for every run that ends (from the threads), with the number now planned. `kept` gets
-/// the row as far as it has come, every 50 seeds and at the end.
+/// Runs one row. `heard` is called for every run that ends (from the threads), with the number now planned. `so_far`
+/// gets the row as far as it has come, every 50 seeds and at the end. Spin-ups are taken from `kept`, and added to it.
 ///
 /// # Errors
-/// If the threads cannot be started, if `kept` fails, or if `stop` was set: current runs end, and no more begin.
+/// If the threads cannot be started, if `so_far` fails, or if `stop` was set: current runs end, and no more begin.
 pub fn reproduce(
     reference: &Reference,
     plan: Plan,
+    kept: Option<&SpinUps>,
     stop: &AtomicBool,
     heard: impl Fn(&RunRow, u64) + Sync,
-    mut kept: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
+    mut so_far: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
 ) -> Result<Reproduced, ReproduceError> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(plan.jobs)
@@ -87,7 +89,7 @@ pub fn reproduce(
                             seed_index: index,
                             seed: plan.key.seed(plan.first_seed + index),
                         };
-                        let row = sharing_run(loaded, &name, &mut spun);
+                        let row = sharing_run(loaded, &name, &mut spun, kept);
                         heard(&row, planned * n_arms);
                         Some(row)
                     };
@@ -99,7 +101,7 @@ pub fn reproduce(
         let batch = batch.ok_or(ReproduceError::Interrupted)?;
         row.runs.extend(batch.into_iter().flatten());
         row.figures = compare(&reference.row, &row.runs);
-        kept(&row)?;
+        so_far(&row)?;
     }
     Ok(row)
 }
