@@ -81,7 +81,7 @@ impl CachePlace {
         let kept = match &self.dir {
             Some(dir) => SpinUps::new(dir.clone(), most),
             None => SpinUps::of_user(most).ok_or(
-                "this system names no folder for caches: set RHEOTAXIS_CACHE to a folder of yours",
+                "spin-ups are not kept: this system names no folder for caches; set RHEOTAXIS_CACHE to one of yours",
             )?,
         };
         Ok(kept.from(Duration::from_secs_f64(self.from)))
@@ -92,10 +92,10 @@ impl CachePlace {
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
     long_about = "Shows or clears the cache of spin-ups.\n\n\
-        Before a mission, the plume develops (spin-up). `run`, `campaign run` and `reproduce` keep the plume at the \
-        end of a spin-up on the disk. The next run with the same seed, place, water, obstacles, sources and spin-up, \
-        and with any robots and strategy, takes it from there and begins at once. Its results are the same, bit by \
-        bit; its summary.json says `spin_up_kept`.\n\n\
+        Before a mission, the plume develops (spin-up). `run`, `campaign run`, `reproduce` and `picture` keep the \
+        plume at the end of a spin-up on the disk. The next run with the same seed, place, water, obstacles, sources \
+        and spin-up, and with any robots and strategy, takes it from there and begins at once. Its results are the \
+        same, bit by bit; its summary.json says `spin_up_kept`.\n\n\
         A kept plume belongs to one build of the program and to the content of all files that it was made from; if \
         any of them changes, it is made anew. A damaged file is noticed, removed and made anew. Runs with a --key \
         are never kept. A command adds at most a quarter of --cache-size, so a campaign of thousands of seeds keeps \

@@ -4,7 +4,8 @@
 //! digest of its [`Origin`](crate::ocean::Origin) (seed, place, water, obstacles with the content of their files,
 //! sources, spin-up) and of the running program's own file. No version number is trusted: another build, or the same
 //! library in another program with currents of its own, makes its own states. Vector instructions do not count, because
-//! all give the same bits.
+//! all give the same bits. Code from a shared library does not count either: if this crate is built into a plug-in,
+//! give each build of it a folder of its own.
 //!
 //! The library keeps nothing unless it is asked to:
 //!
@@ -22,7 +23,7 @@
 //! ```
 //!
 //! - The folder holds at most a number of bytes ([`MOST`]). The least recently used states go first. A process adds a
-//!   quarter of that at most, so a campaign of thousands of seeds keeps its first hundreds and drives nobody else's out.
+//!   quarter of that at most, so a campaign of thousands of seeds keeps its first hundreds and leaves most others' be.
 //! - A state that was made in less than half a second is not kept.
 //! - Every file is checked when it is read. A damaged or foreign one is removed and made again.
 //! - A run under a secret key ([`Key`](world::seeds::Key)) is neither kept nor looked for: its plume is what the key
@@ -62,10 +63,12 @@ pub struct SpinUps {
 #[derive(Debug, thiserror::Error)]
 pub enum CacheFault {
     /// The folder or a file in it cannot be read or written.
-    #[error("spin-ups are not kept: {0}")]
+    #[error("spin-ups are not kept, and the runs go on without: {0}")]
     Folder(#[from] ShelfError),
     /// The program's own file cannot be read, so nobody can tell which program makes the states.
-    #[error("spin-ups are not kept: the program's own file cannot be read: {0}")]
+    #[error(
+        "spin-ups are not kept, and the runs go on without: the program's own file cannot be read: {0}"
+    )]
     Program(io::Error),
     /// A kept state was damaged, or something else stood in its place.
     #[error("a kept spin-up in {} was damaged; it was removed and made anew", .0.display())]
@@ -182,8 +185,8 @@ impl SpinUps {
 
 impl Trial {
     /// As [`Trial::spin_up`], but a kept spin-up is taken over if there is one, and else one that took long enough is
-    /// kept. Whatever is wrong with the folder, the trial is spun up; [`SpinUps::fault`] tells. `watch` hears nothing of
-    /// a spin-up that is taken over.
+    /// kept. Whatever is wrong with the folder, the trial is spun up; [`SpinUps::fault`] tells. `watch` hears nothing
+    /// of a spin-up that is taken over.
     ///
     /// # Panics
     /// If the run has been spun up before.

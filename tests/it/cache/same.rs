@@ -5,7 +5,9 @@ use nalgebra::Vector3;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::{Loaded, Scenario};
 use rheotaxis::trial::{Trial, Unwatched};
+use std::fmt::{self, Write};
 use std::time::Duration;
+use world::digest::Digest;
 use world::fields::{Concentration, Flow};
 use world::ranges::{HeadingDeg, NonNegative, Positive};
 use world::seeds::Key;
@@ -19,6 +21,21 @@ fn seen(trial: &Trial) -> Vec<[u64; 4]> {
         [ocean.plume().at(&p), v.x, v.y, v.z].map(f64::to_bits)
     };
     ocean.plume().iter().step_by(100).map(at).collect()
+}
+
+/// Digest of every field of water and plume, as they are shown for debugging.
+fn every_field(trial: &Trial) -> String {
+    struct Text(Digest);
+    impl fmt::Write for Text {
+        fn write_str(&mut self, s: &str) -> fmt::Result {
+            self.0.bytes(s.as_bytes());
+            Ok(())
+        }
+    }
+    let ocean = trial.simulation.ocean();
+    let mut text = Text(Digest::default());
+    write!(text, "{:?} {:?}", ocean.water(), ocean.plume()).expect("a digest takes all");
+    text.0.hex()
 }
 
 /// Scenario, seconds of spin-up and of the mission, and what it is here for. The missions last beyond the next
@@ -59,6 +76,9 @@ fn a_run_from_the_cache_is_the_same_run() {
             assert!(kept.fault().is_none());
             trial
         });
+        for trial in [&first, &second] {
+            assert_eq!(every_field(trial), every_field(&alone), "{name} ({what})");
+        }
         assert!(!seen(&alone).is_empty(), "{name}: a plume to look at");
         for trial in [&first, &second] {
             assert_eq!(plume(trial), plume(&alone), "{name} ({what})");
