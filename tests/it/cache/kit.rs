@@ -15,6 +15,11 @@ pub(super) fn short(name: &str, spin_up_s: f64, limit_s: f64) -> Loaded {
     let mut loaded = load(Path::new(name)).unwrap();
     loaded.scenario.time.spin_up_s = NonNegative::new(spin_up_s);
     loaded.scenario.time.limit_s = Positive::new(limit_s);
+    if let Some(blockage) = &mut loaded.scenario.water.blockage {
+        // Coarse cells are solved fast; a short time between two solutions gives several of them.
+        blockage.cell_m = Positive::new(2.0 * blockage.cell_m.get());
+        blockage.period_s = Positive::new(10.0);
+    }
     loaded
 }
 

@@ -41,23 +41,13 @@ fn every_field(trial: &Trial) -> String {
 /// Scenario, seconds of spin-up and of the mission, and what it is here for. The missions last beyond the next
 /// evaluation of the flow, if there is one, and beyond the next solution round obstacles.
 const OCEANS: [(&str, f64, f64, &str); 8] = [
-    ("duck_st", 120.0, 15.0, "meander, layers, a growing plume"),
+    ("duck_st", 120.0, 15.0, "meander, layers, a long plume"),
     ("duck_mt", 120.0, 15.0, "two sources"),
     ("dalian_bay", 60.0, 12.0, "tide, waves"),
-    (
-        "flume_crab",
-        12.0,
-        3.0,
-        "eddies, walls, flow evaluated once",
-    ),
-    (
-        "block_in_channel",
-        95.0,
-        40.0,
-        "unsteady water round a block",
-    ),
-    ("mound", 30.0, 8.0, "a file of heights, unsteady water"),
-    ("reef_mesh", 30.0, 8.0, "a mesh file, steady water"),
+    ("flume_crab", 5.0, 2.0, "eddies, walls"),
+    ("block_in_channel", 25.0, 12.0, "unsteady water, a block"),
+    ("mound", 20.0, 4.0, "a file of heights"),
+    ("reef_mesh", 20.0, 4.0, "a mesh file, steady water"),
     ("wp_laminar", 20.0, 5.0, "steady currents"),
 ];
 
