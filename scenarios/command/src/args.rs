@@ -1,6 +1,6 @@
 //! The command line: its subcommands, their arguments and their help.
 
-use super::args_cache::{CacheArgs, CacheCommandArgs};
+use super::args_cache::{self, CacheArgs, CacheCommandArgs};
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
 use super::args_key::KeyArgs;
@@ -97,6 +97,7 @@ pub enum Command {
     /// Repeat the papers' experiments over many seeds and compare the figures.
     Reproduce(ReproduceArgs),
     /// Show or clear the spin-ups that are kept so that they need not be made again.
+    #[command(long_about = args_cache::ABOUT)]
     Cache(CacheCommandArgs),
     /// Measure the statistics of a scenario's water and plume and compare them with published ones.
     Statistics(StatisticsArgs),

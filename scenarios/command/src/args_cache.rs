@@ -88,18 +88,22 @@ impl CachePlace {
     }
 }
 
+/// What `rheotaxis cache --help` says first. It stands at the variant of the command, whose own text would replace it.
+pub(super) const ABOUT: &str = "\
+Shows or clears the cache of spin-ups.\n\n\
+Before a mission, the plume develops (spin-up). `run`, `campaign run`, `reproduce` and `picture` \
+keep the plume at the end of a spin-up on the disk. The next run with the same seed, place, water, \
+obstacles, sources and spin-up, and with any robots and strategy, takes it from there and begins at \
+once. Its results are the same, bit by bit; its summary.json says `spin_up_kept`.\n\n\
+A kept plume belongs to one build of the program and to the content of all files that it was made \
+from; if any of them changes, it is made anew. A damaged file is noticed, removed and made anew. \
+Runs with a --key are never kept. A command adds at most a quarter of --cache-size, so a campaign of \
+thousands of seeds keeps the first of them. --no-cache, or the environment variable \
+RHEOTAXIS_NO_CACHE=1, does without.";
+
 /// Arguments of `cache`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Shows or clears the cache of spin-ups.\n\n\
-        Before a mission, the plume develops (spin-up). `run`, `campaign run`, `reproduce` and `picture` keep the \
-        plume at the end of a spin-up on the disk. The next run with the same seed, place, water, obstacles, sources \
-        and spin-up, and with any robots and strategy, takes it from there and begins at once. Its results are the \
-        same, bit by bit; its summary.json says `spin_up_kept`.\n\n\
-        A kept plume belongs to one build of the program and to the content of all files that it was made from; if \
-        any of them changes, it is made anew. A damaged file is noticed, removed and made anew. Runs with a --key \
-        are never kept. A command adds at most a quarter of --cache-size, so a campaign of thousands of seeds keeps \
-        the first of them. --no-cache, or the environment variable RHEOTAXIS_NO_CACHE=1, does without.",
     after_help = "Examples:\n  rheotaxis cache\n  rheotaxis cache clear\n  \
         RHEOTAXIS_CACHE=/scratch/plumes RHEOTAXIS_CACHE_SIZE=20G rheotaxis run duck_st"
 )]
@@ -122,18 +126,24 @@ pub enum CacheCommand {
 #[cfg(test)]
 mod tests {
     use super::super::Args;
-    use super::super::args::Command;
     use super::*;
-    use clap::Parser;
+    use clap::{CommandFactory, Parser};
 
     #[test]
-    fn what_is_said_nowhere_is_as_in_the_library() {
-        let args = Args::try_parse_from(["rheotaxis", "cache"]).unwrap();
-        let Command::Cache(args) = args.command else {
-            panic!("another command");
+    fn its_help_teaches_and_what_is_not_given_is_as_in_the_library() {
+        let mut all = Args::command();
+        let cache = all.find_subcommand_mut("cache").expect("a command");
+        let given = |id: &str| {
+            let arg = cache.get_arguments().find(|a| a.get_id() == id);
+            let given = arg.expect("an argument").get_default_values();
+            given[0].to_str().expect("text").to_string()
         };
-        assert_eq!(args.place.size, CachePlace::default().size);
-        assert_eq!(args.place.from, CachePlace::default().from);
+        assert_eq!(bytes(&given("size")), Ok(CachePlace::default().size));
+        assert_eq!(seconds(&given("from")), Ok(CachePlace::default().from));
+        let help = cache.render_long_help().to_string().replace('\n', " ");
+        for word in ["same, bit by bit", "--no-cache", "--key", "clear"] {
+            assert!(help.contains(word), "{word} in {help}");
+        }
         for wrong in ["-1", "nan", "soon"] {
             let args = ["rheotaxis", "cache", "--cache-from", wrong];
             assert!(Args::try_parse_from(args).is_err(), "{wrong}");
