@@ -30,7 +30,7 @@ pub(super) struct Store {
     /// The first filament of each band.
     pub(super) first: [usize; MOST],
     /// Age from which a filament may be in each band, s.
-    least_age_s: [f64; MOST],
+    pub(super) least_age_s: [f64; MOST],
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.

@@ -10,7 +10,7 @@ use std::sync::atomic::AtomicBool;
 use studies::campaign::{
     CAMPAIGNS, Campaign, RunEnded, RunName, RunOptions, RunRow, load, one_run, read_rows, run,
 };
-use studies::reproduce::{Plan, reproduce, wanted};
+use studies::reproduce::{Plan, Reproduced, reproduce, wanted};
 use world::registry::Registry;
 use world::seeds::{Key, Seed};
 
@@ -108,7 +108,8 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
         };
         let id = reference.row.id.clone();
         let stop = AtomicBool::new(false);
-        let done = reproduce(&reference, plan, &stop, |_, _| {}, |_| Ok(())).unwrap();
+        let row = Reproduced::begin(&reference);
+        let done = reproduce(&reference, row, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         assert_eq!(done.runs.len(), reference.arms.len());
         let runs: Vec<_> = (reference.arms.iter())
             .map(|(_, loaded)| (loaded, Seed::from(5)))
