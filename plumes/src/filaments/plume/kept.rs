@@ -86,9 +86,8 @@ fn keep(store: &Store, to: &mut Writer) {
         released,
         left,
         filament_kg: _,
-        // The next steps start where the last ones have ended.
+        // The next steps start where the last ones have ended, in bands that the next pace chooses.
         start: _,
-        // The next pace chooses the bands.
         first: _,
         least_age_s: _,
     } = store;
@@ -113,6 +112,5 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
     store.bed = from.exactly(n)?;
     store.number = from.exactly(n)?;
     store.born_s = from.exactly(n)?;
-    store.start = [&store.x, &store.y, &store.z].map(Clone::clone);
     Ok(())
 }
