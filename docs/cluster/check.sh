@@ -8,7 +8,7 @@ set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 PROGRAM=${PROGRAM:-$here/../../target/release/rheotaxis}
 PYTHON=${PYTHON:-python3}
-export PROGRAM
+export PROGRAM RHEOTAXIS_NO_CACHE=1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"

@@ -81,7 +81,7 @@ def check(args, folder):
 
 def run(args, out, speed, more):
     return subprocess.Popen([args.binary, "run", args.scenario, "--seed", "1", "--out", str(out),
-                             "--quiet", "--speed", speed, *more])
+                             "--quiet", "--no-cache", "--speed", speed, *more])
 
 
 def summary(out):

@@ -96,7 +96,8 @@ def run(program, command, folder, limits, said_s=None):
     patience = command.patience_s or 3 * seconds + 20
     paths = [os.path.join(folder, name) for name in (".out", ".err")]
     env = {k: v for k, v in os.environ.items() if not k.startswith(("SLURM", "HQ_", "ZENOH", "RHEOTAXIS", "JOB_"))}
-    env |= {"NO_COLOR": "1", "MALLOC_ARENA_MAX": "2", "TMPDIR": os.path.join(folder, "..", "tmp")}
+    env |= {"NO_COLOR": "1", "RHEOTAXIS_NO_CACHE": "1", "MALLOC_ARENA_MAX": "2",
+            "TMPDIR": os.path.join(folder, "..", "tmp")}
     begun = time.monotonic()
     faults = []
     with open(paths[0], "wb") as out, open(paths[1], "wb") as err:

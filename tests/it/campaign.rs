@@ -333,8 +333,7 @@ fn a_full_disk_is_said_and_what_was_done_stays_readable() {
         common::binary().display(),
         run.join(" ")
     );
-    let end = std::process::Command::new("bash")
-        .args(["-c", &script])
+    let end = common::apart(std::process::Command::new("bash").args(["-c", &script]))
         .current_dir(dir)
         .output()
         .unwrap();

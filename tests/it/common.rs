@@ -13,18 +13,28 @@ pub(crate) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The command `rheotaxis` with these arguments, ready to start in `dir`; colour and zenoh settings
-/// of whoever runs the tests are left out.
+/// The command `rheotaxis` with these arguments, ready to start in `dir`, without a cache of spin-ups.
 pub(crate) fn command(dir: &Path, args: &[&str]) -> Command {
     let mut command = Command::new(binary());
+    command.args(args).current_dir(dir);
+    apart(&mut command);
     command
-        .args(args)
-        .current_dir(dir)
-        .env("NO_COLOR", "1")
-        .env_remove("FORCE_COLOR")
-        .env_remove("CLICOLOR_FORCE")
-        .env_remove("ZENOH_CONFIG");
-    command
+}
+
+/// Keeps settings of whoever runs the tests, and the cache in their home folder, away from a command that starts
+/// `rheotaxis`.
+pub(crate) fn apart(command: &mut Command) -> &mut Command {
+    for name in [
+        "FORCE_COLOR",
+        "CLICOLOR_FORCE",
+        "ZENOH_CONFIG",
+        "RHEOTAXIS_CACHE",
+        "RHEOTAXIS_CACHE_SIZE",
+        "RHEOTAXIS_CACHE_FROM",
+    ] {
+        command.env_remove(name);
+    }
+    command.env("NO_COLOR", "1").env("RHEOTAXIS_NO_CACHE", "1")
 }
 
 /// Runs `rheotaxis` with these arguments in `dir` to its end.

@@ -3,6 +3,7 @@
 mod abnormal;
 mod autopilot;
 mod bad_input;
+mod cache;
 mod campaign;
 mod common;
 mod cost;

@@ -146,8 +146,7 @@ fn with_little_room(dir: &Path, args: &str, kib: u32) -> Output {
         "trap '' XFSZ; ulimit -f {kib}; exec '{}' {args}",
         common::binary().display()
     );
-    Command::new("bash")
-        .args(["-c", &script])
+    common::apart(Command::new("bash").args(["-c", &script]))
         .current_dir(dir)
         .output()
         .unwrap()

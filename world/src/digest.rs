@@ -1,4 +1,5 @@
-//! Digest of the state sequence: two runs with the same digest went through the same states, bit by bit.
+//! Digest of the state sequence: two runs with the same digest went through the same states, bit by bit. Beside it, the
+//! fingerprint of bytes that nobody can find other bytes for.
 
 use bevy_ecs::prelude::Resource;
 use xxhash_rust::xxh3::Xxh3;
@@ -57,9 +58,67 @@ impl Digest {
     }
 }
 
+/// Running fingerprint of bytes (BLAKE3): whoever knows it cannot find other bytes that have the same one.
+#[derive(Clone, Debug, Default)]
+pub struct Fingerprint(blake3::Hasher);
+
+impl Fingerprint {
+    /// Adds bytes as they are; how they are divided into calls makes no difference.
+    pub fn bytes(&mut self, bytes: &[u8]) {
+        self.0.update(bytes);
+    }
+
+    /// Adds bytes and their length, so that what comes next cannot be taken for a part of them.
+    pub fn part(&mut self, bytes: &[u8]) {
+        self.0.update(&(bytes.len() as u64).to_le_bytes());
+        self.0.update(bytes);
+    }
+
+    /// Adds all that can be read.
+    ///
+    /// # Errors
+    /// If reading fails.
+    pub fn read(&mut self, from: impl std::io::Read) -> std::io::Result<()> {
+        self.0.update_reader(from).map(drop)
+    }
+
+    /// The fingerprint so far.
+    #[must_use]
+    pub fn finish(&self) -> [u8; 32] {
+        *self.0.finalize().as_bytes()
+    }
+
+    /// A fingerprint as 64 hexadecimal digits.
+    #[must_use]
+    pub fn hex(finished: &[u8; 32]) -> String {
+        blake3::Hash::from_bytes(*finished).to_string()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn parts_of_a_fingerprint_have_ends() {
+        let of = |parts: &[&str]| {
+            let mut all = Fingerprint::default();
+            parts.iter().for_each(|p| all.part(p.as_bytes()));
+            all.finish()
+        };
+        assert_ne!(of(&["ab", "c"]), of(&["a", "bc"]));
+        let [mut read, mut given] = [(); 2].map(|()| Fingerprint::default());
+        read.read(&b"abc"[..]).unwrap();
+        given.bytes(b"a");
+        given.bytes(b"bc");
+        assert_eq!(read.finish(), given.finish());
+        // BLAKE3's published answer for no input.
+        let none = Fingerprint::hex(&Fingerprint::default().finish());
+        assert!(
+            none.starts_with("af1349b9f5f9a1a6a0404dea36dcc949"),
+            "{none}"
+        );
+    }
 
     #[test]
     fn cutting_the_input_does_not_matter_but_every_bit_does() {

@@ -5,6 +5,7 @@
 #![forbid(unsafe_code)]
 
 pub mod area;
+pub mod bits;
 pub mod catalogue;
 pub mod clock;
 pub mod cost;

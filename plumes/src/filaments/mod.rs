@@ -44,6 +44,8 @@ mod tests_images;
 #[cfg(test)]
 mod tests_index;
 #[cfg(test)]
+mod tests_kept;
+#[cfg(test)]
 mod tests_mass;
 #[cfg(test)]
 mod tests_mean;

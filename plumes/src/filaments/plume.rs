@@ -10,6 +10,8 @@
 //! √(2K dt), whose spread does not depend on the step. Under waves, filaments are stored at their mean places, and a
 //! fixed source releases at p − ξ(p, t), with ξ the displacement by the waves (file `displaced`).
 
+mod kept;
+
 use super::bands::Bands;
 use super::carried::Carrier;
 use super::cut_off;

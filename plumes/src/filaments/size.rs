@@ -58,6 +58,24 @@ impl Size {
         }
     }
 
+    /// What [`Self::stirred_by`] has made of the newest diffusivity; the rest follows from the release.
+    pub(super) fn stirred(&self) -> Option<f64> {
+        let Self {
+            r0_squared: _,
+            growth: _,
+            vertical_limit: _,
+            eddies,
+        } = self;
+        eddies.map(|e| e.per_s)
+    }
+
+    /// Takes over what [`Self::stirred`] told of the same release.
+    pub(super) fn stir(&mut self, stirred: Option<f64>) {
+        if let (Some(e), Some(per_s)) = (&mut self.eddies, stirred) {
+            e.per_s = per_s;
+        }
+    }
+
     /// Whether growth takes a part of the diffusivity from the kicks.
     pub(super) fn shares(&self) -> bool {
         self.eddies.is_some()

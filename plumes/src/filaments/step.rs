@@ -97,7 +97,7 @@ impl Plume {
         self.now_s = t1_s;
     }
 
-    fn join(&mut self, t_s: f64) {
+    pub(super) fn join(&mut self, t_s: f64) {
         self.now_s = t_s;
         for store in &mut self.stores {
             store.join();

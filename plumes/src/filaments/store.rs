@@ -30,7 +30,7 @@ pub(super) struct Store {
     /// The first filament of each band.
     pub(super) first: [usize; MOST],
     /// Age from which a filament may be in each band, s.
-    least_age_s: [f64; MOST],
+    pub(super) least_age_s: [f64; MOST],
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.
@@ -94,8 +94,11 @@ impl Store {
         self.first[band]..end
     }
 
-    /// Puts all filaments into one band; they must have reached the same time.
+    /// Puts all filaments into one band; they must have reached the same time. Their steps start where they are.
     pub(super) fn join(&mut self) {
+        for (start, p) in self.start.iter_mut().zip([&self.x, &self.y, &self.z]) {
+            start.clone_from(p);
+        }
         self.first = [0; MOST];
         self.least_age_s = [f64::NEG_INFINITY; MOST];
     }

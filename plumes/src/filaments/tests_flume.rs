@@ -9,7 +9,7 @@ use world::fields::Flow;
 use world::ranges::{Finite, Positive};
 use world::seeds::Stream;
 
-fn plume(length_m: f64, seed: u64) -> Plume {
+pub(super) fn plume(length_m: f64, seed: u64) -> Plume {
     let source = SourceSpec {
         id: "nozzle".into(),
         east_m: Finite::new(0.0),

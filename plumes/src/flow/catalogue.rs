@@ -52,7 +52,8 @@ pub trait PlaneCurrent: std::fmt::Debug + Send + Sync {
     }
 }
 
-/// Parameters of a current, and what they say of it before it is made.
+/// Parameters of a current, and what they say of it before it is made. The current must follow from them and from its
+/// [`Place`] alone, because runs with the same parameters, place and seed share spin-ups, also from the disk.
 pub trait CurrentParams: Spec {
     /// Takes its part in the water; currents join in the order of the scenario.
     ///

@@ -16,6 +16,7 @@
 //! apply. Waves add their orbits to the velocity, and their drift and mixing to the plume's column (file `waves::sea`).
 
 mod answers;
+mod kept;
 
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;

@@ -7,6 +7,7 @@
 //! *Deviations*: the paper releases at equal intervals. Here random times are the default, because equal intervals
 //! interfere with the sampling of a sensor and leave gaps that no real water has.
 
+use world::bits::{Reader, Unreadable, Writer};
 use world::seeds::{Seed, Stream};
 
 /// The times of release of one source, in order; they do not depend on who asks or how often.
@@ -45,6 +46,28 @@ impl ReleaseTimes {
     #[must_use]
     pub fn next_s(&self) -> Option<f64> {
         self.next_s
+    }
+
+    /// Writes how far it has come.
+    pub(crate) fn keep(&self, to: &mut Writer) {
+        let Self {
+            rate_hz: _,
+            draws,
+            next_s,
+        } = self;
+        if let Some(draws) = draws {
+            draws.keep(to);
+        }
+        to.maybe(*next_s);
+    }
+
+    /// Goes to where another of the same source and seed was kept.
+    pub(crate) fn recall(&mut self, from: &mut Reader<'_>) -> Result<(), Unreadable> {
+        if let Some(draws) = &mut self.draws {
+            draws.recall(from)?;
+        }
+        self.next_s = from.maybe()?;
+        Ok(())
     }
 
     fn wait(&mut self) -> f64 {

@@ -1,5 +1,6 @@
 //! The command line: its subcommands, their arguments and their help.
 
+use super::args_cache::{self, CacheArgs, CacheCommandArgs};
 use super::args_campaign::CampaignArgs;
 use super::args_explain::ExplainArgs;
 use super::args_key::KeyArgs;
@@ -44,7 +45,7 @@ pub struct Args {
 }
 
 /// A size of memory: a number of bytes, or of K, M, G or T (thousands).
-fn bytes(s: &str) -> Result<f64, String> {
+pub(super) fn bytes(s: &str) -> Result<f64, String> {
     let units = [('K', 1e3), ('M', 1e6), ('G', 1e9), ('T', 1e12)];
     let last = s.chars().last().map(|c| c.to_ascii_uppercase());
     let unit = units.into_iter().find(|(name, _)| Some(*name) == last);
@@ -95,6 +96,9 @@ pub enum Command {
     Campaign(CampaignArgs),
     /// Repeat the papers' experiments over many seeds and compare the figures.
     Reproduce(ReproduceArgs),
+    /// Show or clear the spin-ups that are kept so that they need not be made again.
+    #[command(long_about = args_cache::ABOUT)]
+    Cache(CacheCommandArgs),
     /// Measure the statistics of a scenario's water and plume and compare them with published ones.
     Statistics(StatisticsArgs),
     /// Take an underwater picture of a scenario's plume.
@@ -108,9 +112,10 @@ pub enum Command {
 /// Arguments of `run`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. Scenarios that \
-        differ only in the searcher share one plume and run together, with the same results; the others run one after \
-        the other.\n\n\
+    long_about = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. The developed \
+        plume is kept in a cache: the next run with the same seed, and with any robots and strategy, takes it from \
+        there. Scenarios that differ only in the searcher share one plume and run together, with the same results; the \
+        others run one after the other.\n\n\
         The results are in runs/SCENARIO-SEED/ unless --out names another folder. Open report.html first. The folder \
         also holds summary.json, track.csv (of a gantry: probes-GANTRY.csv), the figures, and the recording run.mcap \
         for Foxglove, Lichtblick or Rerun.\n\n\
@@ -128,6 +133,9 @@ pub struct RunArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
     /// Folder for the results. With several scenarios it gets one folder for each.
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,

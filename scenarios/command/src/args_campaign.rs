@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis campaign`.
 
+use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
 use clap::Subcommand;
 use std::path::PathBuf;
@@ -84,6 +85,9 @@ pub struct CampaignRunArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
     /// Do the I-th of N shares, counted from 1 [default: what the cluster's scheduler says, else all].
     #[arg(long, value_name = "I/N")]
     pub shard: Option<Shard>,

@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis picture`.
 
+use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
 use std::path::PathBuf;
 use std::str::FromStr;
@@ -44,6 +45,9 @@ pub struct PictureArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
 }
 
 const PICTURE_AFTER: &str = "\

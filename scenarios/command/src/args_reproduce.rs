@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis reproduce`.
 
+use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
 use std::path::PathBuf;
 use studies::reproduce::Row;
@@ -41,6 +42,9 @@ pub struct ReproduceArgs {
     /// The key of the runs.
     #[command(flatten)]
     pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
     /// Use few seeds, for a first look: as many as the row says under `quick`, 20 unless it does.
     #[arg(long, conflicts_with_all = ["seeds", "until_width"])]
     pub quick: bool,

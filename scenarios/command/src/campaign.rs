@@ -1,6 +1,7 @@
 //! `rheotaxis campaign`: plans and runs campaigns, shows their status, merges, reports and repeats runs.
 
 use super::args::{RunArgs, Speed};
+use super::args_cache::CacheArgs;
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
 use super::campaign_plan::{count, plan};
 use super::campaign_report;
@@ -8,10 +9,11 @@ use super::company::Company;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
 use super::run::RunError;
-use super::{say, stop};
+use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::Trial;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use studies::campaign::{
     CampaignError, Event, Manifest, RunEnded, RunOptions, Shard, Status, load, merge, read_row, run,
@@ -114,15 +116,18 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
         }
         Event::Wrote(_) => {}
     };
+    let kept = cache::opened(&args.cache).map(Arc::new);
     let options = RunOptions {
         shard,
         jobs: args.jobs,
         block: args.block,
         max_wall: args.max_wall,
         force: args.force,
+        kept: kept.clone(),
     };
     let ended = run(&campaign, &args.out, &options, stop::listen(), &tell);
     bar.finish_and_clear();
+    cache::tell_fault(kept.as_deref());
     let exit = match ended? {
         RunEnded::Complete => {
             say_so(&format!(
@@ -252,6 +257,10 @@ fn rerun(args: &RerunArgs) -> Exit {
         speed: Speed::Max,
         no_zenoh: true,
         no_record: !args.record,
+        cache: CacheArgs {
+            no_cache: true,
+            ..CacheArgs::default()
+        },
         quiet: args.quiet,
         zenoh_config: None,
         zenoh_listen: None,

@@ -7,12 +7,14 @@
 )]
 
 mod args;
+mod args_cache;
 mod args_campaign;
 mod args_explain;
 mod args_key;
 mod args_picture;
 mod args_reproduce;
 mod args_vision;
+mod cache;
 mod campaign;
 mod campaign_plan;
 mod campaign_report;
@@ -41,6 +43,7 @@ pub use args::{
     Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
     TopicsArgs,
 };
+pub use args_cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
     StatusArgs,
@@ -89,6 +92,7 @@ fn dispatch(command: Command) -> Exit {
         Command::Topics(args) => topics::topics(&args),
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),
+        Command::Cache(args) => cache::cache(&args),
         Command::Statistics(args) => statistics::statistics(&args),
         Command::Picture(args) => picture::picture(&args),
         Command::Segment(args) => segment::segment(&args),

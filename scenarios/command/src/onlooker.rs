@@ -54,6 +54,7 @@ pub(super) struct Onlooker<'a> {
     begun: Instant,
     mission_begun: Instant,
     spin_up_s: f64,
+    spin_up_kept: bool,
     permeable: Vec<String>,
     interfaces: Vec<f64>,
 }
@@ -121,6 +122,7 @@ impl<'a> Onlooker<'a> {
             begun: now,
             mission_begun: now,
             spin_up_s: scenario.time.spin_up_s.get(),
+            spin_up_kept: false,
             permeable: scenario.permeable.clone(),
             interfaces: (scenario.water.currents.iter())
                 .flat_map(|c| c.interfaces_m())
@@ -175,6 +177,7 @@ impl<'a> Onlooker<'a> {
                     spin_up_s: self.spin_up_s,
                     mission_wall_s: mission_wall.as_secs_f64(),
                     spin_up_wall_s: spin_up_wall.as_secs_f64(),
+                    spin_up_kept: self.spin_up_kept,
                     steps: ended.steps,
                     filaments: plume.len(),
                     mass: (!sources.is_empty()).then(|| {
@@ -303,6 +306,14 @@ impl Watch for Onlooker<'_> {
         self.progress.spun_up(share);
         self.mission_begun = Instant::now();
         self.going()
+    }
+
+    fn developed(&mut self, kept: bool) {
+        self.mission_begun = Instant::now();
+        self.spin_up_kept = kept;
+        if kept {
+            self.progress.say("spin-up taken from the cache");
+        }
     }
 
     fn frame(&mut self, frame: &Frame) {

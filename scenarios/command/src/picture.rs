@@ -2,7 +2,7 @@
 
 use super::args_picture::PictureArgs;
 use super::exit::Exit;
-use super::say;
+use super::{cache, say};
 use image::{ImageFormat, RgbImage};
 use nalgebra::Vector3;
 use output::files::{ReportError, write_whole};
@@ -76,7 +76,15 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
             return Exit::Error;
         }
     };
-    trial.spin_up(&mut Unwatched);
+    match cache::opened(&args.cache) {
+        Some(kept) => {
+            trial.spin_up_with(&kept, &mut Unwatched);
+            cache::tell_fault(Some(&kept));
+        }
+        None => {
+            trial.spin_up(&mut Unwatched);
+        }
+    }
     let (world, ocean) = (&trial.simulation.world, trial.simulation.ocean());
     let scene = Scene {
         terrain: &ocean.terrain,

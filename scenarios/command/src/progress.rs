@@ -143,6 +143,9 @@ impl Progress {
             run.totals.mission_s,
             run.totals.filaments,
             match run.real_time_factor_with_spin_up {
+                Some(x) if run.totals.spin_up_kept => {
+                    format!("{x:.0} x real time, spin-up taken from the cache")
+                }
                 Some(x) => format!("{x:.0} x real time, spin-up included"),
                 None => "in no time".to_string(),
             }

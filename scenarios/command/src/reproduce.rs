@@ -4,8 +4,9 @@ use super::args_reproduce::ReproduceArgs;
 use super::campaign_plan::count;
 use super::exit::Exit;
 use super::time_left::TimeLeft;
-use super::{say, stop};
+use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
+use rheotaxis::cache::SpinUps;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
@@ -43,6 +44,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     let planned = |r: &Reference| (r.arms.len() as u64).saturating_mul(args.n(&r.row));
     let mut work = Work {
         args,
+        kept: cache::opened(&args.cache),
         left: TimeLeft::new(references.iter().map(planned), args.jobs),
         rows: references.iter().map(Reproduced::begin).collect(),
         references,
@@ -97,6 +99,8 @@ fn trials(references: &[Reference], args: &ReproduceArgs) -> String {
 /// An experiment on its way.
 struct Work<'a> {
     args: &'a ReproduceArgs,
+    /// The cache of spin-ups.
+    kept: Option<SpinUps>,
     references: Vec<Reference>,
     /// The rows as far as they have come.
     rows: Vec<Reproduced>,
@@ -108,10 +112,12 @@ impl Work<'_> {
     fn advance(&mut self, k: usize, seeds: Option<u64>) -> Result<(), ReproduceError> {
         let Self {
             args,
+            kept,
             references,
             rows,
             left,
         } = self;
+        let (kept, stop) = (kept.as_ref(), stop::listen());
         let (reference, row) = (&references[k], rows[k].clone());
         let n = args.n(&reference.row);
         let all = n.saturating_mul(reference.arms.len() as u64);
@@ -137,7 +143,7 @@ impl Work<'_> {
                 None => format!("found {found}"),
             });
         };
-        let done = reproduce(reference, row, plan, stop::listen(), heard, |so_far| {
+        let done = reproduce(reference, row, plan, kept, stop, heard, |so_far| {
             rows[k] = so_far.clone();
             // Without a terminal there is no bar.
             if bar.is_hidden() && !args.quiet {
@@ -152,6 +158,7 @@ impl Work<'_> {
             Ok(())
         });
         bar.finish_and_clear();
+        cache::tell_fault(kept);
         rows[k] = done?;
         Ok(())
     }

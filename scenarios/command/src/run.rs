@@ -4,9 +4,10 @@ use super::args::RunArgs;
 use super::company::Company;
 use super::exit::Exit;
 use super::onlooker::Onlooker;
-use super::{say, stop};
+use super::{cache, say, stop};
 use output::files::ReportError;
 use output::live::LiveError;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::error::AssembleError;
 use rheotaxis::lanes::{LaneError, Lanes, alike};
 use rheotaxis::outcome::RunOutcome;
@@ -35,6 +36,7 @@ pub(super) enum RunError {
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 pub(super) fn run(args: &RunArgs) -> Exit {
     let stop = stop::listen();
+    let kept = cache::opened(&args.cache);
     let mut exit = Exit::Success;
     let mut ready: Vec<(Loaded, PathBuf)> = Vec::new();
     for file in &args.files {
@@ -47,11 +49,12 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     let runs: Vec<_> = ready.iter().map(|(loaded, _)| (loaded, seed)).collect();
     for group in alike(&runs, cost::limit()) {
         let group: Vec<_> = group.into_iter().map(|n| &ready[n]).collect();
-        exit = exit.worse(together(&group, args, stop));
+        exit = exit.worse(together(&group, args, kept.as_ref(), stop));
         if stop.load(Ordering::Relaxed) {
             break;
         }
     }
+    cache::tell_fault(kept.as_ref());
     exit
 }
 
@@ -88,7 +91,12 @@ fn prepared(
 }
 
 /// Runs scenarios with the same ocean in lanes.
-fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, stop: &AtomicBool) -> Exit {
+fn together(
+    group: &[&(Loaded, PathBuf)],
+    args: &RunArgs,
+    kept: Option<&SpinUps>,
+    stop: &AtomicBool,
+) -> Exit {
     let mut exit = Exit::Success;
     let mut company = Company::default();
     let mut lanes = Lanes::default().with_threads(args.threads);
@@ -101,6 +109,9 @@ fn together(group: &[&(Loaded, PathBuf)], args: &RunArgs, stop: &AtomicBool) -> 
         if let Err(error) = lanes.add(loaded, args.key.seed(args.seed), onlooker) {
             exit = exit.worse(refused(error));
         }
+    }
+    if let Some(kept) = kept {
+        lanes.spin_up_with(kept);
     }
     lanes.run(|onlooker, run| {
         let ended = match run {

@@ -1,6 +1,6 @@
 //! A simulator of chemical-plume tracing: underwater vehicles and gantries measure a turbulent plume in moving water
 //! and search for its source. This crate is the library that others build on: scenarios, the tick, trials. It draws
-//! nothing and writes no files; the crates `output`, `studies` and `command` do.
+//! nothing and writes no files, except in a [`cache`] that is asked for; the crates `output`, `studies` and `command` do.
 //!
 //! # 1. The first run
 //!
@@ -58,7 +58,8 @@
 //! # Where things are
 //!
 //! - [`scenario`] reads and checks files; [`explain`] describes every field.
-//! - [`ocean`] holds water, plume and obstacles. No searcher changes it, so [`lanes`] lets many runs share one.
+//! - [`ocean`] holds water, plume and obstacles. No searcher changes it, so [`lanes`] lets many runs share one, and
+//!   [`cache`] keeps spun-up ones on the disk.
 //! - [`auv`] and [`gantry`] are the searchers; [`apparatus`] is the trait that both implement.
 //! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
 //! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
@@ -69,6 +70,7 @@ pub mod abnormal;
 pub mod apparatus;
 pub mod assemble;
 pub mod auv;
+pub mod cache;
 pub mod error;
 pub mod explain;
 pub mod extend;

@@ -28,6 +28,8 @@ pub trait Watch {
     fn spun_up(&mut self, _share: f64) -> bool {
         true
     }
+    /// After the spin-up, if a cache was asked for it: whether it was there. Then no share was told.
+    fn developed(&mut self, _kept: bool) {}
     /// A new frame.
     fn frame(&mut self, _frame: &Frame) {}
     /// A new picture of the plume.

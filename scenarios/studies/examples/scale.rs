@@ -77,7 +77,7 @@ fn channel(filaments: usize, robots: usize) -> Result<Loaded, Box<dyn Error>> {
     let first = loaded.scenario.robots[0].clone();
     for k in 1..robots {
         let mut robot = first.clone();
-        robot.id = format!("auv{k}");
+        robot.id = format!("auv{k}").try_into()?;
         let place = |n: f64, low: f64, high: f64| low + (high - low) * (n * 0.618_034).fract();
         robot.start.east_m = world::ranges::Finite::new(place(k as f64, -100.0, 150.0));
         robot.start.north_m = world::ranges::Finite::new(place(k as f64 * 1.7, -50.0, 50.0));
@@ -162,7 +162,11 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
         let middle = panel.left + 0.5 * panel.width;
         c.text([middle, 310.0], 11.0, Anchor::Middle, "log10 of the number");
         for (column, ink) in columns.iter().zip(INK) {
-            let points: Vec<_> = x.iter().zip(column).map(|(x, y)| panel.at([*x, *y])).collect();
+            let points: Vec<_> = x
+                .iter()
+                .zip(column)
+                .map(|(x, y)| panel.at([*x, *y]))
+                .collect();
             for p in &points {
                 c.circle(*p, 3.0, &Style::fill(ink));
             }
@@ -182,7 +186,12 @@ fn drawn(curves: &[(&str, Vec<Point>)]) -> String {
                 c.text([panel.left + 18.0, y], 11.0, Anchor::Start, text);
             }
             let y = 56.0 + 30.0;
-            c.text([panel.left + 18.0, y], 11.0, Anchor::Start, "dashed: in proportion");
+            c.text(
+                [panel.left + 18.0, y],
+                11.0,
+                Anchor::Start,
+                "dashed: in proportion",
+            );
         }
     }
     c.svg("scale")

@@ -109,7 +109,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
         let id = reference.row.id.clone();
         let stop = AtomicBool::new(false);
         let row = Reproduced::begin(&reference);
-        let done = reproduce(&reference, row, plan, &stop, |_, _| {}, |_| Ok(())).unwrap();
+        let done = reproduce(&reference, row, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
         assert_eq!(done.runs.len(), reference.arms.len());
         let runs: Vec<_> = (reference.arms.iter())
             .map(|(_, loaded)| (loaded, Seed::from(5)))

@@ -5,7 +5,11 @@ mod input;
 mod output;
 #[cfg(test)]
 mod output_tests;
+mod shelf;
+#[cfg(test)]
+mod shelf_tests;
 
 pub use folder::Folder;
 pub use input::{is_special, open, read, read_text};
 pub use output::{Output, OutputError, make_folder, write, write_new, write_on_disk};
+pub use shelf::{Found, Shelf, ShelfError, Stock};

@@ -9,6 +9,8 @@
 //! relative error of at most (ω·period)²/8 (meander at 0.02 1/s, 30 s: 4.5 %). Density, diffusivities and the
 //! interfaces of layers stay those of the unblocked water: interfaces do not rise over a block.
 
+mod kept;
+
 use nalgebra::{Matrix3, Vector3};
 use std::sync::Arc;
 use world::area::Area;

@@ -276,8 +276,14 @@ fn run_rows(s: &Summary) -> Vec<(&'static str, String)> {
         (
             "Spin-up",
             format!(
-                "{:.0} s, {:.1} s of wall time",
-                t.spin_up_s, t.spin_up_wall_s
+                "{:.0} s, {:.1} s of wall time{}",
+                t.spin_up_s,
+                t.spin_up_wall_s,
+                if t.spin_up_kept {
+                    ", taken from the cache"
+                } else {
+                    ""
+                }
             ),
         ),
     ];

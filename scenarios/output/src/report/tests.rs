@@ -28,6 +28,7 @@ fn end(outcome: RunOutcome, frames: &[Frame]) -> RunEnd {
             spin_up_s: 50.0,
             mission_wall_s: 1.0,
             spin_up_wall_s: 1.0,
+            spin_up_kept: false,
             steps: 5000,
             filaments: 40_000,
             mass: Some(MassBalance::new(0.3, 0.2, 0.1)),

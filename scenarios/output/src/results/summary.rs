@@ -223,6 +223,8 @@ pub struct Totals {
     pub mission_wall_s: f64,
     /// Wall time of the spin-up, s.
     pub spin_up_wall_s: f64,
+    /// Whether the spin-up was taken from the cache; its wall time is then that of reading it.
+    pub spin_up_kept: bool,
     /// Steps of the mission.
     pub steps: u64,
     /// Filaments at the end.

@@ -31,7 +31,7 @@ pub use caught::caught;
 use crate::assemble::Simulation;
 use crate::error::AssembleError;
 use crate::ocean::system::drift;
-use crate::ocean::{Mismatch, Ocean, SpunUp};
+use crate::ocean::{Mismatch, Ocean, Origin, SpunUp};
 use crate::scenario::Loaded;
 use crate::trial::{Trial, Watch};
 use alike::Course;
@@ -190,6 +190,18 @@ impl<W: Watch> Lanes<W> {
         }
         self.set_out(&stopped);
         copy
+    }
+
+    /// The ocean with its origin; `None` before the first lane.
+    pub(crate) fn ocean(&self) -> Option<(&Origin, &Ocean)> {
+        Some((&self.course.as_ref()?.origin, self.ocean.as_ref()?))
+    }
+
+    /// Tells all observers that the spin-up is over, and whether it had been kept.
+    pub(crate) fn tell_developed(&mut self, kept: bool) {
+        for lane in &mut self.lanes {
+            lane.with(&mut self.ocean, |_, watch| watch.developed(kept));
+        }
     }
 
     /// Begins the missions, but for the lanes that an observer stopped in the spin-up.

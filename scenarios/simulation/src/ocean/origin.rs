@@ -13,6 +13,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use world::digest::Digest;
+use world::error::WorldError;
 use world::obstacles::{Obstacle, ObstacleSpec, Obstacles};
 use world::ranges::{NonNegative, Positive};
 use world::seeds::Seed;
@@ -71,6 +72,15 @@ impl Origin {
         let obstacles = (self.obstacles.iter())
             .map(|spec| Obstacle::build(spec, &terrain, base_dir))
             .collect::<Result<Vec<_>, _>>()?;
+        for (name, before) in &self.files {
+            if content(&base_dir.join(name)) != *before {
+                return Err(AssembleError::World(WorldError::File {
+                    path: name.clone(),
+                    place: String::new(),
+                    problem: "it was changed while it was read: run again".to_string(),
+                }));
+            }
+        }
         let obstacles = Obstacles(obstacles);
         let solids = obstacles.without(&self.permeable);
         let water = (self.water).build_round(&area, &terrain, &solids, self.seed)?;
@@ -110,6 +120,11 @@ impl Origin {
             text(ours.get(*name)) != text(theirs.get(*name))
         };
         names.find(differs).cloned()
+    }
+
+    /// All of it but the seed's key, as text: the same for the same origin.
+    pub(crate) fn text(&self) -> String {
+        serde_json::to_string(self).expect("every scenario can be written")
     }
 
     fn fields(&self) -> serde_json::Map<String, serde_json::Value> {

@@ -3,6 +3,7 @@
 //! The spin-up does not depend on any robot. It depends on the blocks of the scenario for water and plume, on the
 //! files that these name, and on the seed (see [`Origin`]). Runs that agree in these, such as the arms of one seed of
 //! a campaign, start from the same state bit for bit, whether they spin up themselves or take the state over.
+//! [`cache`](crate::cache) keeps states on the disk.
 //!
 //! ```no_run
 //! # use rheotaxis::{scenario, trial::{Trial, Unwatched}};
@@ -17,15 +18,16 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
-use super::Origin;
+use super::{Ocean, Origin};
 use plumes::filaments::Plume;
 use plumes::flow::Water;
 use std::sync::Arc;
+use world::bits::{Reader, Unreadable, Writer};
 use world::seeds::Seed;
 
 /// The state after a spin-up. Other runs take it over with [`Trial::take_over`](crate::trial::Trial::take_over).
 ///
-/// Clones share the state, also between threads. It needs 28 bytes for each filament (1.4 MB for 50 000) and 16 bytes
+/// Clones share the state, also between threads. It needs 40 bytes for each filament (2 MB for 50 000) and 16 bytes
 /// for each node of the flow's grid. The last clone frees it.
 #[derive(Clone, Debug)]
 pub struct SpunUp(Arc<State>);
@@ -44,6 +46,24 @@ impl SpunUp {
             water,
             plume,
         }))
+    }
+
+    /// What [`Self::read`] needs to make it again.
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        let mut to = Writer::default();
+        self.0.water.keep(&mut to);
+        self.0.plume.keep(&mut to);
+        to.into_bytes()
+    }
+
+    /// Makes it from the bytes of another with this origin, and an ocean of the origin before its spin-up.
+    pub(crate) fn read(ocean: &Ocean, origin: &Origin, bytes: &[u8]) -> Result<Self, Unreadable> {
+        let (mut water, mut plume) = ocean.state();
+        let mut from = Reader::new(bytes);
+        water.recall(ocean.spin_up_s(), &mut from)?;
+        plume.recall(&water, &mut from)?;
+        from.end()?;
+        Ok(Self::new(origin.clone(), (water, plume)))
     }
 
     /// Copies of water and plume for a run with this origin.

@@ -7,6 +7,7 @@
 use super::contained::contained;
 use super::one_run::{Gatherer, RunName, failed, guarded, outcome_name};
 use super::row::RunRow;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::lanes::{LaneError, Lanes, alike};
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
@@ -29,8 +30,13 @@ pub(crate) struct Heed<'a> {
 }
 
 /// Makes these runs. `keep` gets each row as soon as its run has ended. Runs with the same spin-up but not the same
-/// ocean afterwards take the spin-up over from each other.
-pub(crate) fn in_lanes(runs: &[Planned<'_>], heed: Heed<'_>, keep: &mut dyn FnMut(RunRow)) {
+/// ocean afterwards take the spin-up over from each other, and the first of them from `kept` if one is there.
+pub(crate) fn in_lanes(
+    runs: &[Planned<'_>],
+    kept: Option<&SpinUps>,
+    heed: Heed<'_>,
+    keep: &mut dyn FnMut(RunRow),
+) {
     let all: Vec<_> = runs.iter().map(|(name, l)| (*l, name.seed)).collect();
     let mut spun = Vec::new();
     for group in alike(&all, cost::limit()) {
@@ -40,7 +46,8 @@ pub(crate) fn in_lanes(runs: &[Planned<'_>], heed: Heed<'_>, keep: &mut dyn FnMu
         let begun = Instant::now();
         let mut left: BTreeSet<usize> = group.iter().copied().collect();
         let together = contained(|| {
-            together(runs, &group, &mut spun, heed.go_on, &mut |n, row| {
+            let shared = (&mut spun, kept);
+            together(runs, &group, shared, heed.go_on, &mut |n, row| {
                 left.remove(&n);
                 keep(row);
             });
@@ -58,7 +65,7 @@ pub(crate) fn in_lanes(runs: &[Planned<'_>], heed: Heed<'_>, keep: &mut dyn FnMu
 fn together(
     runs: &[Planned<'_>],
     group: &[usize],
-    spun: &mut Vec<SpunUp>,
+    (spun, kept): (&mut Vec<SpunUp>, Option<&SpinUps>),
     go_on: &dyn Fn() -> bool,
     keep: &mut dyn FnMut(usize, RunRow),
 ) {
@@ -75,7 +82,10 @@ fn together(
     }
     let taken = spun.iter().any(|s| lanes.take_over(s).is_ok());
     if !taken {
-        spun.extend(lanes.spin_up());
+        spun.extend(match kept {
+            Some(kept) => lanes.spin_up_with(kept).map(|d| d.state),
+            None => lanes.spin_up(),
+        });
     }
     let mut walls = Walls::new(going, (!taken).then(|| begun.elapsed()));
     lanes.run(|gatherer, run| {
@@ -164,7 +174,7 @@ mod tests {
             go_on,
             took: &|_| {},
         };
-        in_lanes(runs, heed, &mut |row| rows.push(row));
+        in_lanes(runs, None, heed, &mut |row| rows.push(row));
         rows
     }
 

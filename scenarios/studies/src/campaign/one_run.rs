@@ -38,7 +38,8 @@ pub fn one_run(loaded: &Loaded, name: &RunName) -> RunRow {
         took: &|_| {},
     };
     let mut made = None;
-    in_lanes(&[(name.clone(), loaded)], heed, &mut |row| made = Some(row));
+    let runs = [(name.clone(), loaded)];
+    in_lanes(&runs, None, heed, &mut |row| made = Some(row));
     made.unwrap_or_else(|| failed(name, "it did not come to its end".to_string()))
 }
 

@@ -14,10 +14,11 @@ use super::row::RunRow;
 use super::shard::Shard;
 use super::share::Share;
 use super::work::{Limits, Work};
+use rheotaxis::cache::SpinUps;
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
-use std::sync::{Mutex, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock};
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
 use world::files::{OutputError, make_folder};
@@ -39,6 +40,8 @@ pub struct RunOptions {
     pub max_wall: Option<Duration>,
     /// Continue in a folder of another campaign and keep its blocks.
     pub force: bool,
+    /// Where spin-ups are kept; without it, each is made.
+    pub kept: Option<Arc<SpinUps>>,
 }
 
 /// What is reported while a campaign runs, from any thread.
@@ -98,6 +101,7 @@ pub fn run(
     let work = Work {
         campaign,
         limits: &limits,
+        kept: options.kept.as_deref(),
         threads: threads.min(usize::try_from(campaign.n_runs()).unwrap_or(threads)),
         tell,
         scenarios: Mutex::new(BTreeMap::new()),

@@ -11,6 +11,7 @@ use super::one_run::{RunName, one_run};
 use super::plan::Campaign;
 use super::row::RunRow;
 use super::run::Event;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -63,6 +64,7 @@ pub(super) struct Work<'a> {
     pub(super) campaign: &'a Campaign,
     pub(super) limits: &'a Limits<'a>,
     pub(super) threads: usize,
+    pub(super) kept: Option<&'a SpinUps>,
     pub(super) tell: &'a (dyn Fn(Event<'_>) + Sync),
     pub(super) scenarios: Mutex<BTreeMap<u64, Arc<Vec<Loaded>>>>,
 }
@@ -156,7 +158,7 @@ impl Work<'_> {
         let scenarios = self.scenarios(condition.unwrap_or_default())?;
         let planned = |run: &u64| (self.name(*run), &scenarios[self.campaign.place(*run).arm]);
         let planned: Vec<Planned<'_>> = runs.iter().map(planned).collect();
-        in_lanes(&planned, heed, keep);
+        in_lanes(&planned, self.kept, heed, keep);
         Ok(())
     }
 

@@ -6,6 +6,7 @@ use crate::campaign::stats::next_n;
 use crate::campaign::{Heed, Planned, RunName, RunRow, in_lanes};
 use rayon::ThreadPoolBuilder;
 use rayon::prelude::*;
+use rheotaxis::cache::SpinUps;
 use rheotaxis::scenario::Loaded;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::seeds::Key;
@@ -55,17 +56,19 @@ impl Reproduced {
 }
 
 /// Runs what a row still lacks of the plan. `heard` is called for every run that ends (from the threads), with the
-/// number now planned. `kept` gets the row as far as it has come, every 50 seeds and at the end.
+/// number now planned. `so_far` gets the row as far as it has come, every 50 seeds and at the end. Spin-ups are taken from
+/// `kept`, and added to it.
 ///
 /// # Errors
-/// If the threads cannot be started, if `kept` fails, or if `stop` was set: the runs under way end at once.
+/// If the threads cannot be started, if `so_far` fails, or if `stop` was set: the runs under way end at once.
 pub fn reproduce(
     reference: &Reference,
     mut row: Reproduced,
     plan: Plan,
+    kept: Option<&SpinUps>,
     stop: &AtomicBool,
     heard: impl Fn(&RunRow, u64) + Sync,
-    mut kept: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
+    mut so_far: impl FnMut(&Reproduced) -> Result<(), ReproduceError>,
 ) -> Result<Reproduced, ReproduceError> {
     let pool = ThreadPoolBuilder::new()
         .num_threads(plan.jobs)
@@ -100,7 +103,7 @@ pub fn reproduce(
                         took: &|_| {},
                     };
                     let mut rows = Vec::new();
-                    in_lanes(&runs, heed, &mut |row| {
+                    in_lanes(&runs, kept, heed, &mut |row| {
                         heard(&row, planned * n_arms);
                         rows.push(row);
                     });
@@ -113,7 +116,7 @@ pub fn reproduce(
         let batch = batch.ok_or(ReproduceError::Interrupted)?;
         row.runs.extend(batch.into_iter().flatten());
         row.figures = compare(&reference.row, &row.runs);
-        kept(&row)?;
+        so_far(&row)?;
     }
     Ok(row)
 }
