@@ -302,8 +302,10 @@ fn hours_are_a_warning_that_names_what_takes_them() {
             "wp_laminar",
             &[
                 ("rate_hz: 10,", "rate_hz: 49000,"),
-                ("spin_up_period_s: 0.5", "spin_up_period_s: 0.02"),
-                ("drift_period_s: 0.2", "drift_period_s: 0.02"),
+                (
+                    "spin_up_s: 120,",
+                    "spin_up_s: 120, spin_up_period_s: 0.02, drift_period_s: 0.02,",
+                ),
             ][..],
             "sources[0].release.rate_hz: the run is estimated to take",
         ),
@@ -315,7 +317,7 @@ fn hours_are_a_warning_that_names_what_takes_them() {
                     "diameter_m: 0.00001, speed_m_s: 0.5",
                 ),
                 ("step_s: 0.01,", "step_s: 0.001,"),
-                ("drift_period_s: 0.05", "drift_period_s: 0.005"),
+                ("drift_period_s: 1", "drift_period_s: 0.005"),
             ][..],
             "sources[0].release.nozzle.diameter_m: the run is estimated to take",
         ),
@@ -361,10 +363,7 @@ fn the_command_says_what_a_run_takes_and_refuses_what_does_not_fit() {
     let output = common::rheotaxis_in(Path::new("."), &["check", "duck_st"]);
     let said = String::from_utf8_lossy(&output.stdout).into_owned();
     assert!(said.contains("\n  a run takes about "), "{said}");
-    assert!(
-        said.contains("filaments at once (sources[0].release.rate_hz)"),
-        "{said}"
-    );
+    assert!(said.contains(" frames (record.frame_period_s)"), "{said}");
     let args = ["check", "duck_st", "--memory", "20M"];
     let output = common::rheotaxis_in(Path::new("."), &args);
     assert_eq!(output.status.code(), Some(1));

@@ -82,7 +82,6 @@ fn a_hundred_thousand_filaments_fit() {
         ("spin_up_s", "500"),
         ("limit_s", "360"),
         ("frame_period_s", "0.02"),
-        ("drift_period_s", "5"),
     ];
     let (peak_mb, filaments) = peak(dir.path(), "210", &times);
     assert!(filaments >= 100_000, "{filaments}");

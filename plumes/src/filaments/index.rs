@@ -47,7 +47,7 @@ pub(super) struct Group {
 }
 
 /// What a question is answered from.
-pub(super) struct Query<'a> {
+pub(super) struct Question<'a> {
     pub(super) stores: &'a [Store],
     pub(super) bands: &'a Bands,
     pub(super) room: &'a Room,
@@ -85,7 +85,7 @@ impl Index {
     }
 
     /// Concentration at a point, kg/m³; zero above the surface. In a solid it is that of the nearest water.
-    pub(super) fn at(&self, q: &Query, p: &Vector3<f64>) -> f64 {
+    pub(super) fn at(&self, q: &Question, p: &Vector3<f64>) -> f64 {
         let p = [p.x as f32, p.y as f32, p.z as f32];
         if p[2] > 0.0 {
             return 0.0;
@@ -120,7 +120,7 @@ impl Index {
     }
 }
 
-impl Query<'_> {
+impl Question<'_> {
     /// Longest reach of any filament, m.
     fn reach(&self) -> f64 {
         let oldest = |s: &Store| Some(s.size.horizontal(self.now_s - s.born_s.first()?));

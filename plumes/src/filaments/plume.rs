@@ -15,7 +15,7 @@ mod kept;
 use super::bands::Bands;
 use super::carried::Carrier;
 use super::cut_off;
-use super::index::{Index, Query};
+use super::index::{Index, Question};
 use super::lookup::Lookup;
 use super::path::Path;
 use super::room::Room;
@@ -167,7 +167,7 @@ impl Plume {
 
 impl Concentration for Plume {
     fn at(&self, p: &Vector3<f64>) -> f64 {
-        let query = Query {
+        let query = Question {
             stores: &self.stores,
             bands: &self.bands,
             room: &self.room,

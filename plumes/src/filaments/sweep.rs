@@ -122,9 +122,9 @@ impl Sweep<'_> {
                 *dt = (to_s - born) as f32;
             }
             if c.size.shares() {
-                for l in 0..n {
-                    let middle = to_s - 0.5 * f64::from(b.dt[l]);
-                    b.kicked[l] = c.size.kicked(middle - born_s[l]);
+                for ((kicked, dt), born) in b.kicked.iter_mut().zip(&b.dt).zip(born_s) {
+                    let middle = to_s - 0.5 * f64::from(*dt);
+                    *kicked = c.size.kicked(middle - born);
                 }
             }
             let start = [b.x, b.y, b.z];
@@ -165,8 +165,8 @@ impl Sweep<'_> {
     /// Notes the columns of the cells in which the filaments of a block have arrived.
     fn note(&self, b: &Block, columns: &mut Vec<u32>) {
         let mut at = [0; BLOCK];
-        for l in 0..BLOCK {
-            at[l] = self.cells.column(b.x[l], b.y[l]).at;
+        for (at, (x, y)) in at.iter_mut().zip(b.x.iter().zip(&b.y)) {
+            *at = self.cells.column(*x, *y).at;
         }
         let mut last = columns.last().copied().unwrap_or(u32::MAX);
         for at in &at[..b.used] {

@@ -1,7 +1,7 @@
 //! The index compared with a search through all filaments.
 
 use super::bands::Bands;
-use super::index::{Index, Query};
+use super::index::{Index, Question};
 use super::leaf::{LEAF, Leaf};
 use super::lookup::Lookup;
 use super::path::Path;
@@ -56,7 +56,7 @@ impl Scene {
     }
 
     fn at(&self, index: &Index, path: Path, now_s: f64, p: &Vector3<f64>) -> f64 {
-        let query = Query {
+        let query = Question {
             stores: &self.stores,
             bands: &self.bands,
             room: &self.room,

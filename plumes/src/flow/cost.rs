@@ -10,6 +10,8 @@ use crate::flow::water::WaterSpec;
 const NODE_BYTES: f64 = 64.0;
 /// Time to evaluate the flow at a node, s: for currents alone, and for each surface wave.
 const NODE_S: [f64; 2] = [60e-9, 25e-9];
+/// Part of the columns that a plume is in, and in which alone the flow is evaluated, unless it flows round obstacles.
+const IN_PLUME: f64 = 0.3;
 /// Additional time where the water flows round obstacles, s.
 const ROUND_S: f64 = 250e-9;
 
@@ -36,18 +38,23 @@ impl WaterSpec {
         } else {
             0.0
         };
+        let part = if self.blockage.is_some() {
+            1.0
+        } else {
+            IN_PLUME
+        };
         let each_s = NODE_S[0] + waves * NODE_S[1] + round_s;
         let path = if self.blockage.is_some() {
             "water.blockage.cell_m"
         } else {
             "area"
         };
-        let part = Part::new(path, format!("{nodes:.1e} nodes of the plume's flow"))
+        let nodes_of = Part::new(path, format!("{nodes:.1e} nodes of the plume's flow"))
             .holds(nodes * NODE_BYTES)
-            .takes(nodes * each_s * times.sums());
+            .takes(nodes * part * each_s * times.sums());
         cost.add(Cost::of(match &self.blockage {
-            Some(spec) => part.by(spec.cell_m.get(), -2.0),
-            None => part,
+            Some(spec) => nodes_of.by(spec.cell_m.get(), -2.0),
+            None => nodes_of,
         }));
         cost
     }
