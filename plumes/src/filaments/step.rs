@@ -69,8 +69,13 @@ impl Plume {
     /// longest step and `t_s`. Returns whether a longest step has started meanwhile.
     ///
     /// # Panics
-    /// If the flow returns NaN.
+    /// If the pace ends before `t_s`: a mistake in the code; or if the flow returns NaN.
     pub fn advance(&mut self, flow: &dyn Flow, t_s: f64) -> bool {
+        let end_s = self.bands.end_s();
+        assert!(
+            t_s <= end_s + 1e-9,
+            "the plume's pace ends at {end_s} s, before {t_s} s: set another pace first"
+        );
         let mut met = false;
         while self.bands.next_s() < t_s - 1e-9 {
             met |= self.bands.due() == 0;

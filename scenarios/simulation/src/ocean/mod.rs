@@ -110,6 +110,7 @@ impl Ocean {
             }
         }
         self.water.advance(end_s);
+        self.set_out();
     }
 
     /// Starts the mission, in which the plume takes steps of at most `longest_s`.
