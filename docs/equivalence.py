@@ -38,7 +38,7 @@ def compared(pairs):
     for before, after in pairs:
         for title, name, margin, relative in QUANTITIES:
             a, b = column(before, name), column(after, name)
-            if len(a) < 30 or len(b) < 30 or (name != "success" and len(set(a)) < 2):
+            if len(a) < 20 or len(b) < 20 or (name != "success" and len(set(a)) < 2):
                 continue
             ma, mb = statistics.fmean(a), statistics.fmean(b)
             error = math.sqrt(statistics.variance(a) / len(a) + statistics.variance(b) / len(b))

@@ -317,7 +317,7 @@ fn hours_are_a_warning_that_names_what_takes_them() {
                     "diameter_m: 0.00001, speed_m_s: 0.5",
                 ),
                 ("step_s: 0.01,", "step_s: 0.001,"),
-                ("drift_period_s: 1", "drift_period_s: 0.005"),
+                ("drift_period_s: 0.05", "drift_period_s: 0.005"),
             ][..],
             "sources[0].release.nozzle.diameter_m: the run is estimated to take",
         ),

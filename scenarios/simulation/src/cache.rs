@@ -1,7 +1,7 @@
 //! Spun-up plumes kept on the disk, so that the second run with the same ocean need not make it again.
 //!
 //! A run that takes a kept state over is the same, bit for bit, as one that spins up itself. A state is found under a
-//! digest of its [`Origin`](crate::ocean::Origin) (seed, place, water, obstacles with the content of their files,
+//! digest of its [`Origin`] (seed, place, water, obstacles with the content of their files,
 //! sources, spin-up) and of the running program's own file. No version number is trusted: another build, or the same
 //! library in another program with currents of its own, makes its own states. Vector instructions do not count, because
 //! all give the same bits. Code from a shared library does not count either: if this crate is built into a plug-in,
