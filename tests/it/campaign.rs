@@ -8,7 +8,7 @@ mod permeable;
 mod plans;
 mod seeds;
 
-use crate::common;
+use crate::common::{self, timeless_rows as rows};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -67,16 +67,6 @@ fn ends(dir: &Path, code: i32, args: &[&str]) -> (String, String) {
     let (out, err) = (text(&end.stdout), text(&end.stderr));
     assert_eq!(end.status.code(), Some(code), "{args:?}\n{out}{err}");
     (out, err)
-}
-
-/// The rows without what the wall clock says.
-fn rows(dir: &Path) -> Vec<RunRow> {
-    let timeless = |row| RunRow {
-        spin_up_wall_s: 0.0,
-        mission_wall_s: 0.0,
-        ..row
-    };
-    read_rows(dir).unwrap().into_iter().map(timeless).collect()
 }
 
 /// All files of blocks under their final name, with their bytes.

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
+use studies::campaign::{RunRow, read_rows};
 
 /// The program; cargo builds it together with these tests.
 pub(crate) fn binary() -> &'static Path {
@@ -85,4 +86,14 @@ pub(crate) fn with_fields(text: &str, fields: &[(&str, &str)]) -> String {
         text.replace_range(start..end, &format!(" {value}"));
     }
     text
+}
+
+/// The rows of a campaign without what the wall clock says.
+pub(crate) fn timeless_rows(dir: &Path) -> Vec<RunRow> {
+    let timeless = |row| RunRow {
+        spin_up_wall_s: 0.0,
+        mission_wall_s: 0.0,
+        ..row
+    };
+    read_rows(dir).unwrap().into_iter().map(timeless).collect()
 }

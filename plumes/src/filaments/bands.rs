@@ -18,6 +18,9 @@ pub(super) const MOST: usize = 8;
 /// Steps are halved down to at least this, s.
 const SHORTEST_S: f64 = 0.25;
 
+/// The longest step, s. With [`MOST`] bands, the youngest filaments then still take the shortest.
+const LONGEST_S: f64 = SHORTEST_S * (1 << (MOST - 1)) as f64;
+
 /// A step takes at most this part of a filament's age.
 const PART_OF_AGE: f64 = 0.25;
 
@@ -69,7 +72,10 @@ impl Bands {
         flow_s: f64,
         one_step: bool,
     ) -> Self {
-        let most_s = longest_s.min(end_s - start_s);
+        let mut most_s = longest_s.min(end_s - start_s);
+        if !one_step {
+            most_s = most_s.min(LONGEST_S);
+        }
         let mut shortest_s = most_s;
         if flow_s > 0.0 {
             shortest_s = flow_s / (flow_s / most_s - 1e-9).ceil().max(1.0);
@@ -214,10 +220,13 @@ mod tests {
         assert_eq!(steps(10.0, 10.0)[0], 10.0);
         assert_eq!(steps(0.4, 1.0), [1.0 / 3.0]);
         assert_eq!(steps(0.5, 0.0), [0.5, 0.25]);
-        assert_eq!(
-            steps(1e5, 1e9)[0],
-            9000.0 / (1e9_f64 / 9000.0).ceil() * (1e9 / 9000.0)
-        );
+        // However long a step may be, the youngest filaments take the shortest.
+        for flow_s in [0.0, 1e9] {
+            let long = steps(1e5, flow_s);
+            assert!((31.9..=32.0).contains(&long[0]), "{long:?}");
+            assert_eq!(long.len(), MOST);
+            assert!((long[MOST - 1] - SHORTEST_S).abs() < 1e-3);
+        }
     }
 
     /// Every band covers the time without gaps, in steps of its length, and all end together.

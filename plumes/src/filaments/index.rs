@@ -103,12 +103,10 @@ impl Index {
                     let asked = Asked {
                         p,
                         spot: &spot,
-                        path: q.path,
+                        q,
                         g,
                         s,
-                        bands: q.bands,
                         band,
-                        now_s: q.now_s,
                     };
                     let mut felt = 0.0;
                     g.whole.get_or_init(|| g.whole(s)).add(&asked, &mut felt);

@@ -6,11 +6,9 @@
 //!
 //! *Deviations*: none.
 
-use super::bands::Bands;
 use super::image::{Felt, Spot};
-use super::index::Group;
+use super::index::{Group, Question};
 use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
-use super::path::Path;
 use super::store::Store;
 use std::sync::OnceLock;
 
@@ -37,16 +35,14 @@ struct Present {
     walled: Vec<Felt>,
 }
 
-/// A question, and the data that answer it.
+/// A question to one group.
 pub(super) struct Asked<'a> {
     pub(super) p: [f32; 3],
     pub(super) spot: &'a Spot<'a>,
-    pub(super) path: Path,
+    pub(super) q: &'a Question<'a>,
     pub(super) g: &'a Group,
     pub(super) s: &'a Store,
-    pub(super) bands: &'a Bands,
     pub(super) band: usize,
-    pub(super) now_s: f64,
 }
 
 impl Part {
@@ -98,7 +94,7 @@ impl Part {
             }
             Inside::Leaf(leaf) => {
                 let present = leaf.get_or_init(|| Box::new(self.leaf(asked)));
-                *total += f64::from(present.leaf.at(asked.path, asked.p));
+                *total += f64::from(present.leaf.at(asked.q.path, asked.p));
                 for felt in &present.walled {
                     *total += felt.add(asked.spot);
                 }
@@ -114,18 +110,18 @@ impl Part {
     }
 
     fn leaf(&self, asked: &Asked) -> Present {
-        let Asked { g, s, spot, .. } = asked;
+        let Asked { g, s, q, spot, .. } = asked;
         let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
         let (room, lookup) = (spot.room, spot.lookup);
         for m in &self.members {
             let i = g.from + usize::from(*m);
-            let Some(mut p) = s.place(i, asked.bands, asked.band, asked.now_s) else {
+            let Some(mut p) = s.place(i, q.bands, asked.band, q.now_s) else {
                 continue;
             };
             let bed = lookup.bed(lookup.column(p[0], p[1]));
             // On the straight line over a bed that is not straight.
             p[2] = p[2].max(bed);
-            let sh = s.size.horizontal(asked.now_s - s.born_s[i]);
+            let sh = s.size.horizontal(q.now_s - s.born_s[i]);
             let sizes = [sh, s.size.vertical(sh, bed)];
             match Felt::new(room, lookup, p, sizes, s.filament_kg) {
                 Some(felt) => walled.push(felt),

@@ -163,21 +163,19 @@ impl Store {
             .unwrap_or(0)
     }
 
+    /// The arrays of f32: ends and beds, then starts.
+    fn numbers_mut(&mut self) -> [&mut Vec<f32>; 7] {
+        let [sx, sy, sz] = &mut self.start;
+        let (x, y, z, bed) = (&mut self.x, &mut self.y, &mut self.z, &mut self.bed);
+        [x, y, z, bed, sx, sy, sz]
+    }
+
     /// Moves the entries of `from` down to `to`, in all arrays.
     pub(super) fn shift(&mut self, from: Range<usize>, to: usize) {
         if from.start == to {
             return;
         }
-        let [sx, sy, sz] = &mut self.start;
-        for v in [
-            &mut self.x,
-            &mut self.y,
-            &mut self.z,
-            &mut self.bed,
-            sx,
-            sy,
-            sz,
-        ] {
+        for v in self.numbers_mut() {
             v.copy_within(from.clone(), to);
         }
         self.number.copy_within(from.clone(), to);
@@ -187,16 +185,7 @@ impl Store {
     /// Keeps the first `n` entries; the others were moved down or have left.
     pub(super) fn truncate(&mut self, n: usize) {
         self.left += (self.len() - n) as u64;
-        let [sx, sy, sz] = &mut self.start;
-        for v in [
-            &mut self.x,
-            &mut self.y,
-            &mut self.z,
-            &mut self.bed,
-            sx,
-            sy,
-            sz,
-        ] {
+        for v in self.numbers_mut() {
             v.truncate(n);
         }
         self.number.truncate(n);

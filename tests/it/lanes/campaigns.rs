@@ -4,13 +4,13 @@
     reason = "a process is killed after a while, whatever it was doing"
 )]
 
-use crate::common;
+use crate::common::{self, timeless_rows as rows};
 use rheotaxis::trial::Trial;
 use std::fs;
 use std::path::Path;
 use std::process::{Child, Stdio};
 use std::time::Duration;
-use studies::campaign::{RunRow, load, read_rows};
+use studies::campaign::{load, read_rows};
 use world::seeds::Stream;
 
 /// Arms that end one after the other; those of other water have an ocean of their own.
@@ -53,15 +53,6 @@ fn start(dir: &Path, out: &str) -> Child {
     }
     command.stdout(Stdio::null()).stderr(Stdio::null());
     command.spawn().expect("rheotaxis starts")
-}
-
-fn rows(dir: &Path) -> Vec<RunRow> {
-    let timeless = |row| RunRow {
-        spin_up_wall_s: 0.0,
-        mission_wall_s: 0.0,
-        ..row
-    };
-    read_rows(dir).unwrap().into_iter().map(timeless).collect()
 }
 
 #[test]
