@@ -50,12 +50,11 @@ fn main() -> Result<(), Box<dyn Error>> {
     ] {
         let mut curve = Vec::new();
         for &n in numbers {
-            let ms = match what.split(',').next() {
+            let (ms, mb) = match what.split(',').next() {
                 Some("filaments") => alone(&channel(n, 1)?)?,
                 Some("robots") => alone(&channel(100_000, n)?)?,
                 _ => in_lanes(&channel(10_000, 1)?, n)?,
             };
-            let mb = memory_mb();
             println!("| {what} | {n} | {ms:.3} | {mb:.0} |");
             curve.push(Point { n, ms, mb });
         }
@@ -86,13 +85,14 @@ fn channel(filaments: usize, robots: usize) -> Result<Loaded, Box<dyn Error>> {
     Ok(loaded)
 }
 
-/// Wall time for a second of mission of a run alone, ms.
-fn alone(loaded: &Loaded) -> Result<f64, Box<dyn Error>> {
+/// Wall time for a second of mission of a run alone, ms, and the memory of the process at its end, MB.
+fn alone(loaded: &Loaded) -> Result<(f64, f64), Box<dyn Error>> {
     let mut trial = Trial::assemble(loaded, 1)?;
     trial.until(WARM_S);
     let begun = Instant::now();
     trial.until(WARM_S + TIMED_S);
-    Ok(1e3 * begun.elapsed().as_secs_f64() / TIMED_S)
+    let ms = 1e3 * begun.elapsed().as_secs_f64() / TIMED_S;
+    Ok((ms, memory_mb()))
 }
 
 /// Takes the times at which a lane passes the beginning and the end of the measurement.
@@ -113,14 +113,17 @@ impl Watch for Stopwatch {
 }
 
 /// The same with so many runs in one plume.
-fn in_lanes(loaded: &Loaded, n: usize) -> Result<f64, Box<dyn Error>> {
+fn in_lanes(loaded: &Loaded, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
     let mut lanes = Lanes::default();
     for _ in 0..n {
         lanes.add(loaded, 1, || Ok::<_, LaneError>(Stopwatch::default()))?;
     }
-    let mut seconds: f64 = 0.0;
-    lanes.run(|watch, _| seconds = seconds.max(watch.seconds));
-    Ok(1e3 * seconds / TIMED_S)
+    let (mut seconds, mut mb): (f64, f64) = (0.0, 0.0);
+    lanes.run(|watch, _| {
+        seconds = seconds.max(watch.seconds);
+        mb = mb.max(memory_mb());
+    });
+    Ok((1e3 * seconds / TIMED_S, mb))
 }
 
 /// Memory of this process, MB; 0 where the system does not say.
