@@ -116,6 +116,84 @@ impl Quad {
     }
 }
 
+/// Two quads that are neighbours in memory, such as the numbers at two levels of a column.
+pub(crate) trait Pair: Copy {
+    /// Reads both.
+    ///
+    /// # Safety
+    /// The machine must have the instructions that this pair uses.
+    unsafe fn new(v: &[[f32; 4]; 2]) -> Self;
+
+    fn add(self, b: Self) -> Self;
+
+    fn times(self, s: f32) -> Self;
+
+    fn apart(self) -> [Quad; 2];
+}
+
+/// A pair on any machine.
+#[derive(Clone, Copy)]
+pub(crate) struct Twice([Quad; 2]);
+
+impl Pair for Twice {
+    #[inline(always)]
+    unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
+        Self([Quad::new(&v[0]), Quad::new(&v[1])])
+    }
+
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Self([self.0[0].add(b.0[0]), self.0[1].add(b.0[1])])
+    }
+
+    #[inline(always)]
+    fn times(self, s: f32) -> Self {
+        Self(self.0.map(|v| v.times(s)))
+    }
+
+    #[inline(always)]
+    fn apart(self) -> [Quad; 2] {
+        self.0
+    }
+}
+
+/// A pair in one register of AVX.
+#[derive(Clone, Copy)]
+#[cfg(target_arch = "x86_64")]
+pub(crate) struct Avx(x86::__m256);
+
+#[cfg(target_arch = "x86_64")]
+impl Pair for Avx {
+    #[inline(always)]
+    unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
+        // SAFETY: reads eight f32 at any alignment; the caller promises AVX.
+        Self(unsafe { x86::_mm256_loadu_ps(v.as_ptr().cast()) })
+    }
+
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        // SAFETY: whoever made the pair promised AVX.
+        Self(unsafe { x86::_mm256_add_ps(self.0, b.0) })
+    }
+
+    #[inline(always)]
+    fn times(self, s: f32) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { x86::_mm256_mul_ps(self.0, x86::_mm256_set1_ps(s)) })
+    }
+
+    #[inline(always)]
+    fn apart(self) -> [Quad; 2] {
+        // SAFETY: as above.
+        unsafe {
+            [
+                Quad(x86::_mm256_castps256_ps128(self.0)),
+                Quad(x86::_mm256_extractf128_ps::<1>(self.0)),
+            ]
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

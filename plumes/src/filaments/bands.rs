@@ -49,6 +49,15 @@ impl Span {
     }
 }
 
+/// A time within a band's step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Moment {
+    pub(super) span: Span,
+    pub(super) now_s: f64,
+    /// The part of the step that has passed.
+    pub(super) part: f32,
+}
+
 /// The bands from the longest step (band 0, the oldest filaments) to the shortest, and how far each has come.
 #[derive(Clone, Debug)]
 pub(super) struct Bands {
@@ -139,6 +148,13 @@ impl Bands {
     /// The step that a band takes or has taken last.
     pub(super) fn span(&self, band: usize) -> Span {
         self.spans[band]
+    }
+
+    /// A time within the step that a band takes.
+    pub(super) fn moment(&self, band: usize, now_s: f64) -> Moment {
+        let span = self.spans[band];
+        let part = span.part(now_s);
+        Moment { span, now_s, part }
     }
 
     /// Starts the steps that are due.

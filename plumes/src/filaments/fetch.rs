@@ -8,13 +8,15 @@
 
 use super::kernel::BLOCK;
 use super::lookup::{Column, Level, Lookup};
-use crate::quad::Quad;
+use crate::quad::{Pair, Quad};
 
 /// The columns of a block, side by side.
 pub(super) struct Columns {
     at: [u32; BLOCK],
     f: [f32; BLOCK],
     g: [f32; BLOCK],
+    /// Weights of the cell's four columns; see [`Self::weigh`].
+    weight: [[f32; BLOCK]; 4],
 }
 
 impl Columns {
@@ -23,12 +25,30 @@ impl Columns {
             at: [0; BLOCK],
             f: [0.0; BLOCK],
             g: [0.0; BLOCK],
+            weight: [[0.0; BLOCK]; 4],
         }
     }
 
     #[inline(always)]
     pub(super) fn set(&mut self, l: usize, c: Column) {
         (self.at[l], self.f[l], self.g[l]) = (c.at, c.f, c.g);
+    }
+
+    /// Works out the weights for [`fetch`].
+    #[inline(always)]
+    pub(super) fn weigh(&mut self) {
+        for l in 0..BLOCK {
+            let w = weights(self.f[l], self.g[l]);
+            for n in 0..4 {
+                self.weight[n][l] = w[n];
+            }
+        }
+    }
+
+    /// The lower corner of a column cell.
+    #[inline(always)]
+    pub(super) fn at(&self, l: usize) -> u32 {
+        self.at[l]
     }
 
     #[inline(always)]
@@ -64,8 +84,11 @@ pub(super) type Fetched = [[f32; BLOCK]; 4];
 
 /// Fills in the water at the places of a block. Multiplies `slope`, the reciprocal distance of the levels, by the
 /// difference of K_z between them.
+///
+/// # Safety
+/// The machine must have the instructions of `P`.
 #[inline(always)]
-pub(super) fn fetch(
+pub(super) unsafe fn fetch<P: Pair>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
     column: &Columns,
@@ -80,12 +103,15 @@ pub(super) fn fetch(
         "a filament's cell is not one of the flow grid: its nodes and those of the cells were not refreshed together"
     );
     for from in (0..BLOCK).step_by(4) {
-        let at = |l: usize| {
-            let l = from + l;
-            // SAFETY: no cell of the block reaches beyond the nodes, as asserted above.
-            unsafe { trilinear(cells, nodes, column.get(l), level.below[l], level.part[l]) }
+        // SAFETY: no cell of the block reaches beyond the nodes, as asserted above; the caller promises `P`.
+        let [a, b, c, d] = unsafe {
+            [
+                one::<P>(cells, nodes, column, level, from),
+                one::<P>(cells, nodes, column, level, from + 1),
+                one::<P>(cells, nodes, column, level, from + 2),
+                one::<P>(cells, nodes, column, level, from + 3),
+            ]
         };
-        let (a, b, c, d) = (at(0), at(1), at(2), at(3));
         let four = Quad::columns([a.0, b.0, c.0, d.0]);
         for d in 0..4 {
             water[d][from..from + 4].copy_from_slice(&four[d]);
@@ -105,36 +131,85 @@ pub(super) fn highest(indices: &[u32; BLOCK]) -> u32 {
     indices.iter().fold(0, |most, n| most.max(*n))
 }
 
+/// Weights of the four columns of a cell, from a position in it: (0, 0), (0, 1), (1, 0), (1, 1).
+#[inline(always)]
+pub(super) fn weights(f: f32, g: f32) -> [f32; 4] {
+    let (f0, g0) = (1.0 - f, 1.0 - g);
+    [f0 * g0, f0 * g, f * g0, f * g]
+}
+
 /// `[u, v, w, K_z]` at a point of a column cell, and its difference between the levels below and above.
 ///
 /// # Safety
 /// The eight nodes of the cell must exist: with the strides `(up_j, up_i)` of the cells,
-/// `c.at · up_j + level + 1 + up_j + up_i < nodes.len()`.
+/// `at · up_j + level + 1 + up_j + up_i < nodes.len()`. The machine must have the instructions of `P`.
 #[inline(always)]
-pub(super) unsafe fn trilinear(
+pub(super) unsafe fn trilinear<P: Pair>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
-    c: Column,
+    at: u32,
+    weight: [f32; 4],
     level: u32,
     part: f32,
 ) -> (Quad, Quad) {
     let (up_j, up_i) = cells.strides();
-    let at = c.at as usize * up_j + level as usize;
-    let node = |n: usize| {
-        debug_assert!(n < nodes.len());
-        // SAFETY: this node is one of the cell's eight, which exist as the caller promises.
-        Quad::new(unsafe { nodes.get_unchecked(n) })
+    let at = at as usize * up_j + level as usize;
+    let [w00, w01, w10, w11] = weight;
+    // SAFETY: these nodes and those above them are the cell's eight, which exist as the caller promises.
+    let columns = unsafe {
+        [
+            both::<P>(nodes, at),
+            both::<P>(nodes, at + up_j),
+            both::<P>(nodes, at + up_i),
+            both::<P>(nodes, at + up_i + up_j),
+        ]
     };
-    let (f0, g0) = (1.0 - c.f, 1.0 - c.g);
-    let (w00, w01, w10, w11) = (f0 * g0, f0 * c.g, c.f * g0, c.f * c.g);
-    let layer = |n: usize| {
-        let near = node(n).times(w00).add(node(n + up_j).times(w01));
-        let far = node(n + up_i)
-            .times(w10)
-            .add(node(n + up_i + up_j).times(w11));
-        near.add(far)
-    };
-    let (low, high) = (layer(at), layer(at + 1));
+    let near = columns[0].times(w00).add(columns[1].times(w01));
+    let far = columns[2].times(w10).add(columns[3].times(w11));
+    let [low, high] = near.add(far).apart();
     let rise = high.sub(low);
     (low.add(rise.times(part)), rise)
+}
+
+/// The water at the place of one filament of a block, as [`trilinear`].
+///
+/// # Safety
+/// As there.
+#[inline(always)]
+unsafe fn one<P: Pair>(
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    column: &Columns,
+    level: &Levels,
+    l: usize,
+) -> (Quad, Quad) {
+    let weight = [
+        column.weight[0][l],
+        column.weight[1][l],
+        column.weight[2][l],
+        column.weight[3][l],
+    ];
+    // SAFETY: as the caller promises.
+    unsafe {
+        trilinear::<P>(
+            cells,
+            nodes,
+            column.at[l],
+            weight,
+            level.below[l],
+            level.part[l],
+        )
+    }
+}
+
+/// A node and the one above it. A function of its own and not a closure, because only a function is certain to become
+/// part of code that may use the instructions of `P`.
+///
+/// # Safety
+/// Both nodes must exist, and the machine must have the instructions of `P`.
+#[inline(always)]
+unsafe fn both<P: Pair>(nodes: &[[f32; 4]], n: usize) -> P {
+    debug_assert!(n + 1 < nodes.len());
+    // SAFETY: as the caller promises.
+    unsafe { P::new(&*nodes.as_ptr().add(n).cast()) }
 }

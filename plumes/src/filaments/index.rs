@@ -14,7 +14,7 @@ use super::bands::{Bands, MOST};
 use super::image::Spot;
 pub use super::leaf::CUT_SIGMAS;
 use super::lookup::Lookup;
-use super::part::{Asked, Part, extent, within};
+use super::part::{Asked, Part, extent};
 use super::path::Path;
 use super::room::Room;
 use super::store::Store;
@@ -27,9 +27,17 @@ const GROUP: usize = 1024;
 /// The groups of every band of every store.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Index {
-    stores: Vec<[OnceLock<Vec<Group>>; MOST]>,
+    stores: Vec<[OnceLock<Groups>; MOST]>,
     /// Set once something was asked at the present time.
     asked: OnceLock<()>,
+}
+
+/// The groups of a band.
+#[derive(Clone, Debug)]
+struct Groups {
+    all: Vec<Group>,
+    /// The axes, from the one along which the band is longest.
+    axes: [usize; 3],
 }
 
 /// Neighbours in the order of release.
@@ -37,10 +45,12 @@ pub(super) struct Index {
 pub(super) struct Group {
     pub(super) from: usize,
     n: usize,
-    lo: [f32; 3],
-    hi: [f32; 3],
+    /// Least and greatest coordinates during the step: east, north, up. Most groups are ruled out by one of them.
+    sides: [OnceLock<[f32; 2]>; 3],
     /// Sizes of the oldest member at the end of the step, which are the largest: horizontal, and vertical at any place.
     pub(super) largest: [f32; 2],
+    /// Reach of the largest, m.
+    reach: f32,
     /// Additional vertical reach over a steep bed, m.
     pub(super) steep: f32,
     whole: OnceLock<Part>,
@@ -77,7 +87,8 @@ impl Index {
             return;
         }
         let groups = self.stores.iter_mut().flatten();
-        for group in groups.filter_map(OnceLock::get_mut).flatten() {
+        let groups = groups.filter_map(OnceLock::get_mut);
+        for group in groups.flat_map(|g| &mut g.all) {
             if let Some(whole) = group.whole.get_mut() {
                 whole.forget();
             }
@@ -99,7 +110,7 @@ impl Index {
         for (s, bands) in q.stores.iter().zip(&self.stores) {
             for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
                 let groups = groups.get_or_init(|| q.groups(s, band));
-                for g in groups.iter().filter(|g| within(p, g.lo, g.hi)) {
+                for g in groups.all.iter().filter(|g| g.near(s, p, groups.axes)) {
                     let asked = Asked {
                         p,
                         spot: &spot,
@@ -128,39 +139,59 @@ impl Question<'_> {
 
     /// The groups of a band. `steepest` is the slope of bed and solids: over a steep slope, a filament near a wall is
     /// felt over a larger range of heights. 0 without walls.
-    fn groups(&self, s: &Store, band: usize) -> Vec<Group> {
+    fn groups(&self, s: &Store, band: usize) -> Groups {
         let (range, steepest) = (s.band(band, self.bands), self.room.steepness());
         let end_s = self.bands.span(band).to_s.max(self.now_s);
-        let mut groups = Vec::with_capacity(range.len().div_ceil(GROUP));
+        let mut all = Vec::with_capacity(range.len().div_ceil(GROUP));
         for from in range.clone().step_by(GROUP) {
             let n = GROUP.min(range.end - from);
             // The first is the oldest, and so the largest.
             let horizontal = s.size.horizontal(end_s - s.born_s[from]);
             let reach = CUT_SIGMAS * 1.000_01 * horizontal;
-            let (mut lo, mut hi) = ([0.0; 3], [0.0; 3]);
-            for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
-                let (low, high) = extent(&start[from..from + n]);
-                let (low_end, high_end) = extent(&end[from..from + n]);
-                (lo[d], hi[d]) = (low.min(low_end) - reach, high.max(high_end) + reach);
-            }
-            let steep = 2.0 * steepest * reach;
-            (lo[2], hi[2]) = (lo[2] - steep, hi[2] + steep);
-            groups.push(Group {
+            all.push(Group {
                 from,
                 n,
-                lo,
-                hi,
+                sides: Default::default(),
                 largest: [horizontal, s.size.vertical(horizontal, f32::MIN)],
-                steep,
+                reach,
+                steep: 2.0 * steepest * reach,
                 whole: OnceLock::new(),
             });
         }
-        groups
+        let mut axes = [0, 1, 2];
+        if !range.is_empty() {
+            let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
+            axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
+        }
+        Groups { all, axes }
     }
 }
 
 impl Group {
+    /// Whether a point is within reach of the box in which the members move during the step.
+    fn near(&self, s: &Store, p: [f32; 3], axes: [usize; 3]) -> bool {
+        axes.into_iter().all(|d| {
+            let [lo, hi] = self.side(s, d);
+            let (mut lo, mut hi) = (lo - self.reach, hi + self.reach);
+            if d == 2 {
+                (lo, hi) = (lo - self.steep, hi + self.steep);
+            }
+            p[d] >= lo && p[d] <= hi
+        })
+    }
+
+    fn side(&self, s: &Store, d: usize) -> [f32; 2] {
+        *self.sides[d].get_or_init(|| {
+            let (start, end) = (&s.start[d], [&s.x, &s.y, &s.z][d]);
+            let members = self.from..self.from + self.n;
+            let (low, high) = extent(&start[members.clone()]);
+            let (low_end, high_end) = extent(&end[members]);
+            [low.min(low_end), high.max(high_end)]
+        })
+    }
+
     fn whole(&self, s: &Store) -> Part {
-        Part::new(s, self.from, (0..self.n as u16).collect())
+        let sides = [0, 1, 2].map(|d| self.side(s, d));
+        Part::within(sides, (0..self.n as u16).collect())
     }
 }

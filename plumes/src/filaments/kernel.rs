@@ -38,6 +38,9 @@ use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::normals;
 use super::path::Path;
+#[cfg(target_arch = "x86_64")]
+use crate::quad::Avx;
+use crate::quad::{Pair, Twice};
 
 /// Filaments in a block.
 pub(super) const BLOCK: usize = 128;
@@ -55,6 +58,8 @@ pub(super) struct Block {
     pub(super) kicked: [f32; BLOCK],
     /// Set by the step: 1 if it has left the grid.
     pub(super) outside: [u32; BLOCK],
+    /// Set by the step: 1 if it has arrived in another column cell than it started in.
+    pub(super) moved: [u32; BLOCK],
     /// Number of filaments in it.
     pub(super) used: usize,
 }
@@ -103,7 +108,8 @@ pub(super) fn step(
     work: &mut Work,
 ) {
     match path {
-        Path::Portable => body(cells, nodes, key, block, work),
+        // SAFETY: these instructions are part of every machine of the target.
+        Path::Portable => unsafe { body::<Twice>(cells, nodes, key, block, work) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block, work) },
@@ -122,7 +128,8 @@ fn body_avx512(
     block: &mut Block,
     work: &mut Work,
 ) {
-    body(cells, nodes, key, block, work);
+    // SAFETY: the pair needs AVX, which is part of this function's features.
+    unsafe { body::<Avx>(cells, nodes, key, block, work) };
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -134,15 +141,24 @@ fn body_avx2(
     block: &mut Block,
     work: &mut Work,
 ) {
-    body(cells, nodes, key, block, work);
+    // SAFETY: the pair needs AVX, which is part of this function's features.
+    unsafe { body::<Avx>(cells, nodes, key, block, work) };
 }
 
+/// # Safety
+/// The machine must have the instructions of `P`.
 #[inline(always)]
 #[expect(
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn body(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: &mut Work) {
+unsafe fn body<P: Pair>(
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    key: [u32; 2],
+    b: &mut Block,
+    work: &mut Work,
+) {
     let Work {
         noise,
         column,
@@ -167,7 +183,9 @@ fn body(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: 
         up[l] = -1.0 / b.bed[l];
         slope[l] = level.set(l, cells.level(b.z[l], up[l]));
     }
-    fetch(cells, nodes, column, level, here, Some(slope));
+    column.weigh();
+    // SAFETY: the caller promises the instructions of the pair.
+    unsafe { fetch::<P>(cells, nodes, column, level, here, Some(slope)) };
     for l in 0..BLOCK {
         kick[l] = (2.0 * here[3][l] * b.dt[l] * b.kicked[l]).sqrt() * noise[2][l];
         level.set(
@@ -175,7 +193,8 @@ fn body(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: 
             cells.level(folded(b.z[l] + kick[l], b.bed[l], up[l]), up[l]),
         );
     }
-    fetch(cells, nodes, column, level, there, None);
+    // SAFETY: as above.
+    unsafe { fetch::<P>(cells, nodes, column, level, there, None) };
     if let Some(k_h) = cells.even_k_h {
         for l in 0..BLOCK {
             let kick = (2.0 * k_h * b.dt[l] * b.kicked[l]).sqrt();
@@ -207,6 +226,7 @@ fn body(cells: &Lookup, nodes: &[[f32; 4]], key: [u32; 2], b: &mut Block, work: 
     for l in 0..BLOCK {
         let c = cells.column(b.x[l], b.y[l]);
         b.outside[l] = u32::from(c.outside);
+        b.moved[l] = u32::from(c.at != column.at(l));
         column.set(l, c);
     }
     for l in 0..BLOCK {
@@ -234,7 +254,7 @@ pub(super) fn folded(z: f32, bed: f32, up: f32) -> f32 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fetch::trilinear;
+    use super::super::fetch::{trilinear, weights};
     use super::*;
     use crate::flow::grid::{FlowGrid, GridShape};
     use crate::quad::Quad;
@@ -287,6 +307,7 @@ mod tests {
             number: std::array::from_fn(|n| n as u32),
             kicked: [1.0; BLOCK],
             outside: [0; BLOCK],
+            moved: [0; BLOCK],
             used: BLOCK,
         }
     }
@@ -304,8 +325,11 @@ mod tests {
                 let c = cells.column(b.x[l], b.y[l]);
                 let level = cells.level(b.z[l], -1.0 / b.bed[l]);
                 // SAFETY: the cell was found in the grid of these nodes.
-                let (q, rise) =
-                    unsafe { trilinear(&cells, &grid.data, c, level.below, level.part) };
+                let (q, rise) = unsafe {
+                    let weight = weights(c.f, c.g);
+                    let (below, part) = (level.below, level.part);
+                    trilinear::<Twice>(&cells, &grid.data, c.at, weight, below, part)
+                };
                 let got = Quad::columns([q; 4]).map(|v| v[0]);
                 let want = grid.at(b.x[l], b.y[l], b.z[l]);
                 for d in 0..3 {

@@ -57,21 +57,29 @@ impl Leaf {
         }
     }
 
-    /// Adds a filament of `kg` at `p` over `bed`, with horizontal and vertical sizes (m).
-    pub(super) fn push(&mut self, p: [f32; 3], bed: f32, sizes: [f32; 2], kg: f64) {
+    /// Adds a filament at `p` over `bed`, with horizontal and vertical sizes (m). The last one must be followed by
+    /// [`Self::fill`].
+    pub(super) fn push(&mut self, p: [f32; 3], bed: f32, sizes: [f32; 2]) {
         let n = self.count;
-        let [sh, sv] = sizes.map(f64::from);
-        self.x[n] = p[0];
-        self.y[n] = p[1];
-        self.z[n] = p[2];
+        (self.x[n], self.y[n], self.z[n]) = (p[0], p[1], p[2]);
         self.bed[n] = bed;
-        self.h[n] = (1.0 / (16.0 * sh * sh)) as f32;
-        self.v[n] = (1.0 / (16.0 * sv * sv)) as f32;
-        let tau = std::f64::consts::TAU;
-        self.peak[n] = (kg / (WITHIN_CUT * tau * tau.sqrt() * sh * sh * sv)) as f32;
+        (self.h[n], self.v[n]) = (sizes[0], sizes[1]);
         self.reach = self.reach.max(CUT_SIGMAS * sizes[1]);
         self.highest_bed = self.highest_bed.max(bed);
         self.count += 1;
+    }
+
+    /// Works out what follows from the sizes of the filaments, each of `kg`.
+    pub(super) fn fill(&mut self, path: Path, kg: f64) {
+        match path {
+            Path::Portable => fill(self, kg),
+            // SAFETY: this variant is only made after the feature was detected.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => unsafe { fill_avx2(self, kg) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => unsafe { fill_avx512(self, kg) },
+        }
     }
 
     /// Concentration at a point in the water, kg/m³.
@@ -94,6 +102,32 @@ impl Leaf {
             Path::Avx512 => unsafe { sum_avx512(self, images, p) },
         }
     }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn fill_avx2(leaf: &mut Leaf, kg: f64) {
+    fill(leaf, kg);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+fn fill_avx512(leaf: &mut Leaf, kg: f64) {
+    fill(leaf, kg);
+}
+
+/// Replaces sizes by factors of exponents, and sets peaks.
+#[inline(always)]
+fn fill(leaf: &mut Leaf, kg: f64) {
+    let tau = std::f64::consts::TAU;
+    let scale = WITHIN_CUT * tau * tau.sqrt();
+    for n in 0..LEAF {
+        let (sh, sv) = (f64::from(leaf.h[n]), f64::from(leaf.v[n]));
+        leaf.h[n] = (1.0 / (16.0 * sh * sh)) as f32;
+        leaf.v[n] = (1.0 / (16.0 * sv * sv)) as f32;
+        leaf.peak[n] = (kg / (scale * sh * sh * sv)) as f32;
+    }
+    leaf.peak[leaf.count..].fill(0.0);
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -193,8 +227,14 @@ mod tests {
                 [0.1 * a, -0.07 * a, -1.0 - 0.05 * a],
                 -4.0 + 0.01 * a,
                 [0.5 + 0.1 * a, 0.3 + 0.04 * a],
-                1e-6,
             );
+        }
+        let sizes = leaf.clone();
+        leaf.fill(Path::Portable, 1e-6);
+        for path in Path::all() {
+            let mut filled = sizes.clone();
+            filled.fill(path, 1e-6);
+            assert_eq!(format!("{filled:?}"), format!("{leaf:?}"), "{path:?}");
         }
         for n in 0..1000 {
             let a = n as f32 * 0.01;

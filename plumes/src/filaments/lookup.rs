@@ -9,6 +9,8 @@
 //! *Deviations*: bed and K_h are bilinear in a cell, written as c0 + c1·f + c2·g + c3·f·g, so that one read returns
 //! all.
 
+use super::kernel::BLOCK;
+use super::path::Path;
 use crate::flow::grid::FlowGrid;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
@@ -151,6 +153,38 @@ impl Lookup {
         let (di, dj) = (q[1] + q[3] * c.g, q[2] + q[3] * c.f);
         let along = |d: usize| di * self.axes[0][d] + dj * self.axes[1][d];
         (value(q, c), [along(0), along(1)])
+    }
+}
+
+/// The lower corners of the column cells in which up to [`BLOCK`] filaments are.
+pub(super) fn places(path: Path, cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
+    match path {
+        Path::Portable => places_of(cells, x, y, at),
+        // SAFETY: this variant is only made after the feature was detected.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx2 => unsafe { places_avx2(cells, x, y, at) },
+        // SAFETY: as above.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx512 => unsafe { places_avx512(cells, x, y, at) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+fn places_avx512(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
+    places_of(cells, x, y, at);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn places_avx2(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
+    places_of(cells, x, y, at);
+}
+
+#[inline(always)]
+fn places_of(cells: &Lookup, x: &[f32], y: &[f32], at: &mut [u32; BLOCK]) {
+    for ((at, x), y) in at.iter_mut().zip(x).zip(y) {
+        *at = cells.column(*x, *y).at;
     }
 }
 

@@ -57,11 +57,19 @@ impl Part {
                 hi[d] = hi[d].max(a.max(b));
             }
         }
+        let sides = std::array::from_fn(|d| [lo[d], hi[d]]);
+        Self::within(sides, members)
+    }
+
+    /// Members whose least and greatest coordinates are known.
+    pub(super) fn within(sides: [[f32; 2]; 3], members: Vec<u16>) -> Self {
+        let (lo, hi) = (sides.map(|s| s[0]), sides.map(|s| s[1]));
+        let inside = OnceLock::new();
         Self {
             members,
             lo,
             hi,
-            inside: OnceLock::new(),
+            inside,
         }
     }
 
@@ -113,9 +121,10 @@ impl Part {
         let Asked { g, s, q, spot, .. } = asked;
         let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
         let (room, lookup) = (spot.room, spot.lookup);
+        let moment = q.bands.moment(asked.band, q.now_s);
         for m in &self.members {
             let i = g.from + usize::from(*m);
-            let Some(mut p) = s.place(i, q.bands, asked.band, q.now_s) else {
+            let Some(mut p) = s.place(i, &moment) else {
                 continue;
             };
             let bed = lookup.bed(lookup.column(p[0], p[1]));
@@ -125,9 +134,10 @@ impl Part {
             let sizes = [sh, s.size.vertical(sh, bed)];
             match Felt::new(room, lookup, p, sizes, s.filament_kg) {
                 Some(felt) => walled.push(felt),
-                None => leaf.push(p, bed, sizes, s.filament_kg),
+                None => leaf.push(p, bed, sizes),
             }
         }
+        leaf.fill(q.path, s.filament_kg);
         Present { leaf, walled }
     }
 
@@ -167,7 +177,7 @@ impl Part {
     }
 }
 
-pub(super) fn within(p: [f32; 3], lo: [f32; 3], hi: [f32; 3]) -> bool {
+fn within(p: [f32; 3], lo: [f32; 3], hi: [f32; 3]) -> bool {
     (0..3).all(|d| p[d] >= lo[d] && p[d] <= hi[d])
 }
 

@@ -8,8 +8,8 @@
 //! be known no further ahead. A filament that leaves the grid is removed at the start of the step in which it leaves.
 
 use super::bands::Bands;
-use super::kernel::folded;
-use super::lookup::Lookup;
+use super::kernel::{BLOCK, folded};
+use super::lookup::{Lookup, places};
 use super::noise::step_key;
 use super::plume::Plume;
 use super::sweep::{Sweep, hold};
@@ -249,8 +249,12 @@ impl Plume {
         }
         self.sampled.renew(&mut self.grid, t0_s + ahead_s);
         for store in &self.stores {
-            for (x, y) in store.x.iter().zip(&store.y) {
-                self.sampled.note(self.cells.column(*x, *y).at);
+            let mut at = [0; BLOCK];
+            for (x, y) in store.x.chunks(BLOCK).zip(store.y.chunks(BLOCK)) {
+                places(self.path, &self.cells, x, y, &mut at);
+                for at in &at[..x.len()] {
+                    self.sampled.note(*at);
+                }
             }
         }
         for source in &self.sources {

@@ -8,7 +8,7 @@
 //! kept, so the oldest are always first, and each band of steps is a range. The arrays grow as needed: no filament is
 //! dropped to save memory.
 
-use super::bands::{Bands, MOST, Scales};
+use super::bands::{Bands, MOST, Moment, Scales, Span};
 use super::size::Size;
 use std::ops::Range;
 
@@ -122,22 +122,15 @@ impl Store {
         }
     }
 
-    /// Where a filament is at a time (s) of its band's step, of which this part has passed: east, north, up, m. `None`
-    /// if it is not released yet.
-    pub(super) fn place(
-        &self,
-        n: usize,
-        bands: &Bands,
-        band: usize,
-        now_s: f64,
-    ) -> Option<[f32; 3]> {
-        let span = bands.span(band);
+    /// Where a filament is at a moment of its band's step: east, north, up, m. `None` if it is not released yet.
+    pub(super) fn place(&self, n: usize, moment: &Moment) -> Option<[f32; 3]> {
+        let Moment { span, now_s, part } = *moment;
         let born_s = self.born_s[n];
         let part = if born_s <= span.from_s {
-            span.part(now_s)
+            part
         } else if born_s <= now_s {
             let from_s = born_s;
-            super::bands::Span { from_s, ..span }.part(now_s)
+            Span { from_s, ..span }.part(now_s)
         } else {
             return None;
         };

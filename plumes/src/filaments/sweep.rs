@@ -38,7 +38,7 @@ pub(super) struct Sweep<'a> {
 pub(super) struct Swept {
     /// Number of reflections at walls.
     pub(super) turned: u64,
-    /// Columns of the grid in whose cells filaments arrived; some more than once.
+    /// Columns of the grid in whose cells filaments arrived from others; some more than once.
     pub(super) columns: Vec<u32>,
     kept: usize,
 }
@@ -99,6 +99,7 @@ impl Sweep<'_> {
             number: [0; BLOCK],
             kicked: [1.0; BLOCK],
             outside: [0; BLOCK],
+            moved: [0; BLOCK],
             used: 0,
         };
         let (mut work, mut way) = (Work::new(), self.carrier.map(|_| Way::new()));
@@ -162,18 +163,11 @@ impl Sweep<'_> {
         c.swept.kept = to;
     }
 
-    /// Notes the columns of the cells in which the filaments of a block have arrived.
+    /// Notes the columns of the cells in which filaments of a block have arrived. The cells in which they started were
+    /// noted before.
     fn note(&self, b: &Block, columns: &mut Vec<u32>) {
-        let mut at = [0; BLOCK];
-        for (at, (x, y)) in at.iter_mut().zip(b.x.iter().zip(&b.y)) {
-            *at = self.cells.column(*x, *y).at;
-        }
-        let mut last = columns.last().copied().unwrap_or(u32::MAX);
-        for at in &at[..b.used] {
-            if *at != last {
-                columns.push(*at);
-                last = *at;
-            }
+        for l in (0..b.used).filter(|l| b.moved[*l] != 0) {
+            columns.push(self.cells.column(b.x[l], b.y[l]).at);
         }
     }
 
@@ -196,7 +190,7 @@ impl Sweep<'_> {
             turned += u64::from(to.met);
             [b.x[l], b.y[l], b.z[l]] = to.p;
             b.bed[l] = cells.bed(cells.column(to.p[0], to.p[1]));
-            b.outside[l] = u32::from(to.left);
+            (b.outside[l], b.moved[l]) = (u32::from(to.left), 1);
         }
         turned
     }

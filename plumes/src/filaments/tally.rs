@@ -128,7 +128,7 @@ impl Plume {
     fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
         let size = s.size.horizontal(self.now_s - s.born_s[n]);
         let band = s.band_of(n, &self.bands);
-        let place = s.place(n, &self.bands, band, self.now_s);
+        let place = s.place(n, &self.bands.moment(band, self.now_s));
         let [x, y, z] = self.room.shown(place.expect("it is released"));
         [x, y, z, size, s.filament_kg as f32]
     }

@@ -70,14 +70,16 @@ impl Scene {
     /// All filaments in leaves, in the order of release.
     fn all(&self, now_s: f64) -> Vec<Leaf> {
         let s = &self.stores[0];
-        let place = |i| Some((i, s.place(i, &self.bands, 0, now_s)?));
+        let moment = self.bands.moment(0, now_s);
+        let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let leaf = |part: &[(usize, [f32; 3])]| {
             let mut leaf = Leaf::new();
             for (i, p) in part {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
-                leaf.push(*p, -6.0, [sh, s.size.vertical(sh, -6.0)], s.filament_kg);
+                leaf.push(*p, -6.0, [sh, s.size.vertical(sh, -6.0)]);
             }
+            leaf.fill(Path::Portable, s.filament_kg);
             leaf
         };
         there.chunks(LEAF).map(leaf).collect()

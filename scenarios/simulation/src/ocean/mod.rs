@@ -31,8 +31,9 @@ pub struct Ocean {
     pub terrain: Terrain,
     /// All solid things, including those that the water passes through.
     pub obstacles: Obstacles,
-    water: Water,
-    plume: Plume,
+    // Boxed, because an ocean that many searchers share moves from world to world in every tick.
+    water: Box<Water>,
+    plume: Box<Plume>,
     /// Age of the water when the mission starts, s.
     spin_up_s: f64,
     /// Longest steps of the plume during the spin-up and during the mission, s.
@@ -55,8 +56,8 @@ impl Ocean {
             area,
             terrain,
             obstacles,
-            water,
-            plume,
+            water: Box::new(water),
+            plume: Box::new(plume),
             spin_up_s: origin.spin_up_s(),
             longest_s: [origin.spin_up_period_s(); 2],
             checkpoint: None,
@@ -103,7 +104,7 @@ impl Ocean {
             while t_s < end_s {
                 self.water.advance(t_s);
                 t_s = self.plume.next_meeting_s();
-                self.plume.advance(&self.water, t_s);
+                self.plume.advance(&*self.water, t_s);
                 if !heard(t_s / end_s) {
                     return;
                 }
@@ -128,7 +129,7 @@ impl Ocean {
     pub fn advance(&mut self, t_s: f64) {
         let t_s = t_s + self.spin_up_s;
         self.water.advance(t_s);
-        let meets = self.plume.advance(&self.water, t_s);
+        let meets = self.plume.advance(&*self.water, t_s);
         self.checkpoint = meets.then(|| {
             let mut digest = Digest::default();
             self.plume.digest_into(&mut digest);
@@ -146,16 +147,16 @@ impl Ocean {
     /// Copies of the present water and plume.
     #[must_use]
     pub fn state(&self) -> (Water, Plume) {
-        let mut plume = self.plume.clone();
+        let mut plume = Plume::clone(&self.plume);
         plume.use_threads(None);
-        (self.water.clone(), plume)
+        (Water::clone(&self.water), plume)
     }
 
     /// Takes over the state of another ocean with the same origin.
     pub(crate) fn put_state(&mut self, (water, plume): (Water, Plume)) {
         let threads = self.plume.threads();
-        self.water = water;
-        self.plume = plume;
+        *self.water = water;
+        *self.plume = plume;
         self.plume.use_threads(threads);
     }
 
@@ -175,7 +176,7 @@ impl Flow for Ocean {
         Ocean::advance(self, t_s);
     }
     fn is_steady(&self) -> bool {
-        Flow::is_steady(&self.water)
+        Flow::is_steady(&*self.water)
     }
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.water.velocity(p, t_s + self.spin_up_s)
@@ -194,10 +195,10 @@ impl Flow for Ocean {
         out: &mut [(Vector3<f64>, Mixing)],
     ) {
         let t_s = t_s + self.spin_up_s;
-        Flow::column(&self.water, place, heights_m, t_s, out);
+        Flow::column(&*self.water, place, heights_m, t_s, out);
     }
     fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
-        Flow::carry(&self.water, t_s + self.spin_up_s, dt_s, places);
+        Flow::carry(&*self.water, t_s + self.spin_up_s, dt_s, places);
     }
     fn rates(&self, t_s: f64, cells: &mut Vec<[f32; 6]>) -> bool {
         self.water.rates(t_s + self.spin_up_s, cells)
