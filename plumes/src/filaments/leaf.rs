@@ -26,16 +26,16 @@ pub(super) const LEAF: usize = 32;
 /// Neighbouring filaments in arrays of fixed length; empty places have no mass.
 #[derive(Clone, Debug)]
 pub(super) struct Leaf {
-    x: [f32; LEAF],
-    y: [f32; LEAF],
-    z: [f32; LEAF],
-    bed: [f32; LEAF],
-    /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths.
-    h: [f32; LEAF],
-    v: [f32; LEAF],
+    pub(super) x: [f32; LEAF],
+    pub(super) y: [f32; LEAF],
+    pub(super) z: [f32; LEAF],
+    pub(super) bed: [f32; LEAF],
+    /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths. Until it is sealed: the sizes.
+    pub(super) h: [f32; LEAF],
+    pub(super) v: [f32; LEAF],
     /// Concentration at the centre, kg/m³.
     peak: [f32; LEAF],
-    count: usize,
+    pub(super) count: usize,
     /// Greatest vertical reach, m; highest bed, m; least depth, m.
     reach: f32,
     highest_bed: f32,
@@ -57,28 +57,37 @@ impl Leaf {
         }
     }
 
-    /// Adds a filament at `p` over `bed`, with horizontal and vertical sizes (m). The last one must be followed by
-    /// [`Self::fill`].
-    pub(super) fn push(&mut self, p: [f32; 3], bed: f32, sizes: [f32; 2]) {
-        let n = self.count;
-        (self.x[n], self.y[n], self.z[n]) = (p[0], p[1], p[2]);
-        self.bed[n] = bed;
-        (self.h[n], self.v[n]) = (sizes[0], sizes[1]);
-        self.reach = self.reach.max(CUT_SIGMAS * sizes[1]);
-        self.highest_bed = self.highest_bed.max(bed);
-        self.count += 1;
+    /// Keeps the filaments of which `keep` says so, given place and sizes (m), in their order.
+    pub(super) fn retain(&mut self, mut keep: impl FnMut([f32; 3], [f32; 2]) -> bool) {
+        let mut to = 0;
+        for n in 0..self.count {
+            if keep([self.x[n], self.y[n], self.z[n]], [self.h[n], self.v[n]]) {
+                let all = [&mut self.x, &mut self.y, &mut self.z, &mut self.bed];
+                for v in all.into_iter().chain([&mut self.h, &mut self.v]) {
+                    v[to] = v[n];
+                }
+                to += 1;
+            }
+        }
+        self.count = to;
     }
 
-    /// Works out what follows from the sizes of the filaments, each of `kg`.
-    pub(super) fn fill(&mut self, path: Path, kg: f64) {
+    /// Works out what follows from the sizes, which `h` and `v` hold until then, of filaments of `kg` each.
+    pub(super) fn seal(&mut self, path: Path, kg: f64) {
+        self.h[self.count..].fill(1.0);
+        self.v[self.count..].fill(1.0);
+        for n in 0..self.count {
+            self.reach = self.reach.max(CUT_SIGMAS * self.v[n]);
+            self.highest_bed = self.highest_bed.max(self.bed[n]);
+        }
         match path {
-            Path::Portable => fill(self, kg),
+            Path::Portable => seal(self, kg),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { fill_avx2(self, kg) },
+            Path::Avx2 => unsafe { seal_avx2(self, kg) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { fill_avx512(self, kg) },
+            Path::Avx512 => unsafe { seal_avx512(self, kg) },
         }
     }
 
@@ -106,19 +115,19 @@ impl Leaf {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn fill_avx2(leaf: &mut Leaf, kg: f64) {
-    fill(leaf, kg);
+fn seal_avx2(leaf: &mut Leaf, kg: f64) {
+    seal(leaf, kg);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn fill_avx512(leaf: &mut Leaf, kg: f64) {
-    fill(leaf, kg);
+fn seal_avx512(leaf: &mut Leaf, kg: f64) {
+    seal(leaf, kg);
 }
 
 /// Replaces sizes by factors of exponents, and sets peaks.
 #[inline(always)]
-fn fill(leaf: &mut Leaf, kg: f64) {
+fn seal(leaf: &mut Leaf, kg: f64) {
     let tau = std::f64::consts::TAU;
     let scale = WITHIN_CUT * tau * tau.sqrt();
     for n in 0..LEAF {
@@ -223,18 +232,17 @@ mod tests {
         let mut leaf = Leaf::new();
         for n in 0..30 {
             let a = n as f32;
-            leaf.push(
-                [0.1 * a, -0.07 * a, -1.0 - 0.05 * a],
-                -4.0 + 0.01 * a,
-                [0.5 + 0.1 * a, 0.3 + 0.04 * a],
-            );
+            (leaf.x[n], leaf.y[n], leaf.z[n]) = (0.1 * a, -0.07 * a, -1.0 - 0.05 * a);
+            leaf.bed[n] = -4.0 + 0.01 * a;
+            (leaf.h[n], leaf.v[n]) = (0.5 + 0.1 * a, 0.3 + 0.04 * a);
         }
-        let sizes = leaf.clone();
-        leaf.fill(Path::Portable, 1e-6);
+        leaf.count = 30;
+        let open = leaf.clone();
+        leaf.seal(Path::Portable, 1e-6);
         for path in Path::all() {
-            let mut filled = sizes.clone();
-            filled.fill(path, 1e-6);
-            assert_eq!(format!("{filled:?}"), format!("{leaf:?}"), "{path:?}");
+            let mut sealed = open.clone();
+            sealed.seal(path, 1e-6);
+            assert_eq!(format!("{sealed:?}"), format!("{leaf:?}"), "{path:?}");
         }
         for n in 0..1000 {
             let a = n as f32 * 0.01;

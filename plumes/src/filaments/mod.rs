@@ -12,6 +12,7 @@ mod kernel;
 mod leaf;
 mod longest_step;
 mod lookup;
+mod moving;
 mod noise;
 mod open_place;
 mod part;

@@ -9,6 +9,7 @@
 use super::image::{Felt, Spot};
 use super::index::{Group, Question};
 use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
+use super::moving::Moving;
 use super::store::Store;
 use std::sync::OnceLock;
 
@@ -24,8 +25,14 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 enum Inside {
     Halves(Box<[Part; 2]>),
-    /// At the present time.
-    Leaf(OnceLock<Box<Present>>),
+    Leaf(Box<LeafInStep>),
+}
+
+/// A leaf during a step.
+#[derive(Clone, Debug)]
+struct LeafInStep {
+    moving: Moving,
+    present: OnceLock<Box<Present>>,
 }
 
 /// A leaf, and the filaments that feel a wall and are therefore not in it.
@@ -33,6 +40,25 @@ enum Inside {
 struct Present {
     leaf: Leaf,
     walled: Vec<Felt>,
+}
+
+impl Present {
+    fn of(moving: &Moving, asked: &Asked) -> Self {
+        let Asked { s, q, spot, .. } = asked;
+        let moment = q.bands.moment(asked.band, q.now_s);
+        let mut leaf = moving.leaf(q.path, spot.lookup, &s.size, &moment);
+        let mut walled = Vec::new();
+        if !spot.room.is_open() {
+            leaf.retain(|p, sizes| {
+                let felt = Felt::new(spot.room, spot.lookup, p, sizes, s.filament_kg);
+                let free = felt.is_none();
+                walled.extend(felt);
+                free
+            });
+        }
+        leaf.seal(q.path, s.filament_kg);
+        Self { leaf, walled }
+    }
 }
 
 /// A question to one group.
@@ -48,16 +74,19 @@ pub(super) struct Asked<'a> {
 impl Part {
     /// Members of a group that begins at `from`.
     pub(super) fn new(s: &Store, from: usize, members: Vec<u16>) -> Self {
-        let (mut lo, mut hi) = ([f32::MAX; 3], [f32::MIN; 3]);
-        for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
-            for m in &members {
-                let i = from + usize::from(*m);
+        let side = |d: usize| {
+            let (start, end) = (&s.start[d], [&s.x, &s.y, &s.z][d]);
+            let ends = members.iter().map(|m| from + usize::from(*m));
+            ends.fold([f32::MAX, f32::MIN], |[lo, hi], i| {
                 let (a, b) = (start[i], end[i]);
-                lo[d] = lo[d].min(a.min(b));
-                hi[d] = hi[d].max(a.max(b));
-            }
-        }
-        let sides = std::array::from_fn(|d| [lo[d], hi[d]]);
+                let (low, high) = if a < b { (a, b) } else { (b, a) };
+                [
+                    if low < lo { low } else { lo },
+                    if high > hi { high } else { hi },
+                ]
+            })
+        };
+        let sides = [0, 1, 2].map(side);
         Self::within(sides, members)
     }
 
@@ -78,7 +107,7 @@ impl Part {
         match self.inside.get_mut() {
             Some(Inside::Halves(halves)) => halves.iter_mut().for_each(Self::forget),
             Some(Inside::Leaf(leaf)) => {
-                leaf.take();
+                leaf.present.take();
             }
             None => {}
         }
@@ -101,7 +130,8 @@ impl Part {
                 }
             }
             Inside::Leaf(leaf) => {
-                let present = leaf.get_or_init(|| Box::new(self.leaf(asked)));
+                let present = || Box::new(Present::of(&leaf.moving, asked));
+                let present = leaf.present.get_or_init(present);
                 *total += f64::from(present.leaf.at(asked.q.path, asked.p));
                 for felt in &present.walled {
                     *total += felt.add(asked.spot);
@@ -112,33 +142,12 @@ impl Part {
 
     fn part(&self, asked: &Asked) -> Inside {
         if self.members.len() <= LEAF {
-            return Inside::Leaf(OnceLock::new());
+            return Inside::Leaf(Box::new(LeafInStep {
+                moving: Moving::new(asked.s, asked.g.from, &self.members),
+                present: OnceLock::new(),
+            }));
         }
         Inside::Halves(Box::new(self.halves(asked)))
-    }
-
-    fn leaf(&self, asked: &Asked) -> Present {
-        let Asked { g, s, q, spot, .. } = asked;
-        let (mut leaf, mut walled) = (Leaf::new(), Vec::new());
-        let (room, lookup) = (spot.room, spot.lookup);
-        let moment = q.bands.moment(asked.band, q.now_s);
-        for m in &self.members {
-            let i = g.from + usize::from(*m);
-            let Some(mut p) = s.place(i, &moment) else {
-                continue;
-            };
-            let bed = lookup.bed(lookup.column(p[0], p[1]));
-            // On the straight line over a bed that is not straight.
-            p[2] = p[2].max(bed);
-            let sh = s.size.horizontal(q.now_s - s.born_s[i]);
-            let sizes = [sh, s.size.vertical(sh, bed)];
-            match Felt::new(room, lookup, p, sizes, s.filament_kg) {
-                Some(felt) => walled.push(felt),
-                None => leaf.push(p, bed, sizes),
-            }
-        }
-        leaf.fill(q.path, s.filament_kg);
-        Present { leaf, walled }
     }
 
     /// Halves the members along their longest side (in units of the kernel's reach), so that leaves are full.

@@ -75,11 +75,14 @@ impl Scene {
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let leaf = |part: &[(usize, [f32; 3])]| {
             let mut leaf = Leaf::new();
-            for (i, p) in part {
+            for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
-                leaf.push(*p, -6.0, [sh, s.size.vertical(sh, -6.0)]);
+                (leaf.x[n], leaf.y[n], leaf.z[n]) = (p[0], p[1], p[2]);
+                (leaf.h[n], leaf.v[n]) = (sh, s.size.vertical(sh, -6.0));
+                leaf.bed[n] = -6.0;
             }
-            leaf.fill(Path::Portable, s.filament_kg);
+            leaf.count = part.len();
+            leaf.seal(Path::Portable, s.filament_kg);
             leaf
         };
         there.chunks(LEAF).map(leaf).collect()
