@@ -3,5 +3,6 @@
 pub mod error;
 pub mod filaments;
 pub mod flow;
+mod path;
 mod quad;
 pub mod release;

@@ -124,7 +124,15 @@ pub(crate) trait Pair: Copy {
     /// The machine must have the instructions that this pair uses.
     unsafe fn new(v: &[[f32; 4]; 2]) -> Self;
 
+    /// Reads two quads that are not neighbours.
+    ///
+    /// # Safety
+    /// As for [`Self::new`].
+    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self;
+
     fn add(self, b: Self) -> Self;
+
+    fn sub(self, b: Self) -> Self;
 
     fn times(self, s: f32) -> Self;
 
@@ -139,6 +147,16 @@ impl Pair for Twice {
     #[inline(always)]
     unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
         Self([Quad::new(&v[0]), Quad::new(&v[1])])
+    }
+
+    #[inline(always)]
+    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self {
+        Self([Quad::new(a), Quad::new(b)])
+    }
+
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        Self([self.0[0].sub(b.0[0]), self.0[1].sub(b.0[1])])
     }
 
     #[inline(always)]
@@ -168,6 +186,18 @@ impl Pair for Avx {
     unsafe fn new(v: &[[f32; 4]; 2]) -> Self {
         // SAFETY: reads eight f32 at any alignment; the caller promises AVX.
         Self(unsafe { x86::_mm256_loadu_ps(v.as_ptr().cast()) })
+    }
+
+    #[inline(always)]
+    unsafe fn of(a: &[f32; 4], b: &[f32; 4]) -> Self {
+        // SAFETY: as above.
+        Self(unsafe { x86::_mm256_loadu2_m128(b.as_ptr(), a.as_ptr()) })
+    }
+
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        // SAFETY: whoever made the pair promised AVX.
+        Self(unsafe { x86::_mm256_sub_ps(self.0, b.0) })
     }
 
     #[inline(always)]

@@ -15,7 +15,7 @@ use super::size::Size;
 /// Most bands.
 pub(super) const MOST: usize = 8;
 
-/// Steps are halved down to at least this, s.
+/// Steps are halved down to at least this, s, or to a quarter of the longest if that is shorter.
 const SHORTEST_S: f64 = 0.25;
 
 /// The longest step, s. With [`MOST`] bands, the youngest filaments then still take the shortest.
@@ -90,7 +90,8 @@ impl Bands {
             shortest_s = flow_s / (flow_s / most_s - 1e-9).ceil().max(1.0);
         }
         let mut halvings = 0;
-        while !one_step && halvings + 1 < MOST && 0.5 * shortest_s >= SHORTEST_S {
+        let floor_s = SHORTEST_S.min(0.25 * shortest_s);
+        while !one_step && halvings + 1 < MOST && 0.5 * shortest_s >= floor_s {
             shortest_s *= 0.5;
             halvings += 1;
         }
@@ -234,8 +235,8 @@ mod tests {
         let steps = |longest_s, flow_s| Bands::new(0.0, 9000.0, longest_s, flow_s, false).steps_s();
         assert_eq!(steps(6.0, 10.0), [5.0, 2.5, 1.25, 0.625, 0.3125]);
         assert_eq!(steps(10.0, 10.0)[0], 10.0);
-        assert_eq!(steps(0.4, 1.0), [1.0 / 3.0]);
-        assert_eq!(steps(0.5, 0.0), [0.5, 0.25]);
+        assert_eq!(steps(0.4, 1.0), [1.0 / 3.0, 1.0 / 6.0, 1.0 / 12.0]);
+        assert_eq!(steps(0.5, 0.0), [0.5, 0.25, 0.125]);
         // However long a step may be, the youngest filaments take the shortest.
         for flow_s in [0.0, 1e9] {
             let long = steps(1e5, flow_s);

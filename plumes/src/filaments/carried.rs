@@ -18,10 +18,10 @@
 use super::fetch::highest;
 use super::kernel::{BLOCK, Block};
 use super::lookup::{Column, Lookup};
-use super::path::Path;
 use super::series::{current_time, expansion, logarithm, series};
 use crate::flow::blockage::Blocked;
 use crate::flow::grid::FlowGrid;
+use crate::path::Path;
 use crate::quad::Quad;
 use world::fields::Flow;
 

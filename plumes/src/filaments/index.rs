@@ -15,9 +15,9 @@ use super::image::Spot;
 pub use super::leaf::CUT_SIGMAS;
 use super::lookup::Lookup;
 use super::part::{Asked, Part, extent};
-use super::path::Path;
 use super::room::Room;
 use super::store::Store;
+use crate::path::Path;
 use nalgebra::Vector3;
 use std::sync::OnceLock;
 

@@ -37,7 +37,7 @@
 use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
 use super::noise::normals;
-use super::path::Path;
+use crate::path::Path;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
 use crate::quad::{Pair, Twice};

@@ -12,7 +12,7 @@
 //! others. The exponential is a polynomial of degree 5 to the eighth power, within 1e-5 of the function. Filaments
 //! within reach of any other wall are not in leaves; see the file `image`.
 
-use super::path::Path;
+use crate::path::Path;
 
 /// Reach of the kernel in standard deviations.
 pub const CUT_SIGMAS: f32 = 4.0;

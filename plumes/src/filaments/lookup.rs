@@ -10,8 +10,8 @@
 //! all.
 
 use super::kernel::BLOCK;
-use super::path::Path;
 use crate::flow::grid::FlowGrid;
+use crate::path::Path;
 
 /// Bilinear function in a cell: c0 + c1·f + c2·g + c3·f·g.
 pub(super) type Bilinear = [f32; 4];

@@ -9,9 +9,9 @@
 use super::bands::{Moment, Span};
 use super::leaf::{LEAF, Leaf};
 use super::lookup::Lookup;
-use super::path::Path;
 use super::size::Size;
 use super::store::Store;
+use crate::path::Path;
 
 /// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]

@@ -10,12 +10,12 @@ use super::bands::Span;
 use super::carried::{Carrier, Way};
 use super::kernel::{self, BLOCK, Block, Work};
 use super::lookup::Lookup;
-use super::path::Path;
 use super::rebound::Kick;
 use super::room::Room;
 use super::size::Size;
 use super::store::Store;
 use crate::flow::grid::FlowGrid;
+use crate::path::Path;
 use rayon::prelude::*;
 use std::ops::Range;
 

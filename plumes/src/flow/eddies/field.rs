@@ -16,11 +16,12 @@
 //! depends on single eddies, such as a tracker's rate of success, differs between stretches by more than an interval
 //! over seeds says (docs/results.md). The patches move with the depth mean at all heights.
 
+use super::present::{Now, Patch, Turned};
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
-use crate::quad::Quad;
+use crate::path::Path;
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -57,6 +58,7 @@ pub struct Eddies {
     /// T, s.
     period_s: f64,
     seed: Seed,
+    path: Path,
     shape: Shape,
     stretch: Arc<Stretch>,
 }
@@ -119,6 +121,7 @@ impl EddiesSpec {
             u_star_m_s: channel.u_star_m_s,
             period_s: pi * pi / 8.0 * energy / dissipation,
             seed,
+            path: Path::detect(),
             stretch: drawn(&shape),
             shape,
         })
@@ -177,7 +180,7 @@ impl Eddies {
     pub fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         let d = p.xy() - self.centre;
         let now = self.now(t_s);
-        let v = now.velocity([d.dot(&self.along), d.dot(&self.left), p.z].map(|v| v as f32));
+        let v = now.at([d.dot(&self.along), d.dot(&self.left), p.z].map(|v| v as f32));
         let [u, v, w] = v.map(f64::from);
         let plane = self.along * u + self.left * v;
         Vector3::new(plane.x, plane.y, w)
@@ -204,20 +207,12 @@ impl Eddies {
 
     /// Carries places (ENU, m) from `t_s - dt_s` to `t_s`, the n-th for `dt_s[n]`.
     pub fn carry(&self, t_s: f64, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
-        let now = self.now(t_s);
-        let centre = self.centre.map(|v| v as f32);
-        let (a, l) = (self.along.map(|v| v as f32), self.left.map(|v| v as f32));
-        for (n, dt) in dt_s.iter().enumerate() {
-            let (dx, dy) = (x[n] - centre.x, y[n] - centre.y);
-            let q = [dx * a.x + dy * a.y, dx * l.x + dy * l.y, z[n]];
-            // Half the step ahead first, so that an even cloud stays even to second order.
-            let v = now.velocity(q);
-            let half = 0.5 * dt;
-            let v = now.velocity([q[0] + half * v[0], q[1] + half * v[1], q[2] + half * v[2]]);
-            x[n] += dt * (v[0] * a.x + v[1] * l.x);
-            y[n] += dt * (v[0] * a.y + v[1] * l.y);
-            z[n] += dt * v[2];
-        }
+        let turned = Turned {
+            centre: self.centre.map(|v| v as f32),
+            along: self.along.map(|v| v as f32),
+            left: self.left.map(|v| v as f32),
+        };
+        self.now(t_s).carry(self.path, &turned, dt_s, [x, y, z]);
     }
 
     #[cfg(test)]
@@ -260,66 +255,4 @@ impl Eddies {
             patches: [of(life - 1.0, c), of(life, s)],
         }
     }
-}
-
-/// A patch of the stretch at one time: where it begins (cells), and its weight.
-#[derive(Clone, Copy)]
-struct Patch {
-    begin: f32,
-    mirrored: bool,
-    weight: f32,
-}
-
-/// The eddies at one time.
-struct Now<'a> {
-    nodes: &'a [[f32; 4]],
-    across: usize,
-    up: usize,
-    per_m: [f32; 3],
-    half_width: f32,
-    depth: f32,
-    patches: [Patch; 2],
-}
-
-impl Now<'_> {
-    /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
-    #[inline]
-    fn velocity(&self, q: [f32; 3]) -> [f32; 3] {
-        let (k, h) = cell((q[2] + self.depth) * self.per_m[2], self.up);
-        let mut sum = [0.0_f32; 3];
-        for patch in &self.patches {
-            let side = if patch.mirrored { -1.0 } else { 1.0 };
-            let (j, g) = cell((side * q[1] + self.half_width) * self.per_m[1], self.across);
-            let at = q[0] * self.per_m[0] - patch.begin;
-            let floor = at.floor();
-            let f = at - floor;
-            let i = floor as i32 as usize & (LENGTH - 1);
-            let (row, column) = (self.up + 1, (self.up + 1) * (self.across + 1));
-            let near = i * column + j * row + k;
-            let far = ((i + 1) & (LENGTH - 1)) * column + j * row + k;
-            let node = |n: usize| Quad::new(&self.nodes[n]);
-            let line = |at: usize| {
-                let low = node(at);
-                low.add(node(at + 1).sub(low).times(h))
-            };
-            let face = |at: usize| {
-                let right = line(at);
-                right.add(line(at + row).sub(right).times(g))
-            };
-            let behind = face(near);
-            let v = behind.add(face(far).sub(behind).times(f)).array();
-            sum[0] += patch.weight * v[0];
-            sum[1] += patch.weight * side * v[1];
-            sum[2] += patch.weight * v[2];
-        }
-        sum
-    }
-}
-
-/// Cell, and the position in it as a part.
-#[inline]
-fn cell(c: f32, cells: usize) -> (usize, f32) {
-    let c = c.clamp(0.0, cells as f32);
-    let i = (c as i32 as usize).min(cells - 1);
-    (i, c - i as f32)
 }

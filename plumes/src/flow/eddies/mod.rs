@@ -2,6 +2,7 @@
 
 mod field;
 mod fourier;
+mod present;
 mod spectrum;
 mod stretch;
 #[cfg(test)]

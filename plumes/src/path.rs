@@ -8,7 +8,7 @@
 
 /// Which version of the vector code runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Path {
+pub(crate) enum Path {
     /// Runs on every machine of the target.
     Portable,
     /// AVX2.
@@ -21,7 +21,7 @@ pub(super) enum Path {
 
 impl Path {
     /// The versions that this machine can run, the fastest last.
-    pub(super) fn all() -> Vec<Self> {
+    pub(crate) fn all() -> Vec<Self> {
         let mut all = vec![Path::Portable];
         #[cfg(target_arch = "x86_64")]
         {
@@ -37,7 +37,7 @@ impl Path {
     }
 
     /// The fastest version that this machine can run.
-    pub(super) fn detect() -> Self {
+    pub(crate) fn detect() -> Self {
         Self::all().pop().unwrap_or(Path::Portable)
     }
 
