@@ -15,8 +15,11 @@ use super::size::Size;
 /// Most bands.
 pub(super) const MOST: usize = 8;
 
-/// Steps are halved down to at least this, s, or to a quarter of the longest if that is shorter.
+/// Steps are halved down to at least this, s.
 const SHORTEST_S: f64 = 0.25;
+
+/// Eddies between walls carry filaments in steps of at least this, s: at a few mm/s, a filament moves by a millimetre.
+const CARRY_S: f64 = 0.2;
 
 /// The longest step, s. With [`MOST`] bands, the youngest filaments then still take the shortest.
 const LONGEST_S: f64 = SHORTEST_S * (1 << (MOST - 1)) as f64;
@@ -90,8 +93,7 @@ impl Bands {
             shortest_s = flow_s / (flow_s / most_s - 1e-9).ceil().max(1.0);
         }
         let mut halvings = 0;
-        let floor_s = SHORTEST_S.min(0.25 * shortest_s);
-        while !one_step && halvings + 1 < MOST && 0.5 * shortest_s >= floor_s {
+        while !one_step && halvings + 1 < MOST && 0.5 * shortest_s >= SHORTEST_S {
             shortest_s *= 0.5;
             halvings += 1;
         }
@@ -117,6 +119,18 @@ impl Bands {
     /// The band of the shortest steps.
     pub(super) fn last(&self) -> usize {
         self.halvings
+    }
+
+    /// From when to when eddies carry a band that they have carried up to `since_s`; `None` if they wait. Shorter steps
+    /// than [`CARRY_S`] are all in one band, and the eddies carry it once in several of them.
+    pub(super) fn carries(&self, band: usize, since_s: f64) -> Option<Span> {
+        let span = self.spans[band];
+        if self.last() > 0 {
+            return Some(span);
+        }
+        let from_s = since_s.min(span.from_s);
+        let due = span.to_s - from_s >= CARRY_S - 1e-9 || span.to_s >= self.end_s - 1e-9;
+        due.then_some(Span { from_s, ..span })
     }
 
     /// Length of a band's steps, s.
@@ -235,8 +249,8 @@ mod tests {
         let steps = |longest_s, flow_s| Bands::new(0.0, 9000.0, longest_s, flow_s, false).steps_s();
         assert_eq!(steps(6.0, 10.0), [5.0, 2.5, 1.25, 0.625, 0.3125]);
         assert_eq!(steps(10.0, 10.0)[0], 10.0);
-        assert_eq!(steps(0.4, 1.0), [1.0 / 3.0, 1.0 / 6.0, 1.0 / 12.0]);
-        assert_eq!(steps(0.5, 0.0), [0.5, 0.25, 0.125]);
+        assert_eq!(steps(0.4, 1.0), [1.0 / 3.0]);
+        assert_eq!(steps(0.5, 0.0), [0.5, 0.25]);
         // However long a step may be, the youngest filaments take the shortest.
         for flow_s in [0.0, 1e9] {
             let long = steps(1e5, flow_s);
@@ -278,6 +292,29 @@ mod tests {
             .part(2.5),
             0.25
         );
+    }
+
+    #[test]
+    fn eddies_carry_short_steps_several_at_a_time() {
+        let mut bands = Bands::new(0.0, 1.02, 0.05, 0.0, false);
+        let (mut since_s, mut ends) = (0.0, Vec::new());
+        while bands.next_s() < 1.02 {
+            bands.pass();
+            if let Some(span) = bands.carries(0, since_s) {
+                assert_eq!(span.from_s, since_s);
+                since_s = span.to_s;
+                ends.push(span.to_s);
+            }
+        }
+        assert_eq!(ends.len(), 6);
+        assert!(
+            ends.iter()
+                .zip([0.2, 0.4, 0.6, 0.8, 1.0, 1.02])
+                .all(|(a, b)| (a - b).abs() < 1e-9)
+        );
+        let mut long = Bands::new(0.0, 9.0, 1.0, 0.0, false);
+        long.pass();
+        assert_eq!(long.carries(2, 0.0), Some(long.span(2)));
     }
 
     #[test]

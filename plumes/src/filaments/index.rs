@@ -14,7 +14,7 @@ use super::bands::{Bands, MOST};
 use super::image::Spot;
 pub use super::leaf::CUT_SIGMAS;
 use super::lookup::Lookup;
-use super::part::{Asked, Part, extent};
+use super::part::{Asked, Boxes, Part, extent};
 use super::room::Room;
 use super::store::Store;
 use crate::path::Path;
@@ -22,7 +22,7 @@ use nalgebra::Vector3;
 use std::sync::OnceLock;
 
 /// Most filaments in a group.
-const GROUP: usize = 1024;
+pub(super) const GROUP: usize = 1024;
 
 /// The groups of every band of every store.
 #[derive(Clone, Debug, Default)]
@@ -53,6 +53,7 @@ pub(super) struct Group {
     reach: f32,
     /// Additional vertical reach over a steep bed, m.
     pub(super) steep: f32,
+    boxes: OnceLock<Box<Boxes>>,
     whole: OnceLock<Part>,
 }
 
@@ -155,6 +156,7 @@ impl Question<'_> {
                 largest: [horizontal, s.size.vertical(horizontal, f32::MIN)],
                 reach,
                 steep: 2.0 * steepest * reach,
+                boxes: OnceLock::new(),
                 whole: OnceLock::new(),
             });
         }
@@ -188,6 +190,11 @@ impl Group {
             let (low_end, high_end) = extent(&end[members]);
             [low.min(low_end), high.max(high_end)]
         })
+    }
+
+    /// The ways of its members.
+    pub(super) fn boxes(&self, s: &Store) -> &Boxes {
+        (self.boxes).get_or_init(|| Box::new(Boxes::new(s, self.from, self.n)))
     }
 
     fn whole(&self, s: &Store) -> Part {

@@ -7,7 +7,7 @@
 //! *Deviations*: none.
 
 use super::image::{Felt, Spot};
-use super::index::{Group, Question};
+use super::index::{GROUP, Group, Question};
 use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
 use super::moving::Moving;
 use super::store::Store;
@@ -42,6 +42,49 @@ struct Present {
     walled: Vec<Felt>,
 }
 
+/// The way of each member of a group through its step: least and greatest coordinates.
+#[derive(Clone, Debug)]
+pub(super) struct Boxes {
+    lo: [[f32; GROUP]; 3],
+    hi: [[f32; GROUP]; 3],
+}
+
+impl Boxes {
+    /// Of `n` members from `from` on.
+    pub(super) fn new(s: &Store, from: usize, n: usize) -> Self {
+        let mut this = Self {
+            lo: [[0.0; GROUP]; 3],
+            hi: [[0.0; GROUP]; 3],
+        };
+        for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
+            let ways = start[from..from + n].iter().zip(&end[from..from + n]);
+            for ((lo, hi), (a, b)) in this.lo[d].iter_mut().zip(&mut this.hi[d]).zip(ways) {
+                (*lo, *hi) = if a < b { (*a, *b) } else { (*b, *a) };
+            }
+        }
+        this
+    }
+
+    /// The box that holds the ways of all these members.
+    fn around(&self, members: &[u16]) -> [[f32; 2]; 3] {
+        // Several at a time, so that one does not wait for the other.
+        const LANES: usize = 4;
+        std::array::from_fn(|d| {
+            let (mut lo, mut hi) = ([f32::MAX; LANES], [f32::MIN; LANES]);
+            for some in members.chunks(LANES) {
+                for ((m, lo), hi) in some.iter().zip(&mut lo).zip(&mut hi) {
+                    let m = usize::from(*m) % GROUP;
+                    let (low, high) = (self.lo[d][m], self.hi[d][m]);
+                    *lo = if low < *lo { low } else { *lo };
+                    *hi = if high > *hi { high } else { *hi };
+                }
+            }
+            let (lo, hi) = (lo.into_iter(), hi.into_iter());
+            [lo.fold(f32::MAX, f32::min), hi.fold(f32::MIN, f32::max)]
+        })
+    }
+}
+
 impl Present {
     fn of(moving: &Moving, asked: &Asked) -> Self {
         let Asked { s, q, spot, .. } = asked;
@@ -72,22 +115,8 @@ pub(super) struct Asked<'a> {
 }
 
 impl Part {
-    /// Members of a group that begins at `from`.
-    pub(super) fn new(s: &Store, from: usize, members: Vec<u16>) -> Self {
-        let side = |d: usize| {
-            let (start, end) = (&s.start[d], [&s.x, &s.y, &s.z][d]);
-            let ends = members.iter().map(|m| from + usize::from(*m));
-            ends.fold([f32::MAX, f32::MIN], |[lo, hi], i| {
-                let (a, b) = (start[i], end[i]);
-                let (low, high) = if a < b { (a, b) } else { (b, a) };
-                [
-                    if low < lo { low } else { lo },
-                    if high > hi { high } else { hi },
-                ]
-            })
-        };
-        let sides = [0, 1, 2].map(side);
-        Self::within(sides, members)
+    fn new(boxes: &Boxes, members: Vec<u16>) -> Self {
+        Self::within(boxes.around(&members), members)
     }
 
     /// Members whose least and greatest coordinates are known.
@@ -182,7 +211,8 @@ impl Part {
             };
             to.push(*m);
         }
-        [low, high].map(|members| Self::new(s, g.from, members))
+        let boxes = g.boxes(s);
+        [low, high].map(|members| Self::new(boxes, members))
     }
 }
 

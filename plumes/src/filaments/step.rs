@@ -105,7 +105,7 @@ impl Plume {
     pub(super) fn join(&mut self, t_s: f64) {
         self.now_s = t_s;
         for store in &mut self.stores {
-            store.join();
+            store.join(t_s);
         }
         self.index.clear(self.stores.len());
     }
@@ -175,10 +175,14 @@ impl Plume {
     fn carry(&mut self, flow: &dyn Flow, walls: &SideWalls, n: usize, band: usize) {
         let store = &mut self.stores[n];
         let range = store.band(band, &self.bands);
+        let Some(span) = self.bands.carries(band, store.carried_s) else {
+            return keep_between(walls, store, range);
+        };
+        store.carried_s = span.to_s;
         let place = |v: &[f32]| v[range.clone()].to_vec();
         let before =
             (self.room.has_solids()).then(|| [&store.x, &store.y, &store.z].map(|v| place(v)));
-        carry(flow, store, range.clone(), self.bands.span(band));
+        carry(flow, store, range.clone(), span);
         if let Some(before) = before {
             self.turned_back += hold(
                 &self.room,

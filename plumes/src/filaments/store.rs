@@ -31,6 +31,8 @@ pub(super) struct Store {
     pub(super) first: [usize; MOST],
     /// Age from which a filament may be in each band, s.
     pub(super) least_age_s: [f64; MOST],
+    /// Time up to which eddies between walls have carried the filaments, s.
+    pub(super) carried_s: f64,
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.
@@ -53,6 +55,7 @@ impl Store {
             born_s: Vec::new(),
             first: [0; MOST],
             least_age_s: [f64::NEG_INFINITY; MOST],
+            carried_s: 0.0,
             size,
             filament_kg,
             released: 0,
@@ -94,11 +97,12 @@ impl Store {
         self.first[band]..end
     }
 
-    /// Puts all filaments into one band; they must have reached the same time. Their steps start where they are.
-    pub(super) fn join(&mut self) {
+    /// Puts all filaments into one band; they must have reached `t_s`. Their steps start where they are.
+    pub(super) fn join(&mut self, t_s: f64) {
         for (start, p) in self.start.iter_mut().zip([&self.x, &self.y, &self.z]) {
             start.clone_from(p);
         }
+        self.carried_s = t_s;
         self.first = [0; MOST];
         self.least_age_s = [f64::NEG_INFINITY; MOST];
     }

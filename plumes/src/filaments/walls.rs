@@ -4,9 +4,9 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: the eddies act after mean flow and kicks of the same step (splitting, Strang 1968, SIAM J. Numer. Anal.
-//! 5, 506; first order in the step). In the frame that moves with the stream, in which they are evaluated, they change
-//! over seconds.
+//! *Deviations*: the eddies act after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal. 5, 506; first
+//! order in the step), and once in several steps that are shorter than a fifth of a second: in the frame that moves
+//! with the stream, in which they are evaluated, they change over seconds.
 
 use super::bands::Span;
 use super::kernel::folded;

@@ -17,11 +17,16 @@ use studies::reproduce::Row;
         The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
         renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
         number of jobs. With several rows, each first runs one seed on each core: from then on it is known how long \
-        all of them take.",
+        all of them take.\n\n\
+        With --keep, seed, outcome, digest and all measures of every run stay in a folder as small tables (CSV). A \
+        later run takes from them what they hold, adds what they lack, and prints the figures of both. Before that, \
+        seeds drawn at random are run again: if they give other digests, or the scenario has changed, the row is out \
+        of date, which is an error.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
-        rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n\n\
+        rheotaxis reproduce duck_st --until-width 0.05 --max 1000\n  \
+        rheotaxis reproduce --keep docs/rows/kept --no-runs --check 0\n\n\
         Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
 )]
 pub struct ReproduceArgs {
@@ -61,6 +66,19 @@ pub struct ReproduceArgs {
     /// Folder for the results.
     #[arg(long, value_name = "DIR", default_value = "runs/reproduce")]
     pub out: PathBuf,
+    /// Keep every run in this folder as tables, and take from them the runs that they hold already.
+    #[arg(long, value_name = "DIR", conflicts_with = "key")]
+    pub keep: Option<PathBuf>,
+    /// With --keep: run so many seeds of each kept row again first, drawn at random; a row that now gives another
+    /// digest is out of date.
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "keep")]
+    pub check: usize,
+    /// With --keep: make no runs, but the checks; print the figures of the kept ones.
+    #[arg(long, requires = "keep", conflicts_with = "anew")]
+    pub no_runs: bool,
+    /// With --keep: replace the tables of rows that are out of date.
+    #[arg(long, requires = "keep")]
+    pub anew: bool,
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,

@@ -7,11 +7,12 @@ use super::time_left::TimeLeft;
 use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use rheotaxis::cache::SpinUps;
+use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
 use studies::reproduce::{
-    Plan, Reference, ReproduceError, Reproduced, reproduce, table, wanted, write,
+    Plan, Reference, ReproduceError, Reproduced, Table, compare, reproduce, table, wanted, write,
 };
 
 /// Runs the rows, prints their tables and writes them.
@@ -47,8 +48,15 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
         kept: cache::opened(&args.cache),
         left: TimeLeft::new(references.iter().map(planned), args.jobs),
         rows: references.iter().map(Reproduced::begin).collect(),
+        tables: Vec::new(),
         references,
     };
+    if let Some(dir) = &args.keep {
+        work.take_kept(dir)?;
+    }
+    if args.no_runs {
+        return work.show_kept();
+    }
     let rows = 0..work.rows.len();
     if rows.len() > 1 && args.until_width.is_none() {
         // Rows differ in cost, so some of each tell how long the rest takes.
@@ -104,10 +112,57 @@ struct Work<'a> {
     references: Vec<Reference>,
     /// The rows as far as they have come.
     rows: Vec<Reproduced>,
+    /// With --keep: their tables.
+    tables: Vec<Table>,
     left: TimeLeft,
 }
 
 impl Work<'_> {
+    /// Reads the tables of kept runs, checks some of them, and takes over those that are planned.
+    fn take_kept(&mut self, dir: &Path) -> Result<(), ReproduceError> {
+        let args = self.args;
+        for (reference, row) in self.references.iter().zip(&mut self.rows) {
+            let mut table = Table::read(dir, reference)?.unwrap_or_default();
+            if !table.is_empty() {
+                if args.check > 0 && !args.quiet {
+                    eprintln!(
+                        "{}: runs {} again",
+                        row.row.id,
+                        count(args.check as u64, "kept seed")
+                    );
+                }
+                match table.stale(reference, args.check) {
+                    Some(_) if args.anew => table = Table::default(),
+                    Some(problem) => {
+                        let row = row.row.id.clone();
+                        return Err(ReproduceError::OutOfDate { row, problem });
+                    }
+                    None => {}
+                }
+            }
+            row.runs = match args.no_runs {
+                true => table.of_arms(reference),
+                false => table.from_seed(args.first_seed, args.n(&reference.row), reference),
+            };
+            row.figures = compare(&reference.row, &row.runs);
+            self.tables.push(table);
+        }
+        Ok(())
+    }
+
+    /// Prints and writes the figures of the kept runs.
+    fn show_kept(&self) -> Result<(), ReproduceError> {
+        for row in &self.rows {
+            match row.runs.is_empty() {
+                true => say::line(format_args!("{}: no runs are kept", row.row.id)),
+                false => say::line(table(row)),
+            }
+        }
+        let some = self.rows.iter().filter(|r| !r.runs.is_empty());
+        write(&self.args.out, &some.cloned().collect::<Vec<_>>())?;
+        Ok(())
+    }
+
     /// Runs row `k` until it has `seeds`, or all that it is to have.
     fn advance(&mut self, k: usize, seeds: Option<u64>) -> Result<(), ReproduceError> {
         let Self {
@@ -115,6 +170,7 @@ impl Work<'_> {
             kept,
             references,
             rows,
+            tables,
             left,
         } = self;
         let (kept, stop) = (kept.as_ref(), stop::listen());
@@ -152,6 +208,10 @@ impl Work<'_> {
                     Some(left) => eprintln!("{id}: {runs} done, about {left} left in all"),
                     None => eprintln!("{id}: {runs} done"),
                 }
+            }
+            if let (Some(dir), Some(table)) = (&args.keep, tables.get_mut(k)) {
+                table.put(so_far);
+                table.write(dir, so_far)?;
             }
             let begun = rows.iter().filter(|r| !r.runs.is_empty());
             write(&args.out, &begun.cloned().collect::<Vec<_>>())?;

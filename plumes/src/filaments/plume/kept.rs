@@ -89,6 +89,7 @@ fn keep(store: &Store, to: &mut Writer) {
         // The next steps start where the last ones have ended, in bands that the next pace chooses.
         start: _,
         first: _,
+        carried_s: _,
         least_age_s: _,
     } = store;
     to.word(*released);

@@ -6,7 +6,7 @@ use output::files::{csv_number, csv_text};
 
 /// How a column is read from a record and written to it. A value that is missing is not written: it stays as in a new
 /// record.
-pub(super) enum Column<T> {
+pub(crate) enum Column<T> {
     Number(fn(&T) -> Option<u64>, fn(&mut T, u64)),
     Truth(fn(&T) -> bool, fn(&mut T, bool)),
     Text(fn(&T) -> Option<&str>, fn(&mut T, String)),
@@ -14,7 +14,7 @@ pub(super) enum Column<T> {
 }
 
 /// A line of a table.
-pub(super) trait Record: Default + 'static {
+pub(crate) trait Record: Default + 'static {
     /// Name of the table.
     const TABLE: &'static str;
     /// Of each column: name, whether it may be empty, and access.
@@ -126,6 +126,59 @@ pub(super) fn csv_fields<T: Record>(record: &T) -> impl Iterator<Item = String> 
 fn csv<'a, T: Record>(records: impl IntoIterator<Item = &'a T>) -> String {
     let names: Vec<&str> = T::COLUMNS.iter().map(|(name, ..)| *name).collect();
     csv_text(&names.join(","), records.into_iter().map(csv_fields))
+}
+
+/// Reads records from a table of CSV with the names of all columns in its first line. What is wrong is told with line
+/// and column; `before` is the number of lines before the table.
+pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, String> {
+    let mut table = csv::ReaderBuilder::new();
+    let mut table = table.has_headers(false).from_reader(text.as_bytes());
+    let mut records = Vec::new();
+    for (n, line) in table.records().enumerate() {
+        let line = line.map_err(|e| format!("after line {}: {e}", before + n as u64))?;
+        let at = before + line.position().map_or(0, csv::Position::line);
+        for ((name, ..), field) in T::COLUMNS.iter().zip(&line) {
+            if n == 0 && *name != field {
+                return Err(format!(
+                    "line {at}: a column must be called {name}, not `{field}`"
+                ));
+            }
+        }
+        if line.len() != T::COLUMNS.len() {
+            let (want, got) = (T::COLUMNS.len(), line.len());
+            return Err(format!("line {at}: must have {want} fields, has {got}"));
+        }
+        if n > 0 {
+            records.push(record(&line).map_err(|e| format!("line {at}, {e}"))?);
+        }
+    }
+    match text.is_empty() {
+        true => Err("it is empty".to_string()),
+        false => Ok(records),
+    }
+}
+
+fn record<T: Record>(line: &csv::StringRecord) -> Result<T, String> {
+    let mut record = T::default();
+    for ((name, optional, column), field) in T::COLUMNS.iter().zip(line) {
+        if *optional && field.is_empty() {
+            continue;
+        }
+        let wrong = |what: &str| format!("column {name}: must be {what}, got `{field}`");
+        match column {
+            Column::Number(_, set) => {
+                let v = field.parse().map_err(|_| wrong("a whole number"))?;
+                set(&mut record, v);
+            }
+            Column::Truth(_, set) => {
+                let v = field.parse().map_err(|_| wrong("true or false"))?;
+                set(&mut record, v);
+            }
+            Column::Text(_, set) => set(&mut record, field.to_string()),
+            Column::Real(_, set) => set(&mut record, field.parse().map_err(|_| wrong("a number"))?),
+        }
+    }
+    Ok(record)
 }
 
 /// Rows of runs and their declarations as two tables of CSV.

@@ -27,7 +27,7 @@ mod table;
 mod work;
 
 pub use block::{BlockState, block_path, declarations_path, read_block};
-pub(crate) use columns::as_csv;
+pub(crate) use columns::{as_csv, from_csv};
 pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
 pub use error::CampaignError;

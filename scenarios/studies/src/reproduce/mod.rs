@@ -1,6 +1,7 @@
 //! Our figures beside the papers': rows of `tests/reference/rows`, run over many seeds.
 
 mod compare;
+mod kept;
 mod measure;
 mod quantity;
 mod row;
@@ -8,6 +9,7 @@ mod run;
 mod write;
 
 pub use compare::{Compared, Standing, compare};
+pub use kept::Table;
 pub use measure::{Measure, RunEvent};
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};

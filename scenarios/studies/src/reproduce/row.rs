@@ -131,6 +131,22 @@ pub enum ReproduceError {
     /// Its results cannot be written.
     #[error(transparent)]
     Report(#[from] ReportError),
+    /// A table of kept runs that cannot be read.
+    #[error("{}: {problem}", path.display())]
+    Table {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        problem: String,
+    },
+    /// Kept runs that the program no longer gives.
+    #[error("{row} is out of date: {problem}. `--anew` makes its runs anew")]
+    OutOfDate {
+        /// The row.
+        row: String,
+        /// What shows it.
+        problem: String,
+    },
     /// The threads cannot be started.
     #[error("cannot start {jobs} threads: {problem}")]
     Threads {

@@ -1,0 +1,313 @@
+//! Tables of the runs behind printed rows: kept in a folder, resumed from, added to, and checked by running some again.
+//!
+//! A row has two files of CSV: `<row>.csv` holds a line for each run (seed, outcome, digest and all that is measured),
+//! `<row>-declarations.csv` a line for each declaration. The first line of the former names scenario and hash. Wall
+//! times are left out, so the same runs give the same bytes on any machine.
+
+use super::row::{Reference, ReproduceError};
+use super::run::Reproduced;
+use crate::campaign::{DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, from_csv, in_lanes};
+use output::files::{ReportError, make_folder, write_whole};
+use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{BuildHasher, RandomState};
+use std::path::{Path, PathBuf};
+use world::files;
+use world::seeds::Seed;
+
+/// Longest file that is read, bytes: some hundred thousand runs.
+const LONGEST: u64 = 256 << 20;
+/// What the first line begins with.
+const HEAD: &str = "# rheotaxis reproduce: scenario ";
+
+/// The kept runs of a row.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table {
+    /// Hash of the scenario.
+    hash: String,
+    /// By seed and arm.
+    runs: BTreeMap<(u64, String), RunRow>,
+}
+
+impl Table {
+    /// Reads the table of a row; `None` if the folder has none.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or is not such a table: with file, line and column.
+    pub fn read(dir: &Path, reference: &Reference) -> Result<Option<Self>, ReproduceError> {
+        let [path, beside] = paths(dir, &reference.row.id);
+        if !path.exists() {
+            return Ok(None);
+        }
+        let wrong = |path: &Path, problem: String| ReproduceError::Table {
+            path: path.to_path_buf(),
+            problem,
+        };
+        let text = |path: &Path| {
+            files::read_text(path, LONGEST).map_err(|e| wrong(path, format!("cannot be read: {e}")))
+        };
+        let runs = text(&path)?;
+        let (head, lines) = runs.split_once('\n').unwrap_or((&runs, ""));
+        let hash = (head.strip_prefix(HEAD)).and_then(|rest| rest.split_once(", hash "));
+        let Some((_, hash)) = hash else {
+            let problem = format!("line 1: must be `{HEAD}NAME, hash HASH`, got `{head}`");
+            return Err(wrong(&path, problem));
+        };
+        let rows: Vec<RunRow> = from_csv(lines, 1).map_err(|e| wrong(&path, e))?;
+        let declared: Vec<DeclarationRow> =
+            from_csv(&text(&beside)?, 0).map_err(|e| wrong(&beside, e))?;
+        let mut runs: BTreeMap<_, _> = rows
+            .into_iter()
+            .map(|r| ((r.seed, r.arm.clone()), r))
+            .collect();
+        for d in declared {
+            let Some(run) = runs.get_mut(&(d.seed, d.arm.clone())) else {
+                let problem = format!("seed {}, arm `{}`: no such run", d.seed, d.arm);
+                return Err(wrong(&beside, problem));
+            };
+            run.declarations.push(d);
+        }
+        let hash = hash.trim().to_string();
+        Ok(Some(Self { hash, runs }))
+    }
+
+    /// Whether it holds no runs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+
+    /// Takes over the runs of a row; those of equal seed and arm are replaced.
+    pub fn put(&mut self, row: &Reproduced) {
+        self.hash.clone_from(&row.scenario.1);
+        for run in &row.runs {
+            let run = RunRow {
+                spin_up_wall_s: 0.0,
+                mission_wall_s: 0.0,
+                ..run.clone()
+            };
+            self.runs.insert((run.seed, run.arm.clone()), run);
+        }
+    }
+
+    /// Writes the table of a row.
+    ///
+    /// # Errors
+    /// If the folder or a file cannot be written.
+    pub fn write(&self, dir: &Path, row: &Reproduced) -> Result<(), ReportError> {
+        make_folder(dir)?;
+        let mut runs: Vec<RunRow> = self.runs.values().cloned().collect();
+        // Numbers within the table, so that they do not depend on the order in which seeds were added.
+        for (n, run) in (0..).zip(&mut runs) {
+            run.run = n;
+            run.seed_index = 0;
+            for d in &mut run.declarations {
+                (d.run, d.seed_index) = (n, 0);
+            }
+        }
+        let [rows, declarations] = as_csv(&runs);
+        let rows = format!("{HEAD}{}, hash {}\n{rows}", row.scenario.0, self.hash);
+        let [path, beside] = paths(dir, &row.row.id);
+        // Declarations first: runs without theirs would be read as runs that declared nothing.
+        write_whole(&beside, declarations.as_bytes())?;
+        write_whole(&path, rows.as_bytes())?;
+        Ok(())
+    }
+
+    /// The runs of consecutive seeds from `first` on for which all arms are there, at most `n` seeds.
+    #[must_use]
+    pub fn from_seed(&self, first: u64, n: u64, reference: &Reference) -> Vec<RunRow> {
+        let arms = reference.arms.len() as u64;
+        let mut all = Vec::new();
+        for index in 0..n {
+            let seed = first + index;
+            let of = |(arm, _): &(String, _)| self.runs.get(&(seed, arm.clone())).cloned();
+            let Some(runs) = reference.arms.iter().map(of).collect::<Option<Vec<_>>>() else {
+                break;
+            };
+            for (k, mut run) in (0..).zip(runs) {
+                (run.run, run.seed_index) = (index * arms + k, index);
+                all.push(run);
+            }
+        }
+        all
+    }
+
+    /// All runs of a row's arms.
+    #[must_use]
+    pub fn of_arms(&self, reference: &Reference) -> Vec<RunRow> {
+        let asked = |arm: &String| reference.arms.iter().any(|(name, _)| name == arm);
+        let all = self.runs.iter().filter(|((_, arm), _)| asked(arm));
+        all.map(|(_, run)| run.clone()).collect()
+    }
+
+    /// What shows that the program no longer gives these runs: another scenario, or another digest when `n` of the
+    /// seeds, drawn at random, are run again. `None` if nothing does.
+    #[must_use]
+    pub fn stale(&self, reference: &Reference, n: usize) -> Option<String> {
+        if self.hash != reference.loaded.hash {
+            let (was, is) = (&self.hash, &reference.loaded.hash);
+            return Some(format!(
+                "its scenario has hash {is}, that of the table {was}"
+            ));
+        }
+        self.drawn(n)
+            .into_iter()
+            .find_map(|seed| self.differs(reference, seed))
+    }
+
+    /// Different seeds, drawn at random: what is checked must not be known before.
+    fn drawn(&self, n: usize) -> Vec<u64> {
+        let seeds: BTreeSet<u64> = self.runs.keys().map(|(seed, _)| *seed).collect();
+        let random = RandomState::new();
+        let mut seeds: Vec<u64> = seeds.into_iter().collect();
+        seeds.sort_by_key(|seed| random.hash_one(seed));
+        seeds.truncate(n);
+        seeds
+    }
+
+    fn differs(&self, reference: &Reference, seed: u64) -> Option<String> {
+        let was = |arm: &String| self.runs.get(&(seed, arm.clone()));
+        let mut runs: Vec<Planned<'_>> = Vec::new();
+        for (arm, loaded) in reference.arms.iter().filter(|(arm, _)| was(arm).is_some()) {
+            let name = RunName {
+                run: 0,
+                arm: arm.clone(),
+                condition: String::new(),
+                seed_index: 0,
+                seed: Seed::from(seed),
+            };
+            runs.push((name, loaded));
+        }
+        let heed = Heed {
+            begin: &|| true,
+            go_on: &|| true,
+            took: &|_| {},
+        };
+        let mut found = None;
+        in_lanes(&runs, None, heed, &mut |is| {
+            let was = was(&is.arm).map_or("", |run| &run.digest);
+            if is.digest != was {
+                let arm = &is.arm;
+                found = Some(format!(
+                    "seed {seed} of arm `{arm}` now has digest {}, in the table {was}",
+                    is.digest
+                ));
+            }
+        });
+        found
+    }
+}
+
+fn paths(dir: &Path, id: &str) -> [PathBuf; 2] {
+    [
+        dir.join(format!("{id}.csv")),
+        dir.join(format!("{id}-declarations.csv")),
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::wanted;
+    use super::*;
+    use crate::reproduce::compare;
+
+    fn reference() -> Reference {
+        wanted(&["wp_laminar".into()], &[]).unwrap().remove(0)
+    }
+
+    fn reproduced(reference: &Reference, seeds: std::ops::Range<u64>) -> Reproduced {
+        let mut row = Reproduced::begin(reference);
+        for seed in seeds {
+            for (arm, _) in &reference.arms {
+                row.runs.push(RunRow {
+                    arm: arm.clone(),
+                    seed,
+                    digest: format!("{seed}-{arm}"),
+                    error_m: Some(0.1 + seed as f64),
+                    mission_wall_s: 7.0,
+                    declarations: vec![DeclarationRow {
+                        arm: arm.clone(),
+                        seed,
+                        rule: "says \"here\", twice".to_string(),
+                        t_s: 0.1 + 0.2,
+                        ..DeclarationRow::default()
+                    }],
+                    ..RunRow::default()
+                });
+            }
+        }
+        row.figures = compare(&reference.row, &row.runs);
+        row
+    }
+
+    #[test]
+    fn a_table_is_read_as_it_was_written_and_grows() {
+        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
+        assert_eq!(Table::read(dir.path(), &reference).unwrap(), None);
+        let mut table = Table::default();
+        let first = reproduced(&reference, 5..8);
+        table.put(&first);
+        table.write(dir.path(), &first).unwrap();
+        let mut back = Table::read(dir.path(), &reference).unwrap().unwrap();
+        assert_eq!(
+            back.from_seed(5, 9, &reference).len(),
+            3 * reference.arms.len()
+        );
+        assert!(back.from_seed(4, 9, &reference).is_empty());
+        let one = &back.of_arms(&reference)[0];
+        assert_eq!(one.declarations[0].t_s.to_bits(), (0.1_f64 + 0.2).to_bits());
+        assert_eq!(one.mission_wall_s, 0.0);
+        back.put(&reproduced(&reference, 3..6));
+        back.write(dir.path(), &first).unwrap();
+        let again = Table::read(dir.path(), &reference).unwrap().unwrap();
+        assert_eq!(
+            again.from_seed(3, 9, &reference).len(),
+            5 * reference.arms.len()
+        );
+    }
+
+    #[test]
+    fn a_table_that_the_program_no_longer_gives_is_stale() {
+        let reference = reference();
+        let mut table = Table::default();
+        table.put(&reproduced(&reference, 1..3));
+        assert_eq!(table.stale(&reference, 0), None);
+        let said = table.stale(&reference, 1).unwrap();
+        assert!(said.contains("now has digest"), "{said}");
+        table.hash = "another".to_string();
+        let said = table.stale(&reference, 0).unwrap();
+        assert!(said.contains("that of the table another"), "{said}");
+    }
+
+    #[test]
+    fn a_broken_table_names_file_line_and_column() {
+        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
+        let row = reproduced(&reference, 1..3);
+        let mut table = Table::default();
+        table.put(&row);
+        table.write(dir.path(), &row).unwrap();
+        let path = dir.path().join("wp_laminar.csv");
+        let text = std::fs::read_to_string(&path).unwrap();
+        let said = |broken: String| {
+            std::fs::write(&path, broken).unwrap();
+            Table::read(dir.path(), &reference).unwrap_err().to_string()
+        };
+        let no_head = said(text.replacen('#', "", 1));
+        assert!(
+            no_head.contains("wp_laminar.csv") && no_head.contains("line 1"),
+            "{no_head}"
+        );
+        let letters = said(text.replacen(",1.1,", ",x,", 1));
+        assert!(
+            letters.contains("line 3") && letters.contains("error_m"),
+            "{letters}"
+        );
+        let cut = said(text[..text.len() - 20].to_string());
+        assert!(cut.contains("line"), "{cut}");
+        let column = said(text.replacen("seed_index", "seed_number", 1));
+        assert!(
+            column.contains("line 2") && column.contains("seed_index"),
+            "{column}"
+        );
+    }
+}
