@@ -210,3 +210,42 @@ fn wrong_rows_folders_and_options_are_refused_before_anything_runs() {
         assert_eq!(reproduce(dir.path(), usage).0, Some(2), "{usage:?}");
     }
 }
+
+/// Kept runs are taken, added to and checked; those of another program are out of date.
+#[test]
+fn kept_runs_stay_and_are_checked() {
+    let dir = tempfile::tempdir().unwrap();
+    write_row(dir.path());
+    let go = |more: &[&str]| {
+        let mut args = vec!["row.ron", "--keep", "kept", "--out", "out"];
+        args.extend_from_slice(more);
+        reproduce(dir.path(), &args)
+    };
+    let file = dir.path().join("kept/channel.csv");
+    let kept = || fs::read_to_string(&file).unwrap();
+    let (code, _, error) = go(&["--seeds", "2"]);
+    assert_eq!(code, Some(0), "{error}");
+    let two = kept();
+    // A head, the names, and a line for each run.
+    assert_eq!(two.lines().count(), 4, "{two}");
+    let (code, out, error) = go(&["--seeds", "3"]);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(out.contains("3 runs, seeds 1 to 3"), "{out}");
+    let three = kept();
+    assert_eq!(three.lines().count(), 5);
+    assert!(two.lines().zip(three.lines()).all(|(a, b)| a == b));
+    let (code, out, error) = go(&["--no-runs", "--check", "3"]);
+    assert_eq!(code, Some(0), "{error}");
+    assert!(out.contains("3 runs, seeds 1 to 3"), "{out}");
+    let digest = three.lines().nth(2).unwrap().split(',').nth(8).unwrap();
+    assert_eq!(digest.len(), 32);
+    fs::write(&file, three.replace(digest, &"0".repeat(32))).unwrap();
+    let (code, _, error) = go(&["--seeds", "4", "--check", "3"]);
+    assert_eq!(code, Some(1));
+    for says in ["channel is out of date", "seed 1", digest, "--anew"] {
+        assert!(error.contains(says), "{says}: {error}");
+    }
+    let (code, _, error) = go(&["--seeds", "2", "--check", "3", "--anew"]);
+    assert_eq!(code, Some(0), "{error}");
+    assert_eq!(kept(), two);
+}
