@@ -39,8 +39,8 @@ impl Columns {
     pub(super) fn weigh(&mut self) {
         for l in 0..BLOCK {
             let w = weights(self.f[l], self.g[l]);
-            for n in 0..4 {
-                self.weight[n][l] = w[n];
+            for (weight, w) in self.weight.iter_mut().zip(w) {
+                weight[l] = w;
             }
         }
     }

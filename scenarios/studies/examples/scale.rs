@@ -1,7 +1,7 @@
 //! How cost grows with filaments, robots and lanes: `cargo run --release -p studies --example scale`.
 //!
 //! Each point is the steady channel of the catalogue in its second minute of mission, on one thread: wall time for a
-//! second of mission, and the memory of the process. Run it on an idle machine. It prints a table and writes
+//! second of mission, and the memory of a process of its own. Run it on an idle machine. It prints a table and writes
 //! `docs/figures/scale.svg`, or the file that is named after `--`.
 
 #![allow(
@@ -16,6 +16,7 @@ use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Trial, Watch};
 use std::error::Error;
+use std::process::Command;
 use std::time::Instant;
 use world::math;
 use world::registry::Registry;
@@ -25,6 +26,8 @@ const WARM_S: f64 = 60.0;
 const TIMED_S: f64 = 60.0;
 /// Time that a filament takes through the channel, s.
 const STAYS_S: f64 = 2000.0;
+/// Asks for a single point.
+const POINT: &str = "--point";
 const FILAMENTS: [usize; 5] = [1_000, 10_000, 100_000, 300_000, 1_000_000];
 const ROBOTS: [usize; 4] = [1, 10, 30, 100];
 const LANES: [usize; 5] = [1, 2, 5, 10, 20];
@@ -39,8 +42,15 @@ struct Point {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let file = std::env::args().nth(1);
-    let file = file.unwrap_or_else(|| "docs/figures/scale.svg".to_string());
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    if let [asked, what, n] = &args[..]
+        && asked == POINT
+    {
+        let (ms, mb) = measured(what, n.parse()?)?;
+        println!("{ms} {mb}");
+        return Ok(());
+    }
+    let file = args.first().map_or("docs/figures/scale.svg", |file| file);
     let mut curves = Vec::new();
     println!("| what | number | ms for a second of mission | memory, MB |\n|---|---|---|---|");
     for (what, numbers) in [
@@ -50,19 +60,35 @@ fn main() -> Result<(), Box<dyn Error>> {
     ] {
         let mut curve = Vec::new();
         for &n in numbers {
-            let (ms, mb) = match what.split(',').next() {
-                Some("filaments") => alone(&channel(n, 1)?)?,
-                Some("robots") => alone(&channel(100_000, n)?)?,
-                _ => in_lanes(&channel(10_000, 1)?, n)?,
-            };
+            let (ms, mb) = in_a_process(what, n)?;
             println!("| {what} | {n} | {ms:.3} | {mb:.0} |");
             curve.push(Point { n, ms, mb });
         }
         curves.push((what, curve));
     }
-    std::fs::write(&file, drawn(&curves))?;
+    std::fs::write(file, drawn(&curves))?;
     println!("{file}");
     Ok(())
+}
+
+/// A point measured by a process of its own, so that none holds the memory of those before it.
+fn in_a_process(what: &str, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
+    let mut process = Command::new(std::env::current_exe()?);
+    let ended = process.args([POINT, what, &n.to_string()]).output()?;
+    let said = String::from_utf8_lossy(&ended.stdout).into_owned();
+    let mut numbers = said.split_whitespace().map(str::parse::<f64>);
+    match (numbers.next(), numbers.next()) {
+        (Some(Ok(ms)), Some(Ok(mb))) => Ok((ms, mb)),
+        _ => Err(format!("{what}, {n}: {}", String::from_utf8_lossy(&ended.stderr)).into()),
+    }
+}
+
+fn measured(what: &str, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
+    match what.split(',').next() {
+        Some("filaments") => alone(&channel(n, 1)?),
+        Some("robots") => alone(&channel(100_000, n)?),
+        _ => in_lanes(&channel(10_000, 1)?, n),
+    }
 }
 
 /// The channel with about so many filaments in it, and so many robots that search from different places.
