@@ -94,6 +94,11 @@ impl Placed {
         }
     }
 
+    /// Its bounds along the first axis, m.
+    pub(super) fn along_x(&self) -> [f64; 2] {
+        [self.bounds.mins.x, self.bounds.maxs.x]
+    }
+
     /// The nearest point, if it is within `reach_m`.
     pub(super) fn nearest(&self, other: &Placed, reach_m: f64) -> Option<Point> {
         if !self.bounds.loosened(reach_m).intersects(&other.bounds) {

@@ -158,26 +158,32 @@ impl Physics {
         still: &[Placed],
         left_s: f64,
     ) -> Vec<Near> {
-        let speed = |thing: &Thing| thing.on.map_or(0.0, |(m, _)| self.fastest_m_s(&courses[m]));
+        let speeds: Vec<f64> = courses.iter().map(|c| self.fastest_m_s(c)).collect();
+        let speed = |thing: &Thing| thing.on.map_or(0.0, |(m, _)| speeds[m]);
         let body = |thing: &Thing| {
             thing
                 .on
                 .is_some_and(|(m, _)| matches!(courses[m].who, Who::Body(_)))
         };
+        let reach = |fastest_m_s: f64| fastest_m_s * left_s + 2.0 * CREEP_M;
         let mut near = Vec::new();
-        for (i, first) in things.iter().enumerate().filter(|(_, t)| body(t)) {
-            let own_m_s = speed(first);
-            let others = things[i + 1..].iter().map(|t| (&t.placed, t.on, speed(t)));
-            let fast = still.iter().map(|placed| (placed, None, 0.0));
-            for (k, (placed, on, other_m_s)) in others.chain(fast).enumerate() {
+        let others = beside(things, |thing| reach(speed(thing)));
+        for ((i, first), others) in things.iter().enumerate().zip(others) {
+            if !body(first) {
+                continue;
+            }
+            let moving = others.into_iter().map(|k| (k, &things[k]));
+            let moving = moving.map(|(k, t)| (k, &t.placed, t.on, speed(t)));
+            let fixed = (things.len()..).zip(still);
+            let fixed = fixed.map(|(k, placed)| (k, placed, None, 0.0));
+            for (k, placed, on, other_m_s) in moving.chain(fixed) {
                 if on.map(|(m, _)| m) == first.on.map(|(m, _)| m) {
                     continue;
                 }
-                let fastest_m_s = own_m_s + other_m_s;
-                let reach_m = fastest_m_s * left_s + 2.0 * CREEP_M;
-                if let Some(nearest) = first.placed.nearest(placed, reach_m) {
+                let fastest_m_s = speed(first) + other_m_s;
+                if let Some(nearest) = first.placed.nearest(placed, reach(fastest_m_s)) {
                     near.push(Near {
-                        things: [i, i + 1 + k],
+                        things: [i, k],
                         nearest,
                         fastest_m_s,
                     });
@@ -252,6 +258,30 @@ impl Physics {
         }
         rows
     }
+}
+
+/// For each thing, the later ones whose bounds come within reach of its own along the first axis, in order. So only
+/// neighbours are compared (sweep and prune; Baraff 1992, Dynamic Simulation of Non-Penetrating Rigid Bodies, ch. 7).
+fn beside(things: &[Thing], reach: impl Fn(&Thing) -> f64) -> Vec<Vec<usize>> {
+    let span = |thing: &Thing| {
+        let [lo, hi] = thing.placed.along_x();
+        let reach_m = reach(thing);
+        [lo - reach_m, hi + reach_m]
+    };
+    let spans: Vec<[f64; 2]> = things.iter().map(span).collect();
+    let mut order: Vec<usize> = (0..things.len()).collect();
+    order.sort_by(|a, b| spans[*a][0].total_cmp(&spans[*b][0]));
+    let mut all = vec![Vec::new(); things.len()];
+    for (n, a) in order.iter().enumerate() {
+        let neighbours = order[n + 1..].iter();
+        for b in neighbours.take_while(|b| spans[**b][0] <= spans[*a][1]) {
+            all[*a.min(b)].push(*a.max(b));
+        }
+    }
+    for later in &mut all {
+        later.sort_unstable();
+    }
+    all
 }
 
 /// A unit normal with two tangents.
