@@ -81,48 +81,49 @@ Exit codes:
 #[derive(Clone, Debug, Subcommand)]
 pub enum Command {
     /// Run scenarios, one after the other.
+    #[command(long_about = RUN_ABOUT)]
     Run(RunArgs),
     /// Check scenarios without running them, and estimate what a run takes.
+    #[command(long_about = CHECK_ABOUT)]
     Check(CheckArgs),
     /// Write a scenario to start from; without a name, list those that come with the program.
+    #[command(long_about = INIT_ABOUT)]
     Init(InitArgs),
     /// List scenarios, algorithms, flows, sensors and vehicles, each with its source.
+    #[command(long_about = LIST_ABOUT)]
     List(ListArgs),
     /// Explain a field of a scenario: unit, range, default, meaning, source.
+    #[command(long_about = super::args_explain::EXPLAIN_ABOUT)]
     Explain(ExplainArgs),
     /// List the live state that a run publishes over zenoh.
+    #[command(long_about = TOPICS_ABOUT)]
     Topics(TopicsArgs),
     /// Compare variants of a scenario over thousands of runs, on one machine or many.
+    #[command(long_about = super::args_campaign::CAMPAIGN_ABOUT)]
     Campaign(CampaignArgs),
     /// Repeat the papers' experiments over many seeds and compare the figures.
+    #[command(long_about = super::args_reproduce::REPRODUCE_ABOUT)]
     Reproduce(ReproduceArgs),
     /// Show or clear the spin-ups that are kept so that they need not be made again.
     #[command(long_about = args_cache::ABOUT)]
     Cache(CacheCommandArgs),
     /// Measure the statistics of a scenario's water and plume and compare them with published ones.
+    #[command(long_about = STATISTICS_ABOUT)]
     Statistics(StatisticsArgs),
     /// Take an underwater picture of a scenario's plume.
+    #[command(long_about = super::args_picture::PICTURE_ABOUT)]
     Picture(PictureArgs),
     /// Find dye and its source in a picture by colour.
+    #[command(long_about = super::args_vision::SEGMENT_ABOUT)]
     Segment(SegmentArgs),
     /// Score how well dye and source are found, on rendered pictures whose truth is known.
+    #[command(long_about = super::args_vision::SCORE_VISION_ABOUT)]
     ScoreVision(ScoreVisionArgs),
 }
 
 /// Arguments of `run`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. The developed \
-        plume is kept in a cache: the next run with the same seed, and with any robots and strategy, takes it from \
-        there. Scenarios that differ only in the searcher share one plume and run together, with the same results; the \
-        others run one after the other.\n\n\
-        The results are in runs/SCENARIO-SEED/ unless --out names another folder. Open report.html first. The folder \
-        also holds summary.json, track.csv (of a gantry: probes-GANTRY.csv), the figures, and the recording run.mcap \
-        for Foxglove, Lichtblick or Rerun.\n\n\
-        The same scenario, seed and program give the same run, bit by bit, at any speed and with any number of \
-        subscribers.",
-    after_help = RUN_AFTER
-)]
+#[command(after_help = RUN_AFTER)]
 pub struct RunArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
     #[arg(required = true, value_name = "FILE")]
@@ -206,10 +207,6 @@ impl FromStr for Speed {
 /// Arguments of `check`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Checks scenarios without running them. Every mistake is shown with file, line, column, field, value \
-        and legal range. Warnings tell of what is legal but probably not meant, such as an instrument that is out of \
-        range of the bed.\n\n\
-        For a scenario without mistakes it estimates the time and memory of a run, and says what takes most of it.",
     after_help = "Exit codes: 0 every scenario can run (there may be warnings); 1 at least one cannot; 2 wrong usage."
 )]
 pub struct CheckArgs {
@@ -220,11 +217,7 @@ pub struct CheckArgs {
 
 /// Arguments of `init`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Writes a scenario that comes with the program to a file, with its comments, so that you can change \
-        it. An existing file is never overwritten. Without a name, the scenarios are listed.",
-    after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron"
-)]
+#[command(after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron")]
 pub struct InitArgs {
     /// Name of a scenario that comes with the program.
     pub template: Option<String>,
@@ -234,11 +227,7 @@ pub struct InitArgs {
 
 /// Arguments of `list`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    long_about = "Lists what a scenario can use, each with one sentence and its source: the paper, section or equation \
-        it follows. `rheotaxis explain` then explains the parameters.",
-    after_help = "Examples:\n  rheotaxis list\n  rheotaxis list algorithms"
-)]
+#[command(after_help = "Examples:\n  rheotaxis list\n  rheotaxis list algorithms")]
 pub struct ListArgs {
     /// What to list [default: everything].
     pub what: Option<ListKind>,
@@ -261,16 +250,9 @@ pub enum ListKind {
 
 /// Arguments of `statistics`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Lets a scenario's plume develop without its robots, then measures it with probes that do not disturb \
-        it: widths, mean concentration, intermittency, gaps between whiffs, the gamma distribution and integral times. \
-        In an open channel it also measures the velocity profile and the turbulence intensities.\n\n\
-        A table shows each figure beside the published one and marks those outside a factor of 0.5 to 2. The same \
-        table is written to statistics.csv.",
-    after_help = "Examples:\n  rheotaxis statistics flume_crab\n  \
+#[command(after_help = "Examples:\n  rheotaxis statistics flume_crab\n  \
         rheotaxis statistics duck_st --seed 3 --seconds 600\n\n\
-        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
-)]
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage.")]
 pub struct StatisticsArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
     #[arg(value_name = "FILE")]
@@ -301,16 +283,48 @@ fn seconds(s: &str) -> Result<f64, String> {
 
 /// Arguments of `topics`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    long_about = "Lists the keys under which a run publishes its state over zenoh: each with its rate, its meaning and \
-        its fields. A `?` marks a field that may be missing.",
-    after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json"
-)]
+#[command(after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json")]
 pub struct TopicsArgs {
     /// Print the JSON Schemas of all messages instead, as one object.
     #[arg(long)]
     pub schema: bool,
 }
+
+/// What the help of this command begins with.
+pub(super) const RUN_ABOUT: &str = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. The developed \
+        plume is kept in a cache: the next run with the same seed, and with any robots and strategy, takes it from \
+        there. Scenarios that differ only in the searcher share one plume and run together, with the same results; the \
+        others run one after the other.\n\n\
+        The results are in runs/SCENARIO-SEED/ unless --out names another folder. Open report.html first. The folder \
+        also holds summary.json, track.csv (of a gantry: probes-GANTRY.csv), the figures, and the recording run.mcap \
+        for Foxglove, Lichtblick or Rerun.\n\n\
+        The same scenario, seed and program give the same run, bit by bit, at any speed and with any number of \
+        subscribers.";
+
+/// What the help of this command begins with.
+pub(super) const CHECK_ABOUT: &str = "Checks scenarios without running them. Every mistake is shown with file, line, column, field, value \
+        and legal range. Warnings tell of what is legal but probably not meant, such as an instrument that is out of \
+        range of the bed.\n\n\
+        For a scenario without mistakes it estimates the time and memory of a run, and says what takes most of it.";
+
+/// What the help of this command begins with.
+pub(super) const INIT_ABOUT: &str = "Writes a scenario that comes with the program to a file, with its comments, so that you can change \
+        it. An existing file is never overwritten. Without a name, the scenarios are listed.";
+
+/// What the help of this command begins with.
+pub(super) const LIST_ABOUT: &str = "Lists what a scenario can use, each with one sentence and its source: the paper, section or equation \
+        it follows. `rheotaxis explain` then explains the parameters.";
+
+/// What the help of this command begins with.
+pub(super) const STATISTICS_ABOUT: &str = "Lets a scenario's plume develop without its robots, then measures it with probes that do not disturb \
+        it: widths, mean concentration, intermittency, gaps between whiffs, the gamma distribution and integral times. \
+        In an open channel it also measures the velocity profile and the turbulence intensities.\n\n\
+        A table shows each figure beside the published one and marks those outside a factor of 0.5 to 2. The same \
+        table is written to statistics.csv.";
+
+/// What the help of this command begins with.
+pub(super) const TOPICS_ABOUT: &str = "Lists the keys under which a run publishes its state over zenoh: each with its rate, its meaning and \
+        its fields. A `?` marks a field that may be missing.";
 
 #[cfg(test)]
 mod tests {
@@ -320,6 +334,17 @@ mod tests {
     fn the_command_line_is_well_formed() {
         use clap::CommandFactory;
         Args::command().debug_assert();
+    }
+
+    /// A line for the list of commands is not the help of a command.
+    #[test]
+    fn the_help_of_every_command_says_more_than_the_list() {
+        use clap::CommandFactory;
+        for command in Args::command().get_subcommands() {
+            let [line, help] = [command.get_about(), command.get_long_about()];
+            let [line, help] = [line, help].map(|t| t.map_or(0, |t| t.to_string().len()));
+            assert!(line > 0 && help > 2 * line, "{}", command.get_name());
+        }
     }
 
     #[test]

@@ -9,21 +9,7 @@ use studies::campaign::Shard;
 
 /// Arguments of `campaign`.
 #[derive(Clone, Debug, clap::Args)]
-#[command(
-    long_about = "A campaign runs variants of a scenario (arms) with the same seeds and compares them. A campaign file \
-        (RON) names the scenario, the arms with the values that each changes, the conditions and the seeds. Start with \
-        `plan`, which checks the file and estimates the cost; then `run`, `status` and `report`.\n\n\
-        Seeds: `seeds: 20` means seeds 1 to 20, and `seeds: Literal(first: 101, count: 20)` means 101 to 120. Each row \
-        is then the run of `rheotaxis run --seed N` of the same scenario and has the same digest. \
-        `seeds: Hashed(seed: 1, count: 20)` gives every condition seeds of its own. In a file of version 1, a number \
-        means hashed seeds; it is still read so, with a warning.\n\n\
-        `run` writes blocks of rows, each a Parquet file. A run that has a row is done, so a campaign can be \
-        interrupted and continued at any time, and any number of machines can work in the same folder. A row does not \
-        depend on how the work was divided.\n\n\
-        Arms that differ only in the searcher share one plume for each seed and run in it together, in lanes. Each row \
-        is that of the run alone.",
-    after_help = AFTER
-)]
+#[command(after_help = AFTER)]
 pub struct CampaignArgs {
     /// What to do.
     #[command(subcommand)]
@@ -53,8 +39,10 @@ pub enum CampaignCommand {
     /// Write all rows of a campaign to one file, and all declarations to one beside it.
     Merge(MergeArgs),
     /// Compare the arms: tables, figures and a page.
+    #[command(long_about = REPORT_ABOUT)]
     Report(ReportArgs),
     /// Repeat one run, with all the files that `rheotaxis run` writes.
+    #[command(long_about = RERUN_ABOUT)]
     Rerun(RerunArgs),
 }
 
@@ -148,8 +136,6 @@ pub struct MergeArgs {
 /// Arguments of `campaign rerun`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
 #[command(
-    long_about = "Repeats one run of a campaign and writes the files that `rheotaxis run` writes. Its digest must be \
-        the one in the row.",
     after_help = "Exit codes: 0 the same digest, or no row to compare with; 1 another digest, or an error; \
         130 interrupted; 2 wrong usage."
 )]
@@ -192,6 +178,33 @@ fn wall_time(text: &str) -> Result<Duration, String> {
     Ok(Duration::from_secs(seconds))
 }
 
+/// What the help of this command begins with.
+pub(super) const CAMPAIGN_ABOUT: &str = "A campaign runs variants of a scenario (arms) with the same seeds and compares them. A campaign file \
+        (RON) names the scenario, the arms with the values that each changes, the conditions and the seeds. Start with \
+        `plan`, which checks the file and estimates the cost; then `run`, `status` and `report`.\n\n\
+        Seeds: `seeds: 20` means seeds 1 to 20, and `seeds: Literal(first: 101, count: 20)` means 101 to 120. Each row \
+        is then the run of `rheotaxis run --seed N` of the same scenario and has the same digest. \
+        `seeds: Hashed(seed: 1, count: 20)` gives every condition seeds of its own. In a file of version 1, a number \
+        means hashed seeds; it is still read so, with a warning.\n\n\
+        `run` writes blocks of rows, each a Parquet file. A run that has a row is done, so a campaign can be \
+        interrupted and continued at any time, and any number of machines can work in the same folder. A row does not \
+        depend on how the work was divided.\n\n\
+        Arms that differ only in the searcher share one plume for each seed and run in it together, in lanes. Each row \
+        is that of the run alone.";
+
+/// What the help of this command begins with.
+pub(super) const RERUN_ABOUT: &str = "Repeats one run of a campaign and writes the files that `rheotaxis run` writes. Its digest must be \
+        the one in the row.";
+
+/// What the help of this command begins with.
+pub(super) const REPORT_ABOUT: &str = "Compares the arms of a campaign, even if it is not complete. The report has:\n\n\
+        - success shares with Wilson's 95 % interval;\n\
+        - time, path and error with bootstrap intervals;\n\
+        - curves over time of the share of runs that have not yet declared, and curves of the errors;\n\
+        - differences between arms on the same seeds: better, worse, or not separable at this number of runs;\n\
+        - where the computing time went.\n\n\
+        It is written as report.html, with figures as SVG and PNG and a CSV file for everything drawn.";
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -210,15 +223,6 @@ mod tests {
 
 /// Arguments of `campaign report`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Compares the arms of a campaign, even if it is not complete. The report has:\n\n\
-        - success shares with Wilson's 95 % interval;\n\
-        - time, path and error with bootstrap intervals;\n\
-        - curves over time of the share of runs that have not yet declared, and curves of the errors;\n\
-        - differences between arms on the same seeds: better, worse, or not separable at this number of runs;\n\
-        - where the computing time went.\n\n\
-        It is written as report.html, with figures as SVG and PNG and a CSV file for everything drawn."
-)]
 pub struct ReportArgs {
     /// Folder of the campaign.
     #[arg(value_name = "DIR")]

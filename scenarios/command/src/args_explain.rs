@@ -3,11 +3,6 @@
 /// Arguments of `explain`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
 #[command(
-    long_about = "Explains a field of a scenario file: its unit, legal range, default and meaning, and for an \
-        algorithm the paper it comes from. The text is made from the types that read a scenario, so it always fits \
-        this program.\n\n\
-        PATH is written as in error messages. You may leave out the numbers of list elements and the names of \
-        variants; then every variant that has the field is shown. Without PATH, the blocks of a scenario are shown.",
     after_help = "Examples:\n  rheotaxis explain water.currents.Meander\n  \
         rheotaxis explain robots.strategy.reacquire\n  \
         rheotaxis explain 'robots[0].strategy.Amp.reacquire.Bowtie'\n  \
@@ -25,3 +20,10 @@ pub struct ExplainArgs {
     #[arg(long, conflicts_with = "path")]
     pub json_schema: bool,
 }
+
+/// What the help of this command begins with.
+pub(super) const EXPLAIN_ABOUT: &str = "Explains a field of a scenario file: its unit, legal range, default and meaning, and for an \
+        algorithm the paper it comes from. The text is made from the types that read a scenario, so it always fits \
+        this program.\n\n\
+        PATH is written as in error messages. You may leave out the numbers of list elements and the names of \
+        variants; then every variant that has the field is shown. Without PATH, the blocks of a scenario are shown.";

@@ -7,13 +7,7 @@ use std::str::FromStr;
 
 /// Arguments of `picture`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Lets a scenario's plume develop, takes one picture from a place of your choice, and writes it as a \
-        PNG file.\n\n\
-        Clarity and light of the water come from the scenario's `optics`. The camera is that of the first robot that \
-        has one, or a default camera. The same scenario, seed and place give the same picture, bit by bit.",
-    after_help = PICTURE_AFTER
-)]
+#[command(after_help = PICTURE_AFTER)]
 pub struct PictureArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
     #[arg(value_name = "FILE")]
@@ -78,6 +72,12 @@ impl<const N: usize> FromStr for Numbers<N> {
         }
     }
 }
+
+/// What the help of this command begins with.
+pub(super) const PICTURE_ABOUT: &str = "Lets a scenario's plume develop, takes one picture from a place of your choice, and writes it as a \
+        PNG file.\n\n\
+        Clarity and light of the water come from the scenario's `optics`. The camera is that of the first robot that \
+        has one, or a default camera. The same scenario, seed and place give the same picture, bit by bit.";
 
 #[cfg(test)]
 mod tests {

@@ -8,20 +8,6 @@ use studies::reproduce::Row;
 /// Arguments of `reproduce`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 #[command(
-    long_about = "Repeats the papers' experiments over many seeds. A table shows each of our figures with its 95 % \
-        interval, the paper's figure, and whether that lies in the interval. Shares have Wilson's interval, medians \
-        and other quantiles a bootstrap interval, and means an interval on the logarithmic scale. Fewer than 5 values \
-        have none.\n\n\
-        ROW is the name of an experiment. A name without a row of its own stands for all rows that begin with it: \
-        `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
-        The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
-        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
-        number of jobs. With several rows, each first runs one seed on each core: from then on it is known how long \
-        all of them take.\n\n\
-        With --keep, seed, outcome, digest and all measures of every run stay in a folder as small tables (CSV). A \
-        later run takes from them what they hold, adds what they lack, and prints the figures of both. Before that, \
-        seeds drawn at random are run again: if they give other digests, or the scenario has changed, the row is out \
-        of date, which is an error.",
     after_help = "Examples:\n  rheotaxis reproduce\n  rheotaxis reproduce duck_st --seeds 20\n  \
         rheotaxis reproduce crab --arm adaptive\n  \
         rheotaxis reproduce wp --seeds 1000 --first-seed 1001\n  \
@@ -102,6 +88,22 @@ fn half_width(s: &str) -> Result<f64, String> {
         _ => Err("must be > 0 and < 0.5".to_string()),
     }
 }
+
+/// What the help of this command begins with.
+pub(super) const REPRODUCE_ABOUT: &str = "Repeats the papers' experiments over many seeds. A table shows each of our figures with its 95 % \
+        interval, the paper's figure, and whether that lies in the interval. Shares have Wilson's interval, medians \
+        and other quantiles a bootstrap interval, and means an interval on the logarithmic scale. Fewer than 5 values \
+        have none.\n\n\
+        ROW is the name of an experiment. A name without a row of its own stands for all rows that begin with it: \
+        `wp` means wp_laminar, wp_turbulent and wp_dead_end. The number of trials is shown before they start.\n\n\
+        The results are REPRODUCTION.md, figures.csv (the table), rows.csv (every run) and declarations.csv. They are \
+        renewed every 50 seeds, so an interrupted experiment keeps what is done. The figures do not depend on the \
+        number of jobs. With several rows, each first runs one seed on each core: from then on it is known how long \
+        all of them take.\n\n\
+        With --keep, seed, outcome, digest and all measures of every run stay in a folder as small tables (CSV). A \
+        later run takes from them what they hold, adds what they lack, and prints the figures of both. Before that, \
+        seeds drawn at random are run again: if they give other digests, or the scenario has changed, the row is out \
+        of date, which is an error.";
 
 #[cfg(test)]
 mod tests {

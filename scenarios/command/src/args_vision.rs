@@ -6,22 +6,7 @@ use world::ranges::{NonNegative, Positive};
 
 /// Arguments of `segment`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Separates dye and source from the rest of a picture with the fuzzy colour extractor of Tian et al. \
-        2013, section 5, and judges whether the picture shows a source that gives off dye.\n\n\
-        A pass finds the colour in the picture that is nearest to a reference colour, its colour pattern. It takes all \
-        pixels whose fuzzy difference from the pattern is below epsilon and turns them white for the next pass. Three \
-        passes use RED (255, 0, 0) as the reference; together they are the plume. Four use DARK-BLUE (0, 0, 128); \
-        together they are the source. In each group only the passes whose patterns lie near the first one's are kept \
-        (delta1, delta2).\n\n\
-        The folder then holds sheet.png (everything on one sheet), overlay.png, pass-N.png (what each pass took), \
-        plume.png and source.png (all passes), plume-kept.png and source-kept.png with their masks, left.png (what no \
-        pass took), clusters.svg and .png (the colour patterns and their distances) and segmentation.json (all \
-        numbers).\n\n\
-        A picture may be PNG, JPEG, BMP, PNM, TIFF or WebP, grey or colour, 8 or 16 bits, with up to 64 million \
-        pixels. White counts as empty, and transparent pixels are laid on white.",
-    after_help = SEGMENT_AFTER
-)]
+#[command(after_help = SEGMENT_AFTER)]
 pub struct SegmentArgs {
     /// Picture to examine.
     #[arg(value_name = "IMAGE")]
@@ -138,22 +123,10 @@ fn at_least_zero(s: &str) -> Result<NonNegative, String> {
 
 /// Arguments of `score-vision`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(
-    long_about = "Renders underwater scenes whose truth is known, and scores how well dye and source are found in \
-        them.\n\n\
-        Half of the scenes show a dark source of 1.0 m by 0.5 m that releases rhodamine into a turbulent stream. The \
-        others show dye alone, a similar body that releases nothing, or the bare bed. The visibility is 1.5 to 24 m, \
-        evenly spread over four ranges. Light, sun, current, strength of the dye and pose of the camera are drawn at \
-        random from the seed.\n\n\
-        Several readings of the extractor of Tian et al. 2013 and plain thresholds are scored, each by range of \
-        visibility and with 95 % intervals: precision and recall for pixels of dye (it changes their light by a tenth \
-        or more) and of the source (at least 2 % of its light arrives), and true against false verifications.\n\n\
-        The results are scores.md, scores.csv, scores.json, scenes.csv, pixels.svg and .png, roc.svg and .png.",
-    after_help = "Examples:\n  rheotaxis score-vision\n  \
+#[command(after_help = "Examples:\n  rheotaxis score-vision\n  \
         rheotaxis score-vision --scenes 48 --pictures 48 --out look\n  \
         rheotaxis score-vision --seed 2 --scenes 960\n\n\
-        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage."
-)]
+        Exit codes: 0 done, whatever the figures say; 130 interrupted; 1 error; 2 wrong usage.")]
 pub struct ScoreVisionArgs {
     /// Number of scenes.
     #[arg(long, value_name = "N", default_value_t = 240,
@@ -178,6 +151,33 @@ pub struct ScoreVisionArgs {
     #[arg(long, short)]
     pub quiet: bool,
 }
+
+/// What the help of this command begins with.
+pub(super) const SEGMENT_ABOUT: &str = "Separates dye and source from the rest of a picture with the fuzzy colour extractor of Tian et al. \
+        2013, section 5, and judges whether the picture shows a source that gives off dye.\n\n\
+        A pass finds the colour in the picture that is nearest to a reference colour, its colour pattern. It takes all \
+        pixels whose fuzzy difference from the pattern is below epsilon and turns them white for the next pass. Three \
+        passes use RED (255, 0, 0) as the reference; together they are the plume. Four use DARK-BLUE (0, 0, 128); \
+        together they are the source. In each group only the passes whose patterns lie near the first one's are kept \
+        (delta1, delta2).\n\n\
+        The folder then holds sheet.png (everything on one sheet), overlay.png, pass-N.png (what each pass took), \
+        plume.png and source.png (all passes), plume-kept.png and source-kept.png with their masks, left.png (what no \
+        pass took), clusters.svg and .png (the colour patterns and their distances) and segmentation.json (all \
+        numbers).\n\n\
+        A picture may be PNG, JPEG, BMP, PNM, TIFF or WebP, grey or colour, 8 or 16 bits, with up to 64 million \
+        pixels. White counts as empty, and transparent pixels are laid on white.";
+
+/// What the help of this command begins with.
+pub(super) const SCORE_VISION_ABOUT: &str = "Renders underwater scenes whose truth is known, and scores how well dye and source are found in \
+        them.\n\n\
+        Half of the scenes show a dark source of 1.0 m by 0.5 m that releases rhodamine into a turbulent stream. The \
+        others show dye alone, a similar body that releases nothing, or the bare bed. The visibility is 1.5 to 24 m, \
+        evenly spread over four ranges. Light, sun, current, strength of the dye and pose of the camera are drawn at \
+        random from the seed.\n\n\
+        Several readings of the extractor of Tian et al. 2013 and plain thresholds are scored, each by range of \
+        visibility and with 95 % intervals: precision and recall for pixels of dye (it changes their light by a tenth \
+        or more) and of the source (at least 2 % of its light arrives), and true against false verifications.\n\n\
+        The results are scores.md, scores.csv, scores.json, scenes.csv, pixels.svg and .png, roc.svg and .png.";
 
 #[cfg(test)]
 mod tests {
