@@ -39,7 +39,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     let references = wanted(&args.rows, &args.arms)?;
     // Writes to the folder first, so that an error does not come after hours of work.
     write(&args.out, &[])?;
-    if !args.quiet {
+    if !args.quiet && !args.no_runs {
         eprintln!("{}", trials(&references, args));
     }
     let planned = |r: &Reference| (r.arms.len() as u64).saturating_mul(args.n(&r.row));
