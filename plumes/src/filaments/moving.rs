@@ -59,43 +59,46 @@ impl Moving {
             }
         }
         leaf.count = count;
+        let way = Way {
+            moving: self,
+            parts,
+            lookup,
+            size,
+            now_s,
+        };
         match path {
-            Path::Portable => fill(self, &parts, lookup, size, now_s, &mut leaf),
+            Path::Portable => fill(&way, &mut leaf),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { fill_avx2(self, &parts, lookup, size, now_s, &mut leaf) },
+            Path::Avx2 => unsafe { fill_avx2(&way, &mut leaf) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { fill_avx512(self, &parts, lookup, size, now_s, &mut leaf) },
+            Path::Avx512 => unsafe { fill_avx512(&way, &mut leaf) },
         }
         leaf
     }
 }
 
+/// What the places, beds and sizes at a moment follow from.
+struct Way<'a> {
+    moving: &'a Moving,
+    /// The part of its way that each filament has gone.
+    parts: [f32; LEAF],
+    lookup: &'a Lookup,
+    size: &'a Size,
+    now_s: f64,
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn fill_avx2(
-    m: &Moving,
-    parts: &[f32; LEAF],
-    lookup: &Lookup,
-    size: &Size,
-    now_s: f64,
-    leaf: &mut Leaf,
-) {
-    fill(m, parts, lookup, size, now_s, leaf);
+fn fill_avx2(way: &Way, leaf: &mut Leaf) {
+    fill(way, leaf);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn fill_avx512(
-    m: &Moving,
-    parts: &[f32; LEAF],
-    lookup: &Lookup,
-    size: &Size,
-    now_s: f64,
-    leaf: &mut Leaf,
-) {
-    fill(m, parts, lookup, size, now_s, leaf);
+fn fill_avx512(way: &Way, leaf: &mut Leaf) {
+    fill(way, leaf);
 }
 
 /// Places, beds and sizes. Empty places are those of a filament at the origin.
@@ -104,14 +107,14 @@ fn fill_avx512(
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn fill(
-    m: &Moving,
-    parts: &[f32; LEAF],
-    lookup: &Lookup,
-    size: &Size,
-    now_s: f64,
-    leaf: &mut Leaf,
-) {
+fn fill(way: &Way, leaf: &mut Leaf) {
+    let Way {
+        moving: m,
+        parts,
+        lookup,
+        size,
+        now_s,
+    } = way;
     for (d, to) in [&mut leaf.x, &mut leaf.y, &mut leaf.z]
         .into_iter()
         .enumerate()

@@ -143,3 +143,61 @@ fn cell(c: f32, cells: usize) -> (usize, f32) {
     let i = (c as i32 as usize).min(cells - 1);
     (i, c - i as f32)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_versions_carry_to_the_same_bits() {
+        let (across, up) = (5, 4);
+        let count = LENGTH * (across + 1) * (up + 1);
+        let part = |n: usize, m: u32| (n as u32).wrapping_mul(m) as f32 / u32::MAX as f32 - 0.5;
+        let nodes: Vec<[f32; 4]> = (0..count)
+            .map(|n| [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35, 0].map(|m| part(n, m)))
+            .collect();
+        let patch = |begin: f32, mirrored: bool| Patch {
+            begin,
+            mirrored,
+            weight: 0.003,
+        };
+        let now = Now {
+            nodes: &nodes,
+            across,
+            up,
+            per_m: [20.0; 3],
+            half_width: 0.125,
+            depth: 0.2,
+            patches: [patch(3.7, false), patch(60.2, true)],
+        };
+        let turned = Turned {
+            centre: Vector2::new(0.3, -0.1),
+            along: Vector2::new(0.6, 0.8),
+            left: Vector2::new(-0.8, 0.6),
+        };
+        let dt: Vec<f32> = (0..1000)
+            .map(|n| 0.2 + 0.1 * part(n, 0x27d4_eb2f))
+            .collect();
+        let start = [0x9e37_79b9, 0x85eb_ca6b, 0xc2b2_ae35].map(|m| {
+            (0..1000)
+                .map(|n| 0.2 * part(n, m) - 0.1)
+                .collect::<Vec<f32>>()
+        });
+        let bits = |p: &[Vec<f32>; 3]| {
+            let of = |v: &Vec<f32>| v.iter().map(|v| v.to_bits()).collect::<Vec<u32>>();
+            p.each_ref().map(of)
+        };
+        let carried = |path| {
+            let mut p = start.clone();
+            for _ in 0..20 {
+                now.carry(path, &turned, &dt, p.each_mut().map(Vec::as_mut_slice));
+            }
+            bits(&p)
+        };
+        let portable = carried(Path::Portable);
+        assert_ne!(portable, bits(&start));
+        for path in Path::all() {
+            assert_eq!(carried(path), portable, "{path:?}");
+        }
+    }
+}
