@@ -1,8 +1,8 @@
 //! All that a scenario can ask for by name, as `rheotaxis list` shows it, and all topics.
 //!
-//! A crate of your own adds rows to a kind, and reads scenarios with them:
+//! A crate of your own adds rows to a kind, and reads scenarios with them, as the example `own_strategy` does:
 //!
-//! ```ignore
+//! ```text
 //! let registry = Registry::default().with::<Reacquires, Spiral>()?;
 //! let loaded = rheotaxis::scenario::load_with(&registry, path)?;
 //! ```
