@@ -62,6 +62,16 @@ pub trait Flow: Send + Sync {
         Mixing::default()
     }
 
+    /// Diffusivity by which filaments of a size (m) near `p` grow, m²/s: that of all eddies that do not carry them.
+    fn stirring(&self, p: &Vector3<f64>, _size_m: f64, t_s: f64) -> f64 {
+        self.mixing(p, t_s).k_h_m2_s
+    }
+
+    /// Dissipation of turbulent energy at `p`, m²/s³.
+    fn dissipation(&self, _p: &Vector3<f64>, _t_s: f64) -> f64 {
+        0.0
+    }
+
     /// Velocity and diffusivity at several heights above one place (east, north), m. An implementation can compute only
     /// once what is the same in the whole column. The velocity excludes eddies that [`Flow::carry`] adds. Of waves that
     /// [`Flow::displacement`] adds, it contains only the mean drift, because it moves mean places.

@@ -208,6 +208,18 @@ limits! {
     nozzle_m: 1e-5, 10.0, "m";
     /// Speed of the fluid that leaves a nozzle, m/s.
     nozzle_m_s: 1e-4, 100.0, "m/s";
+    /// Length of the shortest waves of turbulence, m.
+    eddy_m: 1e-5, 10.0, "m";
+    /// Volume that a source releases, L/s.
+    volume_l_s: 1e-9, 1e7, "L/s";
+    /// Difference of density between a release and the water around, kg/m³.
+    excess_kg_m3: -500.0, 500.0, "kg/m³";
+    /// Practical salinity.
+    salinity: 0.0, 42.0, "";
+    /// Temperature of water, °C.
+    water_c: -2.0, 40.0, "°C";
+    /// Grams of a substance in a litre.
+    solute_g_l: 1e-9, 1000.0, "g/L";
     /// Speed of a vehicle under water, m/s.
     vehicle_m_s: 0.0, 15.0, "m/s";
     /// Error of a position, m.

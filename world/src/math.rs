@@ -31,6 +31,8 @@ via_libm! {
     ln(x) = libm::log;
     /// x to the power y.
     powf(x, y) = libm::pow;
+    /// Cube root.
+    cbrt(x) = libm::cbrt;
     /// Hyperbolic tangent.
     tanh(x) = libm::tanh;
     /// Hyperbolic sine.

@@ -133,7 +133,7 @@ impl Index {
 impl Question<'_> {
     /// Longest reach of any filament, m.
     fn reach(&self) -> f64 {
-        let oldest = |s: &Store| Some(s.size.horizontal(self.now_s - s.born_s.first()?));
+        let oldest = |s: &Store| Some(s.largest(0..s.len(), self.now_s - s.born_s.first()?));
         let largest = self.stores.iter().filter_map(oldest).fold(0.0, f32::max);
         f64::from(CUT_SIGMAS * 1.000_01 * largest)
     }
@@ -147,7 +147,7 @@ impl Question<'_> {
         for from in range.clone().step_by(GROUP) {
             let n = GROUP.min(range.end - from);
             // The first is the oldest, and so the largest.
-            let horizontal = s.size.horizontal(end_s - s.born_s[from]);
+            let horizontal = s.largest(from..from + n, end_s - s.born_s[from]);
             let reach = CUT_SIGMAS * 1.000_01 * horizontal;
             all.push(Group {
                 from,

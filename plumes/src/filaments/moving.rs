@@ -9,6 +9,7 @@
 use super::bands::{Moment, Span};
 use super::leaf::{LEAF, Leaf};
 use super::lookup::Lookup;
+use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
 use crate::path::Path;
@@ -19,6 +20,8 @@ pub(super) struct Moving {
     start: [[f32; LEAF]; 3],
     end: [[f32; LEAF]; 3],
     born_s: [f64; LEAF],
+    /// Variance by which each is wider for its own entrainment, m², of a buoyant release.
+    grown_m2: Option<[f32; LEAF]>,
     count: usize,
 }
 
@@ -29,6 +32,7 @@ impl Moving {
             start: [[0.0; LEAF]; 3],
             end: [[0.0; LEAF]; 3],
             born_s: [f64::NEG_INFINITY; LEAF],
+            grown_m2: s.rise.as_ref().map(|_| [0.0; LEAF]),
             count: members.len(),
         };
         for (l, m) in members.iter().enumerate() {
@@ -37,6 +41,9 @@ impl Moving {
                 (this.start[d][l], this.end[d][l]) = (start[i], end[i]);
             }
             this.born_s[l] = s.born_s[i];
+            if let (Some(grown), Some(rise)) = (&mut this.grown_m2, &s.rise) {
+                grown[l] = rise.grown_m2[i];
+            }
         }
         this
     }
@@ -138,6 +145,11 @@ fn fill(way: &Way, leaf: &mut Leaf) {
     }
     for l in 0..LEAF {
         leaf.h[l] = size.horizontal(now_s - m.born_s[l]);
+    }
+    if let Some(grown) = &m.grown_m2 {
+        for l in 0..LEAF {
+            leaf.h[l] = widened(leaf.h[l], grown[l]);
+        }
     }
     for l in 0..LEAF {
         leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);

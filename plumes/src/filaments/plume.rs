@@ -16,7 +16,9 @@ use super::bands::Bands;
 use super::carried::Carrier;
 use super::cut_off;
 use super::index::{Index, Question};
+use super::labels::Labels;
 use super::lookup::Lookup;
+use super::rise::Rise;
 use super::room::Room;
 use super::sampled::Sampled;
 use super::size::Size;
@@ -24,6 +26,7 @@ use super::solids::Solids;
 use super::store::Store;
 use crate::error::PlumeError;
 use crate::flow::Blocked;
+use crate::flow::eddies::Small;
 use crate::flow::grid::{FlowGrid, GridShape};
 use crate::path::Path;
 use crate::release::{ReleaseTimes, Source, SourceSpec, clear, place};
@@ -31,7 +34,7 @@ use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
 use std::sync::Arc;
 use world::area::Area;
-use world::fields::Concentration;
+use world::fields::{Concentration, Flow};
 use world::obstacles::Obstacles;
 use world::seeds::{self, Seed};
 use world::terrain::Terrain;
@@ -73,6 +76,7 @@ pub struct Plume {
     pub(super) path: Path,
     pub(super) room: Room,
     pub(super) carrier: Option<Carrier>,
+    pub(super) small: Option<Arc<Small>>,
     pub(super) turned_back: u64,
     pub(super) index: Index,
     pub(super) threads: Option<Arc<rayon::ThreadPool>>,
@@ -112,6 +116,7 @@ impl Plume {
             room: Room::new(&grid),
             sampled: Sampled::new(&grid),
             carrier: None,
+            small: None,
             grid,
             refresh_s: settings.refresh_s,
             next_refresh_s: None,
@@ -122,6 +127,30 @@ impl Plume {
             index: Index::default(),
             threads: None,
         })
+    }
+
+    /// Lets the small eddies of a flume carry the filaments, if there are any.
+    #[must_use]
+    pub fn carried_by(mut self, small: Option<&Arc<Small>>) -> Self {
+        self.small = small.cloned();
+        for store in &mut self.stores {
+            store.labels = small.map(|small| Labels::new(small));
+        }
+        self
+    }
+
+    /// Lets buoyant releases rise. `flow` is the water into which they are released.
+    ///
+    /// # Errors
+    /// If a release cannot be made, or if a buoyant one does not say its volume. The field is a path such as
+    /// `sources[0].release.buoyancy.Composition.solutes[0].g_l`.
+    pub fn with_buoyancy(mut self, flow: &dyn Flow) -> Result<Self, PlumeError> {
+        for (n, (store, source)) in self.stores.iter_mut().zip(&self.sources).enumerate() {
+            let p = source.p_W.map(|v| v as f32);
+            let bed_m = f64::from(self.cells.bed(self.cells.column(p.x, p.y)));
+            store.rise = Rise::new(flow, n, source, bed_m)?;
+        }
+        Ok(self)
     }
 
     /// Adds solids to the water.

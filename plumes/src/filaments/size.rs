@@ -81,6 +81,11 @@ impl Size {
         self.eddies.is_some()
     }
 
+    /// Whether a filament of this age (s) has reached the size at which it stops growing.
+    pub(super) fn is_grown(&self, age_s: f64) -> bool {
+        (self.eddies).is_some_and(|e| e.start + e.per_s * age_s.max(0.0) >= e.end)
+    }
+
     /// Part of the diffusivity that kicks a filament of this age (s).
     #[inline]
     pub(super) fn kicked(&self, age_s: f64) -> f32 {

@@ -9,12 +9,15 @@
 
 use super::bands::Bands;
 use super::kernel::{BLOCK, folded};
+use super::labels;
 use super::lookup::{Lookup, places};
 use super::noise::step_key;
 use super::plume::Plume;
+use super::store::Store;
 use super::sweep::{Sweep, hold};
-use super::walls::{carry, keep_between};
+use super::walls::{carry, fold, keep_between};
 use nalgebra::Vector3;
+use std::ops::Range;
 use std::sync::Arc;
 use world::fields::{Flow, SideWalls};
 
@@ -137,6 +140,7 @@ impl Plume {
             self.index.changed(n, due);
             for band in due..=self.bands.last() {
                 self.sweep(flow, n, band, threads);
+                self.rise(n, band);
                 if let Some(walls) = &walls {
                     self.carry(flow, walls, n, band);
                 }
@@ -171,6 +175,26 @@ impl Plume {
         }
     }
 
+    /// Lets the filaments of a band of a buoyant store rise.
+    fn rise(&mut self, n: usize, band: usize) {
+        let store = &mut self.stores[n];
+        if store.rise.is_none() {
+            return;
+        }
+        let range = store.band(band, &self.bands);
+        let before = self.room.has_solids().then(|| places_of(store, &range));
+        store.rise(range.clone(), self.bands.span(band));
+        self.keep_out(n, before, range.start);
+    }
+
+    /// Reflects at solids the filaments of a store, from the `first` on, that were carried away from earlier places.
+    fn keep_out(&mut self, n: usize, before: Option<[Vec<f32>; 3]>, first: usize) {
+        if let Some(before) = before {
+            let (room, cells, grid) = (&self.room, &self.cells, &self.grid);
+            self.turned_back += hold(room, cells, grid, &before, &mut self.stores[n], first);
+        }
+    }
+
     /// Moves the filaments of a band of a store with the eddies between walls.
     fn carry(&mut self, flow: &dyn Flow, walls: &SideWalls, n: usize, band: usize) {
         let store = &mut self.stores[n];
@@ -179,21 +203,15 @@ impl Plume {
             return keep_between(walls, store, range);
         };
         store.carried_s = span.to_s;
-        let place = |v: &[f32]| v[range.clone()].to_vec();
-        let before =
-            (self.room.has_solids()).then(|| [&store.x, &store.y, &store.z].map(|v| place(v)));
+        let before = self.room.has_solids().then(|| places_of(store, &range));
         carry(flow, store, range.clone(), span);
-        if let Some(before) = before {
-            self.turned_back += hold(
-                &self.room,
-                &self.cells,
-                &self.grid,
-                &before,
-                store,
-                range.start,
-            );
+        if let Some(small) = &self.small {
+            let p_W = self.sources[n].p_W;
+            labels::carry(small, flow, p_W, store, range.clone(), span);
+            fold(store, range.clone());
         }
-        keep_between(walls, store, range);
+        self.keep_out(n, before, range.start);
+        keep_between(walls, &mut self.stores[n], range);
     }
 
     /// Releases what is due within the shortest step, and divides the filaments into bands.
@@ -201,8 +219,8 @@ impl Plume {
         for n in 0..self.stores.len() {
             let p_W = self.sources[n].p_W;
             let store = &mut self.stores[n];
-            if self.sources[n].release.eddy_size_m.is_some() {
-                store.size.stirred_by(flow.mixing(&p_W, t0_s).k_h_m2_s);
+            if let Some(size) = self.sources[n].release.eddy_size_m {
+                store.size.stirred_by(flow.stirring(&p_W, size.get(), t0_s));
             }
             let (cells, room, sampled) = (&self.cells, &self.room, &mut self.sampled);
             let (start, bed) = released(cells, p_W);
@@ -265,6 +283,12 @@ impl Plume {
             let p = source.p_W.map(|v| v as f32);
             self.sampled.note(self.cells.column(p.x, p.y).at);
         }
+        for (store, source) in self.stores.iter_mut().zip(&self.sources) {
+            if let Some(rise) = &mut store.rise {
+                let (_, bed) = released(&self.cells, source.p_W);
+                rise.renew(flow, source.p_W, f64::from(bed), self.grid.t_s);
+            }
+        }
         self.sampled.complete(flow, &mut self.grid, threads);
         self.cells.refresh(&self.grid, self.sampled.even_k_h);
         if let Some(carrier) = &mut self.carrier {
@@ -275,6 +299,11 @@ impl Plume {
             }
         }
     }
+}
+
+/// East, north, up of a range of filaments.
+fn places_of(store: &Store, range: &Range<usize>) -> [Vec<f32>; 3] {
+    [&store.x, &store.y, &store.z].map(|v| v[range.clone()].to_vec())
 }
 
 /// Where a source at a point releases filaments, and the height of the bed there, m.

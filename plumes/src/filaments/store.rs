@@ -9,6 +9,8 @@
 //! dropped to save memory.
 
 use super::bands::{Bands, MOST, Moment, Scales, Span};
+use super::labels::Labels;
+use super::rise::Rise;
 use super::size::Size;
 use std::ops::Range;
 
@@ -33,6 +35,10 @@ pub(super) struct Store {
     pub(super) least_age_s: [f64; MOST],
     /// Time up to which eddies between walls have carried the filaments, s.
     pub(super) carried_s: f64,
+    /// What lets them rise, if they are buoyant.
+    pub(super) rise: Option<Rise>,
+    /// Where they are in the patterns of small eddies, if there are any.
+    pub(super) labels: Option<Labels>,
     /// Growth law.
     pub(super) size: Size,
     /// Mass of each filament, kg.
@@ -56,6 +62,8 @@ impl Store {
             first: [0; MOST],
             least_age_s: [f64::NEG_INFINITY; MOST],
             carried_s: 0.0,
+            rise: None,
+            labels: None,
             size,
             filament_kg,
             released: 0,
@@ -84,6 +92,12 @@ impl Store {
         self.bed.push(bed);
         self.number.push(self.released as u32);
         self.born_s.push(born_s);
+        if let Some(rise) = &mut self.rise {
+            rise.push();
+        }
+        if let Some(labels) = &mut self.labels {
+            labels.push(born_s);
+        }
         self.released += 1;
     }
 
@@ -177,6 +191,16 @@ impl Store {
         }
         self.number.copy_within(from.clone(), to);
         self.born_s.copy_within(from, to);
+    }
+
+    /// Forgets what is kept beside the arrays of filaments at sorted places that are being removed.
+    pub(super) fn forget(&mut self, gone: &[usize]) {
+        if let Some(rise) = &mut self.rise {
+            rise.remove(gone);
+        }
+        if let Some(labels) = &mut self.labels {
+            labels.remove(gone);
+        }
     }
 
     /// Keeps the first `n` entries; the others were moved down or have left.

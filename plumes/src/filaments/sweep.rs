@@ -40,6 +40,8 @@ pub(super) struct Swept {
     pub(super) turned: u64,
     /// Columns of the grid in whose cells filaments arrived from others; some more than once.
     pub(super) columns: Vec<u32>,
+    /// Places in the chunk of those that left.
+    gone: Vec<usize>,
     kept: usize,
 }
 
@@ -72,6 +74,7 @@ impl Sweep<'_> {
         let (mut all, mut to) = (Swept::default(), band.start);
         for (n, part) in swept.into_iter().enumerate() {
             let from = band.start + n * many;
+            all.gone.extend(part.gone.iter().map(|l| from + l));
             store.shift(from..from + part.kept, to);
             to += part.kept;
             all.turned += part.turned;
@@ -80,6 +83,7 @@ impl Sweep<'_> {
         let gone = band.end - to;
         if gone > 0 {
             let end = store.len();
+            store.forget(&all.gone);
             store.shift(band.end..end, to);
             store.truncate(end - gone);
             for first in store.first.iter_mut().filter(|f| **f >= band.end) {
@@ -151,9 +155,13 @@ impl Sweep<'_> {
             }
             self.note(&b, &mut c.swept.columns);
             if b.outside[..n].iter().any(|o| *o != 0) {
-                for l in (0..n).filter(|l| b.outside[*l] == 0) {
-                    c.put(&b, &start, l, from + l, to, 1);
-                    to += 1;
+                for l in 0..n {
+                    if b.outside[l] == 0 {
+                        c.put(&b, &start, l, from + l, to, 1);
+                        to += 1;
+                    } else {
+                        c.swept.gone.push(from + l);
+                    }
                 }
             } else {
                 c.put(&b, &start, 0, from, to, n);

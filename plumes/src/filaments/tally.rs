@@ -126,7 +126,7 @@ impl Plume {
     }
 
     fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
-        let size = s.size.horizontal(self.now_s - s.born_s[n]);
+        let size = s.horizontal(n, self.now_s - s.born_s[n]);
         let band = s.band_of(n, &self.bands);
         let place = s.place(n, &self.bands.moment(band, self.now_s));
         let [x, y, z] = self.room.shown(place.expect("it is released"));

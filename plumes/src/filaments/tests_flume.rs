@@ -1,16 +1,30 @@
 //! Filaments in a channel: none is lost, mixed water stays mixed, and they spread as Taylor and Fischer state.
 
 use super::plume::{Plume, PlumeSettings};
-use super::tests_water::pour;
+use super::tests_water::{moments, pour};
+use crate::flow::Water;
 use crate::flow::eddies::tests_eddies::{BED, flume, water};
+use crate::flow::eddies::tests_small;
 use crate::flow::grid::GridShape;
-use crate::release::{NozzleSpec, ReleaseSpec, SourceSpec};
+use crate::release::{BuoyancySpec, NozzleSpec, ReleaseSpec, SourceSpec};
+use std::collections::HashMap;
 use world::fields::Flow;
 use world::ranges::{Finite, Positive};
 use world::seeds::Stream;
 
 pub(super) fn plume(length_m: f64, seed: u64) -> Plume {
-    let source = SourceSpec {
+    of(nozzle(), length_m, seed)
+}
+
+/// A release 7 kg/m³ lighter than the water.
+pub(super) fn light(length_m: f64, seed: u64) -> Plume {
+    let mut source = nozzle();
+    source.release.buoyancy = BuoyancySpec::Excess(Finite::new(-7.0));
+    of(source, length_m, seed)
+}
+
+fn nozzle() -> SourceSpec {
+    SourceSpec {
         id: "nozzle".into(),
         east_m: Finite::new(0.0),
         north_m: Finite::new(0.0),
@@ -25,7 +39,10 @@ pub(super) fn plume(length_m: f64, seed: u64) -> Plume {
             }),
             ..ReleaseSpec::default()
         },
-    };
+    }
+}
+
+fn of(source: SourceSpec, length_m: f64, seed: u64) -> Plume {
     let area = flume(length_m);
     let settings = PlumeSettings {
         grid: GridShape::fitting(&area),
@@ -58,17 +75,21 @@ fn nobody_leaves_but_down_stream_and_mass_is_kept() {
 
 /// A cloud that is even over the whole channel, for 30 s, as long as its middle is still between the ends; `t` is when
 /// it was poured.
-fn mixed(seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
-    let (water, mut plume) = (water(8.0, seed), plume(8.0, seed));
-    plume.drift(&water, -1e-9, 0.0);
+fn mixed(water: &Water, seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
+    let mut plume = plume(8.0, seed).carried_by(water.small());
+    plume.drift(water, -1e-9, 0.0);
     let mut r = Stream::new(seed, "test", "even");
     pour(&mut plume, 40_000, -0.2, |_| {
         let across = 1.07 * (r.uniform() - 0.5);
         [7.6 * r.uniform() - 0.2, across, -0.2 * r.uniform()]
     });
+    // They were not released by the source.
+    if let Some(labels) = &mut plume.stores_mut()[0].labels {
+        labels.begin();
+    }
     for n in 0..(30.0 / dt_s) as u32 {
         let t = dt_s * f64::from(n);
-        plume.drift(&water, t, t + dt_s);
+        plume.drift(water, t, t + dt_s);
     }
     // Only the poured filaments: they have no kernel of their own. Those of the source lie behind the middle part.
     plume
@@ -79,8 +100,10 @@ fn mixed(seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
 
 #[test]
 fn mixed_water_stays_mixed() {
-    for dt in [0.1, 0.25] {
-        let cloud = mixed(3, dt);
+    let coarse = water(8.0, 3);
+    let fine = tests_small::water(8.0, 0.00625, 3);
+    for (water, dt) in [(&coarse, 0.1), (&coarse, 0.25), (&fine, 0.2)] {
+        let cloud = mixed(water, 3, dt);
         for (axis, low, high, bins) in [(1, -0.535_f32, 0.535_f32, 10), (2, -0.2, 0.0, 10)] {
             let mut counts = vec![0.0_f64; bins];
             for f in &cloud {
@@ -95,6 +118,14 @@ fn mixed_water_stays_mixed() {
                 .fold(0.0_f64, |w, c| w.max((c / even - 1.0).abs()));
             assert!(worst < 0.11, "dt {dt}, axis {axis}: {worst}: {counts:?}");
         }
+        // Nor do they gather in small places: the counts of cubes of 5 cm scatter as those of a Poisson process.
+        let mut cubes = HashMap::<[i32; 3], f64>::new();
+        for f in &cloud {
+            let cube = [f[0], f[1] + 0.535, f[2]].map(|p| (p / 0.05).floor() as i32);
+            *cubes.entry(cube).or_default() += 1.0;
+        }
+        let (mean, many) = moments(cubes.values().copied());
+        assert!((many / mean) < 1.6, "dt {dt}: {}", many / mean);
     }
 }
 

@@ -3,7 +3,7 @@
 use super::plume::{Plume, PlumeSettings};
 use super::tests_flume;
 use super::tests_water::{pour, source};
-use crate::flow::eddies::tests_eddies;
+use crate::flow::eddies::{tests_eddies, tests_small};
 use crate::flow::grid::GridShape;
 use crate::flow::tests_water::{duck, duck_area, duck_bed};
 use crate::flow::water::Water;
@@ -27,6 +27,14 @@ fn off_duck() -> (Water, Plume) {
 /// Water with eddies between the walls of a flume, and a nozzle.
 fn in_flume() -> (Water, Plume) {
     (tests_eddies::water(2.5, 2), tests_flume::plume(2.5, 2))
+}
+
+/// The same with small eddies and a buoyant release.
+fn in_fine_flume() -> (Water, Plume) {
+    let water = tests_small::water(2.5, 0.00625, 2);
+    let plume = tests_flume::light(2.5, 2).carried_by(water.small());
+    let plume = plume.with_buoyancy(&water).unwrap();
+    (water, plume)
 }
 
 fn develop((water, plume): &mut (Water, Plume), end_s: f64) {
@@ -67,6 +75,7 @@ fn a_kept_plume_answers_and_goes_on_as_the_one_that_was_kept() {
     let cases = [
         (off_duck as fn() -> (Water, Plume), 173.0),
         (in_flume as fn() -> (Water, Plume), 12.3),
+        (in_fine_flume as fn() -> (Water, Plume), 12.3),
     ];
     for (make, end_s) in cases {
         let mut first = make();

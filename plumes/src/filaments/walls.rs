@@ -26,6 +26,11 @@ pub(super) fn carry(flow: &dyn Flow, store: &mut Store, range: Range<usize>, spa
     }
     let places = [&mut store.x, &mut store.y, &mut store.z].map(|v| &mut v[range.clone()]);
     flow.carry(span.to_s, &dt, places);
+    fold(store, range);
+}
+
+/// Mirrors filaments that passed bed or surface back into the water.
+pub(super) fn fold(store: &mut Store, range: Range<usize>) {
     for (z, bed) in store.z[range.clone()].iter_mut().zip(&store.bed[range]) {
         *z = folded(*z, *bed, -1.0 / bed);
     }

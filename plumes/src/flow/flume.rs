@@ -15,7 +15,7 @@ use world::terrain::Terrain;
 
 use crate::error::PlumeError;
 use crate::flow::channel::{Channel, OpenChannelSpec, TRANSVERSE};
-use crate::flow::eddies::Eddies;
+use crate::flow::eddies::{Eddies, Spectrum};
 use crate::flow::mixing;
 
 /// A channel between walls, with its eddies.
@@ -68,7 +68,7 @@ impl Flume {
             .map(|e| e.build(field, area, &channel, seed))
             .transpose()?;
         let k_h = match &eddies {
-            Some(eddies) => channel.mean_of(|z| eddies.spectrum().sub_grid(&channel, z)),
+            Some(eddies) => channel.mean_of(|z| Spectrum::beyond(&channel, z, eddies.finest())),
             None => TRANSVERSE * channel.u_star_m_s * depth_m,
         };
         let walls = SideWalls {
@@ -84,11 +84,23 @@ impl Flume {
         })
     }
 
+    /// Diffusivity by which filaments of a size grow, m²/s: that of all unresolved eddies or, where small ones carry
+    /// filaments, that of the eddies smaller than the size.
+    pub(crate) fn stirring(&self, size_m: f64) -> f64 {
+        match &self.eddies {
+            Some(eddies) if eddies.small().is_some() => {
+                let c = &self.channel;
+                c.mean_of(|z| Spectrum::beyond(c, z, 1.0 / size_m))
+            }
+            _ => self.k_h,
+        }
+    }
+
     /// Vertical diffusivity of what is not resolved, m²/s.
     pub(crate) fn vertical(&self, height_m: f64) -> f64 {
         let c = &self.channel;
         match &self.eddies {
-            Some(eddies) => eddies.spectrum().sub_grid(c, height_m),
+            Some(eddies) => Spectrum::beyond(c, height_m, eddies.finest()),
             None => mixing::parabolic(c.u_star_m_s, height_m, c.depth_m),
         }
     }

@@ -1,9 +1,11 @@
 //! Sources and how they release filaments.
 
+mod buoyancy;
 mod placing;
 mod source;
 mod times;
 
+pub use buoyancy::{BuoyancySpec, CompositionSpec, Curve, DissolvedSpec, Solute};
 pub use placing::{clear, misplaced, place};
 pub use source::{NozzleSpec, ReleaseSpec, Source, SourceSpec};
 pub use times::ReleaseTimes;

@@ -12,6 +12,8 @@
 //! U, a thread of filaments of size d/4, which have the variance of a disc: U/(d/4) of them per second, so that each
 //! overlaps the next.
 
+use super::buoyancy::{BuoyancySpec, Curve};
+use crate::error::PlumeError;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -73,6 +75,12 @@ pub struct ReleaseSpec {
     #[serde(deserialize_with = "world::limits::filament_m")]
     #[schemars(transform = world::limits::schema::filament_m)]
     pub eddy_size_m: Option<Positive>,
+    /// Whether the release is lighter or heavier than the water around.
+    pub buoyancy: BuoyancySpec,
+    /// Volume released, L/s; a nozzle sets it. A buoyant release needs it.
+    #[serde(deserialize_with = "world::limits::volume_l_s")]
+    #[schemars(transform = world::limits::schema::volume_l_s)]
+    pub volume_l_s: Option<Positive>,
     /// A nozzle that releases a thread; it sets `rate_hz`, `initial_size_m` and equal intervals.
     pub nozzle: Option<NozzleSpec>,
 }
@@ -127,6 +135,39 @@ impl ReleaseSpec {
 }
 
 impl ReleaseSpec {
+    /// Buoyancy of the n-th source's release in water of this density; `None` if it is neutral.
+    ///
+    /// # Errors
+    /// Names the field at fault and what would be legal.
+    pub fn curve(&self, n: usize, density_kg_m3: f64) -> Result<Option<Curve>, PlumeError> {
+        let curve = self.buoyancy.curve(density_kg_m3);
+        curve.map_err(|(field, problem)| PlumeError::Invalid {
+            field: format!("sources[{n}].release.buoyancy.{field}"),
+            problem,
+        })
+    }
+
+    /// Volume that the n-th source releases (m³/s), and the radius at which it leaves it (m): the nozzle's, or that of a
+    /// disc with the variance of the filaments.
+    ///
+    /// # Errors
+    /// If the release says neither a volume nor a nozzle, or both.
+    pub fn outflow(&self, n: usize) -> Result<(f64, f64), PlumeError> {
+        match (&self.nozzle, self.volume_l_s) {
+            (Some(nozzle), None) => Ok((nozzle.volume_m3_s(), 0.5 * nozzle.diameter_m.get())),
+            (None, Some(volume)) => Ok((1e-3 * volume.get(), 2.0 * self.initial_size_m.get())),
+            (nozzle, _) => Err(PlumeError::Invalid {
+                field: format!("sources[{n}].release.volume_l_s"),
+                problem: if nozzle.is_some() {
+                    "the nozzle sets the volume: leave it out".into()
+                } else {
+                    "a buoyant release needs the volume that it releases, in L/s (from 1e-9 to 1e7)"
+                        .into()
+                },
+            }),
+        }
+    }
+
     /// What the filaments need in an area whose water carries them at `carries_m_s`. Filaments that eddies or slow
     /// water keep longer are not counted.
     #[must_use]
@@ -167,6 +208,8 @@ impl Default for ReleaseSpec {
             vertical_size_limit_m: None,
             poisson: true,
             eddy_size_m: None,
+            buoyancy: BuoyancySpec::Neutral,
+            volume_l_s: None,
             nozzle: None,
         }
     }

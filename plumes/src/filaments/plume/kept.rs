@@ -6,6 +6,7 @@
 
 use super::Plume;
 use crate::filaments::bands::Bands;
+use crate::filaments::rise::Element;
 use crate::filaments::store::Store;
 use world::bits::{Reader, Unreadable, Writer};
 use world::fields::Flow;
@@ -27,6 +28,7 @@ impl Plume {
             sources: _,
             keys: _,
             refresh_s: _,
+            small: _,
             path: _,
             threads: _,
             // The next pace makes these again, from the water and the filaments.
@@ -83,6 +85,8 @@ fn keep(store: &Store, to: &mut Writer) {
         number,
         born_s,
         size,
+        rise,
+        labels,
         released,
         left,
         filament_kg: _,
@@ -100,6 +104,22 @@ fn keep(store: &Store, to: &mut Writer) {
     }
     to.words(number);
     to.words(born_s);
+    if let Some(rise) = rise {
+        let numbers = |e: &Element| {
+            let Element {
+                shared_m3,
+                own_m3,
+                momentum_m4_s,
+                passed_m4_s2,
+            } = *e;
+            [shared_m3, own_m3, momentum_m4_s, passed_m4_s2]
+        };
+        to.words(&rise.elements.iter().flat_map(numbers).collect::<Vec<f64>>());
+        to.words(&rise.grown_m2);
+    }
+    if let Some(labels) = labels {
+        labels.keep(to);
+    }
 }
 
 fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
@@ -113,5 +133,19 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
     store.bed = from.exactly(n)?;
     store.number = from.exactly(n)?;
     store.born_s = from.exactly(n)?;
+    if let Some(rise) = &mut store.rise {
+        let numbers: Vec<f64> = from.exactly(4 * n)?;
+        let element = |v: &[f64]| Element {
+            shared_m3: v[0],
+            own_m3: v[1],
+            momentum_m4_s: v[2],
+            passed_m4_s2: v[3],
+        };
+        rise.elements = numbers.chunks_exact(4).map(element).collect();
+        rise.grown_m2 = from.exactly(n)?;
+    }
+    if let Some(labels) = &mut store.labels {
+        labels.recall(n, from)?;
+    }
     Ok(())
 }

@@ -14,9 +14,10 @@
 //! them. For each channel, all seeds take their patches from one stretch of 32 depths, drawn once per process; the
 //! water of a run follows from its seed alone. So runs of different seeds share the eddies of that stretch, and what
 //! depends on single eddies, such as a tracker's rate of success, differs between stretches by more than an interval
-//! over seeds says (docs/results.md). The patches move with the depth mean at all heights.
+//! over seeds says (docs/results.md); with `own` each run draws a stretch. The patches move with the depth mean at all heights.
 
 use super::present::{Now, Patch, Turned};
+use super::small::{Small, SmallSpec};
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
 use crate::error::PlumeError;
@@ -38,11 +39,20 @@ use world::seeds::{Seed, Stream};
 pub struct EddiesSpec {
     /// Cells of the eddies' grid from bed to surface, from 8 to 32.
     pub cells_a_depth: u32,
+    /// Whether each run draws eddies of its own, in a third of a second. Otherwise all runs share one drawn stretch, and
+    /// a seed chooses places in it.
+    pub own: bool,
+    /// Smaller eddies, which carry filaments and nothing else; without them they are diffusivity.
+    pub small: Option<SmallSpec>,
 }
 
 impl Default for EddiesSpec {
     fn default() -> Self {
-        Self { cells_a_depth: 16 }
+        Self {
+            cells_a_depth: 16,
+            own: false,
+            small: None,
+        }
     }
 }
 
@@ -61,6 +71,7 @@ pub struct Eddies {
     path: Path,
     shape: Shape,
     stretch: Arc<Stretch>,
+    small: Option<Arc<Small>>,
 }
 
 /// Stretches that this process has drawn, with what they were made from.
@@ -109,6 +120,16 @@ impl EddiesSpec {
             up: self.cells_a_depth as usize,
             across: (area.width_m / cell).round() as usize,
         };
+        let small = (self.small.as_ref())
+            .map(|s| {
+                s.build(
+                    &format!("{field}.eddies.small"),
+                    channel,
+                    shape.spectrum.k_c,
+                    seed,
+                )
+            })
+            .transpose()?;
         let energy = channel.mean_of(|z| channel.energy(z));
         let dissipation = channel.mean_of(|z| channel.dissipation(z));
         let pi = std::f64::consts::PI;
@@ -122,7 +143,12 @@ impl EddiesSpec {
             period_s: pi * pi / 8.0 * energy / dissipation,
             seed,
             path: Path::detect(),
-            stretch: drawn(&shape),
+            stretch: if self.own {
+                Arc::new(Stretch::new(&shape, seed))
+            } else {
+                drawn(&shape)
+            },
+            small: small.map(Arc::new),
             shape,
         })
     }
@@ -157,6 +183,19 @@ fn drawn(shape: &Shape) -> Arc<Stretch> {
 }
 
 impl Eddies {
+    /// The eddies below the grid, if they are resolved.
+    #[must_use]
+    pub fn small(&self) -> Option<&Arc<Small>> {
+        self.small.as_ref()
+    }
+
+    /// Greatest wave number that carries filaments, 1/m.
+    pub(crate) fn finest(&self) -> f64 {
+        self.small
+            .as_ref()
+            .map_or(self.shape.spectrum.k_c, |s| s.k_f)
+    }
+
     /// The spectrum of the eddies.
     #[must_use]
     pub fn spectrum(&self) -> &Spectrum {

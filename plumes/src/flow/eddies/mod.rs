@@ -3,10 +3,15 @@
 mod field;
 mod fourier;
 mod present;
+mod small;
 mod spectrum;
 mod stretch;
 #[cfg(test)]
 pub(crate) mod tests_eddies;
 
 pub use field::{Eddies, EddiesSpec};
+#[cfg(test)]
+pub(crate) use small::tests as tests_small;
+pub(crate) use small::{Life, MOST_OCTAVES};
+pub use small::{Small, SmallSpec};
 pub use spectrum::Spectrum;

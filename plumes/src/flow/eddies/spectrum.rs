@@ -71,12 +71,11 @@ impl Spectrum {
         below / all
     }
 
-    /// Diffusivity of the eddies that are not resolved, at a height above the bed, m²/s.
+    /// Diffusivity of the eddies beyond a wave number, at a height above the bed, m²/s.
     #[must_use]
-    pub fn sub_grid(&self, channel: &Channel, height_m: f64) -> f64 {
+    pub fn beyond(channel: &Channel, height_m: f64, k_c: f64) -> f64 {
         let epsilon = channel.dissipation(height_m);
-        let inertial =
-            0.444 / 0.7 * math::powf(epsilon, 1.0 / 3.0) * math::powf(self.k_c, -4.0 / 3.0);
+        let inertial = 0.444 / 0.7 * math::powf(epsilon, 1.0 / 3.0) * math::powf(k_c, -4.0 / 3.0);
         inertial.min(parabolic(channel.u_star_m_s, height_m, channel.depth_m))
     }
 }

@@ -269,7 +269,10 @@ fn what_cannot_be_is_refused() {
     let text = said(fine.clone(), flume(2.5), Terrain::Level { depth_m: 0.6 });
     assert!(text.contains("2 to 20 times as wide as deep"), "{text}");
     let coarse = OpenChannelSpec {
-        eddies: Some(EddiesSpec { cells_a_depth: 4 }),
+        eddies: Some(EddiesSpec {
+            cells_a_depth: 4,
+            ..EddiesSpec::default()
+        }),
         ..fine
     };
     let text = said(coarse, flume(2.5), BED);

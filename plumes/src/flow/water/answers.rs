@@ -67,6 +67,18 @@ impl Flow for Water {
         column.mixing(p.z, column.friction_velocity())
     }
 
+    fn stirring(&self, p: &Vector3<f64>, size_m: f64, t_s: f64) -> f64 {
+        match &self.flume {
+            Some(flume) if self.small().is_some() => flume.stirring(size_m),
+            _ => self.mixing(p, t_s).k_h_m2_s,
+        }
+    }
+
+    fn dissipation(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+        let column = self.column(p.xy(), t_s);
+        column.dissipation(p.z, column.friction_velocity())
+    }
+
     fn column(
         &self,
         place: Vector2<f64>,

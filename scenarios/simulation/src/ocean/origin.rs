@@ -90,7 +90,9 @@ impl Origin {
         };
         let plume = Plume::new(&self.sources, &area, &terrain, self.seed, settings)?
             .with_obstacles(solids)?
-            .led_round(water.blocked())?;
+            .led_round(water.blocked())?
+            .carried_by(water.small())
+            .with_buoyancy(&water)?;
         Ok(Ocean::new(area, terrain, obstacles, water, plume, self))
     }
 

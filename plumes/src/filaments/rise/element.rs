@@ -1,0 +1,176 @@
+//! A piece of a buoyant thread: how it rises, shares its momentum and grows.
+//!
+//! *Source*: a Lagrangian element of a plume in a cross-flow (Lee & Cheung 1990, J. Environ. Eng. 116, 1085), top-hat,
+//! with the entrainment of Hoult, Fay & Forney 1969, J. Air Pollut. Control Assoc. 19, 585: α by its motion along itself,
+//! β by its motion across. Without cross-flow it is the plume of Morton, Taylor & Turner 1956, Proc. R. Soc. A 234, 1; bent
+//! over it is the line thermal of Briggs 1969, Plume Rise: z = 1.6 F^⅓ x^⅔/U. Turbulence around shares the momentum with
+//! more water: dr/dt = c (εr)^⅓ (Richardson 1926, Proc. R. Soc. A 110, 709), with [`SHARED`].
+//!
+//! *Parameters*: [`ALONG`] α, [`ACROSS`] β, [`SHARED`] c.
+//!
+//! *Deviations*: it has the horizontal velocity of the water from the start. All turbulence that grows the radius also
+//! counts as dilution. Surface and bed take up its momentum. Elements of one thread do not act on each other.
+
+use crate::release::Curve;
+use world::math;
+
+/// Entrainment α of a plume without cross-flow, top-hat: √2 · 0.083 (Lee & Cheung 1990; 0.116 of Papanicolaou & List 1988,
+/// J. Fluid Mech. 195, 341).
+const ALONG: f64 = 0.117;
+/// Entrainment β of a thread that moves across itself (Briggs 1969; Hoult, Fay & Forney 1969).
+const ACROSS: f64 = 0.6;
+/// Growth of a radius by turbulence: a cloud whose pairs follow r² = g ε t³ with g = 0.55 (Salazar & Collins 2009, Annu.
+/// Rev. Fluid Mech. 41, 405: 0.5 to 0.6) has a standard deviation of √(gεt³/6) a direction, half the radius of a disc of the
+/// same variance: dr/dt = 1.5 · (2g/3)^⅓ (εr)^⅓.
+const SHARED: f64 = 1.073_6;
+/// Largest part by which a scale changes in a step of the integration.
+const PART: f64 = 0.1;
+/// Most steps of the integration within one step of the filament.
+const MOST_STEPS: f64 = 400.0;
+
+/// The water that an element meets.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::filaments) struct Around {
+    /// Horizontal speed, m/s.
+    pub(in crate::filaments) speed_m_s: f64,
+    /// Dissipation ε, m²/s³.
+    pub(in crate::filaments) dissipation_m2_s3: f64,
+    /// Square of the buoyancy frequency, 1/s².
+    pub(in crate::filaments) n2_per_s2: f64,
+    /// Radius of the largest eddies, m: half the depth.
+    pub(in crate::filaments) largest_m: f64,
+}
+
+/// A thread of elements that a source releases.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::filaments) struct Thread {
+    /// Volume of an element at its release, m³.
+    pub(in crate::filaments) volume_m3: f64,
+    /// Elements a second.
+    pub(in crate::filaments) rate_hz: f64,
+    /// Least speed at which the thread is drawn out, m/s: that at which it leaves the source.
+    pub(in crate::filaments) least_m_s: f64,
+    /// Buoyancy of the released volume by dilution.
+    pub(in crate::filaments) curve: Curve,
+}
+
+/// An element: one filament's part of the thread.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(in crate::filaments) struct Element {
+    /// Volume that shares its momentum, m³.
+    pub(in crate::filaments) shared_m3: f64,
+    /// Volume that it has entrained by its own motion, with its first, m³.
+    pub(in crate::filaments) own_m3: f64,
+    /// Vertical momentum over the density of water, m⁴/s.
+    pub(in crate::filaments) momentum_m4_s: f64,
+    /// What the stratification of the water that it has passed adds to its buoyancy, m⁴/s².
+    pub(in crate::filaments) passed_m4_s2: f64,
+}
+
+/// Rates of change, and what limits a step.
+#[derive(Clone, Copy)]
+struct Rates {
+    rise_m_s: f64,
+    shared_m3_s: f64,
+    own_m3_s: f64,
+    force_m4_s2: f64,
+    passed_m4_s3: f64,
+    longest_s: f64,
+}
+
+impl Thread {
+    /// An element at its release.
+    pub(in crate::filaments) fn released(&self) -> Element {
+        Element {
+            shared_m3: self.volume_m3,
+            own_m3: self.volume_m3,
+            ..Element::default()
+        }
+    }
+
+    /// Speed at which the thread is drawn out, m/s.
+    fn drawn_m_s(&self, speed_m_s: f64, rise_m_s: f64) -> f64 {
+        (speed_m_s * speed_m_s + rise_m_s * rise_m_s)
+            .sqrt()
+            .max(self.least_m_s)
+    }
+
+    /// Radius of a volume, m.
+    fn radius_m(&self, volume_m3: f64, drawn_m_s: f64) -> f64 {
+        (volume_m3 * self.rate_hz / (std::f64::consts::PI * drawn_m_s)).sqrt()
+    }
+
+    /// Variance by which the element's own entrainment has widened it, m² in each direction.
+    pub(in crate::filaments) fn grown_m2(&self, e: &Element, around: &Around) -> f64 {
+        let drawn = self.drawn_m_s(around.speed_m_s, e.momentum_m4_s / e.shared_m3);
+        // A disc of radius r has the variance r²/4.
+        (e.own_m3 - self.volume_m3) * self.rate_hz / (4.0 * std::f64::consts::PI * drawn)
+    }
+
+    fn rates(&self, e: &Element, around: &Around) -> Rates {
+        let w = e.momentum_m4_s / e.shared_m3;
+        let drawn = self.drawn_m_s(around.speed_m_s, w);
+        let length = drawn / self.rate_hz;
+        let (r, own_r) = (
+            self.radius_m(e.shared_m3, drawn),
+            self.radius_m(e.own_m3, drawn),
+        );
+        let own_m_s = (ALONG * w * w + ACROSS * around.speed_m_s * w.abs()) / drawn;
+        let scale = r.min(around.largest_m);
+        let stirred_m_s = SHARED * math::cbrt(around.dissipation_m2_s3 * scale);
+        let round = std::f64::consts::TAU * length;
+        let force = self.volume_m3 * self.curve.at(e.shared_m3 / self.volume_m3) + e.passed_m4_s2;
+        let lift = force.abs() / e.shared_m3;
+        let longest_s = (r / (own_m_s + stirred_m_s))
+            .min((r / lift).sqrt())
+            .min(1.0 / around.n2_per_s2.abs().sqrt());
+        Rates {
+            rise_m_s: w,
+            shared_m3_s: round * r * (own_m_s + stirred_m_s),
+            own_m3_s: round * own_r * own_m_s,
+            force_m4_s2: force,
+            passed_m4_s3: -around.n2_per_s2 * e.momentum_m4_s,
+            longest_s: PART * longest_s,
+        }
+    }
+
+    /// Lets an element rise for `dt_s` from a height, m, in the water that `at` tells at each height. Returns where it
+    /// comes to.
+    pub(in crate::filaments) fn rise(
+        &self,
+        e: &mut Element,
+        z_m: f64,
+        dt_s: f64,
+        at: impl Fn(f64) -> Around,
+    ) -> f64 {
+        let (mut z, mut left_s) = (z_m, dt_s);
+        let least_s = dt_s / MOST_STEPS;
+        while left_s > 0.0 {
+            let here = self.rates(e, &at(z));
+            let step_s = here.longest_s.max(least_s).min(left_s);
+            let middle = self.rates(
+                &e.on(&here, 0.5 * step_s),
+                &at(z + 0.5 * step_s * here.rise_m_s),
+            );
+            *e = e.on(&middle, step_s);
+            z += step_s * middle.rise_m_s;
+            left_s -= step_s;
+            // What is left of rounding is no step.
+            if left_s < 1e-12 * dt_s {
+                break;
+            }
+        }
+        z
+    }
+}
+
+impl Element {
+    fn on(&self, rates: &Rates, dt_s: f64) -> Self {
+        Self {
+            shared_m3: self.shared_m3 + dt_s * rates.shared_m3_s,
+            own_m3: self.own_m3 + dt_s * rates.own_m3_s,
+            momentum_m4_s: self.momentum_m4_s + dt_s * rates.force_m4_s2,
+            passed_m4_s2: self.passed_m4_s2 + dt_s * rates.passed_m4_s3,
+        }
+    }
+}

@@ -1,0 +1,156 @@
+//! The rise of a buoyant release: each filament is an element of a thread, with buoyancy, vertical momentum and the
+//! volume that shares it.
+//!
+//! *Source*: see `element`.
+//!
+//! *Parameters*: those of the release.
+//!
+//! *Deviations*: within a step the rise comes after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal. 5,
+//! 506; first order in the step).
+
+mod element;
+mod profile;
+#[cfg(test)]
+mod tests;
+#[cfg(test)]
+mod tests_plume;
+
+use super::bands::Span;
+use super::kernel::folded;
+use super::size::Size;
+use super::store::Store;
+use crate::error::PlumeError;
+use crate::release::Source;
+pub(super) use element::{Element, Thread};
+use nalgebra::Vector3;
+pub(super) use profile::Profile;
+use std::ops::Range;
+use world::fields::Flow;
+
+/// The elements of a store, parallel to its filaments.
+#[derive(Clone, Debug)]
+pub(super) struct Rise {
+    thread: Thread,
+    profile: Profile,
+    pub(super) elements: Vec<Element>,
+    /// Variance by which each filament is wider for its own entrainment, m².
+    pub(super) grown_m2: Vec<f32>,
+}
+
+impl Rise {
+    /// Of the n-th source over a bed (m, negative), in this water; `None` if its release is neutral.
+    pub(super) fn new(
+        flow: &dyn Flow,
+        n: usize,
+        source: &Source,
+        bed_m: f64,
+    ) -> Result<Option<Self>, PlumeError> {
+        let density = flow.density(&source.p_W, 0.0);
+        let release = &source.release;
+        let Some(curve) = release.curve(n, density)? else {
+            return Ok(None);
+        };
+        let (volume_m3_s, radius_m) = release.outflow(n)?;
+        let rate_hz = release.rate_hz.get();
+        Ok(Some(Self {
+            thread: Thread {
+                volume_m3: volume_m3_s / rate_hz,
+                rate_hz,
+                least_m_s: volume_m3_s / (std::f64::consts::PI * radius_m * radius_m),
+                curve,
+            },
+            profile: Profile::still(bed_m),
+            elements: Vec::new(),
+            grown_m2: Vec::new(),
+        }))
+    }
+
+    /// Takes the water over the source at a time.
+    pub(super) fn renew(&mut self, flow: &dyn Flow, p_W: Vector3<f64>, bed_m: f64, t_s: f64) {
+        self.profile = Profile::over(flow, p_W, bed_m, t_s);
+    }
+
+    /// Adds the element of the newest filament.
+    pub(super) fn push(&mut self) {
+        self.elements.push(self.thread.released());
+        self.grown_m2.push(0.0);
+    }
+
+    /// Removes elements by their sorted places.
+    pub(super) fn remove(&mut self, gone: &[usize]) {
+        remove(&mut self.elements, gone);
+        remove(&mut self.grown_m2, gone);
+    }
+
+    /// Works out the sizes of filaments anew from their elements and heights.
+    pub(super) fn size(&mut self, range: Range<usize>, z: &[f32]) {
+        for n in range {
+            let around = self.profile.at(f64::from(z[n]));
+            self.grown_m2[n] = self.thread.grown_m2(&self.elements[n], &around) as f32;
+        }
+    }
+}
+
+/// Removes entries by their sorted places.
+pub(super) fn remove<T>(list: &mut Vec<T>, gone: &[usize]) {
+    let (mut n, mut next) = (0, gone.iter().peekable());
+    list.retain(|_| {
+        let here = next.next_if(|g| **g == n).is_some();
+        n += 1;
+        !here
+    });
+}
+
+/// Size of a filament that its own entrainment has widened, m.
+#[inline(always)]
+pub(super) fn widened(horizontal: f32, grown_m2: f32) -> f32 {
+    (horizontal * horizontal + grown_m2).sqrt()
+}
+
+impl Store {
+    /// Size of a filament at an age, s, with what its own entrainment adds, m.
+    pub(super) fn horizontal(&self, n: usize, age_s: f64) -> f32 {
+        let size = self.size.horizontal(age_s);
+        match &self.rise {
+            Some(rise) => widened(size, rise.grown_m2[n]),
+            None => size,
+        }
+    }
+
+    /// The largest size in a range whose oldest filament has this age, s; m.
+    pub(super) fn largest(&self, range: Range<usize>, oldest_s: f64) -> f32 {
+        let size: f32 = Size::horizontal(&self.size, oldest_s);
+        match &self.rise {
+            Some(rise) => {
+                let grown = rise.grown_m2[range]
+                    .iter()
+                    .fold(0.0_f32, |most, g| most.max(*g));
+                widened(size, grown)
+            }
+            None => size,
+        }
+    }
+
+    /// Lets the filaments of a band rise through a step, or from their release on.
+    pub(super) fn rise(&mut self, range: Range<usize>, span: Span) {
+        let Some(rise) = &mut self.rise else { return };
+        for n in range.clone() {
+            let dt_s = span.to_s - self.born_s[n].max(span.from_s);
+            let (z, bed) = (self.z[n], self.bed[n]);
+            let element = &mut rise.elements[n];
+            let to = rise
+                .thread
+                .rise(element, f64::from(z), dt_s, |z| rise.profile.at(z));
+            let inside = to.clamp(f64::from(bed), 0.0);
+            if inside != to {
+                // The boundary takes up the momentum.
+                element.momentum_m4_s = 0.0;
+            }
+            self.z[n] = folded(inside as f32, bed, -1.0 / bed);
+            if let Some(labels) = &mut self.labels {
+                labels.lift(n, self.z[n] - z);
+            }
+        }
+        rise.size(range, &self.z);
+    }
+}

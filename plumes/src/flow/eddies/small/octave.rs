@@ -1,0 +1,163 @@
+//! One octave of small eddies: how strong it is at each height, how long its patterns live, and its velocity.
+//!
+//! *Source*, *Parameters*, *Deviations*: see the folder's head.
+
+use super::table::{LONGEST, Table, table};
+use crate::flow::channel::Channel;
+use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
+use std::sync::Arc;
+use world::math;
+use world::seeds::Stream;
+
+/// Cells from bed to surface in which strengths are linear.
+const LEVELS: usize = 256;
+
+/// Wave numbers from k to 2k.
+#[derive(Clone, Debug)]
+pub(crate) struct Octave {
+    /// Half of the squared middle wave number, 1/m².
+    half_k2: f32,
+    /// Sides of the box in a metre, and its reciprocal.
+    per_m: f32,
+    side_m: f32,
+    depth_m: f32,
+    /// Root of the mean square of each component at the levels from the bed up, m/s.
+    strength: Vec<f32>,
+    /// Half of a pattern's life, s.
+    period_s: f64,
+    table: Arc<Table>,
+}
+
+/// A pattern at a time.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Life {
+    /// Its number among all of its octave.
+    pub(crate) number: u32,
+    /// Time since it began, s.
+    pub(crate) age_s: f32,
+    weight: f32,
+    /// Where in the box its origin lies, in sides.
+    begin: [f32; 3],
+}
+
+/// A height among the levels.
+pub(super) struct Level {
+    pub(super) cell: usize,
+    pub(super) part: f32,
+}
+
+impl Octave {
+    pub(super) fn new(channel: &Channel, k: f64) -> Self {
+        let middle = SQRT_2 * k;
+        let depth = channel.depth_m;
+        let of = |n: usize| {
+            let height = depth * n as f64 / LEVELS as f64;
+            let walls = math::tanh(middle * height) * math::tanh(middle * (depth - height));
+            (variance(channel, height, k).sqrt() * walls) as f32
+        };
+        // 1/(k u_k) with u_k² = kE: 1/(1.5^½ ε^⅓ k^⅔), with the depth mean of ε^⅓.
+        let cubic = channel.mean_of(|z| math::cbrt(channel.dissipation(z)));
+        let turn_over_s = 1.0 / (1.5_f64.sqrt() * cubic * math::powf(middle, 2.0 / 3.0));
+        Self {
+            half_k2: (0.5 * middle * middle) as f32,
+            per_m: (k / (TAU * LONGEST)) as f32,
+            side_m: (TAU * LONGEST / k) as f32,
+            depth_m: depth as f32,
+            strength: (0..=LEVELS).map(of).collect(),
+            period_s: PI * PI / 8.0 * turn_over_s,
+            table: table(),
+        }
+    }
+
+    /// The two patterns at a time: that with an even number, then that with an odd one. `stream` draws for a number.
+    pub(super) fn lives(&self, t_s: f64, stream: impl Fn(u64) -> Stream) -> [Life; 2] {
+        let age = t_s.max(0.0) / self.period_s;
+        let young = age.floor();
+        let part = age - young;
+        let (s, c) = math::sin_cos(FRAC_PI_2 * part);
+        let of = |number: f64, weight: f64| {
+            let number = (number + 1.0) as u64;
+            let mut rng = stream(number);
+            Life {
+                number: number as u32,
+                age_s: (t_s - (number as f64 - 1.0) * self.period_s) as f32,
+                weight: weight as f32,
+                begin: std::array::from_fn(|_| rng.uniform() as f32),
+            }
+        };
+        // A pattern lives from its number to two periods later.
+        let (old, new) = (of(young - 1.0, c), of(young, s));
+        if new.number.is_multiple_of(2) {
+            [new, old]
+        } else {
+            [old, new]
+        }
+    }
+
+    /// Part of the octave that is left in the mean over a kernel.
+    #[inline]
+    pub(super) fn kept(&self, size_m: f32) -> f32 {
+        if size_m == 0.0 {
+            return 1.0;
+        }
+        math::exp(f64::from(-self.half_k2 * size_m * size_m)) as f32
+    }
+
+    #[inline]
+    pub(super) fn level(&self, z: f32) -> Level {
+        let at = (1.0 + z / self.depth_m).clamp(0.0, 1.0) * LEVELS as f32;
+        let cell = (at as usize).min(LEVELS - 1);
+        Level {
+            cell,
+            part: at - cell as f32,
+        }
+    }
+
+    /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
+    /// potential.
+    #[inline]
+    pub(super) fn velocity(&self, life: &Life, level: &Level, label: [f32; 3]) -> [f32; 3] {
+        let q = std::array::from_fn(|d| label[d] * self.per_m + life.begin[d]);
+        let (v, a) = self.table.at(q);
+        let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
+        let strength = low + level.part * (high - low);
+        // The potential is that of a side of 1; its strength changes upwards only.
+        let slope = (high - low) * (LEVELS as f32 / self.depth_m) * self.side_m;
+        [
+            life.weight * (strength * v[0] - slope * a[1]),
+            life.weight * (strength * v[1] + slope * a[0]),
+            life.weight * strength * v[2],
+        ]
+    }
+}
+
+/// Mean square of one component of the eddies with wave numbers from k to 2k at a height above the bed, m²/s².
+pub(super) fn variance(channel: &Channel, height_m: f64, k: f64) -> f64 {
+    const N: usize = 16;
+    let epsilon = channel.dissipation(height_m);
+    let nu = channel.viscosity_m2_s;
+    let eta = (nu * nu * nu / epsilon).sqrt().sqrt();
+    let energy = |k: f64| {
+        let x = k * eta;
+        1.5 * math::powf(epsilon, 2.0 / 3.0)
+            * math::powf(k, -5.0 / 3.0)
+            * math::exp(-2.25 * math::powf(x, 4.0 / 3.0))
+    };
+    let step = math::ln(2.0) / N as f64;
+    let all: f64 = (0..N)
+        .map(|n| k * math::exp((n as f64 + 0.5) * step))
+        .map(|k| k * energy(k) * step)
+        .sum();
+    2.0 / 3.0 * all
+}
+
+/// Shear of the mean at the levels, 1/s.
+pub(super) fn shear(channel: &Channel) -> Vec<f32> {
+    let cell = channel.depth_m / LEVELS as f64;
+    let of = |n: usize| {
+        let height = n as f64 * cell;
+        let (low, high) = ((height - 0.5 * cell).max(0.0), height + 0.5 * cell);
+        ((channel.speed(high) - channel.speed(low)) / (high - low)) as f32
+    };
+    (0..=LEVELS).map(of).collect()
+}

@@ -1,0 +1,173 @@
+//! A periodic box of isotropic turbulence with wave lengths of one octave: velocity and vector potential on a grid.
+//!
+//! *Source*: kinematic simulation (Kraichnan 1970, Phys. Fluids 13, 22; Fung, Hunt, Malik & Perkins 1992, J. Fluid Mech.
+//! 236, 281): random Fourier modes with E(k) ∝ k^(−5/3).
+//!
+//! *Parameters*: [`NODES`] a side; wave numbers from [`LONGEST`] to twice as many waves in a side.
+//!
+//! *Deviations*: the same box serves every octave, each at its own size: the inertial range is similar to itself. Between
+//! nodes both fields are trilinear; the shortest wave has 6.4 nodes.
+
+use super::super::fourier::Fourier;
+use std::f64::consts::TAU;
+use std::sync::{Arc, OnceLock};
+use world::math;
+use world::seeds::Stream;
+
+/// Nodes along a side; a power of two.
+const NODES: usize = 64;
+/// Number of the longest waves in a side.
+pub(super) const LONGEST: f64 = 5.0;
+
+/// Velocity (root of the mean square of each component: 1) and its vector potential, for a side of length 1.
+#[derive(Debug)]
+pub(super) struct Table {
+    nodes: Vec<[f32; 8]>,
+}
+
+/// The box of this process.
+pub(super) fn table() -> Arc<Table> {
+    static DRAWN: OnceLock<Arc<Table>> = OnceLock::new();
+    DRAWN.get_or_init(|| Arc::new(Table::new())).clone()
+}
+
+impl Table {
+    fn new() -> Self {
+        let count = NODES * NODES * NODES;
+        let mut fields = vec![vec![[0.0_f64; 2]; count]; 6];
+        let mut rng = Stream::new(0, "eddies", "octave");
+        let reach = 2 * LONGEST as i64;
+        let wrapped = |m: i64| m.rem_euclid(NODES as i64) as usize;
+        for mx in 0..reach {
+            for my in -reach..=reach {
+                for mz in -reach..=reach {
+                    // One of each pair of opposite waves.
+                    if mx == 0 && (my < 0 || (my == 0 && mz <= 0)) {
+                        continue;
+                    }
+                    let m2 = (mx * mx + my * my + mz * mz) as f64;
+                    if !(LONGEST * LONGEST..4.0 * LONGEST * LONGEST).contains(&m2) {
+                        continue;
+                    }
+                    let k = [mx, my, mz].map(|m| TAU * m as f64);
+                    // E(k) is spread over a sphere, and a velocity is k times its potential.
+                    let std = math::powf(m2.sqrt(), (-5.0 / 3.0 - 4.0) / 2.0);
+                    let a: [[f64; 2]; 3] =
+                        std::array::from_fn(|_| [std * rng.normal(), std * rng.normal()]);
+                    let at = (wrapped(mx) * NODES + wrapped(my)) * NODES + wrapped(mz);
+                    for c in 0..3 {
+                        let (p, q) = ((c + 1) % 3, (c + 2) % 3);
+                        let curl = |part: usize| k[p] * a[q][part] - k[q] * a[p][part];
+                        // i times (r, s) is (−s, r).
+                        fields[c][at] = [-curl(1), curl(0)];
+                        fields[3 + c][at] = a[c];
+                    }
+                }
+            }
+        }
+        for field in &mut fields {
+            summed(field);
+        }
+        let square: f64 = fields[..3].iter().flatten().map(|v| v[0] * v[0]).sum();
+        let scale = 1.0 / (square / (3 * count) as f64).sqrt();
+        let node = |n: usize| {
+            std::array::from_fn(|c| match c {
+                3 | 7 => 0.0,
+                _ => (scale * fields[if c < 3 { c } else { c - 1 }][n][0]) as f32,
+            })
+        };
+        Self {
+            nodes: (0..count).map(node).collect(),
+        }
+    }
+
+    /// Velocity and potential at a place in sides of the box.
+    #[inline]
+    pub(super) fn at(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+        let mut near = [0; 3];
+        let mut far = [0; 3];
+        let mut part = [0.0_f32; 3];
+        for d in 0..3 {
+            let c = q[d] * NODES as f32;
+            let floor = c.floor();
+            part[d] = c - floor;
+            near[d] = floor as i32 as usize & (NODES - 1);
+            far[d] = (near[d] + 1) & (NODES - 1);
+        }
+        let mut sum = [0.0_f32; 8];
+        for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
+            for (j, wj) in [(near[1], 1.0 - part[1]), (far[1], part[1])] {
+                let line = (i * NODES + j) * NODES;
+                for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
+                    let (node, weight) = (&self.nodes[line + k], wi * wj * wk);
+                    for (s, v) in sum.iter_mut().zip(node) {
+                        *s += weight * v;
+                    }
+                }
+            }
+        }
+        ([sum[0], sum[1], sum[2]], [sum[4], sum[5], sum[6]])
+    }
+}
+
+/// Sums a cube of coefficients along its three axes.
+fn summed(field: &mut [[f64; 2]]) {
+    let fourier = Fourier::new(NODES);
+    let mut line = vec![[0.0; 2]; NODES];
+    for stride in [1, NODES, NODES * NODES] {
+        for from in (0..field.len()).filter(|n| n / stride % NODES == 0) {
+            for (n, v) in line.iter_mut().enumerate() {
+                *v = field[from + n * stride];
+            }
+            fourier.sum(&mut line);
+            for (n, v) in line.iter().enumerate() {
+                field[from + n * stride] = *v;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// At the nodes' centres, where the interpolation is smoothest: the curl of the potential is the velocity, and the
+    /// velocity has no divergence. Differences over a cell see 6.4 nodes a wave.
+    #[test]
+    fn velocity_is_the_curl_of_its_potential() {
+        let table = table();
+        let h = 0.5 / NODES as f32;
+        let (mut wrong, mut gathers, mut slopes) = (0.0_f64, 0.0_f64, 0.0_f64);
+        for n in 0..2000_u32 {
+            let part = |m: u32| n.wrapping_mul(m) as f32 / u32::MAX as f32;
+            let q = [part(0x9e37_79b9), part(0x85eb_ca6b), part(0xc2b2_ae35)];
+            let slope = |d: usize| {
+                let (mut low, mut high) = (q, q);
+                low[d] -= h;
+                high[d] += h;
+                let ((v0, a0), (v1, a1)) = (table.at(low), table.at(high));
+                let per = |a: [f32; 3], b: [f32; 3]| {
+                    std::array::from_fn::<f64, 3, _>(|c| {
+                        f64::from(b[c] - a[c]) / f64::from(2.0 * h)
+                    })
+                };
+                (per(v0, v1), per(a0, a1))
+            };
+            let s = [slope(0), slope(1), slope(2)];
+            let v = table.at(q).0;
+            for c in 0..3 {
+                let (p, r) = ((c + 1) % 3, (c + 2) % 3);
+                let curl = s[p].1[r] - s[r].1[p];
+                wrong += (curl - f64::from(v[c])).powi(2);
+                slopes += s[c].0.iter().map(|g| g * g).sum::<f64>();
+            }
+            gathers += (s[0].0[0] + s[1].0[1] + s[2].0[2]).powi(2);
+        }
+        assert!((wrong / 6000.0).sqrt() < 0.2, "{}", (wrong / 6000.0).sqrt());
+        assert!(
+            (gathers / slopes).sqrt() < 0.05,
+            "{}",
+            (gathers / slopes).sqrt()
+        );
+    }
+}
