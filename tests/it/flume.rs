@@ -69,7 +69,11 @@ fn list_explains_the_tracker_and_the_gantry() {
     let algorithms = common::rheotaxis(&["list", "algorithms"]).stdout;
     let algorithms = String::from_utf8(algorithms).unwrap();
     let searchers = Registry::default().entries::<robots::track::GantryStrategies>();
-    for unit in robots::track::UNITS.iter().chain(&searchers) {
+    for unit in robots::track::UNITS
+        .iter()
+        .chain(robots::track::READINGS)
+        .chain(&searchers)
+    {
         assert!(algorithms.contains(unit.what), "{}", unit.name);
         assert!(algorithms.contains(unit.source), "{}", unit.name);
     }

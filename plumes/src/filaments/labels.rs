@@ -160,17 +160,18 @@ pub(super) fn carry(
     let lives = small.lives(middle_s);
     for n in range {
         let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
-        let size = kernel(store, n, middle_s - store.born_s[n]);
+        let age_s = middle_s - store.born_s[n];
+        let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
         let place = [store.x[n], store.y[n], store.z[n]];
         let row = labels.row(n, place, &lives);
         // Half the step ahead first, so that an even cloud stays even to second order.
-        let v = small.velocity(&lives, place[2], size, row);
+        let v = small.velocity(&lives, place[2], &weights, row);
         let half = v.map(|v| 0.5 * dt * v);
         let mut ahead = [[0.0; 3]; MOST];
         for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
             *ahead = std::array::from_fn(|d| at[d] + half[d]);
         }
-        let v = small.velocity(&lives, place[2] + half[2], size, &ahead[..row.len()]);
+        let v = small.velocity(&lives, place[2] + half[2], &weights, &ahead[..row.len()]);
         let way = v.map(|v| dt * v);
         for at in row {
             for d in 0..3 {
@@ -187,12 +188,3 @@ pub(super) fn carry(
 
 /// Most patterns.
 const MOST: usize = 2 * crate::flow::eddies::MOST_OCTAVES;
-
-/// Size of the kernel over which the small eddies are averaged, m: 0 of one that has stopped growing.
-fn kernel(store: &Store, n: usize, age_s: f64) -> f32 {
-    if store.size.is_grown(age_s) {
-        0.0
-    } else {
-        store.horizontal(n, age_s)
-    }
-}

@@ -140,10 +140,7 @@ impl Plume {
             self.index.changed(n, due);
             for band in due..=self.bands.last() {
                 self.sweep(flow, n, band, threads);
-                self.rise(n, band);
-                if let Some(walls) = &walls {
-                    self.carry(flow, walls, n, band);
-                }
+                self.carry(flow, walls.as_ref(), n, band);
             }
         }
         self.steps += 1;
@@ -175,18 +172,6 @@ impl Plume {
         }
     }
 
-    /// Lets the filaments of a band of a buoyant store rise.
-    fn rise(&mut self, n: usize, band: usize) {
-        let store = &mut self.stores[n];
-        if store.rise.is_none() {
-            return;
-        }
-        let range = store.band(band, &self.bands);
-        let before = self.room.has_solids().then(|| places_of(store, &range));
-        store.rise(range.clone(), self.bands.span(band));
-        self.keep_out(n, before, range.start);
-    }
-
     /// Reflects at solids the filaments of a store, from the `first` on, that were carried away from earlier places.
     fn keep_out(&mut self, n: usize, before: Option<[Vec<f32>; 3]>, first: usize) {
         if let Some(before) = before {
@@ -195,23 +180,29 @@ impl Plume {
         }
     }
 
-    /// Moves the filaments of a band of a store with the eddies between walls.
-    fn carry(&mut self, flow: &dyn Flow, walls: &SideWalls, n: usize, band: usize) {
+    /// Lets the filaments of a band of a store rise, if they are buoyant, and moves them with the eddies between walls.
+    fn carry(&mut self, flow: &dyn Flow, walls: Option<&SideWalls>, n: usize, band: usize) {
         let store = &mut self.stores[n];
-        let range = store.band(band, &self.bands);
-        let Some(span) = self.bands.carries(band, store.carried_s) else {
-            return keep_between(walls, store, range);
-        };
-        store.carried_s = span.to_s;
-        let before = self.room.has_solids().then(|| places_of(store, &range));
-        carry(flow, store, range.clone(), span);
-        if let Some(small) = &self.small {
-            let p_W = self.sources[n].p_W;
-            labels::carry(small, flow, p_W, store, range.clone(), span);
-            fold(store, range.clone());
+        if walls.is_none() && store.rise.is_none() {
+            return;
         }
-        self.keep_out(n, before, range.start);
-        keep_between(walls, &mut self.stores[n], range);
+        let range = store.band(band, &self.bands);
+        if let Some(span) = self.bands.carries(band, store.carried_s) {
+            store.carried_s = span.to_s;
+            let before = self.room.has_solids().then(|| places_of(store, &range));
+            store.rise(range.clone(), span);
+            if walls.is_some() {
+                carry(flow, store, range.clone(), span);
+            }
+            if let Some(small) = &self.small {
+                labels::carry(small, flow, self.sources[n].p_W, store, range.clone(), span);
+                fold(store, range.clone());
+            }
+            self.keep_out(n, before, range.start);
+        }
+        if let Some(walls) = walls {
+            keep_between(walls, &mut self.stores[n], range);
+        }
     }
 
     /// Releases what is due within the shortest step, and divides the filaments into bands.

@@ -21,7 +21,7 @@ pub const UNITS: &[Entry] = &[
     },
     Entry {
         name: "history",
-        what: "short-term input-output history analyser: weighted mean of the spikes since the previous step",
+        what: "short-term input-output history analyser: weighted average since the previous step, over Time or Spikes",
         source: "Webster et al. 2012, section 4",
     },
     Entry {
@@ -43,5 +43,69 @@ pub const UNITS: &[Entry] = &[
         name: "stop",
         what: "decision unit, stopping: SpikeRate (2 Hz) or Experience (relative to the first steps; end of the trail)",
         source: "Webster et al. 2012, sections 4 and 7",
+    },
+];
+
+/// Places that the paper leaves open: the field, its readings with the default first, and the sentence that they read.
+pub const READINGS: &[Entry] = &[
+    Entry {
+        name: "history.over",
+        what: "Time, or Spikes: what an average runs over",
+        source: "\"'Average' means time average over the period since the previous step\"",
+    },
+    Entry {
+        name: "history.since",
+        what: "Decision, or Arrival: whether spikes met in motion count",
+        source: "\"the period since the previous step\"",
+    },
+    Entry {
+        name: "history.centre_weight",
+        what: "2, from just above 1: weight of the centre probe",
+        source: "\"the center probe has greater weighting for this function compared to the other probes\"",
+    },
+    Entry {
+        name: "predictor",
+        what: "Mean or Trend, of 5 s: what is expected of the next step",
+        source: "\"short-term (2-10 s) memory data to predict the characteristics of a one-step-ahead measurement\"",
+    },
+    Entry {
+        name: "advance.signed",
+        what: "true, or false: whether more than predicted is an error",
+        source: "\"prediction error (i.e. predicted value minus the average spike magnitude)\"",
+    },
+    Entry {
+        name: "contrast.of",
+        what: "MeanPeak, or GreatestPeak: what is compared between the sides",
+        source: "\"a minimum percentage difference in peak concentration\"",
+    },
+    Entry {
+        name: "sweep.best",
+        what: "Peak, or Centroid: where a sweep leads back to",
+        source: "\"the identified location of the greatest peak concentration\"",
+    },
+    Entry {
+        name: "threshold.over, threshold.each_probe",
+        what: "AboveFloor or Accepted; true or false: which spikes the running average has",
+        source: "\"half of a running average of the spike concentration values\"",
+    },
+    Entry {
+        name: "stop.window_s, stop.count",
+        what: "3.5 s, a step; Greatest, Pooled or Mean: how the frequency of spikes is counted",
+        source: "\"exceeding a threshold frequency of concentration spikes ... set at 2 Hz\"",
+    },
+    Entry {
+        name: "travel_m, at_end",
+        what: "all of the machine's, Fails or Stops: where the travel ends, and what it means to get there",
+        source: "\"The average final distance from the plume source location for the successful trials is 14.3 cm\"",
+    },
+    Entry {
+        name: "probes.full_scale_kg_m3",
+        what: "4.7, a tenth of the release, up to 47, all of it: the concentration that gives 5 V",
+        source: "\"voltage signal range is -5 - +5 V\"",
+    },
+    Entry {
+        name: "probes.noise_v, probes.adc_bits",
+        what: "4 mV and 12 bits: what the least threshold of -4.98 V excludes",
+        source: "\"a minimum threshold value of -4.98 V is applied to exclude noise\"",
     },
 ];

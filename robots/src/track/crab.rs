@@ -70,7 +70,7 @@ impl CrabTracker {
             bottom_v,
             spikes: SpikeAnalyser::default(),
             threshold: ThresholdAnalyser::new(&spec.threshold, bottom_v),
-            predictor: Predictor::new(&spec.predictor),
+            predictor: Predictor::new(&spec.predictor, spec.history.over),
             map: DataBuilder::new(spec.sweep.best),
             history: History::new(&spec.history, acquisition.left, acquisition.right),
             decision: DecisionUnit::new(rules, StopRule::new(&spec.stop)),

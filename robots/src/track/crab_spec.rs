@@ -3,7 +3,7 @@
 use super::advance::{self, AdvanceSpec};
 use super::builder::{KEPT, SweepSpec};
 use super::decide::Rules;
-use super::history::HistorySpec;
+use super::history::{HistorySpec, Over};
 use super::pace::{self, PaceSpec};
 use super::predictor::PredictorSpec;
 use super::steer::{self, ContrastSpec};
@@ -41,6 +41,19 @@ pub struct CrabSpec {
     pub stop: StopSpec,
     /// Blocked motions in a row before it gives up.
     pub blocked_limit: NonZeroUsize,
+    /// Travel up-stream from where the head starts that the tracker uses, m; without it, all of the machine's.
+    pub travel_m: Option<Positive>,
+    /// What the up-stream end of the travel means.
+    pub at_end: AtEnd,
+}
+
+/// What the up-stream end of the travel means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum AtEnd {
+    /// The search has failed.
+    Fails,
+    /// The head stops there, as it does where the rule of stopping says so.
+    Stops,
 }
 
 impl Default for CrabSpec {
@@ -56,6 +69,8 @@ impl Default for CrabSpec {
             speed: PaceSpec::default(),
             stop: StopSpec::default(),
             blocked_limit: NonZeroUsize::new(6).expect("6 is not zero"),
+            travel_m: None,
+            at_end: AtEnd::Fails,
         }
     }
 }
@@ -98,6 +113,23 @@ impl CrabSpec {
             "travel along the stream in m",
         )?;
         most("step_m.1", step_l, width, "travel across the stream in m")?;
+        if let Some(travel_m) = self.travel_m {
+            let all = along[1] - along[0];
+            most(
+                "travel_m",
+                travel_m.get(),
+                all,
+                "travel along the stream in m",
+            )?;
+        }
+        if self.history.over == Over::Time && matches!(self.predictor, PredictorSpec::Trend(_)) {
+            return Err(RobotError::Invalid {
+                field: "tracker.Crab.predictor".into(),
+                problem:
+                    "Trend predicts the magnitude of spikes: take history: (over: Spikes), or Mean"
+                        .into(),
+            });
+        }
         let span = self.sweep.span_m.get();
         most("sweep.span_m", span, width, "travel across the stream in m")?;
         let [max_f, max_l] = layout.max_speed_m_s;
@@ -158,7 +190,8 @@ impl CrabSpec {
             sweep_left_m: [middle + span / 2.0, middle - span / 2.0],
             empty_sweeps: self.sweep.empty_sweeps.get(),
             blocked_limit: self.blocked_limit.get(),
-            end_m: along[1],
+            end_m: (self.travel_m).map_or(along[1], |t| along[0] + t.get()),
+            at_end: self.at_end,
             across_m: across,
             pace: self.speed.clone(),
             advance: self.advance.clone(),
@@ -209,6 +242,11 @@ mod tests {
         assert_eq!(
             refused(|s| s.speed = PaceSpec::Adaptive(fast)),
             "tracker.Crab.speed.most_m_s: must be at most 0.15, the gantry's speed along the stream in m/s, got 0.2"
+        );
+        let trend = refused(|s| s.predictor = PredictorSpec::Trend(Default::default()));
+        assert!(
+            trend.starts_with("tracker.Crab.predictor: Trend predicts"),
+            "{trend}"
         );
         let turned = stop::Experience {
             least_hz: Positive::new(9.0),

@@ -9,8 +9,11 @@
 //! sides together; start of the average, `since`, `Decision`: the paper's words, so that spikes met in motion count;
 //! `Arrival` takes only those at rest.
 //!
-//! *Deviations*: the average runs over spikes, not over seconds. The decision rule compares magnitudes, so a period
-//! with few but strong spikes must count by their magnitude; how often spikes come matters to the stop rule.
+//! What the average runs over, `over`, `Time`: "'Average' means time average over the period since the previous step", the
+//! sum of magnitudes in a second; `Spikes`, their mean, compares magnitudes alone, so that how often spikes come matters to
+//! the stop rule only.
+//!
+//! *Deviations*: none known.
 
 use super::data::{Spike, StepRecord, Tally};
 use crate::handoff::MAX_PROBES;
@@ -27,6 +30,15 @@ pub enum Since {
     Arrival,
 }
 
+/// Over what a step's magnitude is averaged.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Over {
+    /// The spikes: their mean magnitude, V.
+    Spikes,
+    /// The time: the sum of their magnitudes in a second, V/s.
+    Time,
+}
+
 /// Parameters of the unit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -35,6 +47,8 @@ pub struct HistorySpec {
     pub centre_weight: Positive,
     /// Where a step's average begins.
     pub since: Since,
+    /// Over what it is taken.
+    pub over: Over,
 }
 
 impl Default for HistorySpec {
@@ -42,6 +56,7 @@ impl Default for HistorySpec {
         Self {
             centre_weight: Positive::new(2.0),
             since: Since::Decision,
+            over: Over::Time,
         }
     }
 }
@@ -50,6 +65,7 @@ impl Default for HistorySpec {
 #[derive(Clone, Debug)]
 pub struct History {
     since: Since,
+    over: Over,
     centre_weight: f64,
     left: usize,
     right: usize,
@@ -66,6 +82,7 @@ impl History {
     pub fn new(spec: &HistorySpec, left: usize, right: usize) -> Self {
         Self {
             since: spec.since,
+            over: spec.over,
             centre_weight: spec.centre_weight.get(),
             left,
             right,
@@ -109,10 +126,15 @@ impl History {
             w += self.weight(i) * t.count as f64;
             wm += self.weight(i) * t.sum_v;
         }
+        let period_s = t_s - self.began_s;
         StepRecord {
-            period_s: t_s - self.began_s,
+            period_s,
             spikes,
-            mean_v: if spikes > 0 { wm / w } else { 0.0 },
+            mean_v: match self.over {
+                Over::Spikes if spikes > 0 => wm / w,
+                Over::Time if period_s > 0.0 => wm / period_s,
+                _ => 0.0,
+            },
             previous_v: self.previous_v,
             predicted_v: self.predicted_v,
             left: self.tallies[self.left],
@@ -147,7 +169,11 @@ mod tests {
 
     #[test]
     fn the_centre_probe_weighs_more() {
-        let mut h = History::new(&HistorySpec::default(), 0, 1);
+        let spec = HistorySpec {
+            over: Over::Spikes,
+            ..Default::default()
+        };
+        let mut h = History::new(&spec, 0, 1);
         h.forget(1.0, Some(2.0));
         h.add(&spike(2.0, 0, 1.0));
         h.add(&spike(2.0, 2, 4.0));
@@ -165,6 +191,7 @@ mod tests {
         for (since, mean) in [(Since::Decision, 2.0), (Since::Arrival, 3.0)] {
             let spec = HistorySpec {
                 since,
+                over: Over::Spikes,
                 ..Default::default()
             };
             let mut h = History::new(&spec, 0, 1);
@@ -175,5 +202,15 @@ mod tests {
             h.arrive();
             assert_eq!(h.record(3.0).mean_v, mean, "{since:?}");
         }
+    }
+
+    #[test]
+    fn the_average_may_run_over_time() {
+        let mut h = History::new(&HistorySpec::default(), 0, 1);
+        h.forget(1.0, None);
+        h.add(&spike(2.0, 0, 1.0));
+        h.add(&spike(2.0, 2, 4.0));
+        assert_eq!(h.record(4.0).mean_v, 9.0 / 3.0);
+        assert_eq!(h.record(5.5).mean_v, 9.0 / 4.5, "silence lowers it");
     }
 }

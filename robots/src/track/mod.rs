@@ -26,7 +26,7 @@ pub mod threshold;
 
 pub use advance::{AdvanceSpec, Gated, StepRule};
 pub use builder::{Best, SweepSpec};
-pub use catalogue::UNITS;
+pub use catalogue::{READINGS, UNITS};
 pub use chemotaxis::{Chemotaxis, ChemotaxisSpec};
 pub use crab::CrabTracker;
 pub use crab_spec::CrabSpec;

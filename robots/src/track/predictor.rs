@@ -8,9 +8,10 @@
 //! each spread as much as its mean). `Trend`: least squares through the memory, evaluated `ahead_s` after its end,
 //! 1.75 s: the middle of the coming step; not below zero.
 //!
-//! *Deviations*: none known.
+//! *Deviations*: where the history averages over time, the prediction is the mean over the memory's time.
 
 use super::data::Spike;
+use super::history::Over;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
@@ -71,15 +72,17 @@ impl Default for Trend {
 #[derive(Clone, Debug)]
 pub struct Predictor {
     spec: PredictorSpec,
+    over: Over,
     memory: VecDeque<(f64, f64, f64)>,
 }
 
 impl Predictor {
-    /// An empty memory.
+    /// An empty memory, which predicts what the history averages.
     #[must_use]
-    pub fn new(spec: &PredictorSpec) -> Self {
+    pub fn new(spec: &PredictorSpec, over: Over) -> Self {
         Self {
             spec: spec.clone(),
+            over,
             memory: VecDeque::new(),
         }
     }
@@ -108,6 +111,9 @@ impl Predictor {
         if w <= 0.0 {
             return None;
         }
+        if self.over == Over::Time {
+            return Some(wm / memory_s);
+        }
         let (t_mean, mean) = (wt / w, wm / w);
         let PredictorSpec::Trend(p) = &self.spec else {
             return Some(mean);
@@ -131,7 +137,7 @@ mod tests {
 
     #[test]
     fn the_weighted_mean_of_the_memory_only() {
-        let mut p = Predictor::new(&PredictorSpec::default());
+        let mut p = Predictor::new(&PredictorSpec::default(), Over::Spikes);
         assert_eq!(p.predict(0.0), None);
         p.add(&spike(0.0, 0, 9.0), 1.0);
         p.add(&spike(4.0, 0, 1.0), 1.0);
@@ -148,7 +154,7 @@ mod tests {
     #[test]
     fn a_line_goes_on_but_not_below_nothing() {
         let line = |from: f64, slope: f64| {
-            let mut p = Predictor::new(&PredictorSpec::Trend(Trend::default()));
+            let mut p = Predictor::new(&PredictorSpec::Trend(Trend::default()), Over::Spikes);
             for k in 0..5 {
                 let t = f64::from(k);
                 p.add(&spike(t, 0, from + slope * t), 1.0);
@@ -157,8 +163,16 @@ mod tests {
         };
         assert!((line(1.0, 0.5) - (1.0 + 0.5 * 5.75)).abs() < 1e-9);
         assert_eq!(line(4.0, -1.0), 0.0);
-        let mut p = Predictor::new(&PredictorSpec::Trend(Trend::default()));
+        let mut p = Predictor::new(&PredictorSpec::Trend(Trend::default()), Over::Spikes);
         p.add(&spike(1.0, 0, 2.0), 1.0);
         assert_eq!(p.predict(1.0), Some(2.0), "one spike has no trend");
+    }
+
+    #[test]
+    fn a_mean_over_time_counts_the_silence() {
+        let mut p = Predictor::new(&PredictorSpec::default(), Over::Time);
+        p.add(&spike(4.0, 0, 1.0), 1.0);
+        p.add(&spike(5.0, 2, 4.0), 2.0);
+        assert_eq!(p.predict(6.0), Some(9.0 / 5.0));
     }
 }

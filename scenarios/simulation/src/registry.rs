@@ -96,6 +96,11 @@ pub fn sections(registry: &Registry) -> Vec<Section> {
         ),
         within(
             Algorithms,
+            "Readings of the Crab tracker's paper, by their fields",
+            robots::track::READINGS,
+        ),
+        within(
+            Algorithms,
             "Objects in a sidescan's picture",
             robots::survey::CATALOGUE,
         ),

@@ -184,6 +184,7 @@ macro_rules! row {
 const ROWS: &[(&str, &str)] = &[
     row!("crab"),
     row!("crab_arms"),
+    row!("crab_readings"),
     row!("duck_st"),
     row!("dalian_bay"),
     row!("duck_mt"),

@@ -13,7 +13,9 @@
 //! shear since it began, and by nothing else. Towards bed and surface each octave falls as tanh(kz),
 //! by its potential, so that its velocity stays free of divergence. A filament is moved by each octave's mean over its
 //! kernel, exp(−k²R²/2) of it, as long as it grows; eddies smaller than itself make it grow. Once it has reached the size
-//! at which it stops growing, it is a marker and moves as the water at its centre. The velocity of the water at a place, as
+//! at which it stops growing, it is a marker: the octaves whose waves are longer than about its circumference, kR < 2, move
+//! it as the water at its centre. Shorter ones, which its kernel would hide, do not; they would spread it by less than a
+//! twentieth of what all eddies do. The velocity of the water at a place, as
 //! instruments see it, excludes these octaves: they are known only where filaments are.
 
 mod octave;
@@ -44,11 +46,15 @@ pub struct SmallSpec {
 /// Most octaves.
 pub(crate) const MOST_OCTAVES: usize = 8;
 
+/// The part of each octave that moves a filament.
+pub(crate) type Weights = [f32; MOST_OCTAVES];
+
 /// The octaves of a channel.
 #[derive(Clone, Debug)]
 pub struct Small {
     octaves: Vec<Octave>,
     along: Vector2<f32>,
+    depth_m: f32,
     /// Shear of the mean at the levels of the octaves, 1/s.
     shear: Vec<f32>,
     seed: Seed,
@@ -86,6 +92,7 @@ impl SmallSpec {
         Ok(Small {
             octaves: octaves.collect(),
             along: channel.along.map(|v| v as f32),
+            depth_m: channel.depth_m as f32,
             shear: octave::shear(channel),
             seed,
             k_f: k_c * 2.0_f64.powi(count),
@@ -109,24 +116,35 @@ impl Small {
         self.octaves.iter().enumerate().flat_map(of).collect()
     }
 
-    /// Velocity (east, north, up) at a height where the coordinates in the patterns are `labels`, m/s, averaged over a
-    /// kernel of a size; a size of 0 is a point.
+    /// The part of each octave that moves a filament of a size, m.
+    pub(crate) fn weights(&self, size_m: f32, grown: bool) -> Weights {
+        let mut weights = [0.0; MOST_OCTAVES];
+        for (weight, octave) in weights.iter_mut().zip(&self.octaves) {
+            *weight = if grown {
+                octave.marked(size_m)
+            } else {
+                octave.kept(size_m)
+            };
+        }
+        weights
+    }
+
+    /// Velocity (east, north, up) at a height where the coordinates in the patterns are `labels`, m/s.
+    #[inline]
     pub(crate) fn velocity(
         &self,
         lives: &[Life],
         z: f32,
-        size_m: f32,
+        weights: &Weights,
         labels: &[[f32; 3]],
     ) -> [f32; 3] {
         let mut sum = [0.0_f32; 3];
-        for (n, octave) in self.octaves.iter().enumerate() {
-            let weight = octave.kept(size_m);
-            if weight < 1e-3 {
+        let level = octave::level(z, self.depth_m);
+        let shear = level.between(&self.shear);
+        for (n, (octave, weight)) in self.octaves.iter().zip(weights).enumerate() {
+            if *weight == 0.0 {
                 continue;
             }
-            let level = octave.level(z);
-            let shear = self.shear[level.cell]
-                + level.part * (self.shear[level.cell + 1] - self.shear[level.cell]);
             for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
                 let v = octave.velocity(life, &level, *label);
                 let drawn_out = shear * life.age_s * v[2];

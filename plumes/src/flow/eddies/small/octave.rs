@@ -42,8 +42,8 @@ pub(crate) struct Life {
 
 /// A height among the levels.
 pub(super) struct Level {
-    pub(super) cell: usize,
-    pub(super) part: f32,
+    cell: usize,
+    part: f32,
 }
 
 impl Octave {
@@ -95,22 +95,15 @@ impl Octave {
     }
 
     /// Part of the octave that is left in the mean over a kernel.
-    #[inline]
     pub(super) fn kept(&self, size_m: f32) -> f32 {
-        if size_m == 0.0 {
-            return 1.0;
-        }
-        math::exp(f64::from(-self.half_k2 * size_m * size_m)) as f32
+        let kept = math::exp(f64::from(-self.half_k2 * size_m * size_m)) as f32;
+        // Not felt.
+        if kept < 0.01 { 0.0 } else { kept }
     }
 
-    #[inline]
-    pub(super) fn level(&self, z: f32) -> Level {
-        let at = (1.0 + z / self.depth_m).clamp(0.0, 1.0) * LEVELS as f32;
-        let cell = (at as usize).min(LEVELS - 1);
-        Level {
-            cell,
-            part: at - cell as f32,
-        }
+    /// Part that moves a marker with a kernel of this size: all or nothing.
+    pub(super) fn marked(&self, size_m: f32) -> f32 {
+        f32::from(2.0 * self.half_k2 * size_m * size_m < 4.0)
     }
 
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
@@ -120,7 +113,7 @@ impl Octave {
         let q = std::array::from_fn(|d| label[d] * self.per_m + life.begin[d]);
         let (v, a) = self.table.at(q);
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
-        let strength = low + level.part * (high - low);
+        let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.
         let slope = (high - low) * (LEVELS as f32 / self.depth_m) * self.side_m;
         [
@@ -128,6 +121,26 @@ impl Octave {
             life.weight * (strength * v[1] + slope * a[0]),
             life.weight * strength * v[2],
         ]
+    }
+}
+
+/// A height (m, negative) among the levels of water of a depth.
+#[inline]
+pub(super) fn level(z: f32, depth_m: f32) -> Level {
+    let at = (1.0 + z / depth_m).clamp(0.0, 1.0) * LEVELS as f32;
+    let cell = (at as usize).min(LEVELS - 1);
+    Level {
+        cell,
+        part: at - cell as f32,
+    }
+}
+
+impl Level {
+    /// What is linear between the levels.
+    #[inline]
+    pub(super) fn between(&self, levels: &[f32]) -> f32 {
+        let (low, high) = (levels[self.cell], levels[self.cell + 1]);
+        low + self.part * (high - low)
     }
 }
 

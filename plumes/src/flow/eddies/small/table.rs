@@ -9,6 +9,7 @@
 //! nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::Fourier;
+use crate::quad::Quad;
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 use world::math;
@@ -22,7 +23,7 @@ pub(super) const LONGEST: f64 = 5.0;
 /// Velocity (root of the mean square of each component: 1) and its vector potential, for a side of length 1.
 #[derive(Debug)]
 pub(super) struct Table {
-    nodes: Vec<[f32; 8]>,
+    nodes: Vec<[[f32; 4]; 2]>,
 }
 
 /// The box of this process.
@@ -71,9 +72,9 @@ impl Table {
         let square: f64 = fields[..3].iter().flatten().map(|v| v[0] * v[0]).sum();
         let scale = 1.0 / (square / (3 * count) as f64).sqrt();
         let node = |n: usize| {
-            std::array::from_fn(|c| match c {
-                3 | 7 => 0.0,
-                _ => (scale * fields[if c < 3 { c } else { c - 1 }][n][0]) as f32,
+            [0, 3].map(|first| {
+                let of = |c: usize| (scale * fields[first + c][n][0]) as f32;
+                [of(0), of(1), of(2), 0.0]
             })
         };
         Self {
@@ -89,24 +90,30 @@ impl Table {
         let mut part = [0.0_f32; 3];
         for d in 0..3 {
             let c = q[d] * NODES as f32;
-            let floor = c.floor();
-            part[d] = c - floor;
-            near[d] = floor as i32 as usize & (NODES - 1);
+            // The whole number below, without a call.
+            let cut = c as i32;
+            let below = if cut as f32 > c { cut - 1 } else { cut };
+            part[d] = c - below as f32;
+            near[d] = below as usize & (NODES - 1);
             far[d] = (near[d] + 1) & (NODES - 1);
         }
-        let mut sum = [0.0_f32; 8];
+        let none = Quad::new(&[0.0; 4]);
+        let (mut v, mut a) = (none, none);
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
             for (j, wj) in [(near[1], 1.0 - part[1]), (far[1], part[1])] {
                 let line = (i * NODES + j) * NODES;
                 for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
                     let (node, weight) = (&self.nodes[line + k], wi * wj * wk);
-                    for (s, v) in sum.iter_mut().zip(node) {
-                        *s += weight * v;
-                    }
+                    v = v.add(Quad::new(&node[0]).times(weight));
+                    a = a.add(Quad::new(&node[1]).times(weight));
                 }
             }
         }
-        ([sum[0], sum[1], sum[2]], [sum[4], sum[5], sum[6]])
+        let three = |q: Quad| {
+            let [x, y, z, _] = q.array();
+            [x, y, z]
+        };
+        (three(v), three(a))
     }
 }
 
