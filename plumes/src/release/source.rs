@@ -105,6 +105,8 @@ const FILAMENT_BYTES: f64 = 100.0;
 const FILAMENT_S: f64 = 17e-9;
 /// Additional time with eddies, s.
 const EDDIES_S: f64 = 60e-9;
+/// Additional time of a buoyant one, s.
+const RISE_S: f64 = 30e-9;
 
 impl NozzleSpec {
     /// Volume released, m³/s.
@@ -190,6 +192,11 @@ impl ReleaseSpec {
                 EDDIES_S
             } else {
                 0.0
+            }
+            + if self.buoyancy == BuoyancySpec::Neutral {
+                0.0
+            } else {
+                RISE_S
             };
         let part = Part::new(path, format!("{most:.2e} filaments at once"))
             .holds(most * FILAMENT_BYTES)

@@ -17,7 +17,7 @@
 //! over seeds says (docs/results.md); with `own` each run draws a stretch. The patches move with the depth mean at all heights.
 
 use super::present::{Now, Patch, Turned};
-use super::small::{Small, SmallSpec};
+use super::small::{self, Small, SmallSpec};
 use super::spectrum::Spectrum;
 use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
 use crate::error::PlumeError;
@@ -165,7 +165,11 @@ impl EddiesSpec {
             .holds(nodes * NODE_BYTES)
             .takes(nodes * NODE_S)
             .by(up, 2.0);
-        Cost::of(part)
+        let mut cost = Cost::of(part);
+        if self.small.is_some() {
+            cost.add(small::cost().under("small"));
+        }
+        cost
     }
 }
 

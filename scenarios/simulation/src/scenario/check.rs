@@ -5,11 +5,10 @@ use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
-    check_able, check_berth, check_fitted, check_limits, check_obstacles, check_steps, check_view,
-    cost,
+    check_able, check_berth, check_fitted, check_limits, check_obstacles, check_sources,
+    check_steps, check_view, cost,
 };
 use plumes::error::PlumeError;
-use plumes::release;
 use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::camera::Optics;
@@ -53,6 +52,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         Some(Ok(water)) => {
             check_limits::speeds(scenario, water, &terrain, &mut found);
             check_able::plume(scenario, &area, &terrain, water, &mut found);
+            check_sources::releases(scenario, &area, &terrain, water, &mut found);
         }
         Some(Err(PlumeError::Invalid { field, problem })) => {
             found.push(Found::error(field, problem));
@@ -73,7 +73,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
         &scenario.obstacles,
         &mut found,
     );
-    sources(scenario, &area, &terrain, &solid, &mut found);
+    check_sources::sources(scenario, &area, &terrain, &solid, &mut found);
     let robot_ids: Vec<&str> = scenario.robots.iter().map(|r| r.id.as_str()).collect();
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
@@ -158,23 +158,6 @@ fn slope(terrain: &TerrainSpec, found: &mut Vec<Found>) {
             ),
         );
     }
-}
-
-fn sources(
-    scenario: &Scenario,
-    area: &Area,
-    terrain: &Terrain,
-    obstacles: &Obstacles,
-    found: &mut Vec<Found>,
-) {
-    for PlumeError::Invalid { field, problem } in
-        release::misplaced(&scenario.sources, area, terrain, obstacles)
-    {
-        found.push(Found::error(field, problem));
-    }
-    let ids: Vec<&str> = scenario.sources.iter().map(|s| s.id.as_str()).collect();
-    names("sources", &ids, found);
-    twins("sources", &ids, found);
 }
 
 fn start(

@@ -9,6 +9,7 @@ mod check_fitted;
 mod check_gantry;
 mod check_limits;
 mod check_obstacles;
+mod check_sources;
 mod check_steps;
 mod check_view;
 pub mod cost;

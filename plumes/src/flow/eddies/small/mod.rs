@@ -29,6 +29,7 @@ use nalgebra::Vector2;
 pub(crate) use octave::{Life, Octave};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+use world::cost::{Cost, Part};
 use world::math;
 use world::ranges::Positive;
 use world::seeds::{Seed, Stream};
@@ -45,6 +46,15 @@ pub struct SmallSpec {
 
 /// Most octaves.
 pub(crate) const MOST_OCTAVES: usize = 8;
+
+/// What the table of all octaves needs, once in a process.
+pub(super) fn cost() -> Cost {
+    let nodes = table::COUNT as f64;
+    let part = Part::new("finest_m", format!("{nodes:.1e} nodes of small eddies"))
+        .holds(nodes * 40.0)
+        .takes(nodes * 1e-6);
+    Cost::of(part)
+}
 
 /// The part of each octave that moves a filament.
 pub(crate) type Weights = [f32; MOST_OCTAVES];

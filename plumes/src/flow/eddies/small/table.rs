@@ -17,6 +17,8 @@ use world::seeds::Stream;
 
 /// Nodes along a side; a power of two.
 const NODES: usize = 64;
+/// Nodes in all.
+pub(super) const COUNT: usize = NODES * NODES * NODES;
 /// Number of the longest waves in a side.
 pub(super) const LONGEST: f64 = 5.0;
 
@@ -34,8 +36,7 @@ pub(super) fn table() -> Arc<Table> {
 
 impl Table {
     fn new() -> Self {
-        let count = NODES * NODES * NODES;
-        let mut fields = vec![vec![[0.0_f64; 2]; count]; 6];
+        let mut fields = vec![vec![[0.0_f64; 2]; COUNT]; 6];
         let mut rng = Stream::new(0, "eddies", "octave");
         let reach = 2 * LONGEST as i64;
         let wrapped = |m: i64| m.rem_euclid(NODES as i64) as usize;
@@ -70,7 +71,7 @@ impl Table {
             summed(field);
         }
         let square: f64 = fields[..3].iter().flatten().map(|v| v[0] * v[0]).sum();
-        let scale = 1.0 / (square / (3 * count) as f64).sqrt();
+        let scale = 1.0 / (square / (3 * COUNT) as f64).sqrt();
         let node = |n: usize| {
             [0, 3].map(|first| {
                 let of = |c: usize| (scale * fields[first + c][n][0]) as f32;
@@ -78,7 +79,7 @@ impl Table {
             })
         };
         Self {
-            nodes: (0..count).map(node).collect(),
+            nodes: (0..COUNT).map(node).collect(),
         }
     }
 
