@@ -1,6 +1,7 @@
 //! Bad input: each mistake with the exact message it gets.
 
 mod odd;
+mod releases;
 mod rounds;
 mod verifiers;
 

@@ -143,7 +143,7 @@ impl Plume {
     ///
     /// # Errors
     /// If a release cannot be made, or if a buoyant one does not say its volume. The field is a path such as
-    /// `sources[0].release.buoyancy.Composition.solutes[0].g_l`.
+    /// `sources[0].release.buoyancy.solutes[0].g_l`.
     pub fn with_buoyancy(mut self, flow: &dyn Flow) -> Result<Self, PlumeError> {
         for (n, (store, source)) in self.stores.iter_mut().zip(&self.sources).enumerate() {
             let p = source.p_W.map(|v| v as f32);

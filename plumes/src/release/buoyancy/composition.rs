@@ -175,7 +175,7 @@ impl Litre {
         let (at_none, at_most) = (excess(1e-9), excess(high));
         if !(at_none * at_most < 0.0) {
             let problem = format!(
-                "no amount of {solute:?} up to {high} g/L makes the release neutral: without it, it is {at_none:+.1} kg/m³ heavier than the water around, with it {at_most:+.1}"
+                "no amount of {solute:?} up to {high} g/L makes the release neutral: it is heavier than the water around by {at_none:+.1} kg/m³ without it and by {at_most:+.1} kg/m³ with it"
             );
             return Err(("neutral_with".into(), problem));
         }

@@ -73,8 +73,7 @@ impl BuoyancySpec {
                 lifts: vec![-GRAVITY_M_S2 * excess.get() / density_kg_m3],
             })),
             Self::Composition(spec) => {
-                let (litre, around) = (spec.litre(density_kg_m3))
-                    .map_err(|(field, problem)| (format!("Composition.{field}"), problem))?;
+                let (litre, around) = spec.litre(density_kg_m3)?;
                 let lift = |n: usize| {
                     let dilution = math::exp(n as f64 * Curve::STEP);
                     -GRAVITY_M_S2 * litre.excess_g(&around, dilution) / around.density_kg_m3
