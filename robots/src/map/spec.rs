@@ -12,6 +12,8 @@ use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Most cells of a map: a million take 8 MB per table.
 const MOST_CELLS: f64 = 1e6;
+/// Most places within a cell along an axis.
+const MOST_PLACES: u32 = 9;
 /// Most releases a look-back may hold.
 const MOST_RELEASES: f64 = 100_000.0;
 
@@ -30,6 +32,9 @@ pub struct GridSpec {
     pub top_depth_m: NonNegative,
     /// Lower edge of the map, m below the surface; must be given for a map of space.
     pub bottom_depth_m: Option<Positive>,
+    /// Places within a cell, along each horizontal axis, at which a source is considered; an odd number from 1 to 9. 1:
+    /// only the middle, as in the papers. The vehicle's place is taken to the nearest of them, too.
+    pub places: u32,
 }
 
 impl Default for GridSpec {
@@ -40,6 +45,7 @@ impl Default for GridSpec {
             vertical: 1,
             top_depth_m: NonNegative::new(0.0),
             bottom_depth_m: None,
+            places: 1,
         }
     }
 }
@@ -59,16 +65,24 @@ impl GridSpec {
                 ));
             }
         }
-        let cells = self.cells();
+        if self.places.is_multiple_of(2) || self.places > MOST_PLACES {
+            let problem = format!(
+                "must be odd and from 1 to {MOST_PLACES}, got {}",
+                self.places
+            );
+            return Err(invalid("grid.places", &problem));
+        }
+        let cells = self.cells() * f64::from(self.places * self.places);
         if cells > MOST_CELLS {
             let got = if cells < 1e12 {
                 format!("{cells}")
             } else {
                 shown(cells)
             };
+            let what = if self.places == 1 { "cells" } else { "places" };
             return Err(invalid(
                 "grid",
-                &format!("must have at most {MOST_CELLS} cells, got {got}"),
+                &format!("must have at most {MOST_CELLS} {what}, got {got}"),
             ));
         }
         let top = self.top_depth_m.get();

@@ -32,12 +32,25 @@ impl Hmm {
         }
     }
 
-    /// One row per axis for a place: 1 at the place, 0 elsewhere.
+    /// Places along each axis at which odour is met by a vehicle in `cell`: that one, or with several places in a
+    /// cell as many as it has, around that one.
+    fn meets(&self, cell: usize) -> [(usize, usize); 3] {
+        let (place, half) = (self.grid.place(cell), self.with.places / 2);
+        [0, 1, 2].map(|a| match a {
+            2 => (place[a], place[a] + 1),
+            _ => (
+                place[a].saturating_sub(half),
+                (place[a] + half + 1).min(self.grid.n[a]),
+            ),
+        })
+    }
+
+    /// One row per axis for a place: 1 where odour is met there, 0 elsewhere.
     pub(super) fn rows_at(&self, cell: usize) -> [Vec<f64>; 3] {
-        let place = self.grid.place(cell);
+        let meets = self.meets(cell);
         [0, 1, 2].map(|a| {
             let mut row = vec![0.0; self.grid.n[a]];
-            row[place[a]] = 1.0;
+            row[meets[a].0..meets[a].1].fill(1.0);
             row
         })
     }
@@ -47,8 +60,7 @@ impl Hmm {
     fn look_back(&mut self, cell: usize) {
         let mut g = self.rows_at(cell);
         let mut earlier = g.clone();
-        let place = self.grid.place(cell);
-        let mut support = place.map(|i| (i, i + 1));
+        let mut support = self.meets(cell);
         self.gatherer.gather(self.with.watch.history.releases());
         let mut terms = std::mem::replace(&mut self.terms, Terms::new(self.grid.n));
         terms.clear();
@@ -94,7 +106,11 @@ impl Hmm {
         let n = self.grid.n;
         let layer = n[0] * n[1];
         let mut g = vec![0.0; self.grid.len()];
-        g[cell] = 1.0;
+        let [(i0, i1), (j0, j1), (k, _)] = self.meets(cell);
+        for j in j0..j1 {
+            let row = self.grid.index([0, j, k]);
+            g[row + i0..row + i1].fill(1.0);
+        }
         let mut earlier = g.clone();
         let longest = n[0].max(n[1]).max(n[2]);
         let (mut line, mut pulled) = (vec![0.0; longest], vec![0.0; longest]);

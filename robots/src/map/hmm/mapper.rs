@@ -21,6 +21,7 @@ use crate::handoff::{Belief, BeliefGrid};
 use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
+use crate::map::flows::Flows;
 use crate::map::releases::Gatherer;
 use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
 use crate::map::terms::Terms;
@@ -108,7 +109,9 @@ impl Listed for HmmSpec {
 
 impl MapParams for HmmSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Ok(Box::new(Hmm::new(self, self.grid.build(area)?)?))
+        Flows::around(&self.doubt, || {
+            Ok(Box::new(Hmm::new(self, self.grid.build(area)?)?))
+        })
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -183,8 +186,16 @@ impl Hmm {
             [step_s; 2],
             spec.false_detection,
             &spec.doubt,
+            spec.grid.places,
         )?;
-        let grid = with.grid.clone();
+        if with.places > 1 && spec.odour_every_s.is_some() {
+            let problem = format!(
+                "must not be given with grid.places {}: odour is shown for one place in a cell",
+                with.places
+            );
+            return Err(invalid("odour_every_s", &problem));
+        }
+        let (grid, places) = (with.grid.clone(), with.places as f64);
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
         // A single layer keeps everything.
         let axes = if grid.n[2] == 1 { 2 } else { 3 };
@@ -213,7 +224,7 @@ impl Hmm {
             drifts: vec![Drift::default(); grid.n[2]],
             step_s,
             b: trajectory.mu.get(),
-            gatherer: Gatherer::new(trajectory, [grid.cell_m[0], grid.cell_m[1]]),
+            gatherer: Gatherer::new(trajectory, [0, 1].map(|a| grid.cell_m[a] * places)),
             terms: Terms::new(grid.n),
             seen_marks: 0,
             levels: if spec.sheared {
@@ -336,7 +347,7 @@ impl Mapper for Hmm {
         };
         let mut likelihood = std::mem::take(&mut self.with.likelihood);
         self.not_detecting(sighting.cell, &mut likelihood);
-        self.with.evidence.weigh(sighting.detected, &mut likelihood);
+        (self.with.evidence).weigh(sighting.t_s, sighting.detected, &mut likelihood);
         self.with.likelihood = likelihood;
         self.with.update(sighting.t_s, sighting.detected);
         if let Some((every_s, steps)) = self.say
@@ -351,5 +362,9 @@ impl Mapper for Hmm {
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    fn ln_evidence(&self) -> f64 {
+        self.with.belief.ln_evidence()
     }
 }

@@ -192,6 +192,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
             p_W: Vector3::new(50.0, 50.0, z),
             detected: Some(false),
             flow: Some(Vector2::new(u, 0.0)),
+            fixed: false,
         });
     }
     let last = hmm.steps.back().expect("a step");
@@ -232,6 +233,7 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
             p_W: Vector3::new(80.0, 50.0, -2.0),
             detected: Some((20..25).contains(&t)),
             flow: Some(Vector2::new(1.0, 0.0)),
+            fixed: false,
         };
         asked.step(&seen);
         silent.step(&seen);
