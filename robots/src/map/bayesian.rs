@@ -10,8 +10,8 @@
 //! The two are nearly equal where chances are small, and differ near the vehicle, where the product saturates. With ε
 //! = `false_detection`: (1 − ε) β + ε / n. Otherwise as `Pomdp`.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
-use super::flows::Flows;
 use super::kernel::Kernel;
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
@@ -40,8 +40,9 @@ impl Listed for BayesianSpec {
 
 impl MapParams for BayesianSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Flows::around(&self.0.doubt, || {
-            Ok(Box::new(Bayesian::new(&self.0, self.0.grid.build(area)?)?))
+        Alternatives::around(&self.0.doubt, |doubt| {
+            let spec = self.0.with(doubt);
+            Ok(Box::new(Bayesian::new(&spec, spec.grid.build(area)?)?))
         })
     }
 

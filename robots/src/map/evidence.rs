@@ -18,11 +18,17 @@
 //! follows L with a lag of τ. The defaults ν = 0 and τ = 0 give the papers' rules.
 
 use super::spec::invalid;
+use super::terms::LEAST;
 use crate::error::RobotError;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
 use world::ranges::{Fraction, NonNegative, Positive};
+
+/// Most strengths of the source, and the legal range of each.
+const MOST_STRENGTHS: usize = 9;
+/// See above.
+const STRENGTHS: (f64, f64) = (0.01, 100.0);
 
 /// What a reading says that repeats the one before it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -58,6 +64,9 @@ pub struct DoubtSpec {
     #[serde(deserialize_with = "world::limits::stream_m_s")]
     #[schemars(transform = world::limits::schema::stream_m_s)]
     pub flow_m_s: NonNegative,
+    /// Possible strengths of the source: releases in each release period, all equally likely before the mission. None
+    /// given: one, as in the papers. At most 9, each from 0.01 to 100.
+    pub strengths: Vec<Positive>,
     /// Time for which that error lasts, s: what is known of it is forgotten at this rate. Not given: for the mission.
     pub flow_lasts_s: Option<Positive>,
 }
@@ -71,6 +80,7 @@ impl Default for DoubtSpec {
             fix_m: NonNegative::new(0.0),
             drift_m_s: NonNegative::new(0.0),
             flow_m_s: NonNegative::new(0.0),
+            strengths: Vec::new(),
             flow_lasts_s: None,
         }
     }
@@ -82,6 +92,8 @@ pub(super) struct Evidence {
     /// Chance ε of a detection where there is no dye.
     pub epsilon: f64,
     missed: f64,
+    /// Releases in each release period.
+    strength: f64,
     /// Share of an update that counts as new.
     pub share: f64,
     /// Correlation time of the Markov chain of readings, s; 0: there is none.
@@ -111,10 +123,24 @@ impl Evidence {
                 &format!("must be less than 1, got {missed}"),
             ));
         }
+        if doubt.strengths.len() > MOST_STRENGTHS {
+            let problem = format!(
+                "must be at most {MOST_STRENGTHS}, got {}",
+                doubt.strengths.len()
+            );
+            return Err(invalid("doubt.strengths", &problem));
+        }
+        let (least, most) = STRENGTHS;
+        let strengths = doubt.strengths.iter().map(|s| s.get());
+        if let Some(odd) = strengths.clone().find(|s| !(least..=most).contains(s)) {
+            let problem = format!("must be from {least} to {most} each, got {odd}");
+            return Err(invalid("doubt.strengths", &problem));
+        }
         let tau_s = doubt.correlation_s.get();
         Ok(Self {
             epsilon,
             missed,
+            strength: strengths.clone().next().unwrap_or(1.0),
             share: match doubt.repeats {
                 Repeats::Tempered if tau_s > period_s => period_s / tau_s,
                 _ => 1.0,
@@ -140,6 +166,12 @@ impl Evidence {
 
     /// Chance of no detection where the model gives `gamma`.
     pub(super) fn none(&self, gamma: f64) -> f64 {
+        // Most cells are far from the plume and have γ = 1.
+        let gamma = if self.strength == 1.0 || gamma == 1.0 {
+            gamma
+        } else {
+            math::powf(gamma, self.strength).max(LEAST)
+        };
         self.missed + (1.0 - self.missed) * gamma
     }
 

@@ -3,6 +3,7 @@
 //! All mappers share one back-trajectory (`flow_history`, `releases`, `kernel`); each mapper's file says how it uses
 //! that.
 
+mod alternatives;
 mod anywhere;
 mod bayesian;
 mod catalogue;
@@ -10,7 +11,6 @@ mod cost;
 mod credible;
 mod evidence;
 mod flow_history;
-mod flows;
 mod hmm;
 mod kernel;
 mod log_belief;

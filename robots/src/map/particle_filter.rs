@@ -15,10 +15,10 @@
 //! releases that could have been met, as Lenser & Veloso 2000 reset a lost robot. The belief on the grid is the
 //! weight of the particles in each cell, with the share ε spread over all cells.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
 use super::cost::{PARTICLE_S, by_kernel};
 use super::evidence::{DoubtSpec, mixed};
-use super::flows::Flows;
 use super::kernel::Kernel;
 use super::log_belief::LogBelief;
 use super::shifts::Shifts;
@@ -91,9 +91,13 @@ impl Listed for ParticleFilterSpec {
 
 impl MapParams for ParticleFilterSpec {
     fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Flows::around(&self.doubt, || {
-            let (grid, rng) = (self.grid.build(area)?, rng.clone());
-            Ok(Box::new(ParticleFilter::new(self, grid, rng)?))
+        Alternatives::around(&self.doubt, |doubt| {
+            let spec = Self {
+                doubt: doubt.clone(),
+                ..self.clone()
+            };
+            let grid = self.grid.build(area)?;
+            Ok(Box::new(ParticleFilter::new(&spec, grid, rng.clone())?))
         })
     }
 

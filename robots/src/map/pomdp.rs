@@ -10,8 +10,8 @@
 //! after a false alarm that no cell can explain; on none it is γ, as in the paper. One or more detections within an
 //! update period count as one. There is no update while the vehicle is outside the grid. Kernel: see `kernel`.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
-use super::flows::Flows;
 use super::kernel::Kernel;
 use super::watch::MapObservation;
 use super::workings::{CellsSpec, Workings};
@@ -40,8 +40,9 @@ impl Listed for PomdpSpec {
 
 impl MapParams for PomdpSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Flows::around(&self.0.doubt, || {
-            Ok(Box::new(Pomdp::new(&self.0, self.0.grid.build(area)?)?))
+        Alternatives::around(&self.0.doubt, |doubt| {
+            let spec = self.0.with(doubt);
+            Ok(Box::new(Pomdp::new(&spec, spec.grid.build(area)?)?))
         })
     }
 

@@ -124,6 +124,9 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_z_m_rts: Positive,
+    /// Horizontal size of a release, to which dye of age 0 is met round its middle: a standard deviation, m; 0, as in the
+    /// papers: it is a point.
+    pub initial_m: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the way from the flow at the vehicle, u′, m/s;
     /// 0: the flow is the same everywhere, as in the papers.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
@@ -156,6 +159,7 @@ impl Default for TrajectorySpec {
             sigma_x_m_rts: Positive::new(0.5),
             sigma_y_m_rts: Positive::new(0.5),
             sigma_z_m_rts: Positive::new(0.05),
+            initial_m: NonNegative::new(0.0),
             flow_error_m_s: NonNegative::new(0.0),
             flow_error_s: Positive::new(100.0),
             lookback_s: Positive::new(600.0),
@@ -219,9 +223,15 @@ impl TrajectorySpec {
         2.0 * u * u * t * (age_s - t * (1.0 - math::exp(-age_s / t)))
     }
 
+    /// Horizontal variance of a release at an age besides that of σx or σy, m².
+    pub(super) fn beside_m2(&self, age_s: f64) -> f64 {
+        let size = self.initial_m.get();
+        self.strayed_m2(age_s) + size * size
+    }
+
     /// Standard deviation along each axis at an age, m.
     pub(super) fn spread_m(&self, age_s: f64) -> [f64; 3] {
-        let (root, strayed) = (age_s.sqrt(), self.strayed_m2(age_s));
+        let (root, strayed) = (age_s.sqrt(), self.beside_m2(age_s));
         let [x, y, z] = self.sigmas().map(|s| s * root);
         if strayed == 0.0 {
             return [x, y, z];

@@ -48,6 +48,14 @@ impl Default for CellsSpec {
 }
 
 impl CellsSpec {
+    /// The same with other doubts.
+    pub(super) fn with(&self, doubt: &DoubtSpec) -> Self {
+        Self {
+            doubt: doubt.clone(),
+            ..self.clone()
+        }
+    }
+
     /// Checks that a mapper can hold so many cells and such a look-back.
     pub(super) fn check(&self, area: &Area) -> Result<(), RobotError> {
         self.grid.build(area)?;

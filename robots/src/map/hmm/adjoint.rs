@@ -11,6 +11,7 @@
 //! never) then enter as a power of one g, the mean along each axis. In sheared flow g is a whole map.
 
 use super::mapper::Hmm;
+use super::transition::Hops;
 use crate::map::terms::{LEAST, Terms};
 
 /// When less than this share of odour is left in the map, it is followed no further back.
@@ -45,6 +46,17 @@ impl Hmm {
         })
     }
 
+    /// The same rows for releases of a size: the chance that dye with its middle in each cell is met.
+    fn rows_met(&self, cell: usize) -> [Vec<f64>; 3] {
+        let mut rows = self.rows_at(cell);
+        for (a, size) in self.size.iter().enumerate().filter(|(_, s)| s.len() > 1) {
+            let point = std::mem::take(&mut rows[a]);
+            rows[a] = vec![0.0; point.len()];
+            Hops::new(0, size, false).pull(&point, (0, point.len()), &mut rows[a]);
+        }
+        rows
+    }
+
     /// One row per axis for a place: 1 where odour is met there, 0 elsewhere.
     pub(super) fn rows_at(&self, cell: usize) -> [Vec<f64>; 3] {
         let meets = self.meets(cell);
@@ -58,9 +70,14 @@ impl Hmm {
     /// Builds the terms of all steps back from now for a vehicle in `cell`, for a flow that is the same at all
     /// levels.
     fn look_back(&mut self, cell: usize) {
-        let mut g = self.rows_at(cell);
+        let mut g = self.rows_met(cell);
         let mut earlier = g.clone();
         let mut support = self.meets(cell);
+        for (a, size) in self.size.iter().enumerate() {
+            let far = size.len() / 2;
+            let (lo, hi) = support[a];
+            support[a] = (lo.saturating_sub(far), (hi + far).min(self.grid.n[a]));
+        }
         self.gatherer.gather(self.with.watch.history.releases());
         let mut terms = std::mem::replace(&mut self.terms, Terms::new(self.grid.n));
         terms.clear();
@@ -106,10 +123,12 @@ impl Hmm {
         let n = self.grid.n;
         let layer = n[0] * n[1];
         let mut g = vec![0.0; self.grid.len()];
-        let [(i0, i1), (j0, j1), (k, _)] = self.meets(cell);
-        for j in j0..j1 {
+        let ([x, y, _], k) = (self.rows_met(cell), self.grid.place(cell)[2]);
+        for (j, across) in y.iter().enumerate().filter(|(_, v)| **v > 0.0) {
             let row = self.grid.index([0, j, k]);
-            g[row + i0..row + i1].fill(1.0);
+            for (g, along) in g[row..].iter_mut().zip(&x) {
+                *g = across * along;
+            }
         }
         let mut earlier = g.clone();
         let longest = n[0].max(n[1]).max(n[2]);

@@ -18,10 +18,10 @@
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
+use crate::map::alternatives::Alternatives;
 use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
-use crate::map::flows::Flows;
 use crate::map::releases::Gatherer;
 use crate::map::spec::{GridSpec, TrajectorySpec, invalid};
 use crate::map::terms::Terms;
@@ -109,8 +109,12 @@ impl Listed for HmmSpec {
 
 impl MapParams for HmmSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Flows::around(&self.doubt, || {
-            Ok(Box::new(Hmm::new(self, self.grid.build(area)?)?))
+        Alternatives::around(&self.doubt, |doubt| {
+            let spec = Self {
+                doubt: doubt.clone(),
+                ..self.clone()
+            };
+            Ok(Box::new(Hmm::new(&spec, self.grid.build(area)?)?))
         })
     }
 
@@ -138,6 +142,8 @@ pub struct Hmm {
     steady_before: bool,
     /// Chances of the hops to both sides in a step, along each axis.
     aside: [Arc<[f64]>; 3],
+    /// Chances that dye of a release is met so many cells to both sides, along the horizontal axes.
+    pub(super) size: [Arc<[f64]>; 2],
     /// Displacement left over by the steps so far: one for all levels, or one per level.
     drifts: Vec<Drift>,
     step_s: f64,
@@ -214,6 +220,15 @@ impl Hmm {
                 invalid(&format!("trajectory.{}", field.0), &problem)
             })?;
         }
+        let initial_m = trajectory.initial_m.get();
+        let mut size = [0, 1].map(|_| Arc::from([1.0]));
+        for (a, size) in size.iter_mut().enumerate().filter(|_| initial_m > 0.0) {
+            *size = spread(initial_m, grid.cell_m[a]).ok_or_else(|| {
+                let most = shown(widest(grid.cell_m[a]));
+                let problem = format!("must be at most {most} in these cells, got {initial_m}");
+                invalid("trajectory.initial_m", &problem)
+            })?;
+        }
         Ok(Self {
             with,
             steps: VecDeque::new(),
@@ -221,6 +236,7 @@ impl Hmm {
             assumed: Vec::new(),
             steady_before: trajectory.steady_before,
             aside,
+            size,
             drifts: vec![Drift::default(); grid.n[2]],
             step_s,
             b: trajectory.mu.get(),

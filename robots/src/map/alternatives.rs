@@ -1,19 +1,21 @@
-//! An error of the measured flow that all releases behind the vehicle share: one map for each of a few errors.
+//! What a map cannot know of flow and source: one map for each of a few possibilities, weighted by what they predict.
 //!
-//! *Source*: the five errors and their weights: Julier & Uhlmann 1997, Proc. SPIE 3068, 182 (unscented transform of two
-//! dimensions, κ = 1: mean, covariance and fourth moments of the Gaussian). Weights of models from what each predicted,
-//! with forgetting: Raftery, Kárný & Ettler 2010, Technometrics 52, 52, eqs. 15 and 16 (dynamic model averaging).
+//! *Source*: five errors of the flow and their weights: Julier & Uhlmann 1997, Proc. SPIE 3068, 182 (unscented transform
+//! of two dimensions, κ = 1: mean, covariance and fourth moments of the Gaussian). Weights of models from what each
+//! predicted, with forgetting: Raftery, Kárný & Ettler 2010, Technometrics 52, 52, eqs. 15 and 16 (dynamic model
+//! averaging).
 //!
-//! *Parameters*: standard deviation of the error in each horizontal axis, `flow_m_s`; how long an error lasts,
-//! `flow_lasts_s`.
+//! *Parameters*: standard deviation of the flow's error in each horizontal axis, `flow_m_s`; how long an error lasts,
+//! `flow_lasts_s`; possible strengths of the source, `strengths`.
 //!
 //! *Deviations*: none of the mappers' papers has this. `TrajectorySpec::flow_error_m_s` is an error that each release
 //! has for itself: it widens the plume. This one is an error u that all have: it moves the plume as a whole, the place
-//! of a release by u times its age. Each map believes that one of the errors held all along; the belief is their mean,
-//! weighted by w_j Z_j, where Z_j is the probability that map j gave to all readings. With `flow_lasts_s` T the
-//! logarithm of Z_j decays by exp(−Δt/T), as the error that a map stands for does. Raftery's forgetting goes towards
-//! equal weights, ours towards those of the errors. `Bayesian` makes its likelihoods of detections sum to 1 in every
-//! map, so its weights come from readings without detection alone.
+//! of a release by u times its age. The papers' source makes one release in a time unit; of a stronger one dye is met
+//! farther aside, and a map that does not know of it takes a near source for a far one. Each map believes that one
+//! possibility held all along; the belief is their mean, weighted by w_j Z_j, where Z_j is the probability that map j
+//! gave to all readings. With `flow_lasts_s` T the logarithm of Z_j decays by exp(−Δt/T), as the error that a map stands
+//! for does. Raftery's forgetting goes towards equal weights, ours towards those of the possibilities. `Bayesian` makes
+//! its likelihoods of detections sum to 1 in every map, so its weights come from readings without detection alone.
 
 use super::catalogue::Mapper;
 use super::evidence::DoubtSpec;
@@ -40,19 +42,21 @@ const NODES: [([f64; 2], f64); 5] = [
 impl DoubtSpec {
     /// How many maps are kept.
     pub(super) fn maps(&self) -> usize {
-        if self.flow_m_s.get() > 0.0 {
-            NODES.len()
-        } else {
-            1
-        }
+        self.errors().len() * self.strengths.len().max(1)
+    }
+
+    /// Errors of the flow, in standard deviations, with their weights.
+    fn errors(&self) -> &'static [([f64; 2], f64)] {
+        let flow = self.flow_m_s.get() > 0.0;
+        if flow { &NODES } else { &NODES[..1] }
     }
 }
 
-/// A map that believes in one error of the flow.
+/// A map that believes in one possibility.
 #[derive(Debug)]
 struct Member {
     mapper: Box<dyn Mapper>,
-    /// The error (east, north), m/s.
+    /// The flow's error (east, north), m/s.
     flow: Vector2<f64>,
     ln_prior: f64,
     /// Logarithm of Z_j, with forgetting, and of that without at the last update.
@@ -62,7 +66,7 @@ struct Member {
 
 /// State of the mapper.
 #[derive(Debug)]
-pub(super) struct Flows {
+pub(super) struct Alternatives {
     members: Vec<Member>,
     lasts_s: Option<f64>,
     belief: LogBelief,
@@ -70,30 +74,42 @@ pub(super) struct Flows {
     mass: Vec<f64>,
 }
 
-impl Flows {
-    /// A mapper as `make` makes it, or five of them if the flow is stated to have an error.
+impl Alternatives {
+    /// A mapper as `make` makes it of these doubts, or one for each possibility if there are several.
     ///
     /// # Errors
     /// Those of `make`.
     pub(super) fn around(
         doubt: &DoubtSpec,
-        make: impl Fn() -> Result<Box<dyn Mapper>, RobotError>,
+        make: impl Fn(&DoubtSpec) -> Result<Box<dyn Mapper>, RobotError>,
     ) -> Result<Box<dyn Mapper>, RobotError> {
         if doubt.maps() == 1 {
-            return make();
+            return make(doubt);
         }
         let u = doubt.flow_m_s.get();
         let mut members = Vec::new();
-        for (at, weight) in NODES {
-            let mapper = make()?;
-            let axes = mapper.belief().grid.axes;
-            members.push(Member {
-                flow: (axes[0] * at[0] + axes[1] * at[1]) * u,
-                mapper,
-                ln_prior: math::ln(weight),
-                ln_weight: 0.0,
-                told: 0.0,
-            });
+        let strengths: Vec<Vec<Positive>> = match doubt.strengths.as_slice() {
+            [] => vec![Vec::new()],
+            some => some.iter().map(|s| vec![*s]).collect(),
+        };
+        // All strengths must be legal before one of them is taken.
+        make(doubt)?;
+        for strengths in strengths {
+            let one = DoubtSpec {
+                strengths,
+                ..doubt.clone()
+            };
+            for (at, weight) in doubt.errors() {
+                let mapper = make(&one)?;
+                let axes = mapper.belief().grid.axes;
+                members.push(Member {
+                    flow: (axes[0] * at[0] + axes[1] * at[1]) * u,
+                    mapper,
+                    ln_prior: math::ln(*weight),
+                    ln_weight: 0.0,
+                    told: 0.0,
+                });
+            }
         }
         let grid = members[0].mapper.belief().grid.clone();
         Ok(Box::new(Self {
@@ -123,7 +139,7 @@ impl Flows {
     }
 }
 
-impl Mapper for Flows {
+impl Mapper for Alternatives {
     fn step(&mut self, seen: &MapObservation) {
         for m in &mut self.members {
             m.mapper.step(&MapObservation {
