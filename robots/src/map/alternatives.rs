@@ -130,7 +130,11 @@ impl Alternatives {
             m.told = told;
         }
         let of = |m: &Member| m.ln_prior + m.ln_weight;
-        let most = self.members.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
+        let most = self
+            .members
+            .iter()
+            .map(of)
+            .fold(f64::NEG_INFINITY, f64::max);
         let weights: Vec<f64> = (self.members.iter())
             .map(|m| math::exp(of(m) - most))
             .collect();
@@ -183,7 +187,8 @@ mod tests {
 
     #[test]
     fn the_errors_have_the_gaussians_moments() {
-        let mean = |f: &dyn Fn([f64; 2]) -> f64| -> f64 { NODES.iter().map(|(u, w)| w * f(*u)).sum() };
+        let mean =
+            |f: &dyn Fn([f64; 2]) -> f64| -> f64 { NODES.iter().map(|(u, w)| w * f(*u)).sum() };
         for (got, want) in [
             (mean(&|_| 1.0), 1.0),
             (mean(&|u| u[0]), 0.0),

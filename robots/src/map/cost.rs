@@ -42,7 +42,9 @@ impl GridSpec {
 
     fn cost(&self) -> Cost {
         let cells = self.cells();
-        Cost::of(Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES))
+        Cost::of(
+            Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES),
+        )
     }
 }
 
@@ -94,7 +96,8 @@ impl HmmSpec {
         let [steps, sets] = self.trajectory.releases(step_s);
         let maps = self.doubt.maps() as f64;
         let (cells, levels) = (maps * self.grid.all_places(), f64::from(self.grid.vertical));
-        let across = f64::from(self.grid.places) * (f64::from(self.grid.along) + f64::from(self.grid.across));
+        let across = f64::from(self.grid.places)
+            * (f64::from(self.grid.along) + f64::from(self.grid.across));
         let rows = maps * (across + levels);
         let hops_s = if self.sheared && levels > 1.0 {
             3.0 * cells * HOPS * HOP_S

@@ -166,12 +166,7 @@ impl Evidence {
 
     /// Chance of no detection where the model gives `gamma`.
     pub(super) fn none(&self, gamma: f64) -> f64 {
-        // Most cells are far from the plume and have γ = 1.
-        let gamma = if self.strength == 1.0 || gamma == 1.0 {
-            gamma
-        } else {
-            math::powf(gamma, self.strength).max(LEAST)
-        };
+        let gamma = to_power(gamma, self.strength);
         self.missed + (1.0 - self.missed) * gamma
     }
 
@@ -192,6 +187,26 @@ impl Evidence {
             *g = mixed(same, new);
         }
     }
+}
+
+/// A chance to a power, at least the least of a product. Most cells are far from the plume and have 1; a whole number is
+/// the usual power and takes a few products.
+fn to_power(gamma: f64, power: f64) -> f64 {
+    if power == 1.0 || gamma == 1.0 {
+        return gamma;
+    }
+    if power.fract() != 0.0 {
+        return math::powf(gamma, power).max(LEAST);
+    }
+    let (mut left, mut square, mut product) = (power as u32, gamma, 1.0);
+    while left > 0 {
+        if left % 2 == 1 {
+            product *= square;
+        }
+        square *= square;
+        left /= 2;
+    }
+    product.max(LEAST)
 }
 
 /// Likelihood of a reading that repeats the one before with chance `same` and has the likelihood `new` otherwise. For
@@ -233,6 +248,48 @@ mod tests {
         // The chances of the two outcomes, without ε, still add up to 1.
         assert!((e.none(0.4) + (e.some(0.4) - 1e-3) / (1.0 - 1e-3) - 1.0).abs() < 1e-15);
         assert_eq!(e.share, 0.125);
+    }
+
+    #[test]
+    fn whole_powers_are_products() {
+        for gamma in [0.0, 1e-200, 0.3, 0.999, 1.0] {
+            assert_eq!(to_power(gamma, 1.0), gamma);
+            for power in [2.0, 3.0, 10.0, 100.0, 0.5, 2.5] {
+                let want = math::powf(gamma, power).max(LEAST);
+                let got = to_power(gamma, power);
+                assert!(
+                    (got / want - 1.0).abs() < 1e-12,
+                    "{gamma}^{power}: {got} {want}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_chain_of_readings_counts_an_encounter_once() {
+        let doubt = DoubtSpec {
+            correlation_s: NonNegative::new(4.0),
+            repeats: Repeats::Markov,
+            ..DoubtSpec::default()
+        };
+        let mut e = Evidence::new(Fraction::new(1e-3), &doubt, 1.0).expect("legal");
+        assert_eq!(e.share, 1.0);
+        let mut told = |t_s: f64, detected: bool, gamma: f64| {
+            let mut l = [gamma];
+            e.weigh(t_s, detected, &mut l);
+            l[0]
+        };
+        let new = 1e-3 + (1.0 - 1e-3) * 0.5;
+        // The first detection counts in full, the next one little, the end of the encounter in full again.
+        assert_eq!(told(1.0, true, 0.5), new);
+        let rho = math::exp(-0.25);
+        assert!((told(2.0, true, 0.5) - (rho + (1.0 - rho) * new)).abs() < 1e-15);
+        assert_eq!(told(3.0, false, 0.5), 0.5);
+        // The probabilities of both results add up to 1, but for the constant (1 - ρ) of the change.
+        let (same, other) = (rho + (1.0 - rho) * 0.3, (1.0 - rho) * 0.7);
+        assert!((same + other - 1.0).abs() < 1e-15);
+        // A long time after it a reading is new.
+        assert!((told(200.0, false, 0.5) - 0.5).abs() < 1e-9);
     }
 
     #[test]

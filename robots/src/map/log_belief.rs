@@ -123,12 +123,17 @@ impl LogBelief {
     /// Takes in the likelihood of an observation, one number per cell (greater than zero; a common factor does not
     /// matter), to the power of `share`.
     pub(super) fn update(&mut self, t_s: f64, detected: bool, likelihood: &[f64], share: f64) {
+        // Most cells are far from the plume, and all those have the same likelihood.
+        let mut last = (1.0, 0.0);
         for (ln_p, l) in self.ln_p.iter_mut().zip(likelihood) {
             assert!(
                 *l > 0.0 && l.is_finite(),
                 "a cell's likelihood is {l} at {t_s} s; must be > 0: check the mapper's chance of false detection"
             );
-            *ln_p += share * math::ln(*l);
+            if *l != last.0 {
+                last = (*l, math::ln(*l));
+            }
+            *ln_p += share * last.1;
         }
         if let Some((block, before)) = &mut self.block {
             block.update(t_s, likelihood, share, &mut self.ln_p);

@@ -39,6 +39,8 @@ mod testing;
 #[cfg(test)]
 mod tests_belief;
 #[cfg(test)]
+mod tests_doubt;
+#[cfg(test)]
 mod tests_kernel;
 #[cfg(test)]
 mod tests_search;

@@ -180,7 +180,9 @@ mod tests {
         for sigma in [0.05, 0.3, 0.69, 0.71, 1.0, 3.3] {
             weights(sigma, 1000, &mut w);
             let sum = w[0] + 2.0 * w[1..].iter().sum::<f64>();
-            let var: f64 = (w.iter().enumerate()).map(|(k, w)| 2.0 * (k * k) as f64 * w).sum();
+            let var: f64 = (w.iter().enumerate())
+                .map(|(k, w)| 2.0 * (k * k) as f64 * w)
+                .sum();
             assert!((sum - 1.0).abs() < 1e-12);
             // The tail beyond four standard deviations has a thousandth of the variance.
             assert!((var / (sigma * sigma) - 1.0).abs() < 3e-3, "{sigma}: {var}");
@@ -215,7 +217,10 @@ mod tests {
         let width = |p: &[f64]| {
             let sum: f64 = p.iter().sum();
             let mean: f64 = (0..41).map(|i| i as f64 * p[i]).sum::<f64>() / sum;
-            (0..41).map(|i| (i as f64 - mean).powi(2) * p[i]).sum::<f64>() / sum
+            (0..41)
+                .map(|i| (i as f64 - mean).powi(2) * p[i])
+                .sum::<f64>()
+                / sum
         };
         let own: Vec<f64> = (0..41)
             .map(|s| shifted(s, &|i| a[i]) * shifted(s, &|i| b[i]))

@@ -9,6 +9,7 @@
 //! *Deviations*: if the flow is the same at all levels, each A is a product of one matrix per axis, and so is each g:
 //! three rows instead of a map. Neighbouring steps whose g are nearly equal (by the rule of `releases`; `merge` = 0:
 //! never) then enter as a power of one g, the mean along each axis. In sheared flow g is a whole map.
+//! With several places in a cell the chance at the vehicle's place stands for the cell's size round it, as in `kernel`.
 
 use super::mapper::Hmm;
 use super::transition::Hops;
@@ -22,28 +23,16 @@ impl Hmm {
     pub(super) fn not_detecting(&mut self, cell: usize, out: &mut [f64]) {
         if self.steps.iter().chain(&self.assumed).any(|s| s.sheared()) {
             out.fill(1.0);
+            let meets = (self.with.places * self.with.places) as f64;
             self.back(cell, |g| {
                 for (o, g) in out.iter_mut().zip(g) {
-                    *o = (*o * (1.0 - self.b * g.min(1.0))).max(LEAST);
+                    *o = (*o * (1.0 - self.b * (meets * g).min(1.0))).max(LEAST);
                 }
             });
         } else {
             self.look_back(cell);
             self.terms.product(self.b, out);
         }
-    }
-
-    /// Places along each axis at which odour is met by a vehicle in `cell`: that one, or with several places in a
-    /// cell as many as it has, around that one.
-    fn meets(&self, cell: usize) -> [(usize, usize); 3] {
-        let (place, half) = (self.grid.place(cell), self.with.places / 2);
-        [0, 1, 2].map(|a| match a {
-            2 => (place[a], place[a] + 1),
-            _ => (
-                place[a].saturating_sub(half),
-                (place[a] + half + 1).min(self.grid.n[a]),
-            ),
-        })
     }
 
     /// The same rows for releases of a size: the chance that dye with its middle in each cell is met.
@@ -57,12 +46,12 @@ impl Hmm {
         rows
     }
 
-    /// One row per axis for a place: 1 where odour is met there, 0 elsewhere.
+    /// One row per axis for a place: 1 at the place, 0 elsewhere.
     pub(super) fn rows_at(&self, cell: usize) -> [Vec<f64>; 3] {
-        let meets = self.meets(cell);
+        let place = self.grid.place(cell);
         [0, 1, 2].map(|a| {
             let mut row = vec![0.0; self.grid.n[a]];
-            row[meets[a].0..meets[a].1].fill(1.0);
+            row[place[a]] = 1.0;
             row
         })
     }
@@ -72,7 +61,7 @@ impl Hmm {
     fn look_back(&mut self, cell: usize) {
         let mut g = self.rows_met(cell);
         let mut earlier = g.clone();
-        let mut support = self.meets(cell);
+        let mut support = self.grid.place(cell).map(|i| (i, i + 1));
         for (a, size) in self.size.iter().enumerate() {
             let far = size.len() / 2;
             let (lo, hi) = support[a];
@@ -108,9 +97,11 @@ impl Hmm {
                 break;
             }
             let share = 1.0 / f64::from(1_u32 << log2);
+            let places = self.with.places as f64;
             terms.add(log2, |a, row| {
+                let meets = if a < 2 { share * places } else { share };
                 for (r, m) in row.iter_mut().zip(&mean[a]) {
-                    *r = m * share;
+                    *r = m * meets;
                 }
                 reach[a]
             });

@@ -95,7 +95,10 @@ mod tests {
         assert_eq!((said.cell_p, said.near_p), (0.5, 1.0));
         assert_eq!((said.cell_true, said.near_true), (Some(true), Some(true)));
         let above = MapStated::of(&map, true, &[at(middle + Vector3::new(0.0, 0.0, 5.0))]);
-        assert_eq!((above.cell_true, above.near_true), (Some(false), Some(true)));
+        assert_eq!(
+            (above.cell_true, above.near_true),
+            (Some(false), Some(true))
+        );
         let beside = [4.9, 5.1].map(|m| {
             let said = MapStated::of(&map, true, &[at(middle + Vector3::new(m, 0.0, 0.0))]);
             (said.cell_true, said.near_true)

@@ -1,13 +1,13 @@
 //! Gathers a summary from the frames of a run.
 
 use super::GantryPath;
-use super::{MapEnd, MapStated};
 use super::RunInfo;
 use super::sources::SourceTruth;
 use super::summary::{
     AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
     RunSummary, SourceSummary, Summary, Totals, Versions,
 };
+use super::{MapEnd, MapStated};
 use nalgebra::Vector2;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;

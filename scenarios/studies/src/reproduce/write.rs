@@ -4,7 +4,9 @@ use super::compare::{Compared, Standing};
 use super::row::Paper;
 use super::run::Reproduced;
 use crate::campaign::as_csv;
-use crate::campaign::report::{RELIABILITY, Reliability, Walls, align, range, reliability, reliable};
+use crate::campaign::report::{
+    RELIABILITY, Reliability, Walls, align, range, reliability, reliable,
+};
 use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -184,7 +186,13 @@ fn markdown(all: &[Reproduced]) -> String {
             for line in reliable::table(&maps) {
                 writeln!(out, "| {} |", line.join(" | ")).expect(TEXT);
             }
-            writeln!(out, "\n{}\n\n![]({}.svg)\n", reliable::notes(&maps), r.row.id).expect(TEXT);
+            writeln!(
+                out,
+                "\n{}\n\n![]({}.svg)\n",
+                reliable::notes(&maps),
+                r.row.id
+            )
+            .expect(TEXT);
         }
         if let Some(error) = first_error(r) {
             writeln!(out, "- First failure: {error}.").expect(TEXT);
