@@ -73,6 +73,7 @@ impl Cruise {
             p_W: Vector3::new(85.0, 50.0 + 40.0 * math::sin(self.t_s / 30.0), -5.0),
             detected,
             flow: Some(self.flow),
+            fixed: false,
         });
     }
 

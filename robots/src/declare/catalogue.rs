@@ -3,7 +3,7 @@
 use super::along_flow::AlongFlow;
 use super::siz_f::SizF;
 use super::siz_t::SizT;
-use super::{credible_area, unchanged};
+use super::{credible_area, sure, unchanged};
 use crate::error::RobotError;
 use crate::handoff::{Belief, Declaration, Evidence, Lcdp};
 use crate::memory::PlumeMemory;
@@ -113,7 +113,7 @@ kind! {
     /// Rules that declare where the source is, from the robot's map of where it may be.
     pub BeliefRuleSpec = BeliefRules of BeliefRuleParams {
         heading: HEADING,
-        rows: [unchanged::Params, credible_area::Params],
+        rows: [unchanged::Params, credible_area::Params, sure::Params],
         standard: unchanged::Params,
     }
 }

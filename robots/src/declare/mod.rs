@@ -7,6 +7,7 @@ mod cluster_tests;
 mod credible_area;
 mod siz_f;
 mod siz_t;
+mod sure;
 #[cfg(test)]
 mod testing;
 mod unchanged;
@@ -20,5 +21,6 @@ pub use catalogue::{
 pub use credible_area::{CredibleArea, Params as CredibleAreaParams};
 pub use siz_f::SizF;
 pub use siz_t::{Order as SizOrder, SizT};
+pub use sure::{Params as SureParams, Sure};
 pub use unchanged::{Params as UnchangedParams, Unchanged};
 pub use zone_size::{AdaptiveSize, ZoneSize};

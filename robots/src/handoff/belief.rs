@@ -1,7 +1,7 @@
 //! A robot's belief about the source's place: a grid of probabilities, and numbers that planners need.
 
 use bevy_ecs::prelude::Component;
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 use world::area::Area;
 
@@ -11,7 +11,7 @@ pub struct BeliefGrid {
     /// Corner of the cell (0, 0, 0), world ENU, m.
     pub corner: Vector3<f64>,
     /// World direction of the grid's first and second axis (unit, horizontal, perpendicular).
-    pub axes: [nalgebra::Vector2<f64>; 2],
+    pub axes: [Vector2<f64>; 2],
     /// Size of a cell along the first, second and vertical axis, m.
     pub cell_m: [f64; 3],
     /// Cells along the first, second and vertical axis; 1 in the third for a map of the plane.
@@ -25,7 +25,7 @@ impl BeliefGrid {
     #[must_use]
     pub fn over(area: &Area, top_depth_m: f64, bottom_depth_m: f64, n: [usize; 3]) -> Self {
         let along = area.axis.unit();
-        let left = nalgebra::Vector2::new(-along.y, along.x);
+        let left = Vector2::new(-along.y, along.x);
         let corner = area.centre - along * (area.length_m / 2.0) - left * (area.width_m / 2.0);
         let high = bottom_depth_m - top_depth_m;
         Self {
@@ -37,6 +37,18 @@ impl BeliefGrid {
                 high / n[2] as f64,
             ],
             n,
+        }
+    }
+
+    /// The grid with each cell divided into so many along both horizontal axes.
+    #[must_use]
+    pub fn divided(&self, by: usize) -> Self {
+        let [nx, ny, nz] = self.n;
+        let [hx, hy, hz] = self.cell_m;
+        Self {
+            cell_m: [hx / by as f64, hy / by as f64, hz],
+            n: [nx * by, ny * by, nz],
+            ..self.clone()
         }
     }
 
@@ -128,6 +140,42 @@ pub struct Odour {
     pub came: Vec<usize>,
     /// The vehicle's cell, then the cells of the path that most likely leads to a detection.
     pub walk: Vec<usize>,
+}
+
+/// A cell is divided into this many parts along each horizontal axis, to find how much of it lies within a distance.
+const PARTS: usize = 8;
+
+impl Belief {
+    /// Probability of a source within `m` metres (horizontally) of a place (east, north, m), whatever its depth. Within a
+    /// cell it is spread evenly.
+    #[must_use]
+    pub fn within(&self, place: Vector2<f64>, m: f64) -> f64 {
+        let grid = &self.grid;
+        let at = grid.local(&place.push(0.0));
+        let layer = grid.n[0] * grid.n[1];
+        let mut total = 0.0;
+        for cell in 0..layer {
+            let middle = grid.local_centre(cell);
+            let far = |a: usize| (middle[a] - at[a]).abs() > m + 0.5 * grid.cell_m[a];
+            if far(0) || far(1) {
+                continue;
+            }
+            let mut inside = 0_u32;
+            for part in 0..PARTS * PARTS {
+                let of = [part % PARTS, part / PARTS];
+                let d = [0, 1].map(|a| {
+                    let share = (of[a] as f64 + 0.5) / PARTS as f64 - 0.5;
+                    middle[a] + share * grid.cell_m[a] - at[a]
+                });
+                inside += u32::from(d[0] * d[0] + d[1] * d[1] <= m * m);
+            }
+            if inside > 0 {
+                let column: f64 = (0..grid.n[2]).map(|k| self.p[cell + k * layer]).sum();
+                total += column * f64::from(inside) / (PARTS * PARTS) as f64;
+            }
+        }
+        total.min(1.0)
+    }
 }
 
 /// A belief at one instant; cheap to clone.

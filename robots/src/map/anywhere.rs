@@ -44,10 +44,17 @@ pub(super) struct Anywhere {
 
 impl Anywhere {
     /// For a vehicle at `at` (the grid's own axes, m) and a chance `mu` of detecting dye that is there.
-    pub(super) fn new(grid: &BeliefGrid, mu: f64, at: [f64; 3], sets: &[Set]) -> Self {
+    /// Dye is met within a cell of `meets_m`.
+    pub(super) fn new(
+        grid: &BeliefGrid,
+        meets_m: [f64; 3],
+        mu: f64,
+        at: [f64; 3],
+        sets: &[Set],
+    ) -> Self {
         let high = grid.cell_m[2] * grid.n[2] as f64;
         let clouds = sets.iter().map(|set| {
-            let top = [0, 1, 2].map(|a| grid.cell_m[a] / (ROOT_TAU * set.var_m2[a].sqrt()));
+            let top = [0, 1, 2].map(|a| meets_m[a] / (ROOT_TAU * set.var_m2[a].sqrt()));
             Cloud {
                 from: [at[0] - set.s_m[0], at[1] - set.s_m[1]],
                 half: set.var_m2.map(|var| 0.5 / var),
@@ -199,7 +206,7 @@ mod tests {
                 .collect();
             let places: Vec<_> = places.into_iter().map(scaled).collect();
             let mut gamma = vec![7.0; 3];
-            Anywhere::new(&grid, mu, scaled(at), &sets).not_detecting(&places, &mut gamma);
+            Anywhere::new(&grid, grid.cell_m, mu, scaled(at), &sets).not_detecting(&places, &mut gamma);
             prop_assert_eq!(gamma.len(), places.len());
             for (place, gamma) in places.iter().zip(&gamma) {
                 let exact = by_hand(&grid, mu, scaled(at), &sets, *place);

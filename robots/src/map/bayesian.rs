@@ -10,6 +10,7 @@
 //! The two are nearly equal where chances are small, and differ near the vehicle, where the product saturates. With ε
 //! = `false_detection`: (1 − ε) β + ε / n. Otherwise as `Pomdp`.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
 use super::watch::MapObservation;
@@ -39,7 +40,10 @@ impl Listed for BayesianSpec {
 
 impl MapParams for BayesianSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Ok(Box::new(Bayesian::new(&self.0, self.0.grid.build(area)?)?))
+        Alternatives::around(&self.0.doubt, |doubt| {
+            let spec = self.0.with(doubt);
+            Ok(Box::new(Bayesian::new(&spec, spec.grid.build(area)?)?))
+        })
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -66,7 +70,7 @@ impl Bayesian {
     pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let with = Workings::over_cells(spec, grid)?;
         Ok(Self {
-            kernel: Kernel::new(&with.grid, &spec.trajectory),
+            kernel: Kernel::within(&with.grid, with.places, &spec.trajectory),
             with,
         })
     }
@@ -78,28 +82,34 @@ impl Mapper for Bayesian {
             return;
         };
         self.kernel.aim(&self.with.watch.history, sighting.cell);
-        let (likelihood, evidence) = (&mut self.with.likelihood, self.with.evidence);
+        let (likelihood, evidence) = (&mut self.with.likelihood, &mut self.with.evidence);
         if sighting.detected {
             self.kernel.expected(likelihood);
             let total: f64 = likelihood.iter().sum();
-            let e = evidence.epsilon;
+            let (e, n) = (evidence.epsilon, likelihood.len() as f64);
+            let same = evidence.repeated(sighting.t_s, true);
             let (scale, floor) = if total > 0.0 {
-                ((1.0 - e) / total, e / likelihood.len() as f64)
+                ((1.0 - e) / total, e / n)
             } else {
                 // No cell explains the detection: a false alarm, which tells nothing.
                 (0.0, 1.0)
             };
             for l in likelihood {
-                *l = *l * scale + floor;
+                // A reading that repeats the one before has, like the others, a sum of 1.
+                *l = same / n + (1.0 - same) * (*l * scale + floor);
             }
         } else {
             self.kernel.not_detecting(likelihood);
-            evidence.weigh(false, likelihood);
+            evidence.weigh(sighting.t_s, false, likelihood);
         }
         self.with.update(sighting.t_s, sighting.detected);
     }
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    fn ln_evidence(&self) -> f64 {
+        self.with.belief.ln_evidence()
     }
 }

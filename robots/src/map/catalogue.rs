@@ -19,6 +19,11 @@ pub trait Mapper: std::fmt::Debug + Send + Sync {
     fn step(&mut self, seen: &MapObservation);
     /// The present belief.
     fn belief(&self) -> &Belief;
+    /// Logarithm of the probability that the map gave to all that it has observed so far, up to a constant that is the
+    /// same for maps of the same kind; 0 if it does not know.
+    fn ln_evidence(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Parameters of a mapper.

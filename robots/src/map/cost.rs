@@ -35,9 +35,16 @@ impl GridSpec {
         f64::from(self.along) * f64::from(self.across) * f64::from(self.vertical)
     }
 
+    /// Number of places at which a source is considered.
+    pub(super) fn all_places(&self) -> f64 {
+        self.cells() * f64::from(self.places) * f64::from(self.places)
+    }
+
     fn cost(&self) -> Cost {
         let cells = self.cells();
-        Cost::of(Part::new("grid", format!("{cells:.0} cells")).holds(cells * CELL_BYTES))
+        Cost::of(
+            Part::new("grid", format!("{cells:.0} cells")).holds(self.all_places() * CELL_BYTES),
+        )
     }
 }
 
@@ -77,7 +84,7 @@ pub(super) fn by_kernel(
 
 impl CellsSpec {
     pub(super) fn cost(&self, times: &Times) -> Cost {
-        let each_s = self.grid.cells() * CELL_S;
+        let each_s = self.doubt.maps() as f64 * self.grid.all_places() * CELL_S;
         let period_s = self.update_period_s.get();
         by_kernel(&self.grid, &self.trajectory, period_s, each_s, times)
     }
@@ -87,8 +94,11 @@ impl HmmSpec {
     pub(super) fn work(&self, times: &Times) -> Cost {
         let step_s = self.step_s.get();
         let [steps, sets] = self.trajectory.releases(step_s);
-        let (cells, levels) = (self.grid.cells(), f64::from(self.grid.vertical));
-        let rows = f64::from(self.grid.along) + f64::from(self.grid.across) + levels;
+        let maps = self.doubt.maps() as f64;
+        let (cells, levels) = (maps * self.grid.all_places(), f64::from(self.grid.vertical));
+        let across = f64::from(self.grid.places)
+            * (f64::from(self.grid.along) + f64::from(self.grid.across));
+        let rows = maps * (across + levels);
         let hops_s = if self.sheared && levels > 1.0 {
             3.0 * cells * HOPS * HOP_S
         } else {

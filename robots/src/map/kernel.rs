@@ -28,6 +28,8 @@ pub(super) const ROOT_TAU: f64 = 2.506_628_274_631_000_7;
 #[derive(Clone, Debug)]
 pub(super) struct Kernel {
     grid: Arc<BeliefGrid>,
+    /// The cell within which dye is met, m: that of eq. 1, however many places it has.
+    meets_m: [f64; 3],
     mu: f64,
     gatherer: Gatherer,
     terms: Terms,
@@ -37,9 +39,18 @@ pub(super) struct Kernel {
 
 impl Kernel {
     /// A kernel before its first use.
+    #[cfg(test)]
     pub(super) fn new(grid: &Arc<BeliefGrid>, spec: &TrajectorySpec) -> Self {
-        let horizontal = [grid.cell_m[0], grid.cell_m[1]];
+        Self::within(grid, 1, spec)
+    }
+
+    /// The same for a grid of places, so many in a cell along each horizontal axis.
+    pub(super) fn within(grid: &Arc<BeliefGrid>, places: usize, spec: &TrajectorySpec) -> Self {
+        let k = places as f64;
+        let meets_m = [grid.cell_m[0] * k, grid.cell_m[1] * k, grid.cell_m[2]];
+        let horizontal = [meets_m[0], meets_m[1]];
         Self {
+            meets_m,
             grid: grid.clone(),
             mu: spec.mu.get(),
             gatherer: Gatherer::new(spec, horizontal),
@@ -60,12 +71,18 @@ impl Kernel {
         self.gather(history, cell);
         self.terms.clear();
         let (grid, at, image) = (&self.grid, self.at, &mut self.image);
+        let meets_m = self.meets_m;
         let high = grid.cell_m[2] * grid.n[2] as f64;
         for set in &self.gatherer.sets {
             self.terms.add(set.log2, |axis, row| {
                 let (h, s) = (grid.cell_m[axis], set.var_m2[axis].sqrt());
                 if axis < 2 {
-                    gaussian(row, at[axis] - set.s_m[axis], h, s)
+                    let reach = gaussian(row, at[axis] - set.s_m[axis], h, s);
+                    if meets_m[axis] != h {
+                        let share = meets_m[axis] / h;
+                        row[reach.0..reach.1].iter_mut().for_each(|g| *g *= share);
+                    }
+                    reach
                 } else if grid.n[2] == 1 {
                     row.fill(1.0);
                     (0, 1)
@@ -99,7 +116,13 @@ impl Kernel {
 
     /// The same for a source at any place, after [`Kernel::gather`] or [`Kernel::aim`].
     pub(super) fn anywhere(&self) -> Anywhere {
-        Anywhere::new(&self.grid, self.mu, self.at, &self.gatherer.sets)
+        Anywhere::new(
+            &self.grid,
+            self.meets_m,
+            self.mu,
+            self.at,
+            &self.gatherer.sets,
+        )
     }
 
     /// The vehicle's place for which it was made, in the grid's own axes, m.

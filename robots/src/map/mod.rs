@@ -3,6 +3,7 @@
 //! All mappers share one back-trajectory (`flow_history`, `releases`, `kernel`); each mapper's file says how it uses
 //! that.
 
+mod alternatives;
 mod anywhere;
 mod bayesian;
 mod catalogue;
@@ -13,9 +14,11 @@ mod flow_history;
 mod hmm;
 mod kernel;
 mod log_belief;
+mod navigation;
 mod particle_filter;
 mod pomdp;
 mod releases;
+mod shifts;
 mod spec;
 mod terms;
 mod watch;
@@ -23,7 +26,7 @@ mod workings;
 
 pub use bayesian::{Bayesian, BayesianSpec};
 pub use catalogue::{MapParams, MapSpec, Mapper, Maps};
-pub use evidence::DoubtSpec;
+pub use evidence::{DoubtSpec, Repeats};
 pub use hmm::{Hmm, HmmSpec};
 pub use particle_filter::{ParticleFilter, ParticleFilterSpec};
 pub use pomdp::{Pomdp, PomdpSpec};
@@ -35,6 +38,8 @@ pub use workings::CellsSpec;
 mod testing;
 #[cfg(test)]
 mod tests_belief;
+#[cfg(test)]
+mod tests_doubt;
 #[cfg(test)]
 mod tests_kernel;
 #[cfg(test)]

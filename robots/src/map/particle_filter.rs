@@ -15,10 +15,13 @@
 //! releases that could have been met, as Lenser & Veloso 2000 reset a lost robot. The belief on the grid is the
 //! weight of the particles in each cell, with the share ε spread over all cells.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
 use super::cost::{PARTICLE_S, by_kernel};
-use super::evidence::DoubtSpec;
+use super::evidence::{DoubtSpec, mixed};
 use super::kernel::Kernel;
+use super::log_belief::LogBelief;
+use super::shifts::Shifts;
 use super::spec::{GridSpec, TrajectorySpec, invalid};
 use super::watch::MapObservation;
 use super::workings::Workings;
@@ -88,11 +91,14 @@ impl Listed for ParticleFilterSpec {
 
 impl MapParams for ParticleFilterSpec {
     fn build(&self, area: &Area, rng: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Ok(Box::new(ParticleFilter::new(
-            self,
-            self.grid.build(area)?,
-            rng,
-        )?))
+        Alternatives::around(&self.doubt, |doubt| {
+            let spec = Self {
+                doubt: doubt.clone(),
+                ..self.clone()
+            };
+            let grid = self.grid.build(area)?;
+            Ok(Box::new(ParticleFilter::new(&spec, grid, rng.clone())?))
+        })
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -101,7 +107,7 @@ impl MapParams for ParticleFilterSpec {
     }
 
     fn cost(&self, times: &Times) -> Cost {
-        let each_s = f64::from(self.particles) * PARTICLE_S;
+        let each_s = (self.doubt.maps() as f64) * f64::from(self.particles) * PARTICLE_S;
         by_kernel(
             &self.grid,
             &self.trajectory,
@@ -122,6 +128,12 @@ pub struct ParticleFilter {
     /// Places in the grid's own axes, m.
     places: Vec<[f64; 3]>,
     weights: Vec<f64>,
+    /// Errors of navigation in which the particles believe, and where their sources then appear to be, m.
+    shifts: Option<Shifts>,
+    seen_at: Vec<[f64; 3]>,
+    ln_evidence: f64,
+    /// Probability of each cell of the belief.
+    mass: Vec<f64>,
     /// Chance of no detection from each place, for an update.
     gamma: Vec<f64>,
     extent_m: [f64; 3],
@@ -138,12 +150,13 @@ impl ParticleFilter {
         mut rng: Stream,
     ) -> Result<Self, RobotError> {
         let periods = [spec.trajectory.release_period_s, spec.update_period_s].map(Positive::get);
-        let with = Workings::new(
+        let mut with = Workings::new(
             grid,
             &spec.trajectory,
             periods,
             spec.false_detection,
             &spec.doubt,
+            spec.grid.places,
         )?;
         if !(PARTICLES.0..=PARTICLES.1).contains(&spec.particles) {
             return Err(invalid(
@@ -154,6 +167,9 @@ impl ParticleFilter {
                 ),
             ));
         }
+        // The belief is that of the particles, whatever they believe of navigation.
+        let cells = with.belief.belief().grid.clone();
+        with.belief = LogBelief::uniform(&cells);
         let grid = &with.grid;
         let extent_m = [0, 1, 2].map(|a| grid.cell_m[a] * grid.n[a] as f64);
         let count = spec.particles as usize;
@@ -161,10 +177,14 @@ impl ParticleFilter {
             .map(|_| extent_m.map(|e| e * rng.uniform()))
             .collect();
         Ok(Self {
-            kernel: Kernel::new(grid, &spec.trajectory),
+            kernel: Kernel::within(grid, with.places, &spec.trajectory),
+            shifts: Shifts::of(&spec.doubt, count, &mut rng),
+            seen_at: Vec::new(),
+            ln_evidence: 0.0,
             spec: spec.clone(),
             rng,
             places,
+            mass: vec![0.0; cells.len()],
             weights: vec![1.0 / count as f64; count],
             gamma: Vec::with_capacity(count),
             extent_m,
@@ -173,15 +193,25 @@ impl ParticleFilter {
     }
 
     /// Bayes' rule for each particle.
-    fn weigh(&mut self, detected: bool) {
+    fn weigh(&mut self, t_s: f64, detected: bool) {
+        let same = self.with.evidence.repeated(t_s, detected);
         let evidence = self.with.evidence;
-        (self.kernel.anywhere()).not_detecting(&self.places, &mut self.gamma);
+        let mut places = &self.places;
+        if let Some(shifts) = &mut self.shifts {
+            self.seen_at.clear();
+            let shifted = (self.places.iter().zip(shifts.at(t_s)))
+                .map(|(p, by)| [p[0] + by[0], p[1] + by[1], p[2]]);
+            self.seen_at.extend(shifted);
+            places = &self.seen_at;
+        }
+        (self.kernel.anywhere()).not_detecting(places, &mut self.gamma);
         for (gamma, w) in self.gamma.iter().zip(&mut self.weights) {
             let likelihood = if detected {
                 evidence.some(*gamma)
             } else {
                 evidence.none(*gamma).max(evidence.epsilon)
             };
+            let likelihood = mixed(same, likelihood);
             *w *= if evidence.share < 1.0 {
                 math::powf(likelihood, evidence.share)
             } else {
@@ -189,8 +219,9 @@ impl ParticleFilter {
             };
         }
         let total: f64 = self.weights.iter().sum();
+        self.ln_evidence += math::ln(total.max(1e-300));
         if detected && total < self.spec.lost_below.get() {
-            self.send_back();
+            self.send_back(t_s);
         } else {
             for w in &mut self.weights {
                 *w /= total;
@@ -199,10 +230,12 @@ impl ParticleFilter {
     }
 
     /// Draws every other particle anew from the releases that may have been met; then all have the same weight.
-    fn send_back(&mut self) {
+    fn send_back(&mut self, t_s: f64) {
+        let shifts: Option<Vec<_>> = self.shifts.as_mut().map(|s| s.at(t_s).collect());
         let releases: Vec<_> = self.with.watch.history.releases().collect();
         let (at, plane) = (self.kernel.at(), self.with.belief.belief().grid.n[2] == 1);
-        for place in self.places.iter_mut().step_by(2) {
+        for (i, place) in self.places.iter_mut().enumerate().step_by(2) {
+            let by = shifts.as_ref().map_or([0.0; 2], |s| s[i]);
             // Releases outside the area are impossible: draw another one, a few times.
             for _ in 0..20 {
                 let pick = (self.rng.uniform() * releases.len() as f64) as usize;
@@ -210,7 +243,8 @@ impl ParticleFilter {
                 let spread = self.spec.trajectory.spread_m(age);
                 let mut drawn = [0, 1, 2].map(|a| {
                     let drift = s.get(a).copied().unwrap_or(0.0);
-                    at[a] - drift + spread[a] * self.rng.normal()
+                    let shift = by.get(a).copied().unwrap_or(0.0);
+                    at[a] - drift + spread[a] * self.rng.normal() - shift
                 });
                 drawn[2] = if plane {
                     place[2]
@@ -236,6 +270,7 @@ impl ParticleFilter {
         let scatter = self.scatter();
         let start = self.rng.uniform();
         let mut kept = Vec::with_capacity(self.places.len());
+        let mut of = Vec::with_capacity(self.places.len());
         let (mut i, mut upto) = (0, self.weights[0]);
         for m in 0..self.weights.len() {
             let mark = (m as f64 + start) / count;
@@ -243,6 +278,7 @@ impl ParticleFilter {
                 i += 1;
                 upto += self.weights[i];
             }
+            of.push(i);
             let mut place = self.places[i];
             for (axis, x) in place.iter_mut().enumerate() {
                 *x = within(*x + scatter[axis] * self.rng.normal(), self.extent_m[axis]);
@@ -250,6 +286,9 @@ impl ParticleFilter {
             kept.push(place);
         }
         self.places = kept;
+        if let Some(shifts) = &mut self.shifts {
+            shifts.keep(&of);
+        }
         self.weights.fill(1.0 / count);
     }
 
@@ -277,14 +316,15 @@ impl ParticleFilter {
 
     fn onto_grid(&mut self, t_s: f64, detected: bool) {
         let grid = self.with.belief.belief().grid.clone();
+        let grid = grid.as_ref();
         let e = self.with.evidence.epsilon;
-        let mass = &mut self.with.likelihood;
+        let mass = &mut self.mass;
         mass.fill(e / grid.len() as f64);
         for (place, w) in self.places.iter().zip(&self.weights) {
             let cell = [0, 1, 2].map(|a| ((place[a] / grid.cell_m[a]) as usize).min(grid.n[a] - 1));
             mass[grid.index(cell)] += (1.0 - e) * w;
         }
-        (self.with.belief).replace(t_s, detected, &self.with.likelihood);
+        (self.with.belief).replace(t_s, detected, &self.mass);
     }
 }
 
@@ -303,13 +343,20 @@ impl Mapper for ParticleFilter {
             return;
         };
         self.kernel.gather(&self.with.watch.history, sighting.cell);
-        self.weigh(sighting.detected);
+        if let (Some(fix_s), Some(shifts)) = (self.with.watch.fix(), &mut self.shifts) {
+            shifts.fixed(fix_s, &mut self.rng);
+        }
+        self.weigh(sighting.t_s, sighting.detected);
         self.onto_grid(sighting.t_s, sighting.detected);
         self.resample_if_worn();
     }
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    fn ln_evidence(&self) -> f64 {
+        self.ln_evidence
     }
 }
 

@@ -10,6 +10,7 @@
 //! after a false alarm that no cell can explain; on none it is γ, as in the paper. One or more detections within an
 //! update period count as one. There is no update while the vehicle is outside the grid. Kernel: see `kernel`.
 
+use super::alternatives::Alternatives;
 use super::catalogue::{MapParams, Mapper};
 use super::kernel::Kernel;
 use super::watch::MapObservation;
@@ -39,7 +40,10 @@ impl Listed for PomdpSpec {
 
 impl MapParams for PomdpSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Ok(Box::new(Pomdp::new(&self.0, self.0.grid.build(area)?)?))
+        Alternatives::around(&self.0.doubt, |doubt| {
+            let spec = self.0.with(doubt);
+            Ok(Box::new(Pomdp::new(&spec, spec.grid.build(area)?)?))
+        })
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -66,7 +70,7 @@ impl Pomdp {
     pub fn new(spec: &CellsSpec, grid: BeliefGrid) -> Result<Self, RobotError> {
         let with = Workings::over_cells(spec, grid)?;
         Ok(Self {
-            kernel: Kernel::new(&with.grid, &spec.trajectory),
+            kernel: Kernel::within(&with.grid, with.places, &spec.trajectory),
             with,
         })
     }
@@ -79,12 +83,16 @@ impl Mapper for Pomdp {
         };
         self.kernel.aim(&self.with.watch.history, sighting.cell);
         self.kernel.not_detecting(&mut self.with.likelihood);
-        let evidence = self.with.evidence;
-        evidence.weigh(sighting.detected, &mut self.with.likelihood);
+        let (with, detected) = (&mut self.with, sighting.detected);
+        (with.evidence).weigh(sighting.t_s, detected, &mut with.likelihood);
         self.with.update(sighting.t_s, sighting.detected);
     }
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    fn ln_evidence(&self) -> f64 {
+        self.with.belief.ln_evidence()
     }
 }

@@ -135,7 +135,7 @@ impl Gatherer {
                 return None;
             }
         }
-        let strayed = self.trajectory.strayed_m2(age);
+        let strayed = self.trajectory.beside_m2(age);
         Some(Set {
             log2,
             s_m: mean,

@@ -12,6 +12,8 @@ use world::ranges::{Fraction, NonNegative, Positive};
 
 /// Most cells of a map: a million take 8 MB per table.
 const MOST_CELLS: f64 = 1e6;
+/// Most places within a cell along an axis.
+const MOST_PLACES: u32 = 9;
 /// Most releases a look-back may hold.
 const MOST_RELEASES: f64 = 100_000.0;
 
@@ -30,6 +32,9 @@ pub struct GridSpec {
     pub top_depth_m: NonNegative,
     /// Lower edge of the map, m below the surface; must be given for a map of space.
     pub bottom_depth_m: Option<Positive>,
+    /// Places within a cell, along each horizontal axis, at which a source is considered; an odd number from 1 to 9. 1:
+    /// only the middle, as in the papers. The vehicle's place is taken to the nearest of them, too.
+    pub places: u32,
 }
 
 impl Default for GridSpec {
@@ -40,6 +45,7 @@ impl Default for GridSpec {
             vertical: 1,
             top_depth_m: NonNegative::new(0.0),
             bottom_depth_m: None,
+            places: 1,
         }
     }
 }
@@ -59,16 +65,24 @@ impl GridSpec {
                 ));
             }
         }
-        let cells = self.cells();
+        if self.places.is_multiple_of(2) || self.places > MOST_PLACES {
+            let problem = format!(
+                "must be odd and from 1 to {MOST_PLACES}, got {}",
+                self.places
+            );
+            return Err(invalid("grid.places", &problem));
+        }
+        let cells = self.cells() * f64::from(self.places * self.places);
         if cells > MOST_CELLS {
             let got = if cells < 1e12 {
                 format!("{cells}")
             } else {
                 shown(cells)
             };
+            let what = if self.places == 1 { "cells" } else { "places" };
             return Err(invalid(
                 "grid",
-                &format!("must have at most {MOST_CELLS} cells, got {got}"),
+                &format!("must have at most {MOST_CELLS} {what}, got {got}"),
             ));
         }
         let top = self.top_depth_m.get();
@@ -110,6 +124,9 @@ pub struct TrajectorySpec {
     #[serde(deserialize_with = "world::limits::spread_m_rts")]
     #[schemars(transform = world::limits::schema::spread_m_rts)]
     pub sigma_z_m_rts: Positive,
+    /// Horizontal size of a release, to which dye of age 0 is met round its middle: a standard deviation, m; 0, as in the
+    /// papers: it is a point.
+    pub initial_m: NonNegative,
     /// Standard deviation, in each horizontal axis, of the flow along the way from the flow at the vehicle, u′, m/s;
     /// 0: the flow is the same everywhere, as in the papers.
     #[serde(deserialize_with = "world::limits::stream_m_s")]
@@ -142,6 +159,7 @@ impl Default for TrajectorySpec {
             sigma_x_m_rts: Positive::new(0.5),
             sigma_y_m_rts: Positive::new(0.5),
             sigma_z_m_rts: Positive::new(0.05),
+            initial_m: NonNegative::new(0.0),
             flow_error_m_s: NonNegative::new(0.0),
             flow_error_s: Positive::new(100.0),
             lookback_s: Positive::new(600.0),
@@ -205,9 +223,15 @@ impl TrajectorySpec {
         2.0 * u * u * t * (age_s - t * (1.0 - math::exp(-age_s / t)))
     }
 
+    /// Horizontal variance of a release at an age besides that of σx or σy, m².
+    pub(super) fn beside_m2(&self, age_s: f64) -> f64 {
+        let size = self.initial_m.get();
+        self.strayed_m2(age_s) + size * size
+    }
+
     /// Standard deviation along each axis at an age, m.
     pub(super) fn spread_m(&self, age_s: f64) -> [f64; 3] {
-        let (root, strayed) = (age_s.sqrt(), self.strayed_m2(age_s));
+        let (root, strayed) = (age_s.sqrt(), self.beside_m2(age_s));
         let [x, y, z] = self.sigmas().map(|s| s * root);
         if strayed == 0.0 {
             return [x, y, z];

@@ -122,6 +122,7 @@ impl ToyPlume {
             p_W: Vector3::new(p.x, p.y, -1.0),
             detected: Some(self.smell(p)),
             flow: Some((self.flow)(t_s)),
+            fixed: false,
         }
     }
 }

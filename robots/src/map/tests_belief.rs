@@ -68,6 +68,7 @@ fn random_walk(rng: &mut Stream, n: u32) -> MapObservation {
         p_W: Vector3::new(100.0 * rng.uniform(), 100.0 * rng.uniform(), -3.0),
         detected: Some(rng.uniform() < 0.1),
         flow: Some(Vector2::new(1.0 + 0.3 * rng.normal(), 0.3 * rng.normal())),
+        fixed: false,
     }
 }
 
@@ -126,6 +127,7 @@ fn an_hour_without_a_detection_or_with_nothing_else_does_not_underflow() {
                     p_W: Vector3::new(90.0, 50.0 + 40.0 * world::math::sin(t / 30.0), -2.0),
                     detected: Some(detected),
                     flow: Some(Vector2::new(0.3, 0.02)),
+                    fixed: false,
                 });
             }
             assert_sound(mapper.as_ref(), spec.name());

@@ -23,6 +23,8 @@ pub struct MapObservation {
     pub detected: Option<bool>,
     /// Flow measured at the vehicle (east, north), m/s.
     pub flow: Option<Vector2<f64>>,
+    /// Whether a position fix came in this tick.
+    pub fixed: bool,
 }
 
 /// One piece of evidence: the vehicle was in this cell, with or without a detection.
@@ -45,6 +47,7 @@ pub(super) struct Watch {
     period_s: f64,
     next_s: Option<f64>,
     pending: Option<(bool, Vector3<f64>)>,
+    fix_s: Option<f64>,
 }
 
 impl Watch {
@@ -56,6 +59,7 @@ impl Watch {
             period_s,
             next_s: None,
             pending: None,
+            fix_s: None,
         }
     }
 
@@ -63,6 +67,9 @@ impl Watch {
     pub(super) fn see(&mut self, seen: &MapObservation) {
         let flow = (seen.flow).map(|v| [v.dot(&self.grid.axes[0]), v.dot(&self.grid.axes[1])]);
         self.history.record(seen.t_s, flow);
+        if seen.fixed {
+            self.fix_s = Some(seen.t_s);
+        }
         // A detection stands for the whole period, at the place of its last occurrence.
         match (seen.detected, self.pending) {
             (Some(true), _) | (Some(false), None | Some((false, _))) => {
@@ -83,6 +90,11 @@ impl Watch {
         let missed = ((seen.t_s - next + SLACK_S) / self.period_s).floor();
         self.next_s = Some(next + (missed + 1.0) * self.period_s);
         self.take(seen.t_s)
+    }
+
+    /// Time of the last fix, given out once, s.
+    pub(super) fn fix(&mut self) -> Option<f64> {
+        self.fix_s.take()
     }
 
     /// The gathered sighting, given out once.

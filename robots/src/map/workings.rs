@@ -8,6 +8,7 @@
 
 use super::evidence::{DoubtSpec, Evidence};
 use super::log_belief::LogBelief;
+use super::navigation::Stated;
 use super::spec::{GridSpec, TrajectorySpec};
 use super::watch::Watch;
 use crate::error::RobotError;
@@ -47,6 +48,14 @@ impl Default for CellsSpec {
 }
 
 impl CellsSpec {
+    /// The same with other doubts.
+    pub(super) fn with(&self, doubt: &DoubtSpec) -> Self {
+        Self {
+            doubt: doubt.clone(),
+            ..self.clone()
+        }
+    }
+
     /// Checks that a mapper can hold so many cells and such a look-back.
     pub(super) fn check(&self, area: &Area) -> Result<(), RobotError> {
         self.grid.build(area)?;
@@ -57,11 +66,14 @@ impl CellsSpec {
 /// The parts.
 #[derive(Clone, Debug)]
 pub(super) struct Workings {
+    /// The places at which a source is considered: those of the belief's cells, or several in each of them.
     pub grid: Arc<BeliefGrid>,
+    /// Places within a cell along each horizontal axis.
+    pub places: usize,
     pub watch: Watch,
     pub belief: LogBelief,
     pub evidence: Evidence,
-    /// One number per cell, for an update.
+    /// One number per place, for an update.
     pub likelihood: Vec<f64>,
 }
 
@@ -76,12 +88,18 @@ impl Workings {
         [release_s, update_s]: [f64; 2],
         false_detection: Fraction,
         doubt: &DoubtSpec,
+        places: u32,
     ) -> Result<Self, RobotError> {
         trajectory.check()?;
-        let grid = Arc::new(grid);
+        let (cells, places) = (Arc::new(grid), places as usize);
+        let grid = match places {
+            1 => cells.clone(),
+            _ => Arc::new(cells.divided(places)),
+        };
         Ok(Self {
             watch: Watch::new(&grid, trajectory.history(release_s), update_s),
-            belief: LogBelief::uniform(&grid),
+            belief: LogBelief::over(&cells, &grid, Stated::of(doubt)),
+            places,
             evidence: Evidence::new(false_detection, doubt, update_s)?,
             likelihood: vec![1.0; grid.len()],
             grid,
@@ -100,11 +118,15 @@ impl Workings {
             periods,
             spec.false_detection,
             &spec.doubt,
+            spec.grid.places,
         )
     }
 
     /// Takes `likelihood` into the belief.
     pub(super) fn update(&mut self, t_s: f64, detected: bool) {
+        if let Some(fix_s) = self.watch.fix() {
+            self.belief.fixed(fix_s);
+        }
         self.belief
             .update(t_s, detected, &self.likelihood, self.evidence.share);
     }

@@ -9,8 +9,10 @@
 //! *Deviations*: if the flow is the same at all levels, each A is a product of one matrix per axis, and so is each g:
 //! three rows instead of a map. Neighbouring steps whose g are nearly equal (by the rule of `releases`; `merge` = 0:
 //! never) then enter as a power of one g, the mean along each axis. In sheared flow g is a whole map.
+//! With several places in a cell the chance at the vehicle's place stands for the cell's size round it, as in `kernel`.
 
 use super::mapper::Hmm;
+use super::transition::Hops;
 use crate::map::terms::{LEAST, Terms};
 
 /// When less than this share of odour is left in the map, it is followed no further back.
@@ -21,15 +23,27 @@ impl Hmm {
     pub(super) fn not_detecting(&mut self, cell: usize, out: &mut [f64]) {
         if self.steps.iter().chain(&self.assumed).any(|s| s.sheared()) {
             out.fill(1.0);
+            let meets = (self.with.places * self.with.places) as f64;
             self.back(cell, |g| {
                 for (o, g) in out.iter_mut().zip(g) {
-                    *o = (*o * (1.0 - self.b * g.min(1.0))).max(LEAST);
+                    *o = (*o * (1.0 - self.b * (meets * g).min(1.0))).max(LEAST);
                 }
             });
         } else {
             self.look_back(cell);
             self.terms.product(self.b, out);
         }
+    }
+
+    /// The same rows for releases of a size: the chance that dye with its middle in each cell is met.
+    fn rows_met(&self, cell: usize) -> [Vec<f64>; 3] {
+        let mut rows = self.rows_at(cell);
+        for (a, size) in self.size.iter().enumerate().filter(|(_, s)| s.len() > 1) {
+            let point = std::mem::take(&mut rows[a]);
+            rows[a] = vec![0.0; point.len()];
+            Hops::new(0, size, false).pull(&point, (0, point.len()), &mut rows[a]);
+        }
+        rows
     }
 
     /// One row per axis for a place: 1 at the place, 0 elsewhere.
@@ -45,10 +59,14 @@ impl Hmm {
     /// Builds the terms of all steps back from now for a vehicle in `cell`, for a flow that is the same at all
     /// levels.
     fn look_back(&mut self, cell: usize) {
-        let mut g = self.rows_at(cell);
+        let mut g = self.rows_met(cell);
         let mut earlier = g.clone();
-        let place = self.grid.place(cell);
-        let mut support = place.map(|i| (i, i + 1));
+        let mut support = self.grid.place(cell).map(|i| (i, i + 1));
+        for (a, size) in self.size.iter().enumerate() {
+            let far = size.len() / 2;
+            let (lo, hi) = support[a];
+            support[a] = (lo.saturating_sub(far), (hi + far).min(self.grid.n[a]));
+        }
         self.gatherer.gather(self.with.watch.history.releases());
         let mut terms = std::mem::replace(&mut self.terms, Terms::new(self.grid.n));
         terms.clear();
@@ -79,9 +97,11 @@ impl Hmm {
                 break;
             }
             let share = 1.0 / f64::from(1_u32 << log2);
+            let places = self.with.places as f64;
             terms.add(log2, |a, row| {
+                let meets = if a < 2 { share * places } else { share };
                 for (r, m) in row.iter_mut().zip(&mean[a]) {
-                    *r = m * share;
+                    *r = m * meets;
                 }
                 reach[a]
             });
@@ -94,7 +114,13 @@ impl Hmm {
         let n = self.grid.n;
         let layer = n[0] * n[1];
         let mut g = vec![0.0; self.grid.len()];
-        g[cell] = 1.0;
+        let ([x, y, _], k) = (self.rows_met(cell), self.grid.place(cell)[2]);
+        for (j, across) in y.iter().enumerate().filter(|(_, v)| **v > 0.0) {
+            let row = self.grid.index([0, j, k]);
+            for (g, along) in g[row..].iter_mut().zip(&x) {
+                *g = across * along;
+            }
+        }
         let mut earlier = g.clone();
         let longest = n[0].max(n[1]).max(n[2]);
         let (mut line, mut pulled) = (vec![0.0; longest], vec![0.0; longest]);

@@ -18,6 +18,7 @@
 use super::transition::{Drift, Hops, Transition, spread, widest};
 use crate::error::RobotError;
 use crate::handoff::{Belief, BeliefGrid};
+use crate::map::alternatives::Alternatives;
 use crate::map::catalogue::{MapParams, Mapper};
 use crate::map::evidence::DoubtSpec;
 use crate::map::flow_history::SLACK_S;
@@ -108,7 +109,13 @@ impl Listed for HmmSpec {
 
 impl MapParams for HmmSpec {
     fn build(&self, area: &Area, _: Stream) -> Result<Box<dyn Mapper>, RobotError> {
-        Ok(Box::new(Hmm::new(self, self.grid.build(area)?)?))
+        Alternatives::around(&self.doubt, |doubt| {
+            let spec = Self {
+                doubt: doubt.clone(),
+                ..self.clone()
+            };
+            Ok(Box::new(Hmm::new(&spec, self.grid.build(area)?)?))
+        })
     }
 
     fn check(&self, area: &Area) -> Result<(), RobotError> {
@@ -135,6 +142,8 @@ pub struct Hmm {
     steady_before: bool,
     /// Chances of the hops to both sides in a step, along each axis.
     aside: [Arc<[f64]>; 3],
+    /// Chances that dye of a release is met so many cells to both sides, along the horizontal axes.
+    pub(super) size: [Arc<[f64]>; 2],
     /// Displacement left over by the steps so far: one for all levels, or one per level.
     drifts: Vec<Drift>,
     step_s: f64,
@@ -183,8 +192,16 @@ impl Hmm {
             [step_s; 2],
             spec.false_detection,
             &spec.doubt,
+            spec.grid.places,
         )?;
-        let grid = with.grid.clone();
+        if with.places > 1 && spec.odour_every_s.is_some() {
+            let problem = format!(
+                "must not be given with grid.places {}: odour is shown for one place in a cell",
+                with.places
+            );
+            return Err(invalid("odour_every_s", &problem));
+        }
+        let (grid, places) = (with.grid.clone(), with.places as f64);
         let mut aside = [0, 1, 2].map(|_| Arc::from([1.0]));
         // A single layer keeps everything.
         let axes = if grid.n[2] == 1 { 2 } else { 3 };
@@ -203,6 +220,15 @@ impl Hmm {
                 invalid(&format!("trajectory.{}", field.0), &problem)
             })?;
         }
+        let initial_m = trajectory.initial_m.get();
+        let mut size = [0, 1].map(|_| Arc::from([1.0]));
+        for (a, size) in size.iter_mut().enumerate().filter(|_| initial_m > 0.0) {
+            *size = spread(initial_m, grid.cell_m[a]).ok_or_else(|| {
+                let most = shown(widest(grid.cell_m[a]));
+                let problem = format!("must be at most {most} in these cells, got {initial_m}");
+                invalid("trajectory.initial_m", &problem)
+            })?;
+        }
         Ok(Self {
             with,
             steps: VecDeque::new(),
@@ -210,10 +236,11 @@ impl Hmm {
             assumed: Vec::new(),
             steady_before: trajectory.steady_before,
             aside,
+            size,
             drifts: vec![Drift::default(); grid.n[2]],
             step_s,
             b: trajectory.mu.get(),
-            gatherer: Gatherer::new(trajectory, [grid.cell_m[0], grid.cell_m[1]]),
+            gatherer: Gatherer::new(trajectory, [0, 1].map(|a| grid.cell_m[a] * places)),
             terms: Terms::new(grid.n),
             seen_marks: 0,
             levels: if spec.sheared {
@@ -336,7 +363,7 @@ impl Mapper for Hmm {
         };
         let mut likelihood = std::mem::take(&mut self.with.likelihood);
         self.not_detecting(sighting.cell, &mut likelihood);
-        self.with.evidence.weigh(sighting.detected, &mut likelihood);
+        (self.with.evidence).weigh(sighting.t_s, sighting.detected, &mut likelihood);
         self.with.likelihood = likelihood;
         self.with.update(sighting.t_s, sighting.detected);
         if let Some((every_s, steps)) = self.say
@@ -351,5 +378,9 @@ impl Mapper for Hmm {
 
     fn belief(&self) -> &Belief {
         self.with.belief.belief()
+    }
+
+    fn ln_evidence(&self) -> f64 {
+        self.with.belief.ln_evidence()
     }
 }

@@ -29,7 +29,7 @@ impl Hmm {
                 f64::NEG_INFINITY
             }
         };
-        let mut value: Vec<f64> = self.belief().p.iter().map(|p| ln(*p)).collect();
+        let mut value: Vec<f64> = (self.with.belief.p().iter()).map(|p| ln(*p)).collect();
         let mut from: Vec<Vec<u32>> = Vec::with_capacity(age * 3);
         for step in &chain[first..] {
             // A is a product of one matrix per axis, so the best hop is found axis by axis.

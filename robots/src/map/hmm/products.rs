@@ -12,7 +12,6 @@
 
 use super::mapper::Hmm;
 use crate::handoff::Odour;
-use crate::map::catalogue::Mapper;
 use world::math;
 
 impl Hmm {
@@ -20,7 +19,7 @@ impl Hmm {
     #[must_use]
     pub fn detection_map(&self) -> Vec<f64> {
         let n = self.grid.n;
-        let source = self.belief().p.clone();
+        let source = self.with.belief.p();
         let mut alpha = vec![0.0; self.grid.len()];
         let mut next = alpha.clone();
         for step in self.chain() {

@@ -192,6 +192,7 @@ fn a_level_not_visited_has_the_flow_of_the_nearest_that_was() {
             p_W: Vector3::new(50.0, 50.0, z),
             detected: Some(false),
             flow: Some(Vector2::new(u, 0.0)),
+            fixed: false,
         });
     }
     let last = hmm.steps.back().expect("a step");
@@ -232,6 +233,7 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
             p_W: Vector3::new(80.0, 50.0, -2.0),
             detected: Some((20..25).contains(&t)),
             flow: Some(Vector2::new(1.0, 0.0)),
+            fixed: false,
         };
         asked.step(&seen);
         silent.step(&seen);
@@ -252,4 +254,48 @@ fn what_else_it_knows_is_said_when_asked_and_changes_no_map() {
     let east = |c: usize| odour.grid.centre(c).x;
     assert!(odour.came.len() > 1 && east(odour.came[0]) < 80.0);
     assert!(odour.detection.iter().all(|p| (0.0..=1.0).contains(p)));
+}
+
+/// With several places in a cell the chance at the vehicle's place, in a chain of finer cells, stands for a whole cell.
+#[test]
+fn odour_at_the_vehicles_place_stands_for_a_cell() {
+    let make = |n: [u32; 2], places: u32| {
+        let spec = HmmSpec {
+            grid: GridSpec {
+                along: n[0],
+                across: n[1],
+                places,
+                ..GridSpec::default()
+            },
+            trajectory: TrajectorySpec {
+                sigma_x_m_rts: Positive::new(4.0),
+                sigma_y_m_rts: Positive::new(3.0),
+                lookback_s: Positive::new(20.0),
+                merge: world::ranges::Fraction::new(0.0),
+                ..TrajectorySpec::default()
+            },
+            ..HmmSpec::default()
+        };
+        let mut hmm =
+            Hmm::new(&spec, spec.grid.build(&paper_area()).expect("grid")).expect("mapper");
+        for u in [[9.0, 1.0], [11.0, -4.0], [7.0, 3.0]] {
+            hmm.push_step(&[u]);
+        }
+        hmm
+    };
+    let (mut places, cells) = (make([4, 3], 3), make([12, 9], 1));
+    assert_eq!(places.grid.n, cells.grid.n);
+    let at = cells.grid.index([8, 4, 0]);
+    let mut wanted = vec![1.0; cells.grid.len()];
+    cells.back(at, |g| {
+        for (w, g) in wanted.iter_mut().zip(g) {
+            *w *= 1.0 - cells.b * (9.0 * g).min(1.0);
+        }
+    });
+    let mut got = vec![0.0; wanted.len()];
+    places.not_detecting(at, &mut got);
+    assert!(wanted.iter().any(|w| *w < 0.9));
+    for (got, wanted) in got.iter().zip(&wanted) {
+        assert!((got - wanted).abs() < 1e-12, "{got} {wanted}");
+    }
 }

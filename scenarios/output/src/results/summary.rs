@@ -1,6 +1,6 @@
 //! What `summary.json` says about a run.
 
-use super::MapEnd;
+use super::{MapEnd, MapStated};
 use crate::results::GantrySummary;
 use rheotaxis::abnormal::{Abnormal, Abnormality};
 use rheotaxis::outcome::RunOutcome;
@@ -138,6 +138,8 @@ pub struct RobotSummary {
     pub correct_cell_s: Option<f64>,
     /// The final state of its map; `None` for a robot without a map.
     pub map: Option<MapEnd>,
+    /// How sure the map was at the first declaration, or at the end without one, and whether that was true.
+    pub map_stated: Option<MapStated>,
     /// Length of the true path, m.
     pub travelled_m: f64,
     /// Distance between believed and true position at the end, m.

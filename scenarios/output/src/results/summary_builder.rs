@@ -1,13 +1,13 @@
 //! Gathers a summary from the frames of a run.
 
 use super::GantryPath;
-use super::MapEnd;
 use super::RunInfo;
 use super::sources::SourceTruth;
 use super::summary::{
     AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
     RunSummary, SourceSummary, Summary, Totals, Versions,
 };
+use super::{MapEnd, MapStated};
 use nalgebra::Vector2;
 use rheotaxis::frame::{Frame, RobotFrame};
 use rheotaxis::outcome::RunOutcome;
@@ -53,8 +53,9 @@ struct Robot {
     behaviour_s: Vec<(Behaviour, f64)>,
     /// The most probable cell of its map and since when, with the map's cells.
     best: Option<(f64, usize, Arc<BeliefGrid>)>,
-    /// The last map.
+    /// The last map, and the one at the first declaration.
     map: Option<Belief>,
+    map_declared: Option<Belief>,
 }
 
 impl Robot {
@@ -70,6 +71,7 @@ impl Robot {
             behaviour_s: Vec::new(),
             best: None,
             map: None,
+            map_declared: None,
         }
     }
 
@@ -97,6 +99,9 @@ impl Robot {
         if let Some(b) = &r.belief {
             // A copy is cheap: it only counts two references, because the cells are shared.
             self.map = Some(b.clone());
+        }
+        if !r.declarations.is_empty() && self.map_declared.is_none() {
+            self.map_declared = self.map.clone();
         }
     }
 
@@ -144,6 +149,10 @@ impl Robot {
             declarations,
             regions_timed_out: self.regions.all.iter().filter(timed_out).count(),
             map: (self.map.as_ref()).map(|last| MapEnd::of(last, &score.declarations, sources)),
+            map_stated: match (&self.map_declared, &self.map) {
+                (Some(map), _) => Some(MapStated::of(map, true, sources)),
+                (None, map) => (map.as_ref()).map(|last| MapStated::of(last, false, sources)),
+            },
             regions: (self.regions.all.iter().zip(0..))
                 .map(|(region, k)| RegionSummary {
                     name: region_name(k),

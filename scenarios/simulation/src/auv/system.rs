@@ -64,6 +64,7 @@ pub(crate) fn update_map(
             p_W: Vector3::new(p.x, p.y, -estimate.depth_m),
             detected: readings.chemical.map(|c| c.detected),
             flow: estimate.flow.map(|f| f.velocity),
+            fixed: readings.lbl.is_some(),
         });
         let new = mapping.mapper.belief();
         if new.updates != belief.updates {

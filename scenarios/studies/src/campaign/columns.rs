@@ -32,6 +32,11 @@ macro_rules! number {
         column!($f, false, Number, |r| Some(r.$f), |r, v| r.$f = v)
     };
 }
+macro_rules! maybe_number {
+    ($f:ident) => {
+        column!($f, true, Number, |r| r.$f, |r, v| r.$f = Some(v))
+    };
+}
 macro_rules! text {
     ($f:ident) => {
         column!($f, false, Text, |r| Some(&r.$f), |r, v| r.$f = v)
@@ -83,6 +88,11 @@ impl Record for RunRow {
         maybe!(far_offset_m),
         maybe!(near_offset_m),
         maybe!(correct_cell_s),
+        maybe!(map_cell_p),
+        maybe!(map_near_p),
+        maybe_number!(map_cell_true),
+        maybe_number!(map_near_true),
+        maybe_number!(map_declared),
         real!(spin_up_wall_s),
         real!(mission_wall_s),
     ];
@@ -98,8 +108,7 @@ impl Record for DeclarationRow {
         number!(seed),
         text!(robot),
         number!(number),
-        column!(region, true, Number, |d| d.region, |d, v| d.region =
-            Some(v)),
+        maybe_number!(region),
         text!(rule),
         text!(verdict),
         real!(t_s),

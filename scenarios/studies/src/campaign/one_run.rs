@@ -149,6 +149,7 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         paired(|g| g.speed_far_near_m_s),
         paired(|g| g.offset_far_near_m),
     );
+    let stated = summary.robots.iter().find_map(|r| r.map_stated.as_ref());
     let error = declared.and_then(|d| d.error.as_ref());
     let evidence = declared.and_then(|d| d.evidence);
     let RunSummary { totals, .. } = summary.run;
@@ -184,6 +185,11 @@ fn row(name: &RunName, summary: &Summary, within_m: Option<f64>) -> RunRow {
         near_offset_m,
         correct_cell_s: (summary.robots.iter().filter_map(|r| r.correct_cell_s))
             .min_by(f64::total_cmp),
+        map_cell_p: stated.map(|m| m.cell_p),
+        map_near_p: stated.map(|m| m.near_p),
+        map_cell_true: stated.and_then(|m| m.cell_true).map(u64::from),
+        map_near_true: stated.and_then(|m| m.near_true).map(u64::from),
+        map_declared: stated.map(|m| m.at_declaration.into()),
         spin_up_wall_s: totals.spin_up_wall_s,
         mission_wall_s: totals.mission_wall_s,
         error: None,

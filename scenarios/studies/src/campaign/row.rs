@@ -70,6 +70,17 @@ pub struct RunRow {
     pub near_offset_m: Option<f64>,
     /// When a belief's best cell became that of the source and stayed so to the end, s.
     pub correct_cell_s: Option<f64>,
+    /// Probability that the map of the first robot with a map stated of its best cell, at the robot's first
+    /// declaration, or at the end of a run without one.
+    pub map_cell_p: Option<f64>,
+    /// Probability that it stated of a source within 5 m of that cell's centre.
+    pub map_near_p: Option<f64>,
+    /// Whether the cell held a true source: 1 or 0.
+    pub map_cell_true: Option<u64>,
+    /// Whether a true source was within 5 m of its centre: 1 or 0.
+    pub map_near_true: Option<u64>,
+    /// Whether the robot declared: 1, or 0 if the map is that of the end.
+    pub map_declared: Option<u64>,
     /// Wall time of the spin-up, s; zero if another run of the seed has it, because they shared the spin-up.
     pub spin_up_wall_s: f64,
     /// Wall time of the mission, s. Of runs in lanes each has its share.

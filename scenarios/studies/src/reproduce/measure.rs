@@ -16,6 +16,11 @@ pub enum RunEvent {
     MostlyAlong,
     /// The belief's best cell became that of the source and stayed so to the end.
     CorrectCell,
+    /// Of runs with a map: the cell that it stated to be the best at the declaration, or at the end without one, was
+    /// that of a source.
+    MapCellTrue,
+    /// The same for a source within 5 m of that cell's centre.
+    MapNearTrue,
     /// A source was declared in this subregion (counted from 0), or on its up-flow edge.
     RegionDeclared(u32),
     /// The declaration of this subregion is on its up-flow edge.
@@ -47,6 +52,8 @@ impl RunEvent {
                 (r.error_along_m.zip(r.error_across_m)).map(|(a, b)| a.abs() > b.abs())
             }
             RunEvent::CorrectCell => Some(r.correct_cell_s.is_some()),
+            RunEvent::MapCellTrue => r.map_cell_true.map(|yes| yes > 0),
+            RunEvent::MapNearTrue => r.map_near_true.map(|yes| yes > 0),
             RunEvent::RegionDeclared(k) => Some(of_region(r, k).is_some()),
             RunEvent::RegionAtEdge(k) => Some(of_region(r, k).is_some_and(DeclarationRow::at_edge)),
             RunEvent::RegionFixOver(k, m) => {
@@ -96,6 +103,12 @@ pub enum Measure {
     OffsetGainM,
     /// Time at which the belief's best cell finally became that of the source, s.
     CorrectCellS,
+    /// Length of the mission, s, in runs that did not fail.
+    MissionS,
+    /// Probability that the map stated of its best cell at the declaration, or at the end without one.
+    MapCellP,
+    /// The same of 5 m round its centre.
+    MapNearP,
     /// Number of declarations of a run.
     Declarations,
     /// Declarations of a run at least so many metres from every true source and on no subregion's edge.
@@ -123,7 +136,9 @@ impl Measure {
             | Measure::IdentificationS
             | Measure::LcdpIntervalS
             | Measure::TrackedS
-            | Measure::CorrectCellS => Unit::Seconds,
+            | Measure::CorrectCellS
+            | Measure::MissionS => Unit::Seconds,
+            Measure::MapCellP | Measure::MapNearP => Unit::Share,
             Measure::SpeedMS | Measure::NearGainMS => Unit::Speed,
             Measure::Ngdr
             | Measure::Declarations
@@ -160,6 +175,9 @@ impl Measure {
             Measure::NearGainMS => less(r.near_speed_m_s, r.far_speed_m_s),
             Measure::OffsetGainM => less(r.far_offset_m, r.near_offset_m),
             Measure::CorrectCellS => r.correct_cell_s,
+            Measure::MissionS => r.error.is_none().then_some(r.mission_s),
+            Measure::MapCellP => r.map_cell_p,
+            Measure::MapNearP => r.map_near_p,
             Measure::Declarations => sound(r.declarations.len()),
             Measure::FarDeclarations(m) => sound(
                 (r.declarations.iter())

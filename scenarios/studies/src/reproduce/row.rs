@@ -34,6 +34,9 @@ pub struct Row {
     /// Seeds of a first look (`--quick`): fewer where a run takes long.
     #[serde(default = "quick")]
     pub quick: NonZeroU64,
+    /// Whether the reliability of the arms' maps is shown: what they state against what is true.
+    #[serde(default)]
+    pub reliability: bool,
     /// The figures compared.
     pub figures: Vec<Figure>,
 }
@@ -189,6 +192,11 @@ const ROWS: &[(&str, &str)] = &[
     row!("dalian_bay"),
     row!("duck_mt"),
     row!("san_clemente"),
+    row!("reliability_duck"),
+    row!("reliability_four"),
+    row!("reliability_harbour"),
+    row!("reliability_laminar"),
+    row!("reliability_turbulent"),
     row!("t13_rate"),
     row!("t13_siz_t"),
     row!("t13_siz_f"),

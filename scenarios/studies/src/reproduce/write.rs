@@ -4,7 +4,9 @@ use super::compare::{Compared, Standing};
 use super::row::Paper;
 use super::run::Reproduced;
 use crate::campaign::as_csv;
-use crate::campaign::report::{Walls, align, range};
+use crate::campaign::report::{
+    RELIABILITY, Reliability, Walls, align, range, reliability, reliable,
+};
 use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -79,11 +81,29 @@ pub fn table(r: &Reproduced) -> String {
     writeln!(out, "{} [{}]\n", runs_line(r), r.row.source).expect(TEXT);
     let rows: Vec<[String; 6]> = r.figures.iter().map(cells).collect();
     out.push_str(&align(&HEAD, &rows));
+    let maps = maps(r);
+    if !maps.is_empty() {
+        out.push('\n');
+        out.push_str(&align(&RELIABILITY, &reliable::table(&maps)));
+        writeln!(out, "\n{}", reliable::notes(&maps)).expect(TEXT);
+    }
     if let Some(error) = first_error(r) {
         writeln!(out, "\nfirst failure: {error}").expect(TEXT);
     }
     writeln!(out, "\n{}", Walls::of(&r.runs).words()).expect(TEXT);
     out
+}
+
+/// How reliable the maps of a row's arms are, in the order of the arms; none if the row does not show it.
+fn maps(r: &Reproduced) -> Vec<Reliability> {
+    if !r.row.reliability {
+        return Vec::new();
+    }
+    let of = |arm: &String| {
+        let runs: Vec<_> = r.runs.iter().filter(|run| run.arm == *arm).collect();
+        reliability(arm, &runs)
+    };
+    r.row.arms.iter().flat_map(|a| of(&a.name)).collect()
 }
 
 /// Writes REPRODUCTION.md, figures.csv, rows.csv and declarations.csv into a folder, which is made if necessary.
@@ -103,6 +123,15 @@ pub fn write(dir: &Path, all: &[Reproduced]) -> Result<Vec<PathBuf>, ReportError
     // If one file cannot be written, the others are not affected.
     let mut failures = Vec::new();
     let mut written = Vec::new();
+    let mut files = files.map(|(name, text)| (name.to_string(), text)).to_vec();
+    for r in all {
+        let maps = maps(r);
+        if !maps.is_empty() {
+            files.push((format!("{}.csv", r.row.id), reliable::csv(&maps)));
+            let svg = reliable::picture(&maps, reliable::colour);
+            files.push((format!("{}.svg", r.row.id), svg));
+        }
+    }
     for (name, text) in files {
         match write_whole(&dir.join(name), text.as_bytes()) {
             Ok(path) => written.push(path),
@@ -149,6 +178,21 @@ fn markdown(all: &[Reproduced]) -> String {
         out.push('\n');
         for c in r.figures.iter().filter(|c| !c.figure.note.is_empty()) {
             writeln!(out, "- {}: {}.", c.figure.name, c.figure.note).expect(TEXT);
+        }
+        let maps = maps(r);
+        if !maps.is_empty() {
+            let rule = " --- |".repeat(RELIABILITY.len());
+            writeln!(out, "\n| {} |\n|{rule}", RELIABILITY.join(" | ")).expect(TEXT);
+            for line in reliable::table(&maps) {
+                writeln!(out, "| {} |", line.join(" | ")).expect(TEXT);
+            }
+            writeln!(
+                out,
+                "\n{}\n\n![]({}.svg)\n",
+                reliable::notes(&maps),
+                r.row.id
+            )
+            .expect(TEXT);
         }
         if let Some(error) = first_error(r) {
             writeln!(out, "- First failure: {error}.").expect(TEXT);

@@ -5,6 +5,7 @@ mod curves;
 mod page;
 mod pairs;
 mod plots;
+mod reliability;
 mod restricted;
 mod tables;
 mod text;
@@ -19,6 +20,13 @@ mod tests;
 
 pub use arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
 pub use curves::{Curve, Point};
+pub use reliability::{Bin, Reliability, Stated};
+pub(crate) use reliability::{RELIABILITY, reliability};
+pub(crate) mod reliable {
+    //! The reliability of maps as table, notes, CSV and picture.
+    pub(crate) use super::plots::colour;
+    pub(crate) use super::reliability::{csv, notes, picture, table};
+}
 pub use pairs::{Compares, Comparison};
 pub use restricted::Restricted;
 pub(crate) use tables::range;

@@ -22,7 +22,8 @@ const LINE: f64 = 24.0;
 /// Space for names to the left of a list.
 const NAMES: f64 = 300.0;
 
-fn colour(k: usize) -> &'static str {
+/// Colour of the k-th arm.
+pub(crate) fn colour(k: usize) -> &'static str {
     COLOURS[k % COLOURS.len()]
 }
 

@@ -4,7 +4,7 @@ use super::arms::{self, arm_names, of_arm};
 use super::page::Page;
 use super::text::align;
 use super::walls::Walls;
-use super::{curves, pairs, plots, tables};
+use super::{curves, pairs, plots, reliability, tables};
 use crate::campaign::RunRow;
 use output::files::{Kept, ReportError, begin_folder};
 use std::path::{Path, PathBuf};
@@ -101,6 +101,16 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         kept.write("conditions.csv", csv.as_bytes());
     }
 
+    let reliable: Vec<_> = (grouped.iter())
+        .flat_map(|(name, rows)| reliability::reliability(name, rows))
+        .collect();
+    if !reliable.is_empty() {
+        let csv = reliability::csv(&reliable);
+        kept.write("reliability.csv", csv.as_bytes());
+        let svg = reliability::picture(&reliable, plots::colour);
+        kept.figure("reliability", &svg);
+    }
+
     let mut drawn = vec![
         ("success", plots::success(&figures)),
         (
@@ -194,6 +204,12 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         page.heading("Conditions");
         page.table(&tables::CONDITIONS, &tables::conditions(&conditions));
     }
+    if !reliable.is_empty() {
+        page.heading("How sure the maps are");
+        page.table(&reliability::RELIABILITY, &reliability::table(&reliable));
+        page.paragraph(&reliability::notes(&reliable));
+        page.svg(&reliability::picture(&reliable, plots::colour));
+    }
     page.heading("Where the time goes");
     page.paragraph(&walls);
     if let Some(error) = &first_error {
@@ -217,6 +233,12 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         for warning in &warnings {
             text.push_str(&format!("\nWarning: {warning}\n"));
         }
+    }
+    if !reliable.is_empty() {
+        text.push('\n');
+        let table = reliability::table(&reliable);
+        text.push_str(&align(&reliability::RELIABILITY, &table));
+        text.push_str(&format!("\n{}\n", reliability::notes(&reliable)));
     }
     text.push('\n');
     text.push_str(&walls);

@@ -16,7 +16,8 @@ fn holds_every_file_of_the_folder_and_each_says_where_it_comes_from() {
     assert_eq!(files, ids);
     for r in &rows {
         assert!(!r.row.source.is_empty() && !r.row.what.is_empty());
-        assert!(r.row.figures.iter().any(|f| f.paper.is_some()));
+        // No paper says how reliable its map is.
+        assert!(r.row.reliability || r.row.figures.iter().any(|f| f.paper.is_some()));
         assert!(r.loaded.check().is_ok());
     }
 }

@@ -1,0 +1,324 @@
+//! Reliability of source maps: the probability that they state, against the share of runs in which it is true.
+//!
+//! *Source*: reliability diagram: Murphy & Winkler 1977, Applied Statistics 26, 41; intervals of the shares: Wilson.
+
+use super::unit::Unit;
+use crate::campaign::RunRow;
+use crate::campaign::stats::{Interval, wilson};
+use output::charts::canvas::{Anchor, Canvas, Style};
+use output::charts::palette::GREY;
+use output::charts::panel::Panel;
+use output::files::{csv_number, csv_text};
+
+/// Edges of the bins of the stated probability. They are closer where maps are sure.
+const EDGES: [f64; 8] = [0.0, 0.2, 0.4, 0.6, 0.8, 0.9, 0.99, 1.0];
+
+/// Of what a map states a probability.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stated {
+    /// The source is in the best cell.
+    Cell,
+    /// The source is within 5 m of its centre.
+    Near,
+}
+
+impl Stated {
+    /// Both.
+    pub const ALL: [Stated; 2] = [Stated::Cell, Stated::Near];
+
+    /// In words.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Stated::Cell => "best cell",
+            Stated::Near => "within 5 m of it",
+        }
+    }
+
+    /// The stated probability, and whether it was true; `None` without a map or a source.
+    fn of(self, r: &RunRow) -> Option<(f64, bool)> {
+        let (p, yes) = match self {
+            Stated::Cell => (r.map_cell_p, r.map_cell_true),
+            Stated::Near => (r.map_near_p, r.map_near_true),
+        };
+        p.zip(yes.map(|y| y > 0))
+    }
+}
+
+/// Runs whose maps stated a probability within some bounds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bin {
+    /// Bounds of the stated probability.
+    pub from: f64,
+    /// See above; it belongs to the next bin, if there is one.
+    pub to: f64,
+    /// Number of runs.
+    pub n: u64,
+    /// Mean of what they stated.
+    pub stated: f64,
+    /// In how many it was true.
+    pub count: u64,
+}
+
+impl Bin {
+    fn new(from: f64, to: f64, said: &[(f64, bool)]) -> Option<Self> {
+        let n = said.len();
+        (n > 0).then(|| Self {
+            from,
+            to,
+            n: n as u64,
+            stated: said.iter().map(|s| s.0).sum::<f64>() / n as f64,
+            count: said.iter().filter(|s| s.1).count() as u64,
+        })
+    }
+
+    /// The share that was true.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.count as f64 / self.n as f64
+    }
+
+    /// Its interval.
+    #[must_use]
+    pub fn interval(&self) -> Interval {
+        wilson(self.count, self.n)
+    }
+}
+
+/// How reliable the maps of an arm are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reliability {
+    /// Name of the arm.
+    pub arm: String,
+    /// Of what.
+    pub of: Stated,
+    /// All runs.
+    pub all: Bin,
+    /// By what they stated; bins without a run are left out.
+    pub bins: Vec<Bin>,
+    /// How many of the maps are those at a declaration; the others are those of the end.
+    pub declared: u64,
+}
+
+/// Of an arm's runs that have a map: two statements each.
+pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
+    let one = |of: Stated| {
+        let said: Vec<_> = rows.iter().filter_map(|r| of.of(r)).collect();
+        let bins = EDGES.windows(2).filter_map(|e| {
+            let last = e[1] == EDGES[EDGES.len() - 1];
+            let inside = |p: f64| p >= e[0] && (p < e[1] || last);
+            let of: Vec<_> = said.iter().copied().filter(|s| inside(s.0)).collect();
+            Bin::new(e[0], e[1], &of)
+        });
+        let declared = rows
+            .iter()
+            .filter(|r| of.of(r).is_some() && r.map_declared == Some(1));
+        Some(Reliability {
+            arm: arm.to_string(),
+            of,
+            all: Bin::new(0.0, 1.0, &said)?,
+            bins: bins.collect(),
+            declared: declared.count() as u64,
+        })
+    };
+    Stated::ALL.into_iter().filter_map(one).collect()
+}
+
+/// Head of the table.
+pub(crate) const RELIABILITY: [&str; 7] = [
+    "arm",
+    "probability of",
+    "stated",
+    "runs",
+    "stated, mean",
+    "true",
+    "95 % interval",
+];
+
+/// The table: all runs of an arm, then bin by bin.
+pub(crate) fn table(all: &[Reliability]) -> Vec<[String; 7]> {
+    let of_arm = |r: &Reliability| {
+        let line = |b: &Bin, between: String| {
+            let interval = Unit::Share.show_interval(b.interval());
+            [
+                r.arm.clone(),
+                r.of.words().to_string(),
+                between,
+                b.n.to_string(),
+                Unit::Share.show(b.stated),
+                Unit::Share.show(b.share()),
+                interval,
+            ]
+        };
+        let mut lines = vec![line(&r.all, "any".to_string())];
+        let between = |b: &Bin| format!("{:.0} to {:.0} %", 100.0 * b.from, 100.0 * b.to);
+        lines.extend(r.bins.iter().map(|b| line(b, between(b))));
+        lines
+    };
+    all.iter().flat_map(of_arm).collect()
+}
+
+/// What stands below the table.
+pub(crate) fn notes(all: &[Reliability]) -> String {
+    let ends: Vec<String> = (all.iter().filter(|r| r.of == Stated::Cell))
+        .filter(|r| r.declared < r.all.n)
+        .map(|r| format!("{} of {} of {}", r.all.n - r.declared, r.all.n, r.arm))
+        .collect();
+    let without = match ends.as_slice() {
+        [] => "All declared.".to_string(),
+        some => format!("Without a declaration: {}.", some.join(", ")),
+    };
+    format!(
+        "One statement a run: of the map at the robot's first declaration, or at the end of a run without one. {without} \
+         Shares with Wilson's 95 % interval."
+    )
+}
+
+/// The same as CSV.
+pub(crate) fn csv(all: &[Reliability]) -> String {
+    let of_arm = |r: &Reliability| {
+        let line = |b: &Bin| {
+            let i = b.interval();
+            [
+                r.arm.clone(),
+                r.of.words().to_string(),
+                b.from.to_string(),
+                b.to.to_string(),
+                b.n.to_string(),
+                csv_number(Some(b.stated)),
+                b.count.to_string(),
+                csv_number(Some(b.share())),
+                csv_number(Some(i.low)),
+                csv_number(Some(i.high)),
+            ]
+        };
+        let bins: Vec<_> = std::iter::once(&r.all).chain(&r.bins).map(line).collect();
+        bins
+    };
+    csv_text(
+        "arm,probability_of,from,to,n,stated,count,share,low,high",
+        all.iter().flat_map(of_arm),
+    )
+}
+
+const SIDE: f64 = 330.0;
+const LEFT: f64 = 72.0;
+const TOP: f64 = 62.0;
+
+/// The picture: a panel for each statement, a line for each arm; the diagonal is a map that is as sure as it should be.
+pub(crate) fn picture(all: &[Reliability], colour: fn(usize) -> &'static str) -> String {
+    let mut arms: Vec<&str> = all.iter().map(|r| r.arm.as_str()).collect();
+    arms.dedup();
+    let below = TOP + SIDE + 38.0;
+    let width = LEFT + 2.0 * SIDE + 96.0;
+    let mut c = Canvas::new(width, below + 17.0 * arms.len() as f64 + 14.0);
+    let title = "Probability that the map states, and the share that is true, with 95 % interval";
+    c.bold([LEFT, 24.0], 13.0, Anchor::Start, title);
+    for (k, of) in Stated::ALL.into_iter().enumerate() {
+        let panel = Panel {
+            left: LEFT + k as f64 * (SIDE + 72.0),
+            top: TOP,
+            width: SIDE,
+            height: SIDE,
+            x: [0.0, 1.0],
+            y: [0.0, 1.0],
+        };
+        panel.grid(&mut c, 60.0);
+        let diagonal = panel.all(&[[0.0, 0.0], [1.0, 1.0]]);
+        c.polyline(diagonal, &Style::line(GREY, 1.0).dashed("4 4"));
+        for (n, arm) in arms.iter().enumerate() {
+            let line = Style::line(colour(n), 1.6);
+            let Some(r) = all.iter().find(|r| r.arm == *arm && r.of == of) else {
+                continue;
+            };
+            let points: Vec<[f64; 2]> = r.bins.iter().map(|b| [b.stated, b.share()]).collect();
+            c.polyline(panel.all(&points), &line);
+            for b in &r.bins {
+                let i = b.interval();
+                let bar = [i.low, i.high].map(|y| panel.at([b.stated, y]));
+                c.line(bar[0], bar[1], &Style::line(colour(n), 0.8));
+                // Area by the number of runs.
+                let share = b.n as f64 / r.all.n as f64;
+                let size = 2.0 + 5.0 * share.sqrt();
+                c.circle(
+                    panel.at([b.stated, b.share()]),
+                    size,
+                    &Style::fill(colour(n)),
+                );
+            }
+        }
+        panel.frame(&mut c, 1.0);
+        panel.x_ticks(&mut c, true, 11.0);
+        panel.y_ticks(&mut c, 60.0, 11.0);
+        let middle = panel.left + SIDE / 2.0;
+        c.text([middle, TOP - 10.0], 12.0, Anchor::Middle, of.words());
+        c.text([middle, TOP + SIDE + 34.0], 12.0, Anchor::Middle, "Stated");
+    }
+    c.upright([22.0, TOP + SIDE / 2.0], 12.0, "Share that is true");
+    for (k, arm) in arms.iter().enumerate() {
+        let y = below + 17.0 * (k + 1) as f64;
+        let n = all.iter().find(|r| r.arm == *arm).map_or(0, |r| r.all.n);
+        c.line(
+            [LEFT, y - 4.0],
+            [LEFT + 26.0, y - 4.0],
+            &Style::line(colour(k), 2.0),
+        );
+        let words = format!("{arm} (n = {n})");
+        c.text([LEFT + 34.0, y], 11.0, Anchor::Start, &words);
+    }
+    c.svg("reliability")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::sample::row;
+    use super::*;
+
+    /// States `p` of the cell and 1 of 5 m round it.
+    fn stated(k: u64, p: f64, cell: bool, declared: bool) -> RunRow {
+        RunRow {
+            map_cell_p: Some(p),
+            map_near_p: Some(1.0),
+            map_cell_true: Some(cell.into()),
+            map_near_true: Some(1),
+            map_declared: Some(declared.into()),
+            ..row(k, None)
+        }
+    }
+
+    #[test]
+    fn each_run_counts_once_in_the_bin_of_what_it_stated() {
+        let mut rows: Vec<RunRow> = (0..10).map(|k| stated(k, 0.3, k < 3, true)).collect();
+        rows.extend((0..4).map(|k| stated(10 + k, 1.0, k < 2, k > 0)));
+        rows.push(row(99, Some((1.0, 1.0))));
+        let of: Vec<&RunRow> = rows.iter().collect();
+        let all = reliability("a", &of);
+        assert_eq!(all.len(), 2);
+        let cell = &all[0];
+        assert_eq!((cell.all.n, cell.all.count, cell.declared), (14, 5, 13));
+        assert!((cell.all.stated - 0.5).abs() < 1e-12);
+        let bins: Vec<_> = cell.bins.iter().map(|b| (b.from, b.n, b.count)).collect();
+        assert_eq!(bins, [(0.2, 10, 3), (0.99, 4, 2)]);
+        assert_eq!(cell.bins[0].interval(), wilson(3, 10));
+        // A bin's lower bound belongs to it, its upper one to the next.
+        let edge = stated(0, 0.2, true, true);
+        assert_eq!(reliability("a", &[&edge])[0].bins[0].from, 0.2);
+        let near = &all[1];
+        assert_eq!((near.all.share(), near.bins.len()), (1.0, 1));
+        let words = table(&all);
+        assert_eq!(
+            words[1][..6],
+            ["a", "best cell", "20 to 40 %", "10", "30.0 %", "30.0 %"]
+        );
+        assert!(notes(&all).contains("Without a declaration: 1 of 14 of a."));
+        assert_eq!(csv(&all).lines().count(), 1 + 3 + 2);
+        let svg = picture(&all, |_| "#000000");
+        assert!(svg.contains("a (n = 14)") && !svg.contains("NaN"));
+    }
+
+    #[test]
+    fn without_maps_there_is_none() {
+        let bare = row(1, None);
+        assert!(reliability("a", &[&bare]).is_empty());
+    }
+}
