@@ -3,9 +3,7 @@
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::handoff::{ActuatorCommand, GantryBehaviour, GantryDecision, TrackerState};
-use robots::vehicles::{
-    Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec,
-};
+use robots::vehicles::{Gantry, GantrySpec, InMemory, ParameterSet, RemusSpec, Vehicle};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -38,10 +36,10 @@ fn start() -> Truth {
 }
 
 fn auv(parameters: ParameterSet) -> Vehicle {
-    let spec = VehicleSpec::Remus100(RemusSpec {
+    let spec = RemusSpec {
         parameters,
         ..RemusSpec::default()
-    });
+    };
     Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 

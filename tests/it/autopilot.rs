@@ -3,7 +3,7 @@
 use nalgebra::{Matrix3, Vector2, Vector3};
 use robots::actuate::{Autopilot, AutopilotSpec};
 use robots::handoff::{Attitude, Command, Estimate, FlowEstimate, Setpoint, Vertical};
-use robots::vehicles::{InMemory, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, RemusSpec, Vehicle};
 use world::area::Area;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -33,8 +33,7 @@ impl Run {
             axis: Heading::from_deg(340.0),
         };
         let bed = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let vehicle =
-            Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
+        let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
         let mut physics = Physics::new(STEP_S);
         physics.add_terrain(&bed, &area);
         let pose = Pose::level(

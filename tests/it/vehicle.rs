@@ -5,7 +5,7 @@
 use crate::common::root;
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::{BodyId, Physics, Solver};
@@ -14,10 +14,10 @@ use world::units::Heading;
 const STEP_S: f64 = 0.02;
 
 fn vehicle(parameters: ParameterSet) -> Vehicle {
-    let spec = VehicleSpec::Remus100(RemusSpec {
+    let spec = RemusSpec {
         parameters,
         ..RemusSpec::default()
-    });
+    };
     Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle")
 }
 

@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{Actuators, InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{Actuators, InMemory, ParameterSet, RemusSpec, Vehicle};
 use std::path::Path;
 use world::area::Area;
 use world::fields::WaterSample;
@@ -29,10 +29,10 @@ impl Auv {
     }
 
     fn under(mut physics: Physics, parameters: ParameterSet, start: Truth) -> Self {
-        let spec = VehicleSpec::Remus100(RemusSpec {
+        let spec = RemusSpec {
             parameters,
             ..RemusSpec::default()
-        });
+        };
         let vehicle = Vehicle::load(&spec, &InMemory::default()).expect("built-in vehicle");
         let id = physics.add_body(vehicle.body_spec("auv", start));
         let water = WaterSample {

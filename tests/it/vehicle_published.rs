@@ -3,7 +3,7 @@
 
 use nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, ParameterSet, RemusSpec, Vehicle};
 use std::f64::consts::PI;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -241,10 +241,10 @@ fn apart(
         act: Vector3::zeros(),
     };
     let mut vehicle = Vehicle::load(
-        &VehicleSpec::Remus100(RemusSpec {
+        &RemusSpec {
             parameters: ParameterSet::Reference,
             ..RemusSpec::default()
-        }),
+        },
         &InMemory::default(),
     )
     .expect("built in");

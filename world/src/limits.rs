@@ -228,6 +228,12 @@ limits! {
     sonar_m: 0.01, 5000.0, "m";
     /// Turning radius of a vehicle, m.
     turn_m: 0.0, 10_000.0, "m";
+    /// Least turning radius of a vehicle without dynamics, m.
+    radius_m: 0.01, 10_000.0, "m";
+    /// Greatest turn rate of a vehicle without dynamics, degrees/s: up to a turn in half a second.
+    turn_deg_s: 0.01, 720.0, "degrees/s";
+    /// Time constant of a vehicle's response, s; zero means at once.
+    response_s: 0.0, 1000.0, "s";
     /// Distance that a planner looks ahead, m.
     look_m: 0.01, 1e5, "m";
     /// Spread of dye per square root of time, m/√s; 100 makes a kilometre in two minutes.

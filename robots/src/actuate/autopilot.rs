@@ -24,7 +24,6 @@
 
 use super::spec::AutopilotSpec;
 use crate::handoff::{ActuatorCommand, Command, Estimate, Setpoint, Vertical};
-use bevy_ecs::prelude::Component;
 
 /// Heading errors beyond this are turns, not offsets, rad.
 const OFFSET_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
@@ -36,7 +35,7 @@ const OFFSET_M_S: f64 = 0.3;
 const SLOWEST_M_S: f64 = 0.8;
 
 /// The autopilot of one vehicle.
-#[derive(Component, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Autopilot {
     spec: AutopilotSpec,
     /// ∫ heading error, rad s.

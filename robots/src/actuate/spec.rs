@@ -77,10 +77,18 @@ impl Default for AutopilotSpec {
 }
 
 /// Autopilots that a scenario can set up.
-pub const CATALOGUE: &[Entry] = &[Entry {
-    name: "autopilot",
-    what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by \
-        `autopilot: (...)`.",
-    source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: Pang \
-        2009, section 6",
-}];
+pub const CATALOGUE: &[Entry] = &[
+    Entry {
+        name: "autopilot",
+        what: "Heading by rudder, depth or altitude by pitch and stern plane, water speed by propeller; set up by \
+            `autopilot: (...)`.",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 15; limits: \
+            Pang 2009, section 6",
+    },
+    Entry {
+        name: "helm",
+        what: "Of a kinematic vehicle: heading, depth or altitude, and speed by their rates; it has no parameters but \
+            the vehicle's limits.",
+        source: "Dubins 1957; Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021, ch. 9",
+    },
+];

@@ -4,7 +4,8 @@
 //!
 //! *Parameters*: see [`GuidanceSpec`].
 //!
-//! *Deviations*: those of the modes, each stated in its file. A line whose ends coincide is a point.
+//! *Deviations*: those of the modes, each stated in its file. A line whose ends coincide is a point. For a vehicle
+//! that the water does not carry, nothing is compensated for, and its speed is that over ground.
 
 use super::cage::{cage, lost};
 use super::dubins::{Follower, FollowerLimits, Pose};
@@ -44,6 +45,8 @@ pub struct Guidance {
     goal_id: Option<u32>,
     done: bool,
     aborted: bool,
+    /// Whether the water carries the vehicle.
+    carried: bool,
 }
 
 impl Guidance {
@@ -57,7 +60,15 @@ impl Guidance {
             goal_id: None,
             done: false,
             aborted: false,
+            carried: true,
         }
+    }
+
+    /// The same for a vehicle that the water carries, or not: only drift is compensated for.
+    #[must_use]
+    pub fn carried(mut self, carried: bool) -> Self {
+        self.carried = carried;
+        self
     }
 
     /// The command for this tick and the state of the goal. A new `goal.id` restarts the manoeuvre; under the same id
@@ -96,9 +107,10 @@ impl Guidance {
         let wanted = self.course(est, goal, moving, dt_s);
         self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
         let course = cage(wanted, est.position, area, self.spec.cage_m.get());
-        let flow = est.flow.map_or_else(Vector2::zeros, |f| f.velocity);
+        let drift = est.flow.filter(|_| self.carried);
+        let drift = drift.map_or_else(Vector2::zeros, |f| f.velocity);
         let limit = self.spec.water_speed_limit_m_s.get();
-        let (heading, water_speed_m_s) = compensate(course, goal.speed_m_s, flow, limit);
+        let (heading, water_speed_m_s) = compensate(course, goal.speed_m_s, drift, limit);
         let setpoint = Setpoint {
             heading: self.filter.step(heading, est.attitude.heading, dt_s),
             water_speed_m_s,

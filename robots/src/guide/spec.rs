@@ -10,7 +10,7 @@ use world::ranges::Positive;
 pub struct GuidanceSpec {
     /// Greatest rate of the commanded heading, °/s (section 4: 10).
     pub heading_rate_deg_s: Positive,
-    /// Greatest speed through the water, m/s (section 4: 2).
+    /// Greatest speed through the water, m/s (section 4: 2); of a vehicle that the water does not carry, over ground.
     #[serde(deserialize_with = "world::limits::vehicle_m_s")]
     #[schemars(transform = world::limits::schema::vehicle_m_s)]
     pub water_speed_limit_m_s: Positive,

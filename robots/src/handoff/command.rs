@@ -1,6 +1,6 @@
 //! What the guidance commands the autopilot, and the autopilot the actuators.
 
-use super::Vertical;
+use super::{RateCommand, Vertical};
 use bevy_ecs::prelude::Component;
 use world::units::Heading;
 
@@ -9,7 +9,7 @@ use world::units::Heading;
 pub struct Setpoint {
     /// Heading to steer.
     pub heading: Heading,
-    /// Speed through the water, m/s.
+    /// Speed through the water, m/s; of a vehicle that the water does not carry, speed over ground.
     pub water_speed_m_s: f64,
     /// Vertical part.
     pub vertical: Vertical,
@@ -24,8 +24,42 @@ pub enum Command {
     Direct(ActuatorCommand),
 }
 
+/// What a vehicle's own drives are set to.
+#[derive(Component, Clone, Copy, Debug, PartialEq)]
+pub enum Actuation {
+    /// Of a vehicle with fins and a propeller.
+    Fins(ActuatorCommand),
+    /// Of a kinematic vehicle.
+    Rates(RateCommand),
+}
+
+impl Default for Actuation {
+    fn default() -> Self {
+        Self::Fins(ActuatorCommand::default())
+    }
+}
+
+impl Actuation {
+    /// The set-points with their names and units.
+    #[must_use]
+    pub fn named(&self) -> [(&'static str, f64); 3] {
+        match self {
+            Self::Fins(set) => [
+                ("rudder_rad", set.rudder_rad),
+                ("stern_rad", set.stern_rad),
+                ("rpm", set.rpm),
+            ],
+            Self::Rates(set) => [
+                ("turn_rad_s", set.turn_rad_s),
+                ("climb_m_s", set.climb_m_s),
+                ("speed_m_s", set.speed_m_s),
+            ],
+        }
+    }
+}
+
 /// Actuator set-points.
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ActuatorCommand {
     /// Rudder, rad (positive turns to starboard).
     pub rudder_rad: f64,

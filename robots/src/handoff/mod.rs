@@ -12,13 +12,14 @@ mod goal;
 mod layers;
 mod lcdp;
 mod pictures;
+mod rates;
 mod readings;
 mod regions;
 mod setting;
 mod side;
 
 pub use belief::{Belief, BeliefGrid, Odour};
-pub use command::{ActuatorCommand, Command, Setpoint};
+pub use command::{Actuation, ActuatorCommand, Command, Setpoint};
 pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, UP_FLOW_EDGE, Verdict};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation, detects};
 pub use gantry::{
@@ -29,6 +30,7 @@ pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
 pub use pictures::{Picture, SidescanPing};
+pub use rates::{RateCommand, RateLimits, TurnLimit};
 pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,
     DepthReading, DvlReading, LblFix, RangeScan, Readings,

@@ -1,6 +1,7 @@
 //! Parameters of a vehicle.
 
 use super::coefficients::ParameterSet;
+use super::kinematic_spec::KinematicSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
@@ -11,6 +12,8 @@ use world::catalogue::Entry;
 pub enum VehicleSpec {
     /// REMUS 100.
     Remus100(RemusSpec),
+    /// A vehicle without dynamics.
+    Kinematic(KinematicSpec),
 }
 
 impl Default for VehicleSpec {
@@ -36,6 +39,12 @@ pub const CATALOGUE: &[Entry] = &[
         what: "Torpedo-shaped survey vehicle of 31 kg: six degrees of freedom, rudder, stern plane, propeller.",
         source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; Prestero, MIT/WHOI \
             2001",
+    },
+    Entry {
+        name: "Kinematic",
+        what: "Vehicle without dynamics: speed over ground or through the water, bounded turn rate or turning radius, \
+            lag.",
+        source: "Dubins 1957; the point that searches in Li, Farrell & Cardé 2001, Adaptive Behavior 9",
     },
     Entry {
         name: "CrabGantry",

@@ -47,13 +47,13 @@ impl Vehicle {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{InMemory, RemusSpec, VehicleSpec};
+    use super::super::{InMemory, RemusSpec};
     use super::*;
 
     /// At full ahead a REMUS 100 of the published model makes some 2.5 m/s: 1000 rpm for 1.674 m/s, 1525 rpm at most.
     #[test]
     fn full_ahead_follows_from_thrust_and_drag() {
-        let remus = VehicleSpec::Remus100(RemusSpec::default());
+        let remus = RemusSpec::default();
         let vehicle = Vehicle::load(&remus, &InMemory::default()).unwrap();
         let cruise = vehicle.top_speed_m_s(1000.0);
         assert!((cruise - 1.674).abs() < 0.05, "{cruise}");

@@ -15,7 +15,20 @@ use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::physics::Shape;
 
-/// Contents of a vehicle's URDF.
+/// What any vehicle takes from its URDF.
+#[derive(Clone, Debug)]
+pub(super) struct Shell {
+    /// Collision shapes in body axes.
+    pub(super) shapes: Vec<(Pose, Shape)>,
+    /// Pose of each link in body axes.
+    pub(super) links: BTreeMap<String, Pose>,
+    /// Name of the link that is its body.
+    pub(super) body: String,
+    /// Its mass.
+    pub(super) ballast: Ballast,
+}
+
+/// Contents of the URDF of a vehicle with fins.
 #[derive(Clone, Debug)]
 pub(super) struct Hull {
     /// Collision shapes in body axes.
@@ -34,20 +47,32 @@ const NEEDED: [&str; 3] = ["rudder", "stern_plane", "propeller"];
 /// No part of a hull of some 1.6 m may lie farther from its middle than this, m.
 const FURTHEST_M: f64 = 10.0;
 
-/// Reads the text of a URDF and the mesh files that it names.
+/// Reads the text of the URDF of a vehicle with fins, and the mesh files that it names.
 pub(super) fn read(urdf: &UrdfText, c: &Coefficients) -> Result<Hull, RobotError> {
+    let shell = shell(urdf)?;
     let fail = |problem: String| urdf.fault(problem);
-    let robot = parse(&urdf.text).map_err(fail)?;
-    check_tree(&robot).map_err(fail)?;
-    let body = root(&robot).map_err(fail)?;
-    let links = place(&robot, &body.name).map_err(fail)?;
     for needed in NEEDED {
-        if !links.contains_key(needed) {
+        if !shell.links.contains_key(needed) {
             return Err(fail(format!("link \"{needed}\" is missing")));
         }
     }
-    let ballast = Ballast::of(&robot, &body.name, &links).map_err(fail)?;
-    let (coefficients, told) = ballast.put_into(&body.name, c).map_err(fail)?;
+    let (coefficients, told) = shell.ballast.put_into(&shell.body, c).map_err(fail)?;
+    Ok(Hull {
+        shapes: shell.shapes,
+        links: shell.links,
+        coefficients,
+        told,
+    })
+}
+
+/// Reads the text of any vehicle's URDF, and the mesh files that it names.
+pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
+    let fail = |problem: String| urdf.fault(problem);
+    let robot = parse(&urdf.text).map_err(fail)?;
+    check_tree(&robot).map_err(fail)?;
+    let body = root(&robot).map_err(fail)?.name.clone();
+    let links = place(&robot, &body).map_err(fail)?;
+    let ballast = Ballast::of(&robot, &body, &links).map_err(fail)?;
     let mut shapes = Vec::new();
     for link in &robot.links {
         let pose = &links[&link.name];
@@ -71,10 +96,10 @@ pub(super) fn read(urdf: &UrdfText, c: &Coefficients) -> Result<Hull, RobotError
             "no link has a <collision>: the hull could not touch anything".into(),
         ));
     }
-    Ok(Hull {
+    Ok(Shell {
         shapes,
         links,
-        coefficients,
-        told,
+        body,
+        ballast,
     })
 }

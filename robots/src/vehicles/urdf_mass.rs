@@ -75,6 +75,16 @@ impl Ballast {
         })
     }
 
+    /// Mass, kg; positive.
+    pub(super) fn mass_kg(&self) -> f64 {
+        self.mass_kg
+    }
+
+    /// Moment of inertia about the vertical axis through the centre of gravity, kg m².
+    pub(super) fn inertia_z_kg_m2(&self) -> f64 {
+        self.inertia_kg_m2[(2, 2)]
+    }
+
     /// The parameters with this mass, and what must be reported about it.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::coefficients::{Coefficients, ParameterSet};
 use super::files::InMemory;
-use super::spec::{RemusSpec, VehicleSpec};
+use super::spec::RemusSpec;
 use super::urdf::{Hull, read};
 use super::urdf_parts::as_file;
 use super::vehicle::Vehicle;
@@ -24,7 +24,7 @@ fn fails(from: &str, to: &str) -> String {
 
 #[test]
 fn the_built_in_hull_has_its_instruments() {
-    let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default()).expect("built in");
+    let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
     let nose = vehicle.mount("fluorometer").expect("mounted").p_WB;
     assert_eq!(nose, Vector3::new(0.72, 0.0, -0.06));
     for name in ["dvl", "adcp", "altimeter", "compass", "depth", "lbl"] {
@@ -48,10 +48,10 @@ fn mounts_add_up_along_a_chain_of_joints() {
 
 #[test]
 fn a_missing_file_is_named() {
-    let spec = VehicleSpec::Remus100(RemusSpec {
+    let spec = RemusSpec {
         urdf: Some("none.urdf".into()),
         ..RemusSpec::default()
-    });
+    };
     let error = Vehicle::load(&spec, &InMemory::default()).expect_err("no file");
     assert_eq!(error.to_string(), "none.urdf: there is no such file");
 }
@@ -237,10 +237,10 @@ fn a_heavier_hull_sinks() {
     let sinks = |kg: &str| {
         let text = GOOD.replace("value=\"31.029385\"", &format!("value=\"{kg}\""));
         let files = InMemory::default().with("auv.urdf", text.as_bytes());
-        let spec = VehicleSpec::Remus100(RemusSpec {
+        let spec = RemusSpec {
             urdf: Some("auv.urdf".into()),
             ..RemusSpec::default()
-        });
+        };
         let mut vehicle = Vehicle::load(&spec, &files).expect("a vehicle");
         let command = crate::handoff::ActuatorCommand::default();
         vehicle.step(&start, &still, &command, 0.02).v_world().z / 0.02
@@ -285,10 +285,10 @@ fn a_mesh_beside_the_urdf_becomes_a_hull() {
     let files = InMemory::default()
         .with("hulls/auv.urdf", text.as_bytes())
         .with("hulls/hull.obj", obj.as_bytes());
-    let spec = VehicleSpec::Remus100(RemusSpec {
+    let spec = RemusSpec {
         urdf: Some("hulls/auv.urdf".into()),
         ..RemusSpec::default()
-    });
+    };
     let vehicle = Vehicle::load(&spec, &files).expect("a vehicle with a mesh");
     let start = world::frames::Truth::at_rest(world::frames::Pose::level(
         Vector3::zeros(),

@@ -1,9 +1,10 @@
-//! A vehicle: hull, instruments' places, actuators and its equation of motion.
+//! A vehicle with fins: hull, instruments' places, actuators and its equation of motion.
 
 use super::coefficients::Coefficients;
 use super::files::Files;
 use super::hydrodynamics::{Actuators, Hydrodynamics};
-use super::spec::VehicleSpec;
+use super::remus::REMUS100;
+use super::spec::RemusSpec;
 use super::urdf::{self, Hull};
 use super::urdf_parts::UrdfText;
 use crate::error::RobotError;
@@ -13,9 +14,6 @@ use nalgebra::{Matrix6, Vector3, Vector6};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
-
-/// The built-in URDF of the REMUS.
-const REMUS100: &str = include_str!("../../urdf/remus100.urdf");
 
 /// A vehicle and the state of its actuators; pose and velocity belong to the physics.
 #[derive(Component, Clone, Debug)]
@@ -30,11 +28,9 @@ impl Vehicle {
     ///
     /// # Errors
     /// If a file cannot be read, or if the URDF is wrong or does not fit the hydrodynamic parameters.
-    pub fn load(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let VehicleSpec::Remus100(remus) = spec;
-        let coefficients = Coefficients::of(remus.parameters);
-        let built_in = ("remus100.urdf", REMUS100);
-        let text = UrdfText::open(remus.urdf.as_deref(), files, built_in)?;
+    pub fn load(spec: &RemusSpec, files: &dyn Files) -> Result<Self, RobotError> {
+        let coefficients = Coefficients::of(spec.parameters);
+        let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
         let hull = urdf::read(&text, &coefficients)?;
         Ok(Self {
             dynamics: Hydrodynamics::new(hull.coefficients.clone()),

@@ -5,8 +5,8 @@ use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use rheotaxis::score::Score;
 use robots::handoff::{
-    ActuatorCommand, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate,
-    FlowEstimate, Layer, LayerState, Regions, Setpoint, Vertical,
+    Actuation, Attitude, Behaviour, ChemicalReading, Command, Declaration, Estimate, FlowEstimate,
+    Layer, LayerState, Regions, Setpoint, Vertical,
 };
 use robots::handoff::{Belief, BeliefGrid, Odour};
 use std::path::Path;
@@ -198,7 +198,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                     water_speed_m_s: 2.0,
                     vertical: Vertical::Altitude(2.0),
                 })),
-                actuators: ActuatorCommand::default(),
+                actuators: Actuation::default(),
                 chemical: Some(ChemicalReading {
                     volts: 5.0 * of_full_scale,
                     of_full_scale,

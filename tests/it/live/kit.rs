@@ -6,10 +6,10 @@ use output::live::{Live, LiveMeta, LiveOptions};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
 use rheotaxis::gantry::GantryFrame;
 use robots::handoff::{
-    ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
-    Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
-    Layer, LayerState, MAX_PROBES, Manoeuvre, Picture, ProbeScan, Region, RegionState, Regions,
-    Setpoint, SidescanPing, TrackerState, Vertical,
+    Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration,
+    Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, Layer,
+    LayerState, MAX_PROBES, Manoeuvre, Picture, ProbeScan, Region, RegionState, Regions, Setpoint,
+    SidescanPing, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -113,7 +113,7 @@ pub(super) fn frame(step: u64) -> Frame {
             water_speed_m_s: 2.0,
             vertical,
         })),
-        actuators: ActuatorCommand::default(),
+        actuators: Actuation::default(),
         chemical: Some(ChemicalReading {
             volts: 1.0,
             of_full_scale: 0.2,

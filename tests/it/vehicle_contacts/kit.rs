@@ -2,7 +2,7 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 use robots::handoff::ActuatorCommand;
-use robots::vehicles::{InMemory, Vehicle, VehicleSpec};
+use robots::vehicles::{InMemory, RemusSpec, Vehicle};
 use std::path::Path;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
@@ -89,7 +89,7 @@ impl Water {
         }
         let hulls = (starts.iter())
             .map(|start| {
-                let vehicle = Vehicle::load(&VehicleSpec::default(), &InMemory::default());
+                let vehicle = Vehicle::load(&RemusSpec::default(), &InMemory::default());
                 let vehicle = vehicle.expect("built-in vehicle");
                 let id = physics.add_body(vehicle.body_spec("auv", *start));
                 (vehicle, id)

@@ -103,9 +103,7 @@ pub(super) mod tests {
     use nalgebra::{Vector2, Vector3};
     use rheotaxis::frame::{GantryFrame, RobotFrame};
     use rheotaxis::topic::Published;
-    use robots::handoff::{
-        ActuatorCommand, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan,
-    };
+    use robots::handoff::{Actuation, Attitude, Behaviour, Estimate, GantryBehaviour, ProbeScan};
     use world::frames::{Pose, Truth};
     use world::units::Heading;
 
@@ -137,7 +135,7 @@ pub(super) mod tests {
             estimate,
             goal: None,
             command: None,
-            actuators: ActuatorCommand::default(),
+            actuators: Actuation::default(),
             chemical: None,
             detected: false,
             behaviour: Behaviour::Find,

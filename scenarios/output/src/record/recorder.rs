@@ -180,13 +180,12 @@ impl Recorder {
                 &vector3_stamped(t, WORLD, &v),
             )?;
         }
-        let a = &r.actuators;
-        for (name, v) in [
-            ("actuators/rudder_rad", a.rudder_rad),
-            ("actuators/stern_rad", a.stern_rad),
-            ("actuators/rpm", a.rpm),
-        ] {
-            put(name, MessageKind::Float64, &float64(v))?;
+        for (name, v) in r.actuators.named() {
+            put(
+                &format!("actuators/{name}"),
+                MessageKind::Float64,
+                &float64(v),
+            )?;
         }
         if let Some(Command::Steer(s)) = r.command {
             let (name, height) = match s.vertical {

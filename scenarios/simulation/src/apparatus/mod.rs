@@ -30,7 +30,7 @@
 //! [`Systems::add`].
 //!
 //! What a searcher may know are these components of `robots::handoff`: `Readings`, `Estimate`, `Belief`, `Decision`,
-//! `Command`, `GuidanceStatus`, `ActuatorCommand`, and of a gantry `GantryReadings` and `GantryDecision`; also
+//! `Command`, `GuidanceStatus`, `Actuation`, and of a gantry `GantryReadings` and `GantryDecision`; also
 //! [`Briefing`](crate::auv::Briefing).
 
 mod systems;

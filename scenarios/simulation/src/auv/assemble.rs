@@ -11,16 +11,16 @@ use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
 use nalgebra::Vector2;
-use robots::actuate::Autopilot;
+use robots::actuate::Pilot;
 use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
-    Setting, Vertical,
+    Actuation, ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre,
+    RateCommand, Readings, Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::Vehicle;
+use robots::vehicles::Craft;
 use world::catalogue::Entry;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
@@ -96,13 +96,23 @@ fn spawn(
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
-    let vehicle = Vehicle::load(&spec.vehicle, &Beside(base_dir))?;
+    let vehicle = Craft::load(&spec.vehicle, &Beside(base_dir))?;
     let body = (world.resource_mut::<Physics>()).add_body(vehicle.body_spec(id, truth));
     let suite = SensorSuite::new(
         &spec.sensors,
         &|name| vehicle.mount(name),
         OnBoard::new(id, seed, dt_s),
     )?;
+    let carried = vehicle.is_carried();
+    let pilot = Pilot::new(
+        &spec.autopilot,
+        vehicle.limits(),
+        spec.start.speed_m_s.get(),
+    );
+    let still = match pilot {
+        Pilot::Fins(_) => Actuation::Fins(ActuatorCommand::default()),
+        Pilot::Rates(_) => Actuation::Rates(RateCommand::default()),
+    };
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
@@ -146,11 +156,11 @@ fn spawn(
                 home: fix,
             },
             Decision::new(Behaviour::Idle, goal),
-            Guidance::new(&spec.guidance),
+            Guidance::new(&spec.guidance).carried(carried),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
-            Autopilot::new(&spec.autopilot),
-            ActuatorCommand::default(),
+            pilot,
+            still,
             Log::default(),
             Lookout::default(),
         ),

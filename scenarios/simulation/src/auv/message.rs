@@ -155,11 +155,11 @@ fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
         }
         Command::Direct(_) => json!({"kind": "direct"}),
     };
-    let a = &r.actuators;
-    merged(
-        asked,
-        json!({"t_s": t_s, "rudder_rad": a.rudder_rad, "stern_rad": a.stern_rad, "rpm": a.rpm}),
-    )
+    let mut said = merged(asked, json!({ "t_s": t_s }));
+    for (name, value) in r.actuators.named() {
+        said[name] = value.into();
+    }
+    said
 }
 
 fn vertical(v: Vertical) -> (&'static str, f64) {

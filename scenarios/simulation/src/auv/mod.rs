@@ -12,7 +12,7 @@ use nalgebra::Vector2;
 use robots::handoff::ChemicalReading;
 use robots::map::Mapper;
 use robots::strategy::Strategy;
-use robots::vehicles::Vehicle;
+use robots::vehicles::Craft;
 use world::area::Area;
 use world::physics::BodyId;
 use world::seeds::Stream;
@@ -24,8 +24,8 @@ pub struct Robots(pub Vec<Entity>);
 /// A robot's vehicle and its body in the physics.
 #[derive(Component)]
 pub struct Hull {
-    /// Dynamics and actuators.
-    pub vehicle: Vehicle,
+    /// How it moves.
+    pub vehicle: Craft,
     /// The body that it moves.
     pub body: BodyId,
 }

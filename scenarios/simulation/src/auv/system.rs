@@ -9,18 +9,17 @@ use crate::score::Score;
 use crate::searchers::{SearcherId, whole};
 use bevy_ecs::prelude::{DetectChanges, Query, Ref, Res, ResMut};
 use nalgebra::Vector3;
-use robots::actuate::Autopilot;
+use robots::actuate::Pilot;
 use robots::estimate::Estimator;
 use robots::guide::Guidance;
 use robots::handoff::{
-    ActuatorCommand, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
+    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
 };
 use robots::map::MapObservation;
 use robots::sense::camera::Optics;
 use robots::sense::{Around, Asked, SensorSuite};
 use world::clock::Clock;
 use world::digest::Digest;
-use world::fields::Flow;
 use world::frames::Truth;
 use world::physics::Physics;
 
@@ -122,10 +121,10 @@ pub(crate) fn guide(
 
 pub(crate) fn actuate(
     clock: Res<Clock>,
-    mut robots: Query<(&Command, &Estimate, &mut Autopilot, &mut ActuatorCommand)>,
+    mut robots: Query<(&Command, &Estimate, &mut Pilot, &mut Actuation)>,
 ) {
-    for (command, estimate, mut autopilot, mut set) in &mut robots {
-        *set = autopilot.step(command, estimate, clock.dt_s);
+    for (command, estimate, mut pilot, mut set) in &mut robots {
+        *set = pilot.step(command, estimate, clock.dt_s);
     }
 }
 
@@ -134,12 +133,12 @@ pub(crate) fn push_bodies(
     ocean: Res<Ocean>,
     roster: Res<Robots>,
     mut physics: ResMut<Physics>,
-    mut robots: Query<(&Truth, &ActuatorCommand, &mut Hull)>,
+    mut robots: Query<(&Truth, &Actuation, &mut Hull)>,
 ) {
     let mut each = robots.iter_many_mut(&roster.0);
     while let Some((truth, set, mut hull)) = each.fetch_next().map(whole) {
-        let sample = ocean.sample(&truth.pose.p_WB, clock.t_s());
-        let push = hull.vehicle.step(truth, &sample, set, clock.dt_s);
+        let (t_s, dt_s) = (clock.t_s(), clock.dt_s);
+        let push = hull.vehicle.step(truth, &*ocean, t_s, set, dt_s);
         physics.push(hull.body, push);
     }
 }
@@ -165,7 +164,7 @@ type Digested<'a> = (
     &'a Truth,
     &'a Estimate,
     &'a Decision,
-    &'a ActuatorCommand,
+    &'a Actuation,
     Option<Ref<'a, Belief>>,
 );
 
@@ -181,7 +180,7 @@ pub(crate) fn digest_robots(
         digest.f64s(truth.w_WB_B.as_slice());
         digest.f64s(estimate.position.as_slice());
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
-        digest.f64s(&[set.rudder_rad, set.stern_rad, set.rpm]);
+        digest.f64s(&set.named().map(|(_, value)| value));
         digest.f64s(&[f64::from(decision.goal.id), decision.behaviour.number()]);
         // Only when it is new: a map is large and changes seldom.
         if let Some(belief) = belief.filter(|b| b.is_changed()) {
@@ -284,7 +283,7 @@ type Pictured<'a> = (
     &'a Estimate,
     &'a Decision,
     &'a Command,
-    &'a ActuatorCommand,
+    &'a Actuation,
     Option<&'a Belief>,
     &'a mut Log,
 );

@@ -2,8 +2,8 @@
 
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
-    ActuatorCommand, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal,
-    Layer, LayerState, Picture, Regions, SidescanPing,
+    Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer,
+    LayerState, Picture, Regions, SidescanPing,
 };
 use std::sync::Arc;
 use world::frames::{Pose, Truth};
@@ -23,8 +23,8 @@ pub struct RobotFrame {
     pub goal: Option<Goal>,
     /// What its guidance asks for.
     pub command: Option<Command>,
-    /// What the autopilot asks of the actuators.
-    pub actuators: ActuatorCommand,
+    /// What the vehicle's drives are set to.
+    pub actuators: Actuation,
     /// Newest chemical reading.
     pub chemical: Option<ChemicalReading>,
     /// Whether there was a detection since the previous frame.

@@ -24,13 +24,13 @@ impl Files for Beside<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use robots::vehicles::{RemusSpec, Vehicle, VehicleSpec};
+    use robots::vehicles::{RemusSpec, Vehicle};
 
     fn error(dir: &Path, name: &str) -> String {
-        let spec = VehicleSpec::Remus100(RemusSpec {
+        let spec = RemusSpec {
             urdf: Some(name.into()),
             ..RemusSpec::default()
-        });
+        };
         let error = Vehicle::load(&spec, &Beside(dir)).expect_err("this is wrong");
         error.to_string()
     }

@@ -13,7 +13,7 @@ use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::camera::Optics;
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::Vehicle;
+use robots::vehicles::Craft;
 use std::path::Path;
 use world::area::Area;
 use world::fields::Flow;
@@ -277,9 +277,9 @@ fn parts(
     step_s: f64,
     base_dir: &Path,
     found: &mut Vec<Found>,
-) -> Option<Vehicle> {
+) -> Option<Craft> {
     let path = format!("robots[{i}]");
-    match Vehicle::load(&robot.vehicle, &Beside(base_dir)) {
+    match Craft::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
                 found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));

@@ -5,7 +5,8 @@ use super::schema::{RobotSpec, Scenario};
 use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
-use robots::vehicles::Vehicle;
+use robots::handoff::TurnLimit;
+use robots::vehicles::Craft;
 use world::area::Area;
 use world::fields::Flow;
 use world::terrain::Terrain;
@@ -19,17 +20,34 @@ const SHORT: f64 = 0.02;
 pub(super) fn speeds(
     i: usize,
     robot: &RobotSpec,
-    vehicle: &Vehicle,
+    vehicle: &Craft,
     water_m_s: f64,
     found: &mut Vec<Found>,
 ) {
     let top_m_s = vehicle.top_speed_m_s(robot.autopilot.rpm_limit.get());
     let limit_m_s = robot.guidance.water_speed_limit_m_s.get();
+    let carried = vehicle.is_carried();
     let makes = |m_s: f64| {
-        format!(
-            "it reaches at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s at its start"
-        )
+        if carried {
+            format!(
+                "it reaches at most {m_s:.2} m/s through the water, which moves at {water_m_s:.2} m/s at its start"
+            )
+        } else {
+            format!("it reaches at most {m_s:.2} m/s over ground")
+        }
     };
+    let own_m_s = top_m_s.min(limit_m_s);
+    if carried && own_m_s < water_m_s {
+        let problem = format!("the water carries it away: {}", makes(own_m_s));
+        let slow = if limit_m_s < top_m_s {
+            "guidance.water_speed_limit_m_s"
+        } else {
+            "vehicle"
+        };
+        found.push(Found::warning(format!("robots[{i}].{slow}"), problem));
+    }
+    // What the water adds to the vehicle's own speed.
+    let water_m_s = if carried { water_m_s } else { 0.0 };
     let start_m_s = robot.start.speed_m_s.get();
     if start_m_s > SLACK * (top_m_s + water_m_s) {
         let problem = format!(
@@ -42,8 +60,7 @@ pub(super) fn speeds(
         ));
     }
     for (field, m_s) in robot.strategy.wishes().speeds_m_s {
-        let can_m_s = top_m_s.min(limit_m_s);
-        if m_s > SLACK * (can_m_s + water_m_s) {
+        if m_s > SLACK * (own_m_s + water_m_s) {
             let by = if limit_m_s < top_m_s {
                 " (guidance.water_speed_limit_m_s)"
             } else {
@@ -51,7 +68,7 @@ pub(super) fn speeds(
             };
             let problem = format!(
                 "{m_s} m/s is more than the vehicle can do: {}{by}",
-                makes(can_m_s)
+                makes(own_m_s)
             );
             found.push(Found::warning(
                 format!("robots[{i}].strategy.{field}"),
@@ -67,6 +84,21 @@ pub(super) fn speeds(
             format!("robots[{i}].guidance.water_speed_limit_m_s"),
             problem,
         ));
+    }
+    if let Some(limits) = vehicle.limits() {
+        let asked_deg_s = robot.guidance.heading_rate_deg_s.get();
+        let most_deg_s = match limits.turn {
+            TurnLimit::Rate(rad_s) => rad_s.to_degrees(),
+            TurnLimit::Radius(_) => limits.turn.rate_rad_s(own_m_s).to_degrees(),
+        };
+        if most_deg_s > SLACK * asked_deg_s {
+            let problem = format!(
+                "the guidance asks for at most {asked_deg_s} degrees/s, so the vehicle never turns at the \
+                 {most_deg_s:.1} degrees/s that it can"
+            );
+            let path = format!("robots[{i}].guidance.heading_rate_deg_s");
+            found.push(Found::warning(path, problem));
+        }
     }
 }
 

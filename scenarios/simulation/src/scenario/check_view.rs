@@ -6,7 +6,7 @@ use super::schema::RobotSpec;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::Vertical;
 use robots::sense::{AdcpSpec, AltimeterSpec, DvlSpec, Look, RangingSpec, SensorsSpec};
-use robots::vehicles::Vehicle;
+use robots::vehicles::Craft;
 use world::area::Area;
 use world::math;
 use world::obstacles::Obstacles;
@@ -69,7 +69,7 @@ impl Sounder {
 }
 
 /// The altimeter, the Doppler log and the current profiler, if they are fitted.
-fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
+fn sounders(sensors: &SensorsSpec, vehicle: &Craft) -> Vec<Sounder> {
     let above_m = |name: &str| vehicle.mount(name).map_or(0.0, |pose| pose.p_WB.z);
     let mut all = Vec::new();
     all.extend(sensors.get::<AltimeterSpec>().map(|s| Sounder {
@@ -107,7 +107,7 @@ fn sounders(sensors: &SensorsSpec, vehicle: &Vehicle) -> Vec<Sounder> {
 pub(super) fn view(
     i: usize,
     robot: &RobotSpec,
-    vehicle: &Vehicle,
+    vehicle: &Craft,
     place: &Place,
     found: &mut Vec<Found>,
 ) {

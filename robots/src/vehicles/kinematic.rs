@@ -1,0 +1,150 @@
+//! A vehicle without dynamics: it takes the rates that its helm asks for, within its limits, exactly and at once.
+//!
+//! *Source:* the unicycle with bounded turn rate; with bounded curvature, the vehicle of Dubins 1957 (American Journal
+//! of Mathematics 79). Such a point stands for the vehicle in simulations of plume tracing (Li, Farrell & Cardé 2001,
+//! Adaptive Behavior 9).
+//!
+//! *Parameters:* [`KinematicSpec`](super::KinematicSpec).
+//!
+//! ```text
+//! ψ(t + dt) = ψ + r dt      x(t + dt) = x + U sin(r dt/2)/(r dt/2) dt (sin, cos)(ψ + r dt/2) + u dt
+//! ```
+//!
+//! *Deviations:* each step is an exact arc, so a steady turn has its radius U/r at any length of the step. The hull
+//! stays level. Through the water it drifts horizontally with the water's velocity u at its origin; its height it
+//! keeps by itself. In contacts it has the mass and the moment of inertia about the vertical of its URDF, without
+//! added mass, and cannot be tilted. What a contact does to its velocity lasts for that step: then it does again what
+//! its helm asks for, so it stops at a wall or slides along it. It does not rise above the surface.
+
+use super::files::Files;
+use super::kinematic_spec::{KinematicSpec, Moves};
+use super::remus::REMUS100;
+use super::urdf::{self, Shell};
+use super::urdf_parts::UrdfText;
+use crate::error::RobotError;
+use crate::handoff::{RateCommand, RateLimits};
+use nalgebra::{Matrix6, Vector3, Vector6};
+use world::frames::{Pose, Truth};
+use world::math;
+use world::physics::BodySpec;
+
+/// Moment of inertia about the axes about which it cannot be tilted, kg m²: no contact turns it by as much as a
+/// rounding.
+const STIFF_KG_M2: f64 = 1e12;
+
+/// A kinematic vehicle; pose and velocity belong to the physics.
+#[derive(Clone, Debug)]
+pub struct Kinematic {
+    shell: Shell,
+    moves: Moves,
+    limits: RateLimits,
+}
+
+impl Kinematic {
+    /// Builds the vehicle; `files` gives the URDF and its meshes, if the scenario names one.
+    ///
+    /// # Errors
+    /// If a file cannot be read, or if the URDF is wrong.
+    pub fn load(spec: &KinematicSpec, files: &dyn Files) -> Result<Self, RobotError> {
+        let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
+        let shell = urdf::shell(&text)?;
+        let izz = shell.ballast.inertia_z_kg_m2();
+        if izz <= 0.0 {
+            let body = &shell.body;
+            let problem = format!("link \"{body}\": izz must be > 0 kg m2, got {izz}");
+            return Err(text.fault(problem));
+        }
+        Ok(Self {
+            shell,
+            moves: spec.moves,
+            limits: spec.limits(),
+        })
+    }
+
+    /// What it can do.
+    #[must_use]
+    pub fn limits(&self) -> RateLimits {
+        self.limits
+    }
+
+    /// What its speed is relative to.
+    #[must_use]
+    pub fn moves(&self) -> Moves {
+        self.moves
+    }
+
+    /// Pose of an instrument (a link of the URDF), in body axes.
+    #[must_use]
+    pub fn mount(&self, name: &str) -> Option<Pose> {
+        self.shell.links.get(name).copied()
+    }
+
+    /// The body for the physics.
+    #[must_use]
+    pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
+        let m = self.shell.ballast.mass_kg();
+        let about_vertical = self.shell.ballast.inertia_z_kg_m2();
+        BodySpec {
+            id: id.to_string(),
+            truth,
+            shapes: self.shell.shapes.clone(),
+            p_BG: Vector3::zeros(),
+            mass: Matrix6::from_diagonal(&Vector6::new(
+                m,
+                m,
+                m,
+                STIFF_KG_M2,
+                STIFF_KG_M2,
+                about_vertical,
+            )),
+        }
+    }
+
+    /// The state after `dt_s` if the vehicle touches nothing, for `Physics::push`. `water_m_s` is the water's velocity
+    /// over ground at its origin (ENU); it counts only for a vehicle that moves through the water.
+    #[must_use]
+    pub fn step(
+        &self,
+        truth: &Truth,
+        water_m_s: &Vector3<f64>,
+        asked: &RateCommand,
+        dt_s: f64,
+    ) -> Truth {
+        let rates = self.limits.held(asked);
+        let drift = match self.moves {
+            Moves::ThroughWater => Vector3::new(water_m_s.x, water_m_s.y, 0.0),
+            Moves::OverGround => Vector3::zeros(),
+        };
+        let half = 0.5 * rates.turn_rad_s * dt_s;
+        let middle = truth.pose.heading().turned(half);
+        let heading = middle.turned(half);
+        let way = middle.unit() * (rates.speed_m_s * dt_s * chord_of_arc(half));
+        let start = truth.pose.p_WB;
+        let mut p_WB = start + drift * dt_s + Vector3::new(way.x, way.y, rates.climb_m_s * dt_s);
+        // The surface; a vehicle that something has pushed above it sinks back.
+        p_WB.z = p_WB.z.min(0.0);
+        let pose = Pose::level(p_WB, heading);
+        let ahead = heading.unit() * rates.speed_m_s;
+        let v_W = drift + Vector3::new(ahead.x, ahead.y, (p_WB.z - start.z) / dt_s);
+        Truth {
+            pose,
+            v_WB_B: pose.R_WB.inverse() * v_W,
+            w_WB_B: Vector3::new(0.0, 0.0, -rates.turn_rad_s),
+        }
+    }
+}
+
+/// Length of the chord of an arc of twice this angle, as a share of the arc's: sin(x)/x.
+fn chord_of_arc(half_rad: f64) -> f64 {
+    // The next term of the series, x⁴/120, is below rounding.
+    if half_rad.abs() < 1e-4 {
+        1.0 - half_rad * half_rad / 6.0
+    } else {
+        let (sin, _) = math::sin_cos(half_rad);
+        sin / half_rad
+    }
+}
+
+#[cfg(test)]
+#[path = "kinematic_tests.rs"]
+mod tests;
