@@ -1,0 +1,236 @@
+//! What a kinematic vehicle does with rates: circles, drift, walls, mounts.
+
+use super::super::files::InMemory;
+use super::super::kinematic_spec::{RadiusSpec, TurnSpec};
+use super::super::spec::RemusSpec;
+use super::super::vehicle::Vehicle;
+use super::*;
+use nalgebra::Vector2;
+use std::path::Path;
+use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, ShapeSpec};
+use world::physics::Physics;
+use world::ranges::{Finite, HeadingDeg, Positive};
+use world::terrain::Terrain;
+use world::units::Heading;
+
+const DEG: f64 = std::f64::consts::PI / 180.0;
+
+fn vehicle(moves: Moves, turn: Option<TurnSpec>) -> Kinematic {
+    let default = KinematicSpec::default();
+    let spec = KinematicSpec {
+        moves,
+        turn: turn.unwrap_or(default.turn.clone()),
+        ..default
+    };
+    Kinematic::load(&spec, &InMemory::default()).expect("built in")
+}
+
+fn start(heading_deg: f64) -> Truth {
+    let p = Vector3::new(3.0, -4.0, -20.0);
+    Truth::at_rest(Pose::level(p, Heading::from_deg(heading_deg)))
+}
+
+fn rates(turn_deg_s: f64, climb_m_s: f64, speed_m_s: f64) -> RateCommand {
+    RateCommand {
+        turn_rad_s: turn_deg_s * DEG,
+        climb_m_s,
+        speed_m_s,
+    }
+}
+
+/// A plate of this thickness across the way east, its middle at x = 0.
+fn plate(thick_m: f64) -> Obstacle {
+    let size_m = [thick_m, 200.0, 39.0].map(Positive::new).into();
+    let spec = ObstacleSpec {
+        surface: Default::default(),
+        id: "plate".into(),
+        shape: ShapeSpec::Box(BoxShape { size_m }),
+        east_m: Finite::new(0.0),
+        north_m: Finite::new(0.0),
+        base: Base::OnBed,
+        heading_deg: HeadingDeg::new(90.0),
+    };
+    Obstacle::build(&spec, &Terrain::Level { depth_m: 40.0 }, Path::new(".")).expect("a plate")
+}
+
+/// On the exact circle of radius U/r at every step, however long; and exactly the asked rate.
+#[test]
+fn a_steady_turn_is_a_circle_at_any_step() {
+    let car = vehicle(Moves::OverGround, None);
+    let radius_m = 2.0 / (10.0 * DEG);
+    let begin = start(40.0);
+    let centre = begin.pose.p_WB.xy() + Heading::from_deg(130.0).unit() * radius_m;
+    for dt_s in [0.001, 0.02, 0.1, 1.0] {
+        let mut t = begin;
+        let n = (36.0 / dt_s) as u32;
+        for k in 1..=n.min(4000) {
+            let before = t.pose.heading();
+            t = car.step(&t, &Vector3::zeros(), &rates(10.0, 0.0, 2.0), dt_s);
+            let turned = before.turn_to(t.pose.heading());
+            assert!((turned - 10.0 * DEG * dt_s).abs() < 1e-12, "{dt_s} {k}");
+            let off = (t.pose.p_WB.xy() - centre).norm() - radius_m;
+            assert!(off.abs() < 1e-9, "{dt_s} {k}: {off}");
+            assert!((t.v_WB_B.norm() - 2.0).abs() < 1e-12);
+            assert!((t.w_WB_B.z + 10.0 * DEG).abs() < 1e-12);
+        }
+        if dt_s >= 0.02 {
+            assert!((t.pose.p_WB - begin.pose.p_WB).norm() < 1e-8, "{dt_s}");
+        }
+    }
+}
+
+/// More than it can do is cut to its limits: 5 m of radius at 1 m/s, however fast it is asked to turn.
+#[test]
+fn no_command_makes_it_turn_faster_or_tighter() {
+    let turn = TurnSpec::Radius(RadiusSpec {
+        radius_m: Positive::new(5.0),
+    });
+    let dubins = vehicle(Moves::ThroughWater, Some(turn));
+    let mut t = start(0.0);
+    let centre = t.pose.p_WB.xy() + Vector2::new(-5.0, 0.0);
+    for _ in 0..2000 {
+        t = dubins.step(&t, &Vector3::zeros(), &rates(-500.0, 0.0, 1.0), 0.05);
+        assert!(((t.pose.p_WB.xy() - centre).norm() - 5.0).abs() < 1e-9);
+    }
+    let fast = dubins.step(&t, &Vector3::zeros(), &rates(0.0, 9.0, 99.0), 0.1);
+    assert!(((fast.pose.p_WB - t.pose.p_WB).xy().norm() - 0.2).abs() < 1e-12);
+    assert!((fast.pose.p_WB.z - t.pose.p_WB.z - 0.05).abs() < 1e-12);
+    let back = dubins.step(&t, &Vector3::zeros(), &rates(0.0, 0.0, -1.0), 0.1);
+    assert_eq!(back.pose.p_WB, t.pose.p_WB);
+}
+
+/// Through the water it does in the moving water what it does in still water, and drifts by u t; over ground it does
+/// not feel the water at all.
+#[test]
+fn a_current_adds_its_drift_exactly_or_not_at_all() {
+    let u = Vector3::new(0.8, -0.6, 0.05);
+    let (dt_s, n) = (0.1, 300);
+    let run = |moves, water: Vector3<f64>| {
+        let car = vehicle(moves, None);
+        let mut t = start(250.0);
+        for k in 0..n {
+            let turn = if k % 100 < 40 { 7.0 } else { -3.0 };
+            t = car.step(&t, &water, &rates(turn, -0.1, 1.3), dt_s);
+        }
+        t
+    };
+    let still = run(Moves::ThroughWater, Vector3::zeros());
+    let carried = run(Moves::ThroughWater, u);
+    let drift = Vector3::new(u.x, u.y, 0.0) * (dt_s * f64::from(n));
+    let off = carried.pose.p_WB - still.pose.p_WB - drift;
+    assert!(off.norm() < 1e-10, "{off}");
+    let speed = carried.v_world() - still.v_world() - Vector3::new(u.x, u.y, 0.0);
+    assert!(speed.norm() < 1e-12);
+    let ground = run(Moves::OverGround, u);
+    assert_eq!(ground, still);
+    assert_eq!(ground, run(Moves::OverGround, Vector3::zeros()));
+}
+
+#[test]
+fn it_stays_under_the_surface() {
+    let car = vehicle(Moves::ThroughWater, None);
+    let mut t = start(0.0);
+    t.pose.p_WB.z = -0.07;
+    for _ in 0..10 {
+        t = car.step(&t, &Vector3::zeros(), &rates(0.0, 0.5, 1.0), 0.1);
+    }
+    assert_eq!(t.pose.p_WB.z, 0.0);
+    assert_eq!(t.v_WB_B.z, 0.0);
+}
+
+/// Head on, aslant, turning and from above, at every legal step: it never gets through, says that it touches, slides
+/// along where it comes aslant, and stays level.
+#[test]
+fn no_wall_lets_it_through() {
+    for (dt_s, thick_m) in [(0.001, 0.002), (0.02, 0.01), (0.1, 0.002), (0.1, 1.0)] {
+        for (heading_deg, turn_deg_s, climb_m_s) in [
+            (90.0, 0.0, 0.0),
+            (60.0, 0.0, 0.0),
+            (100.0, 10.0, 0.0),
+            (45.0, -10.0, -0.5),
+        ] {
+            let spec = KinematicSpec {
+                max_speed_m_s: Positive::new(15.0),
+                ..KinematicSpec::default()
+            };
+            let car = Kinematic::load(&spec, &InMemory::default()).expect("built in");
+            let mut physics = Physics::new(dt_s);
+            physics.add_obstacle(&plate(thick_m));
+            let mut t = start(heading_deg);
+            t.pose.p_WB = Vector3::new(-3.0, 0.0, -20.0);
+            let id = physics.add_body(car.body_spec("car", t));
+            let mut touched = 0;
+            let begin = t;
+            for _ in 0..(1.5 / dt_s) as u32 {
+                let set = rates(turn_deg_s, climb_m_s, 15.0);
+                physics.push(id, car.step(&t, &Vector3::new(1.0, 0.0, 0.0), &set, dt_s));
+                physics.step();
+                t = physics.truth(id);
+                touched += u32::from(physics.contacts(id).touching);
+                let nose = t.pose.point(Vector3::new(0.8, 0.0, 0.0)).x;
+                assert!(
+                    nose.max(t.pose.p_WB.x) < 0.02,
+                    "{dt_s} {heading_deg}: {nose}"
+                );
+                let (roll, pitch) = t.pose.roll_pitch();
+                assert!(roll.abs() < 1e-6 && pitch.abs() < 1e-6);
+            }
+            assert!(touched > 0, "{dt_s} s, {heading_deg} deg");
+            if heading_deg == 60.0 {
+                let along = t.pose.p_WB.y - begin.pose.p_WB.y;
+                assert!(along > 2.0, "it must slide: {along} m");
+            }
+        }
+    }
+}
+
+/// The hull, the mounts, and so the readings at one place, are those of the REMUS.
+#[test]
+fn its_instruments_see_what_those_of_the_remus_see() {
+    let car = vehicle(Moves::ThroughWater, None);
+    let remus = Vehicle::load(&RemusSpec::default(), &InMemory::default()).expect("built in");
+    for name in [
+        "fluorometer",
+        "dvl",
+        "adcp",
+        "compass",
+        "depth",
+        "ctd",
+        "altimeter",
+        "lbl",
+        "ranging",
+        "sidescan",
+        "camera",
+    ] {
+        assert_eq!(car.mount(name), remus.mount(name), "{name}");
+        assert!(car.mount(name).is_some(), "{name}");
+    }
+    let t = start(0.0);
+    assert_eq!(car.body_spec("a", t).shapes, remus.body_spec("a", t).shapes);
+}
+
+#[test]
+fn a_hull_of_its_own_needs_no_fins_but_a_moment_of_inertia() {
+    let hull = |izz: &str| {
+        format!(
+            "<robot name=\"ball\"><link name=\"base_link\"><inertial><mass value=\"5\"/>\
+             <inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" izz=\"{izz}\"/></inertial>\
+             <collision><geometry><sphere radius=\"0.2\"/></geometry></collision></link></robot>"
+        )
+    };
+    let spec = KinematicSpec {
+        urdf: Some("ball.urdf".into()),
+        ..KinematicSpec::default()
+    };
+    let load = |izz| {
+        let files = InMemory::default().with("ball.urdf", hull(izz).as_bytes());
+        Kinematic::load(&spec, &files)
+    };
+    let body = load("0.4").expect("a ball").body_spec("b", start(0.0));
+    assert_eq!((body.mass[(0, 0)], body.mass[(5, 5)]), (5.0, 0.4));
+    assert_eq!(body.shapes.len(), 1);
+    assert_eq!(
+        load("0").expect_err("no inertia").to_string(),
+        "ball.urdf: link \"base_link\": izz must be > 0 kg m2, got 0"
+    );
+}
