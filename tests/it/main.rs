@@ -11,6 +11,7 @@ mod determinism;
 mod flume;
 mod golden;
 mod interrupt;
+mod kinematic;
 mod lanes;
 mod live;
 mod memory;

@@ -4,7 +4,7 @@ use crate::common;
 use serde_json::Value;
 
 /// Water to the east, one source in the south-west, its plume through the south-east.
-const MISSION: &str = r#"(
+pub(crate) const MISSION: &str = r#"(
     version: 2,
     title: "Three subregions of a steady channel",
     citation: "ours",

@@ -6,9 +6,9 @@ use crate::area::Area;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
 use nalgebra::{UnitQuaternion, Vector3};
-use rapier3d::geometry::{Aabb, Ball, ColliderHandle, Ray, SharedShape};
+use rapier3d::geometry::{Aabb, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
-use rapier3d::parry::{bounding_volume::BoundingVolume, query, utils::Array2};
+use rapier3d::parry::utils::Array2;
 
 /// How far the bed's surface extends beyond the area, m: farther than the distance at which a search is aborted.
 const MARGIN_M: f64 = 60.0;
@@ -61,18 +61,20 @@ impl Fixed {
         Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
     }
 
-    /// Whether any part of it comes within `radius_m` of `p_W`.
-    pub(super) fn within(&self, p_W: &Vector3<f64>, radius_m: f64) -> bool {
+    /// Distance of `p_W` from it, m, 0 inside. Beyond `near_m` it may be less than that: the distance from its bounds.
+    pub(super) fn away_m(&self, p_W: &Vector3<f64>, near_m: f64) -> f64 {
         let p = vector(p_W);
-        let half = r::Vector::splat(radius_m);
-        if !self.bounds.intersects(&Aabb::new(p - half, p + half)) {
-            return false;
+        let outside = (self.bounds.mins - p).max(p - self.bounds.maxs);
+        let from_bounds_m = outside.max(r::Vector::ZERO).length();
+        if from_bounds_m > near_m {
+            return from_bounds_m;
         }
-        let ball = Ball::new(radius_m);
-        let at = r::Pose::from_translation(p);
-        query::intersection_test(&self.pose, self.shape.as_ref(), &at, &ball)
-            .expect("parry can intersect a ball with any shape that it can collide")
-            .intersecting
+        let nearest = self.shape.project_point(&self.pose, p, true);
+        if nearest.is_inside {
+            0.0
+        } else {
+            (nearest.point - p).length()
+        }
     }
 
     /// Distance along a unit direction to the first hit, m.
@@ -111,7 +113,12 @@ mod tests {
                 (1.0 + hit - depth).abs() < 1e-3,
                 "{hit} at {x} {y}, depth {depth}"
             );
-            assert!(!bed.within(&from, depth - 1.1) && bed.within(&from, depth - 0.9));
+            // A slope of 4 m over 200 m: the nearest place is hardly nearer than the one below.
+            let away_m = bed.away_m(&from, 100.0);
+            assert!((away_m - (depth - 1.0)).abs() < 0.01, "{away_m} at {x} {y}");
+            let high = from + Vector3::z() * 40.0;
+            let above_m = bed.away_m(&high, 5.0);
+            assert!(above_m > 5.0 && above_m <= bed.away_m(&high, 100.0));
         }
         // Past the area, within the margin.
         let out = area.world(Vector2::new(255.0, 0.0));

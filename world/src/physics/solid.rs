@@ -84,6 +84,8 @@ pub(super) struct Body {
     /// Its shapes in body axes.
     pub(super) parts: Vec<(r::Pose, r::SharedShape)>,
     pub(super) reach_m: f64,
+    /// A sphere without anything fixed in it: its middle and radius, m.
+    clear: (Vector3<f64>, f64),
     pub(super) contact: ContactReport,
     /// Its rigid body in rapier's world, if rapier alone moves it.
     pub(super) twin: Option<Twin>,
@@ -117,6 +119,20 @@ impl Body {
             .free
             .map_or(0.0, |free| (free.pose.p_WB - self.truth.pose.p_WB).norm());
         self.reach_m + NEAR_M + way_m.max(2.0 * dt_s * self.truth.v_WB_B.norm())
+    }
+
+    /// Whether anything fixed can matter in two steps. While the body stays in a sphere that is known to be clear,
+    /// nothing is searched.
+    fn is_near(&mut self, fixed: &[Fixed], dt_s: f64) -> bool {
+        let (p, near_m) = (self.truth.pose.p_WB, self.near_m(dt_s));
+        let (middle, radius_m) = self.clear;
+        if (p - middle).norm() + near_m < radius_m {
+            return false;
+        }
+        let away = fixed.iter().map(|f| f.away_m(&p, near_m));
+        let away_m = away.fold(f64::INFINITY, f64::min);
+        self.clear = (p, away_m);
+        away_m <= near_m
     }
 }
 
@@ -182,6 +198,9 @@ impl Physics {
         let collider = r::ColliderBuilder::new(fixed.shape.clone())
             .position(fixed.pose)
             .friction(FRICTION);
+        for body in &mut self.bodies {
+            body.clear.1 = 0.0;
+        }
         fixed.name = name.to_string();
         fixed.collider = self.world.insert_collider(collider, None);
         self.fixed.push(fixed);
@@ -220,6 +239,7 @@ impl Physics {
             inverse_mass_G: to_G * inverse * to_G.transpose(),
             parts,
             reach_m,
+            clear: (Vector3::zeros(), 0.0),
             contact: ContactReport::default(),
             twin: None,
         };
@@ -322,14 +342,18 @@ impl Physics {
         }
     }
 
-    fn anything_in_reach(&self) -> bool {
-        self.bodies.iter().enumerate().any(|(i, body)| {
-            let (p, near_m) = (body.truth.pose.p_WB, body.near_m(self.dt_s));
-            self.fixed.iter().any(|f| f.within(&p, near_m))
-                || self.bodies[..i].iter().any(|other| {
-                    (other.truth.pose.p_WB - p).norm() < near_m + other.near_m(self.dt_s)
-                })
-        })
+    fn anything_in_reach(&mut self) -> bool {
+        let (dt_s, fixed) = (self.dt_s, &self.fixed);
+        // Each body is asked, so that each knows its surroundings at the next step.
+        let near_fixed =
+            (self.bodies.iter_mut()).fold(false, |near, body| body.is_near(fixed, dt_s) || near);
+        near_fixed
+            || self.bodies.iter().enumerate().any(|(i, body)| {
+                let (p, near_m) = (body.truth.pose.p_WB, body.near_m(dt_s));
+                self.bodies[..i]
+                    .iter()
+                    .any(|other| (other.truth.pose.p_WB - p).norm() < near_m + other.near_m(dt_s))
+            })
     }
 
     pub(super) fn body_name(&self, id: BodyId) -> &str {
