@@ -143,7 +143,7 @@ fn the_lag_is_its_time_constant() {
             way_m += rates.speed_m_s * dt_s;
         }
         let t_s = f64::from(steps) * dt_s;
-        let left = (-t_s / lag_s).exp();
+        let left = math::exp(-t_s / lag_s);
         assert!(
             (heading - 60f64.to_radians() * (1.0 - left)).abs() < 1e-9,
             "{dt_s}"

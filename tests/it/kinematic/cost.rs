@@ -93,17 +93,17 @@ impl Mission<'_> {
 /// Prints, for a few seeds, the time of the mission less that of its plume: the plume alone, and the plume with the
 /// questions that the fluorometer asks it.
 #[test]
+#[expect(clippy::print_stdout, reason = "asked for by name, to read it")]
 #[ignore = "measures times: to be run on an idle machine"]
 fn what_a_duck_mission_costs() {
     let mut quiet = TENTHS.to_vec();
     quiet.push(QUIET);
     let usual = [QUIET];
-    let cases: [(&str, &str, &[(&str, &str)]); 3] = [
-        ("REMUS, steps of 0.02 s", "Remus100()", &usual),
+    for (name, vehicle, changes) in [
+        ("REMUS, steps of 0.02 s", "Remus100()", &usual[..]),
         ("point, steps of 0.02 s", "Kinematic()", &usual),
         ("point, steps of 0.1 s", "Kinematic()", &quiet),
-    ];
-    for (name, vehicle, changes) in cases {
+    ] {
         let loaded = with("duck_st", vehicle, changes);
         let (mut beside_ms, mut asking_ms, mut lasts_s) = (Vec::new(), Vec::new(), 0.0);
         for seed in 900_001..900_006 {

@@ -344,9 +344,7 @@ impl Physics {
 
     fn anything_in_reach(&mut self) -> bool {
         let (dt_s, fixed) = (self.dt_s, &self.fixed);
-        // Each body is asked, so that each knows its surroundings at the next step.
-        let near_fixed =
-            (self.bodies.iter_mut()).fold(false, |near, body| body.is_near(fixed, dt_s) || near);
+        let near_fixed = (self.bodies.iter_mut()).any(|body| body.is_near(fixed, dt_s));
         near_fixed
             || self.bodies.iter().enumerate().any(|(i, body)| {
                 let (p, near_m) = (body.truth.pose.p_WB, body.near_m(dt_s));
