@@ -9,6 +9,7 @@ use robots::handoff::TurnLimit;
 use robots::vehicles::Craft;
 use world::area::Area;
 use world::fields::Flow;
+use world::limits::range::stream_m_s;
 use world::terrain::Terrain;
 
 /// A speed is reported if it exceeds the possible one by this factor. Drag and thrust are not known better.
@@ -37,7 +38,8 @@ pub(super) fn speeds(
         }
     };
     let own_m_s = top_m_s.min(limit_m_s);
-    if carried && own_m_s < water_m_s {
+    // Water faster than any is an error of its own.
+    if carried && own_m_s < water_m_s && water_m_s <= stream_m_s.1 {
         let problem = format!("the water carries it away: {}", makes(own_m_s));
         let slow = if limit_m_s < top_m_s {
             "guidance.water_speed_limit_m_s"
