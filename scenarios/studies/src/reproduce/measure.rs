@@ -2,6 +2,7 @@
 
 use crate::campaign::report::Unit;
 use crate::campaign::{DeclarationRow, RunRow};
+use robots::handoff::Verdict;
 use serde::{Deserialize, Serialize};
 
 /// Something that did or did not happen in a run.
@@ -29,11 +30,24 @@ pub enum RunEvent {
     RegionErrorOver(u32, u32),
     /// Among runs that declared in this subregion: the error across the flow is at least so many metres.
     RegionAcrossOver(u32, u32),
+    /// Among runs that made a declaration of this number (counted from 0): a look at the place verified a source.
+    Verified(u32),
+    /// Among the same: the look rejected it.
+    Rejected(u32),
+    /// Among the same: the look could not tell.
+    CannotTell(u32),
 }
 
 /// The first declaration of a subregion that the vehicle did not reject.
 fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
     (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.stands())
+}
+
+/// Whether a look at the place of declaration number `k` said this; `None` if there is no such declaration.
+fn said(r: &RunRow, k: u32, verdict: Verdict) -> Option<bool> {
+    (r.declarations.iter())
+        .find(|d| d.number == u64::from(k))
+        .map(|d| d.verdict == verdict.name())
 }
 
 impl RunEvent {
@@ -59,6 +73,9 @@ impl RunEvent {
             RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
             }
+            RunEvent::Verified(k) => said(r, k, Verdict::Verified),
+            RunEvent::Rejected(k) => said(r, k, Verdict::Rejected),
+            RunEvent::CannotTell(k) => said(r, k, Verdict::CannotTell),
         }
     }
 }
