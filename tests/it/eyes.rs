@@ -140,7 +140,9 @@ fn add(place: &mut Place, pictures: &[(Picture, Stand)]) {
 
 /// Stands along the flow, from -6 to 6 m, over a strip `north` of the place.
 fn line(north: f64, altitude_m: f64) -> Vec<[f64; 3]> {
-    (0..9).map(|k| [1.5 * f64::from(k) - 6.0, north, altitude_m]).collect()
+    (0..9)
+        .map(|k| [1.5 * f64::from(k) - 6.0, north, altitude_m])
+        .collect()
 }
 
 /// The beam attenuation that the renderer used comes back from its pictures of the bare bed within 30 %, from two
@@ -156,7 +158,13 @@ fn the_pictures_show_how_clear_the_water_is() {
     ] {
         let bare = sea(visibility_m, None, 0.0);
         let stands: Vec<[f64; 3]> = (0..8)
-            .map(|k| [7.0 * f64::from(k), 3.0 * f64::from(k), heights[k as usize % 2]])
+            .map(|k| {
+                [
+                    7.0 * f64::from(k),
+                    3.0 * f64::from(k),
+                    heights[k as usize % 2],
+                ]
+            })
             .collect();
         let mut place = place(3.0);
         add(&mut place, &bare.pictures(&stands, 1));
@@ -182,7 +190,10 @@ fn what_is_no_source_is_rejected_or_left_open() {
     let dark = Some([0.08, 0.08, 0.07]);
     let red = Some([0.5, 0.08, 0.08]);
     let passing = Sea {
-        dye: Dye { kg_s: 3.3e-5, from_m: -20.0 },
+        dye: Dye {
+            kg_s: 3.3e-5,
+            from_m: -20.0,
+        },
         ..sea(8.0, dark, 0.0)
     };
     for (what, there) in [
@@ -193,19 +204,35 @@ fn what_is_no_source_is_rejected_or_left_open() {
     ] {
         let mut place = place(2.0);
         for (n, north) in [0.0, 1.5, -1.5].into_iter().enumerate() {
-            add(&mut place, &there.pictures(&line(north, 2.5), 10 * n as u64));
+            add(
+                &mut place,
+                &there.pictures(&line(north, 2.5), 10 * n as u64),
+            );
         }
         let said = place.weigh();
-        assert_eq!(said.answer, Answer::Rejected, "{what}: {:.1}", said.log_factor);
+        assert_eq!(
+            said.answer,
+            Answer::Rejected,
+            "{what}: {:.1}",
+            said.log_factor
+        );
     }
     let mut murky = place(2.0);
     add(&mut murky, &source(1.2).pictures(&line(0.0, 2.5), 1));
     let said = murky.weigh();
     assert_eq!(said.answer, Answer::CannotTell, "{:.1}", said.log_factor);
     let mut elsewhere = place(3.0);
-    add(&mut elsewhere, &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1));
+    add(
+        &mut elsewhere,
+        &sea(8.0, None, 0.0).pictures(&line(0.0, 1.4), 1),
+    );
     let said = elsewhere.weigh();
-    assert_eq!(said.answer, Answer::CannotTell, "most of it was not seen: {:.1}", said.log_factor);
+    assert_eq!(
+        said.answer,
+        Answer::CannotTell,
+        "most of it was not seen: {:.1}",
+        said.log_factor
+    );
 }
 
 /// In murky water two passes say more than one; the first pass shown twice says no more than once.
@@ -215,7 +242,9 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     let mut stands = line(0.0, 1.6);
     let first = murky.pictures(&stands, 1);
     stands.iter_mut().for_each(|s| s[0] += 0.4);
-    let others: Vec<_> = (1..4).flat_map(|k| murky.pictures(&stands, 100 * k)).collect();
+    let others: Vec<_> = (1..4)
+        .flat_map(|k| murky.pictures(&stands, 100 * k))
+        .collect();
     let mut place = place(2.0);
     add(&mut place, &first);
     let once = place.weigh();
@@ -225,10 +254,20 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
         add(&mut copied, &first);
     }
     let copied = copied.weigh();
-    assert!(copied.log_factor <= once.log_factor + 0.5, "{} {}", copied.log_factor, once.log_factor);
+    assert!(
+        copied.log_factor <= once.log_factor + 0.5,
+        "{} {}",
+        copied.log_factor,
+        once.log_factor
+    );
     add(&mut place, &others);
     let all = place.weigh();
-    assert!(all.log_factor > once.log_factor + 2.0, "{} {}", all.log_factor, once.log_factor);
+    assert!(
+        all.log_factor > once.log_factor + 2.0,
+        "{} {}",
+        all.log_factor,
+        once.log_factor
+    );
     assert_eq!(all.answer, Answer::Verified, "{:.1}", all.log_factor);
 }
 
@@ -265,8 +304,13 @@ fn pictures_of_nothing_leave_it_open() {
         assert_eq!(place.add(&picture, &stand), Err(why));
     }
     // On the bed, or looking at the surface, it sees none of the ground.
-    let (picture, _) = sea(8.0, None, 0.0).pictures(&[[0.0, 0.0, 2.0]], 1).remove(0);
-    let low = Stand { altitude_m: 0.0, ..stand };
+    let (picture, _) = sea(8.0, None, 0.0)
+        .pictures(&[[0.0, 0.0, 2.0]], 1)
+        .remove(0);
+    let low = Stand {
+        altitude_m: 0.0,
+        ..stand
+    };
     assert_eq!(place.add(&picture, &low), Err(Useless::Empty));
     let up = Stand {
         R_WB: UnitQuaternion::from_euler_angles(std::f64::consts::PI, 0.0, 0.0),

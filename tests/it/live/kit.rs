@@ -8,8 +8,8 @@ use rheotaxis::gantry::GantryFrame;
 use robots::handoff::{
     ActuatorCommand, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command,
     Declaration, Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings,
-    Layer, LayerState, MAX_PROBES, Manoeuvre, Picture, PictureEvidence, ProbeScan, Region, RegionState, Regions,
-    Setpoint, SidescanPing, TrackerState, Vertical,
+    Layer, LayerState, MAX_PROBES, Manoeuvre, Picture, PictureEvidence, ProbeScan, Region,
+    RegionState, Regions, Setpoint, SidescanPing, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;

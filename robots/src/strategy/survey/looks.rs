@@ -238,7 +238,9 @@ impl Added {
         };
         let n = (self.spec.within_m.get() / STRIPS_M).floor() as i32;
         // From the middle outwards, so that of equal strips the nearest one is flown.
-        let strips = (0..=n).flat_map(|k| [k, -k]).map(|k| f64::from(k) * STRIPS_M);
+        let strips = (0..=n)
+            .flat_map(|k| [k, -k])
+            .map(|k| f64::from(k) * STRIPS_M);
         let best = strips
             .map(|offset| (offset, mass(offset)))
             .reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
@@ -248,7 +250,9 @@ impl Added {
     /// The likeliest place of the source as the vehicle believes now, if the pictures verify one.
     pub(super) fn found(&self) -> Option<Vector2<f64>> {
         let weighed = self.weighed.as_ref()?;
-        let best = weighed.best.filter(|_| weighed.answer == Answer::Verified)?;
+        let best = weighed
+            .best
+            .filter(|_| weighed.answer == Answer::Verified)?;
         // From where the pictures lie to the mean of the fixes.
         Some(best + self.fixes.1)
     }
@@ -295,7 +299,10 @@ mod tests {
         for n in 0..8 {
             let (from, to) = line(added.next_line(14.0, &o));
             let north = if n % 2 == 0 { 14.0 } else { -14.0 };
-            assert!((from - Vector2::new(10.0, 20.0 - north)).norm() < 1e-9, "{n}");
+            assert!(
+                (from - Vector2::new(10.0, 20.0 - north)).norm() < 1e-9,
+                "{n}"
+            );
             assert!((to - Vector2::new(10.0, 20.0 + north)).norm() < 1e-9, "{n}");
             assert_eq!(added.altitude_m(), 2.5);
         }
@@ -312,7 +319,10 @@ mod tests {
             o.estimate.fix_jump = Vector2::new(jump, 0.0);
             o.estimate.position.x += jump;
             added.follow(&o, false);
-            assert!(added.at(&o).norm() < 1e-12, "where the pictures lie, it did not move");
+            assert!(
+                added.at(&o).norm() < 1e-12,
+                "where the pictures lie, it did not move"
+            );
             assert!((added.middle() - Vector2::new(10.0 - mean, 20.0)).norm() < 1e-12);
         }
     }

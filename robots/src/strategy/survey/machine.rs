@@ -177,8 +177,8 @@ impl PostDeclaration {
         let mut arrived = arrived;
         loop {
             // The camera has seen enough.
-            let enough = self.phase == SurveyPhase::Camera
-                && self.looks.as_ref().is_some_and(Looks::enough);
+            let enough =
+                self.phase == SurveyPhase::Camera && self.looks.as_ref().is_some_and(Looks::enough);
             let stride = if enough {
                 Stride::Over
             } else {

@@ -18,7 +18,6 @@
 //! clear water, where the bed's own unevenness limits, a hundred add little.
 
 use super::mosaic::{Boxed, Boxes, Mosaic};
-use super::photometry::median;
 use nalgebra::Vector2;
 use serde::Serialize;
 use world::math;
@@ -27,8 +26,9 @@ use world::units::Heading;
 /// Least contrast of a source's body in brightness, and of its dye in redness.
 const BODY: f64 = 0.3;
 const DYE: f64 = 0.3;
-/// Logarithm of the prior odds that what gives off dye has a body: twenty to one.
-const BODILY: f64 = 3.0;
+/// Logarithm of the prior odds that what gives off dye has a body: four hundred to one, for water does not turn red of
+/// itself.
+const BODILY: f64 = 6.0;
 /// What is never known better than this: errors of model and fit in the two.
 const FLOOR: [f64; 2] = [0.06, 0.06];
 /// Change of brightness by dye for a change of its redness, which is not the body's.
@@ -36,7 +36,9 @@ const SHADE: f64 = 0.3;
 /// Greatest logarithm of a likelihood ratio that one term may add.
 const CAP: f64 = 12.0;
 /// Boxes below which their spread says nothing, and what is then taken to be the spread.
-const BOXES: (usize, f64) = (8, 0.5);
+const BOXES: (usize, f64) = (16, 0.5);
+/// Size below which a quarter of a standard normal variable lies.
+const QUARTER: f64 = 0.3186;
 /// Distances down-flow and up-flow of the boxes of each stretch, m.
 const DYED_M: [[f64; 2]; 3] = [[0.8, 1.3], [1.8, 2.3], [2.8, 3.3]];
 const CLEAN_M: [[f64; 2]; 2] = [[-0.9, -1.4], [-1.9, -2.4]];
@@ -106,7 +108,8 @@ pub(super) fn weigh(
     let boxes = mosaic.boxes();
     let spread = spread(&boxes);
     let box_at = |p: Vector2<f64>| {
-        let [x, y] = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
+        let [x, y] =
+            [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
         boxes.at(x, y)
     };
     let ways = TURNS_DEG.map(|t| down_flow.turned(t.to_radians()).unit());
@@ -128,10 +131,10 @@ pub(super) fn weigh(
         let dyed = DYED_M.map(stretch);
         let most = dyed.into_iter().fold(f64::NEG_INFINITY, f64::max);
         let clean: f64 = CLEAN_M.map(|m| -stretch(m)).into_iter().sum();
-        *log = (dyed.into_iter().sum::<f64>() - most).min(clean).min(body + BODILY);
-        if std::env::var("DBG").is_ok() { DBG.lock().unwrap().push((*log, format!("{p:?} body {body:.2} {:?} dyed {dyed:.2?} clean {:.2?} spread {spread:.3?}", box_at(*p).map(|b|(darkness(&b),b)), CLEAN_M.map(|m| -stretch(m))))); }
+        *log = (dyed.into_iter().sum::<f64>() - most)
+            .min(clean)
+            .min(body + BODILY);
     }
-    if std::env::var("DBG").is_ok() { let mut d=DBG.lock().unwrap(); d.sort_by(|a,b|b.0.total_cmp(&a.0)); eprintln!("{:?}", d[0]); d.clear(); }
     let log_factor = log_mean(places.iter().map(|(_, log)| *log));
     let best = (places.iter().copied()).reduce(|a, b| if b.1 > a.1 { b } else { a });
     let answer = if log_factor >= limits.verify_at {
@@ -169,18 +172,19 @@ fn darkness(b: &Boxed) -> f64 {
     -(b.contrast[0] + SHADE * b.contrast[1])
 }
 
-/// Standard deviation of darkness and redness over the boxes of the ground, about nothing: by those that are brighter,
-/// or less red, than the background, for bodies and dye are on the other side.
+/// Standard deviation of darkness and redness over the boxes of the ground, about nothing: by the quarter that is
+/// nearest to the background, for bodies, dye and what they do to the background beside them may fill half of it.
 fn spread(boxes: &Boxes) -> [f64; 2] {
     let all: Vec<[f64; 2]> = (boxes.apart())
-        .map(|b| [darkness(b), b.contrast[1]])
+        .map(|b| [darkness(b).abs(), b.contrast[1].abs()])
         .collect();
     [0, 1].map(|k| {
-        let other: Vec<f64> = all.iter().map(|v| -v[k]).filter(|v| *v > 0.0).collect();
-        if other.len() < BOXES.0 {
+        if all.len() < BOXES.0 {
             return BOXES.1;
         }
-        1.4826 * median(other)
+        let mut sizes: Vec<f64> = all.iter().map(|v| v[k]).collect();
+        sizes.sort_by(f64::total_cmp);
+        sizes[sizes.len() / 4] / QUARTER
     })
 }
 
@@ -209,5 +213,3 @@ fn log_mean(logs: impl Iterator<Item = f64> + Clone) -> f64 {
     }
     most + math::ln(sum / n)
 }
-
-pub static DBG: std::sync::Mutex<Vec<(f64,String)>> = std::sync::Mutex::new(Vec::new());

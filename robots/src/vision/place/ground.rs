@@ -14,7 +14,9 @@ use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use world::math;
 
 /// Lines of sight flatter than this are left out: cosine of their angle from straight down.
-const FLATTEST: f64 = 0.7;
+const FLATTEST: f64 = 0.76;
+/// Least height of a camera, m.
+const LOWEST_M: f64 = 0.05;
 
 /// Where a picture was taken, as the vehicle believes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +66,7 @@ impl Patch {
         let from_B = stand.R_WB * picture.p_BC;
         let height_m = stand.altitude_m + from_B.z;
         let R_WC = stand.R_WB * picture.R_BC;
-        if !(height_m > 0.05) {
+        if height_m.is_nan() || height_m <= LOWEST_M {
             return Err(Useless::Empty);
         }
         let foot = stand.position + from_B.xy();

@@ -16,7 +16,7 @@ use nalgebra::{SMatrix, SVector};
 use serde::Serialize;
 
 /// Terms of the polynomial.
-const TERMS: usize = 5;
+const TERMS: usize = 7;
 type Terms = SVector<f64, TERMS>;
 /// Blocks along the picture's longer side.
 const BLOCKS: u32 = 24;
@@ -25,6 +25,8 @@ const ROUNDS: usize = 8;
 const LIMIT: f64 = 5.0;
 /// Levels beyond which a pixel says nothing: black and white.
 const LEVELS: (u8, u8) = (2, 253);
+/// Least brightness of the background, as a share of full scale.
+const DARKEST: f64 = 1e-5;
 /// Least share of pixels in between.
 const USABLE: f64 = 0.5;
 /// Least side of a picture, px.
@@ -65,6 +67,34 @@ pub(super) fn contrasts(picture: &RgbImage, view_rad: f64) -> Result<Contrasts, 
     if w < SMALLEST || h < SMALLEST {
         return Err(Useless::Empty);
     }
+    let size = [w, h];
+    let n = w as usize * h as usize;
+    let (y, rg) = light(picture, view_rad)?;
+    let of_y = surface(&blocks(size, &y, &y));
+    let of_rg = surface(&blocks(size, &y, &rg));
+    let mut out = Contrasts {
+        width: w,
+        height: h,
+        bright: vec![f32::NAN; n],
+        red: vec![f32::NAN; n],
+        noise: [0.0; 2],
+    };
+    for k in 0..n {
+        let t = terms(size, f64::from(k as u32 % w), f64::from(k as u32 / w));
+        let ground = of_y.dot(&t);
+        if y[k].is_finite() && ground > DARKEST {
+            out.bright[k] = ((y[k] - ground) / ground) as f32;
+            out.red[k] = ((rg[k] - of_rg.dot(&t)) / ground) as f32;
+        }
+    }
+    out.noise = [&out.bright, &out.red].map(|v| noise(v, w as usize));
+    Ok(out)
+}
+
+/// Brightness of the pixels, not a number where one says nothing, and red less green, without the lens's fall-off.
+fn light(picture: &RgbImage, view_rad: f64) -> Result<(Vec<f64>, Vec<f64>), Useless> {
+    let (w, h) = picture.dimensions();
+    let first = picture.get_pixel(0, 0);
     let curve: Vec<f64> = (0..256).map(|l| linear(f64::from(l) / 255.0)).collect();
     let n = w as usize * h as usize;
     let focal = 0.5 * f64::from(w) / world::math::tan(0.5 * view_rad);
@@ -90,38 +120,10 @@ pub(super) fn contrasts(picture: &RgbImage, view_rad: f64) -> Result<Contrasts, 
             Useless::Bright
         });
     }
-    let size = [w, h];
-    let of_y = surface(&blocks(size, &y, |k| y[k]), -1.0);
-    let of_rg = surface(&blocks(size, &y, |k| rg[k]), 1.0);
-    let mut out = Contrasts {
-        width: w,
-        height: h,
-        bright: vec![f32::NAN; n],
-        red: vec![f32::NAN; n],
-        noise: [0.0; 2],
-    };
-    for k in 0..n {
-        let t = terms(size, f64::from(k as u32 % w), f64::from(k as u32 / w));
-        let ground = of_y.dot(&t);
-        if y[k].is_finite() && ground > 1e-5 {
-            out.bright[k] = ((y[k] - ground) / ground) as f32;
-            out.red[k] = ((rg[k] - of_rg.dot(&t)) / ground) as f32;
-        }
-    }
-    out.noise = [&out.bright, &out.red].map(|v| noise(v, w as usize));
-    if out.noise[0] == 0.0 {
+    if picture.pixels().all(|p| p == first) {
         return Err(Useless::Flat);
     }
-    Ok(out)
-}
-
-/// Share of its light that a lens lets through to pixel number `k`: cos⁴ of the angle from its axis (any text on
-/// optics).
-fn fall_off(size: [u32; 2], focal: f64, k: usize) -> f64 {
-    let x = f64::from(k as u32 % size[0]) + 0.5 - 0.5 * f64::from(size[0]);
-    let y = f64::from(k as u32 / size[0]) + 0.5 - 0.5 * f64::from(size[1]);
-    let cos2 = focal * focal / (focal * focal + x * x + y * y);
-    cos2 * cos2
+    Ok((y, rg))
 }
 
 /// Light of a level, both as shares of full scale.
@@ -133,18 +135,25 @@ fn linear(level: f64) -> f64 {
     }
 }
 
-/// The terms of the polynomial at a pixel: a slope, and the distance from the middle to the second and fourth power. A
-/// stripe of dye across the picture has another shape.
+/// Share of its light that a lens lets through to pixel number `k`: cos⁴ of the angle from its axis (any text on
+/// optics).
+fn fall_off(size: [u32; 2], focal: f64, k: usize) -> f64 {
+    let x = f64::from(k as u32 % size[0]) + 0.5 - 0.5 * f64::from(size[0]);
+    let y = f64::from(k as u32 / size[0]) + 0.5 - 0.5 * f64::from(size[1]);
+    let cos2 = focal * focal / (focal * focal + x * x + y * y);
+    cos2 * cos2
+}
+
+/// The terms of the polynomial at a pixel: those of second order, and the fourth power of the distance from the middle.
 fn terms(size: [u32; 2], x: f64, y: f64) -> Terms {
-    let half = 0.5 * f64::from(size[0].max(size[1]));
-    let u = (x + 0.5 - 0.5 * f64::from(size[0])) / half;
-    let v = (y + 0.5 - 0.5 * f64::from(size[1])) / half;
+    let u = (2.0 * x + 1.0) / f64::from(size[0]) - 1.0;
+    let v = (2.0 * y + 1.0) / f64::from(size[1]) - 1.0;
     let r2 = u * u + v * v;
-    Terms::from([1.0, u, v, r2, r2 * r2])
+    Terms::from([1.0, u, v, u * u, u * v, v * v, r2 * r2])
 }
 
 /// Means of blocks of pixels that say something, each with the terms of its middle.
-fn blocks(size: [u32; 2], y: &[f64], of: impl Fn(usize) -> f64) -> Vec<(Terms, f64)> {
+fn blocks(size: [u32; 2], y: &[f64], of: &[f64]) -> Vec<(Terms, f64)> {
     let side = (size[0].max(size[1]) / BLOCKS).max(1);
     let mut out = Vec::new();
     for top in (0..size[1]).step_by(side as usize) {
@@ -155,7 +164,7 @@ fn blocks(size: [u32; 2], y: &[f64], of: impl Fn(usize) -> f64) -> Vec<(Terms, f
                 for column in left..right {
                     let k = row as usize * size[0] as usize + column as usize;
                     if y[k].is_finite() {
-                        sum += of(k);
+                        sum += of[k];
                         n += 1;
                     }
                 }
@@ -169,9 +178,8 @@ fn blocks(size: [u32; 2], y: &[f64], of: impl Fn(usize) -> f64) -> Vec<(Terms, f
     out
 }
 
-/// The robust fit of the polynomial. What is not background is known to lie on one side of it, by the sign of `other`:
-/// there half the limit holds.
-fn surface(blocks: &[(Terms, f64)], other: f64) -> Terms {
+/// The robust fit of the polynomial.
+fn surface(blocks: &[(Terms, f64)]) -> Terms {
     let mut fit = Terms::zeros();
     let mut weights = vec![1.0; blocks.len()];
     for _ in 0..ROUNDS {
@@ -192,7 +200,6 @@ fn surface(blocks: &[(Terms, f64)], other: f64) -> Terms {
         let off: Vec<f64> = blocks.iter().map(|(t, v)| v - fit.dot(t)).collect();
         let limit = LIMIT * 1.4826 * median(off.iter().map(|o| o.abs()).collect());
         for (weight, off) in weights.iter_mut().zip(&off) {
-            let limit = if off * other > 0.0 { 0.5 * limit } else { limit };
             let share = if limit > 0.0 { off / limit } else { 0.0 };
             *weight = (1.0 - share * share).max(0.0).powi(2);
         }

@@ -94,7 +94,14 @@ fn correlation(pairs: impl Iterator<Item = (f64, f64)>) -> (usize, f64) {
     }
     let [a, b, aa, bb, ab] = sums.map(|s| s / (n as f64).max(1.0));
     let spread = ((aa - a * a) * (bb - b * b)).max(0.0).sqrt();
-    (n, if spread > 1e-12 { (ab - a * b) / spread } else { 0.0 })
+    (
+        n,
+        if spread > 1e-12 {
+            (ab - a * b) / spread
+        } else {
+            0.0
+        },
+    )
 }
 
 #[cfg(test)]
@@ -152,8 +159,14 @@ mod tests {
         let (g, other) = (ground(1), ground(2));
         let mut known = Known::default();
         known.add(&picture(&g, [20, 20], [0, 0], 0.5, 1), [0, 0]);
-        assert_eq!(known.shift(&picture(&other, [22, 20], [0, 0], 0.5, 2), [0, 0], 8), None);
-        assert_eq!(known.shift(&picture(&g, [22, 20], [0, 0], 9.0, 3), [0, 0], 8), None);
+        assert_eq!(
+            known.shift(&picture(&other, [22, 20], [0, 0], 0.5, 2), [0, 0], 8),
+            None
+        );
+        assert_eq!(
+            known.shift(&picture(&g, [22, 20], [0, 0], 9.0, 3), [0, 0], 8),
+            None
+        );
         let corner = picture(&g, [38, 38], [0, 0], 0.1, 4);
         assert_eq!(known.shift(&corner, [0, 0], 1), None);
         let far = picture(&g, [22, 20], [12, 0], 0.1, 5);

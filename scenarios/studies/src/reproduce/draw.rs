@@ -72,20 +72,22 @@ impl Law {
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub fn drawn<'a>(
+pub(super) fn drawn<'a>(
     draws: &[Draw],
     arm: &str,
     loaded: &'a Loaded,
     seed: Seed,
 ) -> Result<Cow<'a, Loaded>, String> {
-    changed(draws, arm, loaded, &|path| Stream::new(seed, path, "draw").uniform())
+    changed(draws, arm, loaded, &|path| {
+        Stream::new(seed, path, "draw").uniform()
+    })
 }
 
 /// Checks that every value that can be drawn is legal.
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub fn check(draws: &[Draw], arm: &str, loaded: &Loaded) -> Result<(), String> {
+pub(super) fn check(draws: &[Draw], arm: &str, loaded: &Loaded) -> Result<(), String> {
     for d in draws {
         if let Some(fault) = d.of.fault() {
             return Err(format!("draw `{}`: {fault}", d.path));
@@ -93,7 +95,9 @@ pub fn check(draws: &[Draw], arm: &str, loaded: &Loaded) -> Result<(), String> {
     }
     for d in draws.iter().filter(|d| d.in_arm(arm)) {
         for u in d.of.tries() {
-            let all = changed(draws, arm, loaded, &|path| if path == d.path { u } else { 0.5 })?;
+            let all = changed(draws, arm, loaded, &|path| {
+                if path == d.path { u } else { 0.5 }
+            })?;
             let said = all.check();
             said.map_err(|e| format!("draw `{}`: {e}", d.path))?;
         }

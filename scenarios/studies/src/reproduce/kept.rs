@@ -171,7 +171,10 @@ impl Table {
         let mut scenarios = Vec::new();
         for (arm, loaded) in reference.arms.iter().filter(|(arm, _)| was(arm).is_some()) {
             let made = drawn(&reference.row.draw, arm, loaded, Seed::from(seed));
-            scenarios.push((arm, made.expect("ends and values of every draw were checked")));
+            scenarios.push((
+                arm,
+                made.expect("ends and values of every draw were checked"),
+            ));
         }
         let mut runs: Vec<Planned<'_>> = Vec::new();
         for (arm, loaded) in &scenarios {

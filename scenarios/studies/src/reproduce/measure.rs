@@ -258,6 +258,31 @@ mod tests {
     }
 
     #[test]
+    fn of_verdicts() {
+        let at = |number, verdict: Verdict| DeclarationRow {
+            number,
+            verdict: verdict.name().to_string(),
+            ..DeclarationRow::default()
+        };
+        let row = RunRow {
+            declarations: vec![at(0, Verdict::Verified), at(1, Verdict::CannotTell)],
+            ..RunRow::default()
+        };
+        let of = |k| {
+            [
+                RunEvent::Verified(k),
+                RunEvent::Rejected(k),
+                RunEvent::CannotTell(k),
+            ]
+            .map(|e| e.of(&row))
+        };
+        assert_eq!(of(0), [Some(true), Some(false), Some(false)]);
+        assert_eq!(of(1), [Some(false), Some(false), Some(true)]);
+        // A place that was never reached has no verdict.
+        assert_eq!(of(2), [None; 3]);
+    }
+
+    #[test]
     fn identification_counts_from_the_zones_oldest_point() {
         let found = RunRow {
             declared_s: Some(900.0),
