@@ -28,8 +28,8 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 const DEPTH_M: f64 = 8.0;
-const VISIBILITY_M: f64 = 3.5;
-const ALTITUDE_M: f64 = 1.6;
+const VISIBILITY_M: f64 = 4.5;
+const ALTITUDE_M: f64 = 1.7;
 /// Sides of a cell in the drawing, px.
 const CELL_PX: u32 = 4;
 
@@ -129,7 +129,7 @@ fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &Weighed) -> RgbImage {
         } else {
             [more, less, less]
         };
-        for (dx, dy) in [(0, 0), (1, 0), (0, 1), (1, 1)] {
+        for (dx, dy) in (0..3).flat_map(|x| (0..3).map(move |y| (x, y))) {
             let (x, y) = (at[0] + dx, h as i32 - 1 - at[1] - dy);
             if (0..w as i32).contains(&x) && (0..h as i32).contains(&y) {
                 likely.put_pixel(x as u32, y as u32, Rgb(colour));
