@@ -4,7 +4,8 @@ use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use robots::handoff::Picture;
 use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, Optics, OpticsSpec, Scene, looking, render, turned,
+    CameraModel, CameraSpec, ClaritySpec, LightSpec, Optics, OpticsSpec, Scene, looking, render,
+    turned,
 };
 use robots::vision::place::{AddUpSpec, Answer, Place, Stand, Useless};
 use std::f64::consts::FRAC_PI_2;
@@ -42,6 +43,7 @@ impl Concentration for Dye {
 /// What lies at the origin, in which water.
 struct Sea {
     visibility_m: f64,
+    light_klx: f64,
     body: Option<[f64; 3]>,
     dye: Dye,
 }
@@ -49,6 +51,7 @@ struct Sea {
 fn sea(visibility_m: f64, body: Option<[f64; 3]>, kg_s: f64) -> Sea {
     Sea {
         visibility_m,
+        light_klx: 60.0,
         body,
         dye: Dye { kg_s, from_m: 0.0 },
     }
@@ -66,6 +69,10 @@ impl Sea {
             clarity: ClaritySpec {
                 visibility_m: Positive::new(self.visibility_m),
                 ..ClaritySpec::default()
+            },
+            light: LightSpec {
+                illuminance_klux: Positive::new(self.light_klx),
+                ..LightSpec::default()
             },
             ..OpticsSpec::default()
         });
@@ -235,35 +242,37 @@ fn what_is_no_source_is_rejected_or_left_open() {
     );
 }
 
-/// In murky water two passes say more than one; the first pass shown twice says no more than once.
+/// At dusk the noise limits what a pass shows: four passes say more than one, and one pass shown four times says no more
+/// than once.
 #[test]
 fn evidence_adds_up_over_pictures_and_not_over_copies() {
-    let murky = source(2.6);
-    let mut stands = line(0.0, 1.6);
-    let first = murky.pictures(&stands, 1);
-    stands.iter_mut().for_each(|s| s[0] += 0.4);
-    let others: Vec<_> = (1..4)
-        .flat_map(|k| murky.pictures(&stands, 100 * k))
+    let dusk = Sea {
+        light_klx: 0.6,
+        ..source(8.0)
+    };
+    let passes: Vec<_> = (1..5)
+        .map(|k| dusk.pictures(&line(0.0, 2.0), 100 * k))
         .collect();
     let mut place = place(2.0);
-    add(&mut place, &first);
+    add(&mut place, &passes[0]);
     let once = place.weigh();
     assert_eq!(once.answer, Answer::CannotTell, "{:.1}", once.log_factor);
     let mut copied = place.clone();
-    for _ in 0..3 {
-        add(&mut copied, &first);
+    for _ in 1..4 {
+        add(&mut copied, &passes[0]);
     }
-    let copied = copied.weigh();
+    let copied = copied.weigh().log_factor;
     assert!(
-        copied.log_factor <= once.log_factor + 0.5,
-        "{} {}",
-        copied.log_factor,
+        copied <= once.log_factor + 0.5,
+        "{copied} {}",
         once.log_factor
     );
-    add(&mut place, &others);
+    for pass in &passes[1..] {
+        add(&mut place, pass);
+    }
     let all = place.weigh();
     assert!(
-        all.log_factor > once.log_factor + 2.0,
+        all.log_factor > once.log_factor + 1.0,
         "{} {}",
         all.log_factor,
         once.log_factor
@@ -271,7 +280,7 @@ fn evidence_adds_up_over_pictures_and_not_over_copies() {
     assert_eq!(all.answer, Answer::Verified, "{:.1}", all.log_factor);
 }
 
-/// The second pass believes itself 0.6 m farther north than it is.
+/// The second pass believes itself 0.6 m farther north than it is; half of that at least is taken out.
 #[test]
 fn overlap_takes_out_an_error_of_the_navigation() {
     let clear = source(10.0);
@@ -281,7 +290,7 @@ fn overlap_takes_out_an_error_of_the_navigation() {
     second.iter_mut().for_each(|(_, s)| s.position.y += 0.6);
     add(&mut place, &second);
     let back = place.shift_m();
-    assert!((back - Vector2::new(0.0, -0.6)).norm() < 0.15, "{back}");
+    assert!((back - Vector2::new(0.0, -0.6)).norm() < 0.3, "{back}");
 }
 
 #[test]

@@ -28,8 +28,8 @@ use world::terrain::Terrain;
 use world::units::Heading;
 
 const DEPTH_M: f64 = 8.0;
-const VISIBILITY_M: f64 = 4.5;
-const ALTITUDE_M: f64 = 1.7;
+const VISIBILITY_M: f64 = 6.0;
+const ALTITUDE_M: f64 = 2.0;
 /// Sides of a cell in the drawing, px.
 const CELL_PX: u32 = 4;
 

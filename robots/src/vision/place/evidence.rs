@@ -6,16 +6,16 @@
 //! et al. 2013, section 5: a dark body with red dye next to it.
 //!
 //! *Parameters*: `verify_at`, `reject_at` the limits of its logarithm; `within_m` how far from the told place the
-//! source may be. The template: a dark box at the place; three stretches of dye down-flow of it, at [`DYED_M`]; none in
-//! two stretches up-flow, at [`CLEAN_M`]; in seven directions about the flow.
+//! source may be. The template: a dark box at the place; three stretches of dye down-flow of it, at `DYED_M`; none in two
+//! stretches up-flow, at `CLEAN_M`; in seven directions about the flow.
 //!
 //! *Deviations*: a source is more likely than another thing by the least of three logarithms: the body against dye
-//! without one; the dye, less the stretch that speaks for it most, against a coloured thing that is no longer than a
-//! stretch; the clean water up-flow against dye that comes from elsewhere. Each is that of two normal distributions,
-//! about nothing and about the `BODY` or `DYE` that a source shows at least, limited to ±[`CAP`], since neither model
-//! holds for ever. Their spread is what the boxes of the ground show, or what the noise of the pixels predicts if that
-//! is more. So another picture counts by as much as it makes the ground smoother: one taken twice adds nothing, and in
-//! clear water, where the bed's own unevenness limits, a hundred add little.
+//! without one, which is rare; the stretch that speaks least for dye, against coloured things that fill the other two;
+//! the clean water up-flow against dye that comes from elsewhere. Each is that of two normal distributions, about
+//! nothing and about what a source shows, at least `BODY` or `DYE`, limited to ±`CAP`, since neither model holds for
+//! ever. Their spread is what the boxes of the ground show, or what the noise of the pixels predicts if that is more. So
+//! another picture counts by as much as it makes the ground smoother: one taken twice adds nothing, and in clear water,
+//! where the bed's own unevenness limits, a hundred add little.
 
 use super::mosaic::{Boxed, Boxes, Mosaic};
 use nalgebra::Vector2;
@@ -129,11 +129,9 @@ pub(super) fn weigh(
             }))
         };
         let dyed = DYED_M.map(stretch);
-        let most = dyed.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        let least = dyed.into_iter().fold(f64::INFINITY, f64::min);
         let clean: f64 = CLEAN_M.map(|m| -stretch(m)).into_iter().sum();
-        *log = (dyed.into_iter().sum::<f64>() - most)
-            .min(clean)
-            .min(body + BODILY);
+        *log = least.min(clean).min(body + BODILY);
     }
     let log_factor = log_mean(places.iter().map(|(_, log)| *log));
     let best = (places.iter().copied()).reduce(|a, b| if b.1 > a.1 { b } else { a });
