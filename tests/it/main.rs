@@ -8,6 +8,7 @@ mod campaign;
 mod common;
 mod cost;
 mod determinism;
+mod eyes;
 mod flume;
 mod golden;
 mod interrupt;

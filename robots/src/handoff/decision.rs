@@ -123,6 +123,8 @@ pub enum Verdict {
     Verified,
     /// Looked at, and no source was seen.
     Rejected,
+    /// Looked at, and what was seen is not enough to tell.
+    CannotTell,
 }
 
 impl Verdict {
@@ -133,6 +135,16 @@ impl Verdict {
             Verdict::Unchecked => "unchecked",
             Verdict::Verified => "verified",
             Verdict::Rejected => "rejected",
+            Verdict::CannotTell => "cannot_tell",
+        }
+    }
+
+    /// The same for people.
+    #[must_use]
+    pub fn words(self) -> &'static str {
+        match self {
+            Verdict::CannotTell => "cannot tell",
+            told => told.name(),
         }
     }
 }
@@ -148,6 +160,23 @@ pub struct Evidence {
     pub middle_m: [f64; 2],
     /// The farthest of them from it, m.
     pub reach_m: f64,
+}
+
+/// The pictures that a verdict of all pictures of a place rests on.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PictureEvidence {
+    /// How many.
+    pub pictures: u32,
+    /// How many more said nothing: empty, black, white or flat.
+    pub useless: u32,
+    /// Lines flown for them.
+    pub lines: u32,
+    /// Altitude of the lowest line, m.
+    pub lowest_m: f64,
+    /// Visibility that they show, m; `None` without a picture.
+    pub visibility_m: Option<f64>,
+    /// Natural logarithm of the Bayes factor: positive speaks for a source.
+    pub log_factor: f64,
 }
 
 /// Rule name of a declaration made where a plume crosses the up-flow edge of a subregion.
@@ -169,8 +198,11 @@ pub struct Declaration {
     pub region: Option<u32>,
     /// What a look at it said.
     pub verdict: Verdict,
-    /// Place of the source in the sidescan image, as the vehicle believes (east, north), m.
+    /// Place of the source in the sidescan image, or in the pictures that verify it together, as the vehicle believes
+    /// (east, north), m.
     pub surveyed: Option<Vector2<f64>>,
+    /// The pictures its verdict rests on, if they were added up.
+    pub looked: Option<PictureEvidence>,
     /// The points it rests on, if the rule uses last detection points.
     pub evidence: Option<Evidence>,
 }
@@ -187,6 +219,7 @@ impl Declaration {
             region: None,
             verdict: Verdict::Unchecked,
             surveyed: None,
+            looked: None,
             evidence: None,
         }
     }

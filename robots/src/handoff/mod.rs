@@ -20,7 +20,9 @@ mod side;
 
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{Actuation, ActuatorCommand, Command, Setpoint};
-pub use decision::{Behaviour, Decision, Declaration, Evidence, Outcome, UP_FLOW_EDGE, Verdict};
+pub use decision::{
+    Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict,
+};
 pub use estimate::{Attitude, Estimate, FlowEstimate, Observation, detects};
 pub use gantry::{
     GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, GantryReadings,

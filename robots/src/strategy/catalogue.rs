@@ -1,6 +1,7 @@
 //! The strategies by name.
 
 use super::amp::AmpSpec;
+use super::inspect::InspectSpec;
 use super::map_and_plan::MapAndPlanSpec;
 use super::open_loop::OpenLoopSpec;
 use super::spec::StrategyParams;
@@ -13,6 +14,6 @@ kind! {
     /// declaration rule, each chosen by name.
     pub StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
-        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec],
+        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec],
     }
 }

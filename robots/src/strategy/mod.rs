@@ -2,6 +2,7 @@
 
 mod amp;
 mod catalogue;
+mod inspect;
 mod map_and_plan;
 mod open_loop;
 mod spec;
@@ -12,6 +13,7 @@ mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::{Strategies, StrategySpec};
+pub use inspect::{Inspect, InspectSpec, ToldSpec};
 pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
 };

@@ -36,6 +36,11 @@ impl Wishes {
                 (at, Vertical::Altitude(m.get()))
             }));
         }
+        let lowest = survey.camera.as_ref().and_then(|c| c.add_up.as_ref());
+        self.verticals.extend(lowest.map(|a| {
+            let at = format!("{path}.camera.add_up.least_altitude_m");
+            (at, Vertical::Altitude(a.least_altitude_m.get()))
+        }));
         self
     }
 

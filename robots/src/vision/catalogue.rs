@@ -11,6 +11,13 @@ pub const CATALOGUE: &[Entry] = &[
         source: "ours, on the parts found by Tian et al. 2013, section 5",
     },
     Entry {
+        name: "add_up",
+        what: "Whether all pictures of a place together show a source: laid on the ground by navigation and overlap, \
+            added up to a Bayes factor; verified, rejected or cannot tell",
+        source: "ours; Wald 1947, Sequential Analysis, ch. 3; registration: Lewis 1995, Vision Interface, 120; Eustice, \
+            Pizarro & Singh 2008, IEEE J. Oceanic Eng. 33, 103; visibility: Duntley 1963, J. Opt. Soc. Am. 53, 214",
+    },
+    Entry {
         name: "colours",
         what: "Fuzzy colour extractor: three passes towards red for the dye, four towards dark blue for the source",
         source: "Tian et al. 2013, section 5, eq. 6-13, GetCP, FuzzyColorSeg",

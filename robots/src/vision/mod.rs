@@ -9,6 +9,7 @@ mod fuzzy;
 mod level;
 mod membership;
 mod passes;
+pub mod place;
 mod spec;
 mod stretch;
 #[cfg(test)]

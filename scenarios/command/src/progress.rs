@@ -224,7 +224,7 @@ fn declaration(d: &DeclarationSummary) -> String {
         }
     }
     if d.verdict != Verdict::Unchecked {
-        said += &format!("; {}", d.verdict.name());
+        said += &format!("; {}", d.verdict.words());
     }
     said
 }

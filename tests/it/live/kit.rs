@@ -8,8 +8,8 @@ use rheotaxis::gantry::GantryFrame;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration,
     Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, Layer,
-    LayerState, MAX_PROBES, Manoeuvre, Picture, ProbeScan, Region, RegionState, Regions, Setpoint,
-    SidescanPing, TrackerState, Vertical,
+    LayerState, MAX_PROBES, Manoeuvre, Picture, PictureEvidence, ProbeScan, Region, RegionState,
+    Regions, Setpoint, SidescanPing, TrackerState, Vertical,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -151,6 +151,14 @@ pub(super) fn frame(step: u64) -> Frame {
         declarations: vec![Declaration {
             region: Some(0),
             surveyed: Some(Vector2::new(5.5, 6.5)),
+            looked: Some(PictureEvidence {
+                pictures: 12,
+                useless: 1,
+                lines: 3,
+                lowest_m: 1.5,
+                visibility_m: Some(4.0),
+                log_factor: 5.5,
+            }),
             ..Declaration::first(1.0, Vector2::new(5.0, 6.0), "p09")
         }],
         fix_m: Some(3.0),

@@ -9,17 +9,19 @@
 //! sides; ±30 m is twice the mean error of a declaration there (13 m); 3 m of height is 15 % of the range (sidescans
 //! are towed at 10 to 20 %).
 //!
-//! *Deviations*: what is not printed is ours: the order, the rule. Detections are ignored during a survey. A picture
+//! *Deviations*: what is not printed is ours: the order, the rule; that pictures may be added up (`looks.rs`), which
+//! may leave it open whether there is a source. Detections are ignored during a survey. A picture
 //! that verifies the source ends the camera's passes. If the declared place and the sidescan's differ, the
 //! declaration keeps its own and carries the other.
 
+use super::looks::Looks;
 use super::spec::{AfterDeclaration, SurveySpec, Verify};
 use crate::behave::Passes;
 use crate::behave::Stride;
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Declaration, Observation, Verdict, Vertical};
 use crate::survey::{Object, Waterfall, detect, merge};
-use crate::vision::Verifier;
+use crate::vision::place::Answer;
 use nalgebra::Vector2;
 use world::units::Heading;
 
@@ -47,7 +49,8 @@ enum SurveyPhase {
 #[derive(Debug)]
 pub struct PostDeclaration {
     after: AfterDeclaration,
-    verifier: Option<Verifier>,
+    /// What the camera has seen; `None` without passes for it.
+    looks: Option<Looks>,
     /// Declarations so far.
     made: u32,
     phase: SurveyPhase,
@@ -57,9 +60,8 @@ pub struct PostDeclaration {
     /// The line being imaged and its picture.
     line: Option<(usize, Waterfall)>,
     objects: Vec<Object>,
-    /// Whether each instrument saw a source; `None` if it never reported.
+    /// Whether the sidescan saw a source; `None` if it never reported.
     by_sidescan: Option<bool>,
-    by_camera: Option<bool>,
     /// Whether a picture is wanted; and when the last one was asked for, s.
     picture: bool,
     asked_s: Option<f64>,
@@ -69,14 +71,14 @@ impl PostDeclaration {
     /// # Errors
     /// [`RobotError::Invalid`] if the parts of a survey contradict each other.
     pub fn new(after: &AfterDeclaration) -> Result<Self, RobotError> {
-        let mut verifier = None;
+        let mut looks = None;
         if let AfterDeclaration::Survey(spec) = after {
             spec.check("strategy.after_declaration")?;
-            verifier = spec.camera.as_ref().map(|c| Verifier::new(&c.verifier));
+            looks = spec.camera.as_ref().map(Looks::new);
         }
         Ok(Self {
             after: after.clone(),
-            verifier,
+            looks,
             made: 0,
             phase: SurveyPhase::None,
             declaration: None,
@@ -85,7 +87,6 @@ impl PostDeclaration {
             line: None,
             objects: Vec::new(),
             by_sidescan: None,
-            by_camera: None,
             picture: false,
             asked_s: None,
         })
@@ -113,7 +114,8 @@ impl PostDeclaration {
         self.along = along;
         self.objects.clear();
         self.line = None;
-        (self.by_sidescan, self.by_camera) = (None, None);
+        self.by_sidescan = None;
+        self.looks = self.spec().and_then(|s| s.camera.as_ref()).map(Looks::new);
         self.begin(SurveyPhase::Sidescan, declaration.position, seen);
         (declaration, next)
     }
@@ -136,6 +138,27 @@ impl PostDeclaration {
             Passes::over(place, self.along, &offsets, half.get(), &seen.area)
         });
         self.phase = phase;
+        if phase == SurveyPhase::Camera
+            && let Some(Looks::Added(added)) = &mut self.looks
+        {
+            added.begin(place, self.along, seen);
+            self.passes = Passes::default();
+            self.fly_on(seen);
+        }
+    }
+
+    /// Begins the next line that added-up pictures ask for; false if there is none.
+    fn fly_on(&mut self, seen: &Observation) -> bool {
+        let half = self.spec().and_then(|s| s.camera.as_ref());
+        let (Some(half_m), Some(Looks::Added(added))) =
+            (half.map(|c| c.half_length_m.get()), &mut self.looks)
+        else {
+            return false;
+        };
+        let line = added.next_line(half_m, seen);
+        let some = line.is_some();
+        self.passes = line.unwrap_or_default();
+        some
     }
 
     /// One tick of the survey. `arrived` says whether the guidance has reached the end of the last line.
@@ -154,7 +177,8 @@ impl PostDeclaration {
         let mut arrived = arrived;
         loop {
             // The camera has seen enough.
-            let enough = self.phase == SurveyPhase::Camera && self.by_camera == Some(true);
+            let enough =
+                self.phase == SurveyPhase::Camera && self.looks.as_ref().is_some_and(Looks::enough);
             let stride = if enough {
                 Stride::Over
             } else {
@@ -165,7 +189,9 @@ impl PostDeclaration {
             }
             // The next passes begin even if these had no lines.
             arrived = false;
-            match self.phase {
+            let phase = self.phase;
+            match phase {
+                SurveyPhase::Camera if !enough && self.fly_on(seen) => {}
                 SurveyPhase::Sidescan => {
                     self.end_line();
                     let place = self.place(declared.position);
@@ -178,6 +204,12 @@ impl PostDeclaration {
                 SurveyPhase::Camera | SurveyPhase::None => {
                     self.phase = SurveyPhase::None;
                     let verdict = self.verdict();
+                    if let (Some(Looks::Added(added)), Some(d)) =
+                        (&self.looks, &mut self.declaration)
+                    {
+                        d.looked = added.evidence();
+                        d.surveyed = added.found().or(d.surveyed);
+                    }
                     let over = self.declaration.take().unwrap_or(declared);
                     return Progress::Over(Declaration { verdict, ..over });
                 }
@@ -190,7 +222,7 @@ impl PostDeclaration {
     pub fn next(verdict: Verdict) -> Behaviour {
         match verdict {
             Verdict::Rejected => Behaviour::Find,
-            Verdict::Verified | Verdict::Unchecked => Behaviour::GoHome,
+            Verdict::Verified | Verdict::Unchecked | Verdict::CannotTell => Behaviour::GoHome,
         }
     }
 
@@ -200,7 +232,10 @@ impl PostDeclaration {
         let spec = self.spec()?;
         let altitude = match self.phase {
             SurveyPhase::Sidescan => spec.sidescan.as_ref()?.altitude_m,
-            SurveyPhase::Camera => spec.camera.as_ref()?.altitude_m,
+            SurveyPhase::Camera => match &self.looks {
+                Some(Looks::Added(added)) => return Some(Vertical::Altitude(added.altitude_m())),
+                _ => spec.camera.as_ref()?.altitude_m,
+            },
             SurveyPhase::None => return None,
         };
         Some(Vertical::Altitude(altitude.get()))
@@ -264,12 +299,23 @@ impl PostDeclaration {
         else {
             return;
         };
-        if let (Some(picture), Some(verifier)) = (&seen.picture, &self.verifier) {
-            let verified = verifier.judge(&picture.image).verified;
-            self.by_camera = Some(self.by_camera == Some(true) || verified);
-        }
+        let near = match &mut self.looks {
+            Some(Looks::Single(verifier, saw)) => {
+                if let Some(picture) = &seen.picture {
+                    let verified = verifier.judge(&picture.image).verified;
+                    *saw = Some(*saw == Some(true) || verified);
+                }
+                true
+            }
+            Some(Looks::Added(added)) => {
+                added.follow(seen, on.is_some());
+                added.take(seen);
+                added.near(seen)
+            }
+            None => false,
+        };
         let due = self.asked_s.is_none_or(|t| seen.t_s - t >= period_s - 1e-9);
-        if on.is_some() && due {
+        if on.is_some() && due && near {
             self.asked_s = Some(seen.t_s);
             self.picture = true;
         }
@@ -279,16 +325,25 @@ impl PostDeclaration {
         let Some(spec) = self.spec() else {
             return Verdict::Unchecked;
         };
-        let says: &[Option<bool>] = match spec.verify {
-            Verify::Sidescan => &[self.by_sidescan],
-            Verify::Camera => &[self.by_camera],
-            Verify::Either | Verify::Both => &[self.by_sidescan, self.by_camera],
+        let by_sidescan = self.by_sidescan.map(|yes| match yes {
+            true => Answer::Verified,
+            false => Answer::Rejected,
+        });
+        let by_camera = self.looks.as_ref().and_then(Looks::answer);
+        let says: &[Option<Answer>] = match spec.verify {
+            Verify::Sidescan => &[by_sidescan],
+            Verify::Camera => &[by_camera],
+            Verify::Either | Verify::Both => &[by_sidescan, by_camera],
         };
-        let (yes, no) = (says.contains(&Some(true)), says.contains(&Some(false)));
+        let some = |a: Answer| says.contains(&Some(a));
+        let (yes, no) = (some(Answer::Verified), some(Answer::Rejected));
+        let open = some(Answer::CannotTell);
         match spec.verify {
             Verify::Both if no => Verdict::Rejected,
+            Verify::Both if open => Verdict::CannotTell,
             Verify::Both if says.contains(&None) => Verdict::Unchecked,
             _ if yes => Verdict::Verified,
+            _ if open => Verdict::CannotTell,
             _ if no => Verdict::Rejected,
             _ => Verdict::Unchecked,
         }

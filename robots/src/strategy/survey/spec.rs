@@ -3,6 +3,7 @@
 use crate::error::RobotError;
 use crate::survey::DetectSpec;
 use crate::vision::VerifierSpec;
+use crate::vision::place::AddUpSpec;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::{Finite, Positive};
@@ -110,6 +111,9 @@ pub struct CameraPasses {
     pub period_s: Positive,
     /// When a picture shows a source.
     pub verifier: VerifierSpec,
+    /// Adds up all pictures of the place instead; `offsets_m` and `verifier` are then not used, `altitude_m` is the
+    /// highest altitude, and lines are flown where and as low as the pictures ask for.
+    pub add_up: Option<AddUpSpec>,
 }
 
 impl Default for CameraPasses {
@@ -120,6 +124,7 @@ impl Default for CameraPasses {
             altitude_m: Positive::new(2.0),
             period_s: Positive::new(1.0),
             verifier: VerifierSpec::default(),
+            add_up: None,
         }
     }
 }
@@ -176,7 +181,12 @@ impl SurveySpec {
             return wrong("verify", problem);
         }
         match &self.camera {
-            Some(c) => c.verifier.check(&format!("{path}.camera.verifier")),
+            Some(c) => {
+                c.verifier.check(&format!("{path}.camera.verifier"))?;
+                c.add_up.as_ref().map_or(Ok(()), |a| {
+                    a.check(&format!("{path}.camera.add_up"), c.altitude_m.get())
+                })
+            }
             None => Ok(()),
         }
     }

@@ -5,6 +5,7 @@ use crate::behave::Stride;
 use crate::handoff::testing::{self, area, seen};
 use crate::handoff::{Behaviour, Declaration, Manoeuvre, Observation, Picture, Verdict, Vertical};
 use crate::sense::{OnBoard, Sidescan, SidescanSpec};
+use crate::vision::place::AddUpSpec;
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use std::sync::Arc;
@@ -245,6 +246,44 @@ fn the_camera_flies_over_what_the_sidescan_found_and_the_two_agree_as_told() {
         let got = ways.map(|v| verdict(v, object, source));
         assert_eq!(got, want, "{object} {source:?}");
     }
+}
+
+/// Black pictures, added up, say nothing: neither verified nor rejected, and the lines come to an end.
+#[test]
+fn pictures_that_show_nothing_leave_the_place_open() {
+    let add_up = AddUpSpec {
+        most_lines: 3,
+        ..AddUpSpec::default()
+    };
+    let spec = |verify| SurveySpec {
+        sidescan: (verify == Verify::Both).then(SidescanPasses::default),
+        camera: Some(CameraPasses {
+            add_up: Some(add_up.clone()),
+            ..CameraPasses::default()
+        }),
+        verify,
+        ..SurveySpec::default()
+    };
+    // Levels of one colour throughout: the camera did not see.
+    let blind = Sea {
+        camera: Some(false),
+        ..sea(Some(place()))
+    };
+    for (verify, lines) in [(Verify::Camera, 3), (Verify::Both, 5)] {
+        let got = fly(&spec(verify), &blind, place(), Vector2::zeros());
+        assert_eq!(got.last.verdict, Verdict::CannotTell, "{verify:?}");
+        assert_eq!(got.lines.len(), lines);
+        let looked = got.last.looked.expect("pictures were taken");
+        assert_eq!((looked.pictures, looked.lines), (0, 3));
+        assert!(looked.useless > 10, "{looked:?}");
+        assert_eq!(PostDeclaration::next(got.last.verdict), Behaviour::GoHome);
+    }
+    let without = Sea {
+        camera: None,
+        ..sea(None)
+    };
+    let got = fly(&spec(Verify::Camera), &without, place(), Vector2::zeros());
+    assert_eq!(got.last.verdict, Verdict::Unchecked);
 }
 
 #[test]

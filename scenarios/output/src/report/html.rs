@@ -120,14 +120,14 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
     );
     rows.push((format!("Declared source{which}"), what));
     if d.verdict != Verdict::Unchecked {
-        rows.push((format!("Looked at{which}"), d.verdict.name().to_owned()));
+        rows.push((format!("Looked at{which}"), looked(d)));
     }
     if let Some(p) = d.surveyed {
         let error = (d.surveyed_error.as_ref()).map_or_else(String::new, |e| {
             format!("; {:.1} m from {}", e.total_m, e.source)
         });
         rows.push((
-            format!("By the sidescan{which}"),
+            format!("Found by the survey{which}"),
             format!("{}{error}", place(p)),
         ));
     }
@@ -148,6 +148,26 @@ fn declaration_rows(d: &DeclarationSummary, several: bool, rows: &mut Vec<(Strin
         let what = format!("moved its own position by {m:.1} m in the minute before");
         rows.push(("Position fixes".to_owned(), what));
     }
+}
+
+/// What a look at a declared place said, and by which pictures.
+fn looked(d: &DeclarationSummary) -> String {
+    let mut said = d.verdict.words().to_owned();
+    if let Some(l) = &d.looked {
+        write!(
+            said,
+            " by {} pictures from {} lines, the lowest {:.1} m above the bed: ln of the Bayes factor {:+.1}",
+            l.pictures, l.lines, l.lowest_m, l.log_factor
+        )
+        .expect(TEXT);
+        if let Some(m) = l.visibility_m {
+            write!(said, ", visibility {m:.1} m").expect(TEXT);
+        }
+        if l.useless > 0 {
+            write!(said, "; {} more showed nothing", l.useless).expect(TEXT);
+        }
+    }
+    said
 }
 
 fn robot_rows(r: &crate::results::RobotSummary) -> Vec<(String, String)> {

@@ -83,6 +83,7 @@ impl DeclarationSummary {
             position: d.position.into(),
             error: nearest(d.position, sources),
             verdict: d.verdict,
+            looked: d.looked,
             surveyed: d.surveyed.map(Position::from),
             surveyed_error: d.surveyed.and_then(|p| nearest(p, sources)),
             traced_m: None,

@@ -5,7 +5,7 @@ use crate::results::GantrySummary;
 use rheotaxis::abnormal::{Abnormal, Abnormality};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::VERSION;
-use robots::handoff::{Evidence, RegionState, Verdict};
+use robots::handoff::{Evidence, PictureEvidence, RegionState, Verdict};
 use serde::Serialize;
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -86,7 +86,9 @@ pub struct DeclarationSummary {
     pub evidence: Option<Evidence>,
     /// The verdict of a look at it.
     pub verdict: Verdict,
-    /// Where the sidescan found the source, in the vehicle's believed coordinates.
+    /// The pictures its verdict rests on, if they were added up.
+    pub looked: Option<PictureEvidence>,
+    /// Where the sidescan, or pictures added up, found the source, in the vehicle's believed coordinates.
     pub surveyed: Option<Position>,
     /// The error of that place.
     pub surveyed_error: Option<SourceError>,

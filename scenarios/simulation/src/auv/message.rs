@@ -116,6 +116,12 @@ fn declaration(d: &Declaration) -> Value {
     if let Some(p) = d.surveyed {
         said = merged(said, json!({"surveyed_m": p.as_slice()}));
     }
+    if let Some(l) = d.looked {
+        said = merged(
+            said,
+            json!({"pictures": l.pictures, "log_factor": l.log_factor}),
+        );
+    }
     said
 }
 

@@ -87,6 +87,7 @@ pub const CATALOG: &[Template] = catalog![
     "duck_survey",
     "eyes_over_source",
     "moth_eyes",
+    "inspect_places",
     "flume_crab",
     "uniform_channel",
     "remus_turning_circle",

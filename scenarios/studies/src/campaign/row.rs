@@ -108,7 +108,7 @@ pub struct DeclarationRow {
     pub region: Option<u64>,
     /// Name of the rule that declared it.
     pub rule: String,
-    /// The verdict of a look at it: `unchecked`, `verified` or `rejected`.
+    /// The verdict of a look at it: `unchecked`, `verified`, `rejected` or `cannot_tell`.
     pub verdict: String,
     /// Time, s.
     pub t_s: f64,

@@ -4,6 +4,7 @@
 //! `<row>-declarations.csv` a line for each declaration. The first line of the former names scenario and hash. Wall
 //! times are left out, so the same runs give the same bytes on any machine.
 
+use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
 use super::run::Reproduced;
 use crate::campaign::{DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, from_csv, in_lanes};
@@ -167,11 +168,19 @@ impl Table {
 
     fn differs(&self, reference: &Reference, seed: u64) -> Option<String> {
         let was = |arm: &String| self.runs.get(&(seed, arm.clone()));
-        let mut runs: Vec<Planned<'_>> = Vec::new();
+        let mut scenarios = Vec::new();
         for (arm, loaded) in reference.arms.iter().filter(|(arm, _)| was(arm).is_some()) {
+            let made = drawn(&reference.row.draw, arm, loaded, Seed::from(seed));
+            scenarios.push((
+                arm,
+                made.expect("ends and values of every draw were checked"),
+            ));
+        }
+        let mut runs: Vec<Planned<'_>> = Vec::new();
+        for (arm, loaded) in &scenarios {
             let name = RunName {
                 run: 0,
-                arm: arm.clone(),
+                arm: (*arm).clone(),
                 condition: String::new(),
                 seed_index: 0,
                 seed: Seed::from(seed),

@@ -2,6 +2,7 @@
 
 use crate::campaign::report::Unit;
 use crate::campaign::{DeclarationRow, RunRow};
+use robots::handoff::Verdict;
 use serde::{Deserialize, Serialize};
 
 /// Something that did or did not happen in a run.
@@ -34,11 +35,24 @@ pub enum RunEvent {
     RegionErrorOver(u32, u32),
     /// Among runs that declared in this subregion: the error across the flow is at least so many metres.
     RegionAcrossOver(u32, u32),
+    /// Among runs that made a declaration of this number (counted from 0): a look at the place verified a source.
+    Verified(u32),
+    /// Among the same: the look rejected it.
+    Rejected(u32),
+    /// Among the same: the look could not tell.
+    CannotTell(u32),
 }
 
 /// The first declaration of a subregion that the vehicle did not reject.
 fn of_region(r: &RunRow, k: u32) -> Option<&DeclarationRow> {
     (r.declarations.iter()).find(|d| d.region == Some(u64::from(k)) && d.stands())
+}
+
+/// Whether a look at the place of declaration number `k` said this; `None` if there is no such declaration.
+fn said(r: &RunRow, k: u32, verdict: Verdict) -> Option<bool> {
+    (r.declarations.iter())
+        .find(|d| d.number == u64::from(k))
+        .map(|d| d.verdict == verdict.name())
 }
 
 impl RunEvent {
@@ -66,6 +80,9 @@ impl RunEvent {
             RunEvent::RegionAcrossOver(k, m) => {
                 (of_region(r, k)?.error_across_m).map(|across_m| across_m.abs() >= f64::from(m))
             }
+            RunEvent::Verified(k) => said(r, k, Verdict::Verified),
+            RunEvent::Rejected(k) => said(r, k, Verdict::Rejected),
+            RunEvent::CannotTell(k) => said(r, k, Verdict::CannotTell),
         }
     }
 }
@@ -256,6 +273,31 @@ mod tests {
             ..row.clone()
         };
         assert_eq!(Measure::Declarations.of(&failed), None);
+    }
+
+    #[test]
+    fn of_verdicts() {
+        let at = |number, verdict: Verdict| DeclarationRow {
+            number,
+            verdict: verdict.name().to_string(),
+            ..DeclarationRow::default()
+        };
+        let row = RunRow {
+            declarations: vec![at(0, Verdict::Verified), at(1, Verdict::CannotTell)],
+            ..RunRow::default()
+        };
+        let of = |k| {
+            [
+                RunEvent::Verified(k),
+                RunEvent::Rejected(k),
+                RunEvent::CannotTell(k),
+            ]
+            .map(|e| e.of(&row))
+        };
+        assert_eq!(of(0), [Some(true), Some(false), Some(false)]);
+        assert_eq!(of(1), [Some(false), Some(false), Some(true)]);
+        // A place that was never reached has no verdict.
+        assert_eq!(of(2), [None; 3]);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! Our figures beside the papers': rows of `tests/reference/rows`, run over many seeds.
 
 mod compare;
+mod draw;
 mod kept;
 mod measure;
 mod quantity;

@@ -1,5 +1,6 @@
 //! What a paper reports, and the scenario with which we compare it: one row file each.
 
+use super::draw::{Draw, check};
 use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::{Arm, put};
@@ -31,6 +32,9 @@ pub struct Row {
     /// Changes to the scenario, by arm; all arms run with the same seeds. Without arms, the scenario runs as it is.
     #[serde(default)]
     pub arms: Vec<Arm>,
+    /// Values of the scenario that are drawn anew for every seed.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub draw: Vec<Draw>,
     /// Seeds of a first look (`--quick`): fewer where a run takes long.
     #[serde(default = "quick")]
     pub quick: NonZeroU64,
@@ -188,6 +192,7 @@ const ROWS: &[(&str, &str)] = &[
     row!("crab"),
     row!("crab_arms"),
     row!("crab_readings"),
+    row!("eyes"),
     row!("duck_st"),
     row!("dalian_bay"),
     row!("duck_mt"),
@@ -314,7 +319,19 @@ impl Reference {
         if arms.is_empty() {
             arms.push((row.id.clone(), loaded.clone()));
         }
-        Ok(Self { row, loaded, arms })
+        let wrong = |problem: String| ReproduceError::Row {
+            name: name.to_string(),
+            problem,
+        };
+        for (arm, loaded) in &arms {
+            check(&row.draw, arm, loaded).map_err(wrong)?;
+        }
+        let astray = (row.draw.iter().flat_map(|d| &d.arms))
+            .find(|name| row.arms.iter().all(|a| a.name != **name));
+        match astray {
+            Some(arm) => Err(wrong(format!("draw: the row has no arm `{arm}`"))),
+            None => Ok(Self { row, loaded, arms }),
+        }
     }
 
     /// Keeps these arms and their figures; each arm runs as it would together with the others.

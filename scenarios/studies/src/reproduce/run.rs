@@ -1,6 +1,7 @@
 //! The runs of a row: consecutive seeds, on all cores, until there are enough.
 
 use super::compare::{Compared, compare};
+use super::draw::drawn;
 use super::row::{Reference, ReproduceError, Row};
 use crate::campaign::stats::next_n;
 use crate::campaign::{Heed, Planned, RunName, RunRow, in_lanes};
@@ -85,14 +86,21 @@ pub fn reproduce(
             (from..n)
                 .into_par_iter()
                 .map(|index| {
+                    let seed = plan.key.seed(plan.first_seed + index);
+                    let mut scenarios = Vec::new();
+                    for (arm, loaded) in &reference.arms {
+                        let made = drawn(&reference.row.draw, arm, loaded, seed);
+                        scenarios.push(made.expect("ends and values of every draw were checked"));
+                    }
                     let mut runs: Vec<Planned<'_>> = Vec::new();
-                    for (k, (arm, loaded)) in (0..).zip(&reference.arms) {
+                    for (k, ((arm, _), loaded)) in (0..).zip(reference.arms.iter().zip(&scenarios))
+                    {
                         let name = RunName {
                             run: index * n_arms + k,
                             arm: arm.clone(),
                             condition: String::new(),
                             seed_index: index,
-                            seed: plan.key.seed(plan.first_seed + index),
+                            seed,
                         };
                         runs.push((name, loaded));
                     }

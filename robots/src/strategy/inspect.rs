@@ -1,0 +1,311 @@
+//! Inspection: surveys told places one after the other and says of each whether a source is there.
+//!
+//! *Source*: ours; targets that another search has left, looked at again: as the sidescan's contacts are by Tian et al.
+//! 2013, section 5, and by identification missions in general.
+//!
+//! *Parameters*: see [`InspectSpec`].
+//!
+//! *Deviations*: each place is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and
+//! declared again with the survey's verdict. The mission is completed after the last place, on the spot.
+
+use super::spec::{Strategy, StrategyParams, VerticalSpec};
+use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
+use super::wishes::Wishes;
+use crate::behave::Stride;
+use crate::error::RobotError;
+use crate::handoff::{
+    Behaviour, Decision, Declaration, Goal, Manoeuvre, Observation, Outcome, Setting, Vertical,
+};
+use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::ranges::{Finite, Positive};
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// The survey begins within this distance of a place, m: room for a turn before the first line.
+const NEAR_M: f64 = 40.0;
+/// Rule name of the declarations.
+const TOLD: &str = "told";
+
+/// The places and how they are surveyed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct InspectSpec {
+    /// The places, in the order in which they are visited; at least one.
+    pub places: Vec<ToldSpec>,
+    /// How each is surveyed.
+    pub survey: SurveySpec,
+    /// Speed over ground, m/s.
+    #[serde(default = "speed")]
+    pub speed_m_s: Positive,
+    /// Altitude or depth between the places.
+    #[serde(default = "vertical")]
+    pub vertical: VerticalSpec,
+}
+
+fn speed() -> Positive {
+    Positive::new(1.5)
+}
+
+fn vertical() -> VerticalSpec {
+    VerticalSpec::Altitude(Positive::new(2.5))
+}
+
+/// A told place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct ToldSpec {
+    /// East, m.
+    pub east_m: Finite,
+    /// North, m.
+    pub north_m: Finite,
+}
+
+impl Listed for InspectSpec {
+    const ENTRY: Entry = Entry {
+        name: "Inspect",
+        what: "surveys told places one after the other and says of each: verified, rejected or cannot tell",
+        source: "ours, on the verification of Tian et al. 2013, section 5",
+    };
+}
+
+impl StrategyParams for InspectSpec {
+    fn build(&self, _: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        Ok(Box::new(Inspect::new(self)?))
+    }
+
+    fn searches(&self) -> bool {
+        false
+    }
+
+    fn declares_at_most(&self) -> usize {
+        self.places.len()
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        self.survey.flies_for()
+    }
+
+    fn wishes(&self) -> Wishes {
+        Wishes::mission(self.speed_m_s, self.vertical).survey("survey", &self.survey)
+    }
+}
+
+/// State of the inspection.
+#[derive(Debug)]
+pub struct Inspect {
+    places: Vec<Vector2<f64>>,
+    vertical: Vertical,
+    post: PostDeclaration,
+    /// The place that is next or being surveyed.
+    now: usize,
+    surveying: bool,
+    goal: Goal,
+    outcome: Option<Outcome>,
+}
+
+impl Inspect {
+    /// # Errors
+    /// [`RobotError::Invalid`] without places, or if the survey's parts contradict each other.
+    pub fn new(spec: &InspectSpec) -> Result<Self, RobotError> {
+        if spec.places.is_empty() {
+            return Err(RobotError::Invalid {
+                field: "strategy.places".into(),
+                problem: "must have at least 1 place, got 0".into(),
+            });
+        }
+        spec.survey.check("strategy.survey")?;
+        let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
+        let vertical = spec.vertical.into();
+        let after = AfterDeclaration::Survey(Box::new(spec.survey.clone()));
+        Ok(Self {
+            places: spec.places.iter().map(place).collect(),
+            vertical,
+            post: PostDeclaration::new(&after)?,
+            now: 0,
+            surveying: false,
+            goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
+            outcome: None,
+        })
+    }
+
+    fn begin(&mut self, manoeuvre: Manoeuvre, vertical: Vertical) {
+        self.goal = Goal {
+            id: self.goal.id + 1,
+            manoeuvre,
+            vertical,
+            ..self.goal
+        };
+    }
+
+    /// One step of the survey; at its end, the declaration with its verdict.
+    fn survey(&mut self, seen: &Observation) -> Option<Declaration> {
+        let arrived = seen.guidance.done && seen.guidance.goal_id == self.goal.id;
+        match self.post.step(seen, arrived) {
+            Progress::Go(Stride::Start(manoeuvre)) => {
+                let vertical = self.post.vertical().unwrap_or(self.vertical);
+                self.begin(manoeuvre, vertical);
+                None
+            }
+            Progress::Go(Stride::Adjust(manoeuvre)) => {
+                self.goal.manoeuvre = manoeuvre;
+                None
+            }
+            Progress::Go(Stride::Keep | Stride::Over) => None,
+            Progress::Over(declaration) => {
+                self.surveying = false;
+                self.now += 1;
+                self.go();
+                Some(declaration)
+            }
+        }
+    }
+
+    /// Sets out for the next place, or ends the mission.
+    fn go(&mut self) {
+        match self.places.get(self.now) {
+            Some(point) => {
+                let point = *point;
+                let to = Manoeuvre::GoToPoint {
+                    point,
+                    radius_m: None,
+                };
+                self.begin(to, self.vertical);
+            }
+            None => self.outcome = Some(Outcome::Completed),
+        }
+    }
+}
+
+impl Strategy for Inspect {
+    fn step(&mut self, seen: &Observation, _: &mut Stream) -> Decision {
+        let mut declared = None;
+        if seen.guidance.aborted && self.outcome.is_none() {
+            self.outcome = Some(Outcome::Aborted);
+        } else if self.goal.id == 0 {
+            self.go();
+        }
+        if self.outcome.is_none() {
+            if self.surveying {
+                declared = self.survey(seen);
+            } else if let Some(place) = self.places.get(self.now)
+                && (place - seen.estimate.position).norm() <= NEAR_M
+            {
+                let up_flow = seen.estimate.flow.map(|f| f.up_flow());
+                let along = up_flow.unwrap_or(seen.area.axis);
+                let told = Declaration::first(seen.t_s, *place, TOLD);
+                let (told, _) = self.post.enter(told, seen, along);
+                declared = Some(told);
+                self.surveying = true;
+            }
+        }
+        let behaviour = match (self.outcome, self.surveying) {
+            (Some(_), _) => Behaviour::Done,
+            (None, true) => Behaviour::Survey,
+            (None, false) => Behaviour::GoTo,
+        };
+        Decision {
+            declared,
+            picture: behaviour == Behaviour::Survey && self.post.picture(),
+            outcome: self.outcome,
+            ..Decision::new(behaviour, self.goal)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::Verdict;
+    use crate::handoff::testing::seen;
+    use crate::strategy::{CameraPasses, Verify};
+    use crate::vision::place::AddUpSpec;
+
+    fn spec(places: &[[f64; 2]]) -> InspectSpec {
+        let told = |p: &[f64; 2]| ToldSpec {
+            east_m: Finite::new(p[0]),
+            north_m: Finite::new(p[1]),
+        };
+        InspectSpec {
+            places: places.iter().map(told).collect(),
+            survey: SurveySpec {
+                sidescan: None,
+                camera: Some(CameraPasses {
+                    add_up: Some(AddUpSpec {
+                        most_lines: 2,
+                        ..AddUpSpec::default()
+                    }),
+                    ..CameraPasses::default()
+                }),
+                verify: Verify::Camera,
+                ..SurveySpec::default()
+            },
+            speed_m_s: speed(),
+            vertical: vertical(),
+        }
+    }
+
+    /// A vehicle without a camera that is at the end of every line at once.
+    #[test]
+    fn every_place_is_visited_declared_and_judged_in_order() {
+        let places = [[50.0, 0.0], [-60.0, 30.0]];
+        let mut s = Inspect::new(&spec(&places)).expect("legal");
+        let mut rng = Stream::new(1, "auv0", "strategy");
+        let mut o = seen(0.0, Vector2::zeros(), 90.0, Some(Vector2::new(0.2, 0.0)));
+        let (mut said, mut lines, mut last) = (Vec::new(), 0, 0);
+        for k in 0..200 {
+            o.t_s = 0.1 * f64::from(k);
+            let d = s.step(&o, &mut rng);
+            said.extend(d.declared);
+            if d.goal.id != last {
+                last = d.goal.id;
+                match d.goal.manoeuvre {
+                    Manoeuvre::GoToPoint { point, .. } => o.estimate.position = point,
+                    Manoeuvre::FollowLine { to, .. } => {
+                        lines += 1;
+                        o.estimate.position = to;
+                    }
+                    other => panic!("{other:?}"),
+                }
+            }
+            o.guidance.done = true;
+            o.guidance.goal_id = d.goal.id;
+            if d.outcome.is_some() {
+                assert_eq!(d.outcome, Some(Outcome::Completed));
+                break;
+            }
+        }
+        let got: Vec<_> = said
+            .iter()
+            .map(|d| (d.number, d.position, d.verdict))
+            .collect();
+        let want = |n: u32| (n, Vector2::from(places[n as usize]), Verdict::Unchecked);
+        // Each once when it is reached, and once with the verdict: without a camera, none.
+        assert_eq!(got, [want(0), want(0), want(1), want(1)]);
+        assert_eq!(lines, 4);
+    }
+
+    #[test]
+    fn without_places_or_with_parts_that_contradict_each_other_it_is_refused() {
+        let none = Inspect::new(&spec(&[])).unwrap_err().to_string();
+        assert_eq!(none, "strategy.places: must have at least 1 place, got 0");
+        let mut blind = spec(&[[0.0, 0.0]]);
+        blind.survey.camera = None;
+        let said = Inspect::new(&blind).unwrap_err().to_string();
+        assert!(
+            said.starts_with("strategy.survey.verify: Camera needs passes"),
+            "{said}"
+        );
+        let mut low = spec(&[[0.0, 0.0]]);
+        if let Some(c) = &mut low.survey.camera {
+            c.altitude_m = Positive::new(1.0);
+        }
+        let said = Inspect::new(&low).unwrap_err().to_string();
+        assert!(
+            said.starts_with("strategy.survey.camera.add_up.least_altitude_m: must be from"),
+            "{said}"
+        );
+    }
+}

@@ -1,0 +1,351 @@
+//! What the camera says of a declared place: by one picture that shows a source, or by all of them added up, with
+//! lines chosen by what they have shown so far.
+//!
+//! *Source*: ours; the test of one picture and that of all in `vision`. Altitude by the visibility: as surveys with
+//! cameras are planned, low enough for the water (Singh, Roman, Pizarro, Eustice & Can 2007, Int. J. Robotics Res. 26,
+//! 55).
+//!
+//! *Parameters*: see [`CameraPasses`] and [`AddUpSpec`](crate::vision::place::AddUpSpec).
+//!
+//! *Deviations*: pictures are laid out where the vehicle has come by its Doppler log and compass since the survey
+//! began: jumps by position fixes are taken out. Their mean moves the told place. A line leads, along the flow or
+//! against it, over the strip in which most of the likelihood of a source is left: over what is not yet seen, or what
+//! looks like one. Its altitude is the greatest at which `contrast_left` of the bed's contrast arrives by the pictures
+//! so far, within the limits; the first is flown at `altitude_m`. The bed's depth is the middle one of the last seconds,
+//! so that a body under the vehicle does not count as bed.
+
+use super::spec::CameraPasses;
+use crate::behave::Passes;
+use crate::handoff::{Observation, PictureEvidence};
+use crate::vision::Verifier;
+use crate::vision::place::{AddUpSpec, Answer, Place, SeenClarity, Stand, Weighed};
+use nalgebra::Vector2;
+use std::collections::VecDeque;
+use std::f64::consts::FRAC_PI_2;
+use world::math;
+use world::units::Heading;
+
+/// Observations over which the bed's depth is the middle one.
+const BED: usize = 81;
+/// Pictures are taken as far before and behind the told place as a source may be, and this much farther, m: the
+/// template's reach and half a picture.
+const FARTHER_M: f64 = 4.5;
+/// Distance between strips that are compared, m; a strip is as wide as this share of what a picture shows.
+const STRIPS_M: f64 = 0.25;
+const STRIP: f64 = 0.7;
+
+/// What has been seen of a place.
+#[derive(Debug)]
+pub(super) enum Looks {
+    /// Each picture by itself: whether one showed a source; `None` before the first.
+    Single(Verifier, Option<bool>),
+    /// All together.
+    Added(Box<Added>),
+}
+
+impl Looks {
+    /// Of nothing yet.
+    pub(super) fn new(spec: &CameraPasses) -> Self {
+        match &spec.add_up {
+            None => Self::Single(Verifier::new(&spec.verifier), None),
+            Some(add_up) => Self::Added(Box::new(Added::new(add_up, spec.altitude_m.get()))),
+        }
+    }
+
+    /// What the camera says; `None` if it never reported.
+    pub(super) fn answer(&self) -> Option<Answer> {
+        match self {
+            Self::Single(_, saw) => saw.map(|yes| match yes {
+                true => Answer::Verified,
+                false => Answer::Rejected,
+            }),
+            Self::Added(a) => a.place.as_ref().and_then(|p| {
+                let [pictures, useless] = p.pictures();
+                (pictures + useless > 0).then_some(a.weighed.as_ref()?.answer)
+            }),
+        }
+    }
+
+    /// Whether nothing more needs to be flown.
+    pub(super) fn enough(&self) -> bool {
+        match self {
+            Self::Single(_, saw) => *saw == Some(true),
+            Self::Added(_) => self.answer().is_some_and(|a| a != Answer::CannotTell),
+        }
+    }
+}
+
+/// All pictures of a place, and the lines over it.
+#[derive(Debug)]
+pub(super) struct Added {
+    spec: AddUpSpec,
+    highest_m: f64,
+    place: Option<Place>,
+    told: Vector2<f64>,
+    along: Heading,
+    weighed: Option<Weighed>,
+    /// Sum of the jumps since the survey began, and mean of that sum over the fixes.
+    jumped: Vector2<f64>,
+    fixes: (f64, Vector2<f64>),
+    bed_m: VecDeque<f64>,
+    lines: u32,
+    altitude_m: f64,
+    lowest_m: f64,
+    /// How far the vehicle came below the clearance, m.
+    raised_m: f64,
+    view_rad: f64,
+}
+
+impl Added {
+    fn new(spec: &AddUpSpec, highest_m: f64) -> Self {
+        Self {
+            spec: spec.clone(),
+            highest_m,
+            place: None,
+            told: Vector2::zeros(),
+            along: Heading::from_deg(0.0),
+            weighed: None,
+            jumped: Vector2::zeros(),
+            fixes: (0.0, Vector2::zeros()),
+            bed_m: VecDeque::new(),
+            lines: 0,
+            altitude_m: highest_m,
+            lowest_m: highest_m,
+            raised_m: 0.0,
+            view_rad: FRAC_PI_2,
+        }
+    }
+
+    /// Begins with a told place; lines lie along `along`, against the flow.
+    pub(super) fn begin(&mut self, told: Vector2<f64>, along: Heading, seen: &Observation) {
+        let flow = seen.estimate.flow.map(|f| f.heading());
+        let down_flow = flow.unwrap_or_else(|| along.opposite());
+        *self = Self::new(&self.spec, self.highest_m);
+        (self.told, self.along) = (told, along);
+        self.place = Some(Place::new(&self.spec, told, down_flow));
+    }
+
+    /// Height of the lines, m.
+    pub(super) fn altitude_m(&self) -> f64 {
+        self.altitude_m
+    }
+
+    /// One tick: follows the jumps, the bed and the clearance. Called whether or not there is a picture.
+    pub(super) fn follow(&mut self, seen: &Observation, on_line: bool) {
+        let e = &seen.estimate;
+        self.jumped += e.fix_jump;
+        if e.fix_jump != Vector2::zeros() {
+            let (n, mean) = self.fixes;
+            self.fixes = (n + 1.0, mean + (self.jumped - mean) / (n + 1.0));
+            let told = self.middle();
+            if let Some(place) = &mut self.place {
+                place.move_to(told);
+            }
+        }
+        let Some(altitude_m) = e.altitude_m else {
+            return;
+        };
+        if self.bed_m.len() == BED {
+            self.bed_m.pop_front();
+        }
+        self.bed_m.push_back(e.depth_m + altitude_m);
+        if on_line {
+            let short = self.spec.clearance_m.get() - altitude_m;
+            self.raised_m = self.raised_m.max(short);
+        }
+    }
+
+    /// The told place where the pictures are laid out.
+    fn middle(&self) -> Vector2<f64> {
+        self.told - self.fixes.1
+    }
+
+    /// Where the vehicle is where the pictures are laid out.
+    fn at(&self, seen: &Observation) -> Vector2<f64> {
+        seen.estimate.position - self.jumped
+    }
+
+    /// Whether a picture from here can show the place.
+    pub(super) fn near(&self, seen: &Observation) -> bool {
+        (self.at(seen) - self.middle()).norm() <= self.spec.within_m.get() + FARTHER_M
+    }
+
+    /// Takes in the picture of this tick.
+    pub(super) fn take(&mut self, seen: &Observation) {
+        let at = self.at(seen);
+        let mut beds: Vec<f64> = self.bed_m.iter().copied().collect();
+        beds.sort_by(f64::total_cmp);
+        let (Some(picture), Some(bed_m)) = (&seen.picture, beds.get(beds.len() / 2)) else {
+            return;
+        };
+        let stand = Stand {
+            position: at,
+            altitude_m: bed_m - seen.estimate.depth_m,
+            R_WB: seen.estimate.attitude.R_WB(),
+        };
+        if let Some(place) = &mut self.place {
+            self.view_rad = picture.view_rad;
+            // A picture that says nothing is counted by the place.
+            let _ = place.add(picture, &stand);
+            self.weighed = Some(place.weigh());
+        }
+    }
+
+    /// The next line; `None` if no more are to be flown.
+    pub(super) fn next_line(&mut self, half_m: f64, seen: &Observation) -> Option<Passes> {
+        if self.lines >= self.spec.most_lines {
+            return None;
+        }
+        self.choose(self.place.as_ref().and_then(Place::clarity));
+        let along = match self.lines % 2 {
+            0 => self.along,
+            _ => self.along.opposite(),
+        };
+        let right = self.along.turned(FRAC_PI_2).unit();
+        let place = self.middle() + self.jumped + right * self.strip();
+        self.lines += 1;
+        Some(Passes::over(place, along, &[0.0], half_m, &seen.area))
+    }
+
+    /// Chooses the altitude of the next line for the water that the pictures show.
+    fn choose(&mut self, water: Option<SeenClarity>) {
+        if let Some(water) = water {
+            let lowest_m = self.spec.least_altitude_m.get() + self.raised_m;
+            let range_m = (lowest_m.min(self.highest_m), self.highest_m);
+            self.altitude_m = water.height_m(self.spec.contrast_left.get(), range_m);
+        }
+        // In shallow water: half its depth.
+        if let Some(bed_m) = self.bed_m.back() {
+            self.altitude_m = self.altitude_m.min((0.5 * bed_m).max(0.5));
+        }
+        self.lowest_m = self.lowest_m.min(self.altitude_m);
+    }
+
+    /// Distance of the best strip from the told place, to the right of `along`, m.
+    fn strip(&self) -> f64 {
+        let Some(weighed) = &self.weighed else {
+            return 0.0;
+        };
+        let right = self.along.turned(FRAC_PI_2).unit();
+        let half_view = (0.5 * self.view_rad).min(0.25 * std::f64::consts::PI);
+        let half = STRIP * self.altitude_m * math::tan(half_view);
+        let middle = self.middle();
+        let mass = |offset: f64| -> f64 {
+            (weighed.places.iter())
+                .filter(|(p, _)| ((p - middle).dot(&right) - offset).abs() <= half)
+                .map(|(_, log)| math::exp(*log))
+                .sum()
+        };
+        let n = (self.spec.within_m.get() / STRIPS_M).floor() as i32;
+        // From the middle outwards, so that of equal strips the nearest one is flown.
+        let strips = (0..=n)
+            .flat_map(|k| [k, -k])
+            .map(|k| f64::from(k) * STRIPS_M);
+        let best = strips
+            .map(|offset| (offset, mass(offset)))
+            .reduce(|a, b| if b.1 > 1.001 * a.1 { b } else { a });
+        best.map_or(0.0, |(offset, _)| offset)
+    }
+
+    /// The likeliest place of the source as the vehicle believes now, if the pictures verify one.
+    pub(super) fn found(&self) -> Option<Vector2<f64>> {
+        let weighed = self.weighed.as_ref()?;
+        let best = weighed
+            .best
+            .filter(|_| weighed.answer == Answer::Verified)?;
+        // From where the pictures lie to the mean of the fixes.
+        Some(best + self.fixes.1)
+    }
+
+    /// What the pictures were and what they say.
+    pub(super) fn evidence(&self) -> Option<PictureEvidence> {
+        let place = self.place.as_ref()?;
+        let [pictures, useless] = place.pictures();
+        Some(PictureEvidence {
+            pictures: pictures as u32,
+            useless: useless as u32,
+            lines: self.lines,
+            lowest_m: self.lowest_m,
+            visibility_m: place.clarity().map(|c| c.visibility_m()),
+            log_factor: self.weighed.as_ref().map_or(0.0, |w| w.log_factor),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::behave::Stride;
+    use crate::handoff::Manoeuvre;
+    use crate::handoff::testing::seen;
+
+    fn begun(highest_m: f64) -> (Added, Observation) {
+        let o = seen(0.0, Vector2::zeros(), 0.0, Some(Vector2::new(0.0, -0.2)));
+        let mut added = Added::new(&AddUpSpec::default(), highest_m);
+        added.begin(Vector2::new(10.0, 20.0), Heading::from_deg(0.0), &o);
+        (added, o)
+    }
+
+    fn line(passes: Option<Passes>) -> (Vector2<f64>, Vector2<f64>) {
+        match passes.expect("a line").step(true) {
+            Stride::Start(Manoeuvre::FollowLine { from, to }) => (from, to),
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn lines_go_to_and_fro_over_the_place_and_end() {
+        let (mut added, o) = begun(2.5);
+        for n in 0..8 {
+            let (from, to) = line(added.next_line(14.0, &o));
+            let north = if n % 2 == 0 { 14.0 } else { -14.0 };
+            assert!(
+                (from - Vector2::new(10.0, 20.0 - north)).norm() < 1e-9,
+                "{n}"
+            );
+            assert!((to - Vector2::new(10.0, 20.0 + north)).norm() < 1e-9, "{n}");
+            assert_eq!(added.altitude_m(), 2.5);
+        }
+        assert!(added.next_line(14.0, &o).is_none());
+        let e = added.evidence().unwrap();
+        assert_eq!((e.lines, e.pictures, e.visibility_m), (8, 0, None));
+    }
+
+    /// The told place moves by the mean of what the fixes say, not by each of them.
+    #[test]
+    fn jumps_of_the_navigation_do_not_tear_the_place() {
+        let (mut added, mut o) = begun(2.5);
+        for (jump, mean) in [(0.6, 0.6), (-0.6, 0.3), (-0.6, 0.0)] {
+            o.estimate.fix_jump = Vector2::new(jump, 0.0);
+            o.estimate.position.x += jump;
+            added.follow(&o, false);
+            assert!(
+                added.at(&o).norm() < 1e-12,
+                "where the pictures lie, it did not move"
+            );
+            assert!((added.middle() - Vector2::new(10.0 - mean, 20.0)).norm() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn murky_water_is_looked_at_from_as_low_as_the_limits_allow() {
+        let altitude = |visibility_m: f64, over_m: f64, bed_m: f64| {
+            let (mut added, mut o) = begun(2.5);
+            o.estimate.altitude_m = Some(over_m);
+            o.estimate.depth_m = bed_m - over_m;
+            added.follow(&o, true);
+            added.choose(Some(SeenClarity {
+                attenuation_per_m: 4.8 / visibility_m,
+            }));
+            added.altitude_m()
+        };
+        assert_eq!(altitude(30.0, 2.5, 10.0), 2.5);
+        let middle = altitude(4.2, 2.5, 10.0);
+        assert!(middle > 1.4 && middle < 2.5, "{middle}");
+        assert_eq!(altitude(1.5, 2.5, 10.0), 1.4);
+        // The altimeter has shown 0.2 m less than the clearance of 0.6 m: higher by that.
+        assert!((altitude(1.5, 0.4, 10.0) - 1.6).abs() < 1e-12);
+        // In 2.4 m of water it keeps half of it.
+        assert!((altitude(1.5, 1.2, 2.4) - 1.2).abs() < 1e-12);
+    }
+}

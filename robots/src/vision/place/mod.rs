@@ -1,0 +1,18 @@
+//! Verification by all pictures of a place: laid on the ground, shifted onto one another, added up, and weighed.
+
+mod clarity;
+mod evidence;
+mod gathered;
+mod ground;
+mod mosaic;
+mod photometry;
+mod register;
+mod spec;
+
+pub use clarity::SeenClarity;
+pub use evidence::{Answer, Weighed};
+pub use gathered::Place;
+pub use ground::Stand;
+pub use mosaic::Mosaic;
+pub use photometry::Useless;
+pub use spec::AddUpSpec;

@@ -1,0 +1,209 @@
+//! The pictures of a source added up: a line over it in murky water, the ground that its pictures make together, and
+//! what they say after the first picture and after the last.
+//!
+//! `cargo run --release -p studies --example mosaic -- mosaic.png`
+
+use image::imageops::{FilterType, resize};
+use image::{Rgb, RgbImage};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use plumes::filaments::{Plume, PlumeSettings};
+use plumes::flow::channel::OpenChannelSpec;
+use plumes::flow::eddies::EddiesSpec;
+use plumes::flow::{CurrentSpec, GridShape, WaterSpec};
+use plumes::release::{ReleaseSpec, SourceSpec};
+use robots::handoff::Picture;
+use robots::sense::camera::{
+    CameraModel, CameraSpec, ClaritySpec, Optics, OpticsSpec, Scene, looking, render, turned,
+};
+use robots::vision::place::{AddUpSpec, Mosaic, Place, Stand, Weighed};
+use std::error::Error;
+use std::f64::consts::FRAC_PI_2;
+use std::path::Path;
+use std::sync::Arc;
+use world::area::Area;
+use world::fields::Flow;
+use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec, Surface};
+use world::ranges::{Finite, Fraction, HeadingDeg, NonNegative, Positive};
+use world::terrain::Terrain;
+use world::units::Heading;
+
+const DEPTH_M: f64 = 8.0;
+const VISIBILITY_M: f64 = 6.0;
+const ALTITUDE_M: f64 = 2.0;
+/// Sides of a cell in the drawing, px.
+const CELL_PX: u32 = 4;
+
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn Error>> {
+    let to = std::env::args().nth(1).unwrap_or("mosaic.png".to_string());
+    let terrain = Terrain::Level { depth_m: DEPTH_M };
+    let plume = plume(&terrain)?;
+    let obstacles = Obstacles(vec![body(&terrain)?]);
+    let optics = Optics::new(&OpticsSpec {
+        clarity: ClaritySpec {
+            visibility_m: Positive::new(VISIBILITY_M),
+            ..ClaritySpec::default()
+        },
+        ..OpticsSpec::default()
+    })?;
+    let scene = Scene {
+        terrain: &terrain,
+        obstacles: &obstacles,
+        dye: &plume,
+        optics: &optics,
+    };
+    let camera = CameraModel::new(&CameraSpec {
+        width: 96,
+        height: 72,
+        view_deg: Positive::new(90.0),
+        ..CameraSpec::default()
+    });
+    let mut place = Place::new(
+        &AddUpSpec::default(),
+        Vector2::new(0.4, -0.3),
+        Heading::from_deg(90.0),
+    );
+    let mut strip = Vec::new();
+    for (n, north) in [0.0, 0.9, -0.9].into_iter().enumerate() {
+        for k in 0..9 {
+            let east = 1.5 * f64::from(k) - 6.0;
+            let at = Vector3::new(east, north, ALTITUDE_M - DEPTH_M);
+            let noise = 100 * n as u64 + k as u64;
+            let made = render(&camera, &looking(at, 0.0, FRAC_PI_2), &scene, noise);
+            if n == 0 && (3..7).contains(&k) {
+                strip.push(made.image.clone());
+            }
+            let picture = Picture {
+                image: Arc::new(made.image),
+                p_BC: Vector3::zeros(),
+                R_BC: turned(0.0, FRAC_PI_2),
+                view_rad: camera.view_rad,
+            };
+            let stand = Stand {
+                position: at.xy(),
+                altitude_m: ALTITUDE_M,
+                R_WB: UnitQuaternion::identity(),
+            };
+            place
+                .add(&picture, &stand)
+                .map_err(|why| format!("{why:?}"))?;
+            if n == 0 && k == 4 || n == 2 && k == 8 {
+                let said = place.weigh();
+                println!(
+                    "{} pictures: {:?}, logarithm of the Bayes factor {:+.1}, visibility {:.1} m",
+                    place.pictures()[0],
+                    said.answer,
+                    said.log_factor,
+                    place.clarity().map_or(f64::NAN, |c| c.visibility_m())
+                );
+            }
+        }
+    }
+    let mosaic = place.mosaic().ok_or("no pictures")?;
+    draw(&strip, &mosaic, &place.weigh()).save(to)?;
+    Ok(())
+}
+
+/// A strip of single pictures; below it brightness, redness and the likelihood of a source on the ground.
+fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &Weighed) -> RgbImage {
+    let [w, h] = mosaic.size.map(|n| n as u32);
+    let side = w * CELL_PX;
+    let mut out = RgbImage::from_pixel(3 * side + 20, h * CELL_PX + 260, Rgb([255; 3]));
+    for (n, picture) in strip.iter().enumerate() {
+        let larger = resize(picture, 333, 250, FilterType::Nearest);
+        image::imageops::replace(&mut out, &larger, n as i64 * 343, 0);
+    }
+    let grey = |v: f64| Rgb([(128.0 + 110.0 * v).clamp(0.0, 255.0) as u8; 3]);
+    let unseen = Rgb([40, 50, 90]);
+    let cell = |x: u32, y: u32| mosaic.contrast(x as usize, (h - 1 - y) as usize);
+    let panels =
+        [0, 1].map(|k| RgbImage::from_fn(w, h, |x, y| cell(x, y).map_or(unseen, |c| grey(c[k]))));
+    let mut likely = panels[0].clone();
+    for (p, log) in &said.places {
+        let at = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i32 - mosaic.low[k]);
+        // From red, against a source, over white to green, for it.
+        let v = (log / 12.0).clamp(-1.0, 1.0);
+        let [more, less] = [255.0, 255.0 * (1.0 - v.abs())].map(|v| v as u8);
+        let colour = if v > 0.0 {
+            [less, more, less]
+        } else {
+            [more, less, less]
+        };
+        for (dx, dy) in (0..3).flat_map(|x| (0..3).map(move |y| (x, y))) {
+            let (x, y) = (at[0] + dx, h as i32 - 1 - at[1] - dy);
+            if (0..w as i32).contains(&x) && (0..h as i32).contains(&y) {
+                likely.put_pixel(x as u32, y as u32, Rgb(colour));
+            }
+        }
+    }
+    for (n, panel) in [&panels[0], &panels[1], &likely].into_iter().enumerate() {
+        let larger = resize(panel, side, h * CELL_PX, FilterType::Nearest);
+        image::imageops::replace(&mut out, &larger, i64::from(n as u32 * (side + 10)), 260);
+    }
+    out
+}
+
+fn body(terrain: &Terrain) -> Result<Obstacle, Box<dyn Error>> {
+    let [l, w, h] = [1.0, 0.5, 0.5].map(Positive::new);
+    let dark = Fraction::new(0.05);
+    let spec = ObstacleSpec {
+        id: "source".to_string(),
+        shape: ShapeSpec::Box(BoxShape { size_m: (l, w, h) }),
+        east_m: Finite::new(0.0),
+        north_m: Finite::new(0.0),
+        base: Base::default(),
+        heading_deg: HeadingDeg::new(30.0),
+        surface: Surface {
+            albedo: (dark, dark, Fraction::new(0.065)),
+            ..Surface::default()
+        },
+    };
+    Ok(Obstacle::build(&spec, terrain, Path::new(""))?)
+}
+
+/// 2 g of dye a minute in a stream of 0.15 m/s to the east.
+fn plume(terrain: &Terrain) -> Result<Plume, Box<dyn Error>> {
+    let area = Area {
+        centre: Vector2::new(8.0, 0.0),
+        length_m: 36.0,
+        width_m: 18.0,
+        axis: Heading::from_deg(90.0),
+    };
+    let stream = OpenChannelSpec {
+        mean_m_s: Positive::new(0.15),
+        heading_deg: HeadingDeg::new(90.0),
+        roughness_m: NonNegative::new(0.01),
+        viscosity_m2_s: Positive::new(1e-6),
+        eddies: Some(EddiesSpec::default()),
+    };
+    let water = WaterSpec {
+        currents: vec![CurrentSpec::new(stream)],
+        ..WaterSpec::default()
+    };
+    let mut water = water.build(&area, terrain, 900_003)?;
+    let source = SourceSpec {
+        id: "source".to_string(),
+        east_m: Finite::new(0.0),
+        north_m: Finite::new(0.0),
+        height_m: Some(Finite::new(0.55)),
+        depth_m: None,
+        rate_g_s: Positive::new(0.033),
+        release: ReleaseSpec {
+            rate_hz: Positive::new(20.0),
+            initial_size_m: Positive::new(0.03),
+            eddy_size_m: Some(Positive::new(0.3)),
+            ..ReleaseSpec::default()
+        },
+    };
+    let settings = PlumeSettings {
+        grid: GridShape::fitting(&area),
+        refresh_s: 1e6,
+    };
+    let mut plume = Plume::new(&[source], &area, terrain, 900_003, settings)?;
+    for k in 0..200 {
+        let (from, to) = (0.5 * f64::from(k), 0.5 * f64::from(k + 1));
+        water.advance(to);
+        plume.drift(&water, from, to);
+    }
+    Ok(plume)
+}

@@ -1,0 +1,203 @@
+//! Values of a row's scenario that are drawn anew for every seed.
+
+use crate::campaign::put;
+use rheotaxis::scenario::{Loaded, parse};
+use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
+use std::path::PathBuf;
+use world::math;
+use world::seeds::{Seed, Stream};
+
+/// A value of the scenario that differs from seed to seed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Draw {
+    /// Arms in which it is drawn; all if none is named.
+    #[serde(default)]
+    pub arms: Vec<String>,
+    /// Its path in the scenario.
+    pub path: String,
+    /// From what it is drawn.
+    pub of: Law,
+}
+
+/// From what a value is drawn.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Law {
+    /// Evenly between two numbers.
+    Even(f64, f64),
+    /// Evenly in the logarithm between two positive numbers.
+    Log(f64, f64),
+    /// One of these RON values, each as likely as the others.
+    OneOf(Vec<String>),
+}
+
+impl Law {
+    /// What is wrong with it, if anything.
+    fn fault(&self) -> Option<&'static str> {
+        match self {
+            Self::Even(a, b) if !(a.is_finite() && b.is_finite() && a <= b) => {
+                Some("Even needs two numbers, the smaller one first")
+            }
+            Self::Log(a, b) if !(*a > 0.0 && b.is_finite() && a <= b) => {
+                Some("Log needs two positive numbers, the smaller one first")
+            }
+            Self::OneOf(all) if all.is_empty() => Some("OneOf needs at least one value"),
+            _ => None,
+        }
+    }
+
+    /// The value for a number from 0 to 1.
+    fn at(&self, u: f64) -> String {
+        match self {
+            Self::Even(a, b) => format!("{:.6}", a + (b - a) * u),
+            Self::Log(a, b) => format!("{:.6}", a * math::exp(u * math::ln(b / a))),
+            Self::OneOf(all) => all[((u * all.len() as f64) as usize).min(all.len() - 1)].clone(),
+        }
+    }
+
+    /// Numbers from 0 to 1 that together meet all that it can be: its ends, or all its values.
+    fn tries(&self) -> Vec<f64> {
+        match self {
+            Self::Even(..) | Self::Log(..) => vec![0.0, 1.0],
+            Self::OneOf(all) => {
+                let n = all.len() as f64;
+                (0..all.len()).map(|k| (k as f64 + 0.5) / n).collect()
+            }
+        }
+    }
+}
+
+/// The scenario of an arm for a seed: with its values drawn.
+///
+/// # Errors
+/// The path and what is wrong with it.
+pub(super) fn drawn<'a>(
+    draws: &[Draw],
+    arm: &str,
+    loaded: &'a Loaded,
+    seed: Seed,
+) -> Result<Cow<'a, Loaded>, String> {
+    changed(draws, arm, loaded, &|path| {
+        Stream::new(seed, path, "draw").uniform()
+    })
+}
+
+/// Checks that every value that can be drawn is legal.
+///
+/// # Errors
+/// The path and what is wrong with it.
+pub(super) fn check(draws: &[Draw], arm: &str, loaded: &Loaded) -> Result<(), String> {
+    for d in draws {
+        if let Some(fault) = d.of.fault() {
+            return Err(format!("draw `{}`: {fault}", d.path));
+        }
+    }
+    for d in draws.iter().filter(|d| d.in_arm(arm)) {
+        for u in d.of.tries() {
+            let all = changed(draws, arm, loaded, &|path| {
+                if path == d.path { u } else { 0.5 }
+            })?;
+            let said = all.check();
+            said.map_err(|e| format!("draw `{}`: {e}", d.path))?;
+        }
+    }
+    Ok(())
+}
+
+impl Draw {
+    fn in_arm(&self, arm: &str) -> bool {
+        self.arms.is_empty() || self.arms.iter().any(|a| a == arm)
+    }
+}
+
+fn changed<'a>(
+    draws: &[Draw],
+    arm: &str,
+    loaded: &'a Loaded,
+    number: &dyn Fn(&str) -> f64,
+) -> Result<Cow<'a, Loaded>, String> {
+    let mut text = Cow::Borrowed(loaded.text.as_str());
+    for d in draws.iter().filter(|d| d.in_arm(arm)) {
+        let value = d.of.at(number(&d.path));
+        let said = |problem| format!("draw `{}`: {problem}", d.path);
+        text = Cow::Owned(put(&text, &d.path, &value).map_err(said)?);
+    }
+    let Cow::Owned(text) = text else {
+        return Ok(Cow::Borrowed(loaded));
+    };
+    let shown = loaded.path.display().to_string();
+    let scenario = parse(&shown, &text).map_err(|e| e.to_string())?;
+    Ok(Cow::Owned(Loaded {
+        scenario,
+        path: PathBuf::from(shown),
+        text,
+        ..loaded.clone()
+    }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rheotaxis::scenario::{load_text, template};
+    use world::registry::Registry;
+
+    fn channel() -> Loaded {
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        load_text(&Registry::default(), "channel", text).expect("legal")
+    }
+
+    fn draw(path: &str, of: Law) -> Draw {
+        Draw {
+            arms: Vec::new(),
+            path: path.to_string(),
+            of,
+        }
+    }
+
+    #[test]
+    fn a_seed_draws_its_own_values_and_the_same_ones_again() {
+        let loaded = channel();
+        let draws = [draw("optics.clarity.visibility_m", Law::Log(3.0, 6.0))];
+        let of = |seed: u64| {
+            let got = drawn(&draws, "a", &loaded, Seed::from(seed)).unwrap();
+            got.scenario.optics.clarity.visibility_m.get()
+        };
+        let all: Vec<f64> = (1..50).map(of).collect();
+        assert!(all.iter().all(|v| (3.0..=6.0).contains(v)), "{all:?}");
+        // Evenly in the logarithm, the middle is 4.24.
+        let below = all.iter().filter(|v| **v < 18f64.sqrt()).count();
+        assert!((12..37).contains(&below), "{below}");
+        assert_eq!(of(7), of(7));
+        assert_ne!(of(7), of(8));
+    }
+
+    #[test]
+    fn a_draw_of_other_arms_changes_nothing() {
+        let loaded = channel();
+        let mut one = draw("time.limit_s", Law::Even(10.0, 20.0));
+        one.arms = vec!["murky".to_string()];
+        let same = drawn(&[one.clone()], "clear", &loaded, Seed::from(1)).unwrap();
+        assert!(matches!(same, Cow::Borrowed(_)));
+        let other = drawn(&[one], "murky", &loaded, Seed::from(1)).unwrap();
+        assert!(other.scenario.time.limit_s.get() < 20.0);
+    }
+
+    #[test]
+    fn what_could_be_drawn_and_is_not_legal_is_told() {
+        let loaded = channel();
+        for (of, told) in [
+            (Law::Log(0.0, 2.0), "Log needs two positive numbers"),
+            (Law::Even(3.0, 2.0), "Even needs two numbers"),
+            (Law::OneOf(Vec::new()), "OneOf needs at least one value"),
+            (Law::Log(2.0, 1e4), "visibility_m"),
+        ] {
+            let said = check(&[draw("optics.clarity.visibility_m", of)], "a", &loaded);
+            let said = said.unwrap_err();
+            assert!(said.contains(told), "{said}");
+        }
+        let astray = draw("robots[7].id", Law::OneOf(vec!["\"b\"".to_string()]));
+        let said = check(&[astray], "a", &loaded).unwrap_err();
+        assert!(said.contains("robots[7].id"), "{said}");
+    }
+}
