@@ -16,6 +16,7 @@
 //! apply. Waves add their orbits to the velocity, and their drift and mixing to the plume's column (file `waves::sea`).
 
 mod answers;
+mod dissipation;
 mod kept;
 
 use nalgebra::{Vector2, Vector3};
@@ -28,7 +29,6 @@ use world::obstacles::Obstacles;
 use world::ranges::Positive;
 use world::seeds::Seed;
 use world::terrain::Terrain;
-use world::units::GRAVITY_M_S2;
 
 use crate::error::PlumeError;
 use crate::flow::bed::{BedSpec, BoundaryLayer, KARMAN};
@@ -354,30 +354,6 @@ impl Column<'_> {
     pub fn mixing(&self, z: f64, u_star_m_s: f64) -> Mixing {
         let z = self.inside(z);
         self.mixing_in(z, u_star_m_s, self.profile(z).as_ref())
-    }
-
-    /// Dissipation of turbulent energy at a height, given the column's friction velocity, m²/s³. A flume has that of its
-    /// profile. Elsewhere the bed's turbulence dissipates what it takes from the shear, K_z S², and the background mixing
-    /// what Osborn 1980, J. Phys. Oceanogr. 10, 83, infers from it: K N²/0.2.
-    #[must_use]
-    pub fn dissipation(&self, z: f64, u_star_m_s: f64) -> f64 {
-        let z = self.inside(z);
-        let height = z - self.floor.z;
-        if let Some(flume) = &self.water.flume {
-            return flume.channel.dissipation(height);
-        }
-        let background = self.water.mixing.background_vertical_m2_s.get();
-        let turbulent = self.mixing(z, u_star_m_s).k_z_m2_s - background;
-        let (mut shear2, mut n2) = (0.0, 0.0);
-        if height > 0.0 {
-            let wall = u_star_m_s / (KARMAN * height);
-            shear2 += wall * wall;
-        }
-        if let Some(p) = self.profile(z) {
-            shear2 += p.du_dz.norm_squared();
-            n2 = (-GRAVITY_M_S2 * p.drho_dz / p.density).max(0.0);
-        }
-        turbulent * shear2 + background * n2 / 0.2
     }
 
     /// Velocity and diffusivities at a height, as from both methods, with the profile computed only once.
