@@ -5,7 +5,7 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: breaking waves dissipate nothing here, though they mix.
+//! *Deviations*: the mixing by waves counts as if the shear of currents made it.
 
 use super::Column;
 use crate::flow::bed::KARMAN;

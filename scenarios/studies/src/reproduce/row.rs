@@ -1,5 +1,7 @@
 //! What a paper reports, and the scenario with which we compare it: one row file each.
 
+mod shipped;
+
 use super::draw::{Draw, check};
 use super::measure::RunEvent;
 use super::quantity::Quantity;
@@ -8,6 +10,7 @@ use output::files::ReportError;
 use rheotaxis::scenario::{Loaded, ScenarioError, load, parse, template};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
+use shipped::ROWS;
 use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
@@ -177,41 +180,6 @@ pub struct Reference {
     /// The scenario as each arm changes it, with the arm's name; at least one.
     pub arms: Vec<(String, Loaded)>,
 }
-
-macro_rules! row {
-    ($name:literal) => {
-        (
-            $name,
-            include_str!(concat!("../../../../tests/reference/rows/", $name, ".ron")),
-        )
-    };
-}
-
-/// Row files that come with the program.
-const ROWS: &[(&str, &str)] = &[
-    row!("crab"),
-    row!("crab_arms"),
-    row!("crab_readings"),
-    row!("eyes"),
-    row!("duck_st"),
-    row!("dalian_bay"),
-    row!("duck_mt"),
-    row!("san_clemente"),
-    row!("reliability_duck"),
-    row!("reliability_four"),
-    row!("reliability_harbour"),
-    row!("reliability_laminar"),
-    row!("reliability_turbulent"),
-    row!("t13_rate"),
-    row!("t13_ladder_t"),
-    row!("t13_ladder_f"),
-    row!("t13_turns"),
-    row!("t13_siz_t"),
-    row!("t13_siz_f"),
-    row!("wp_laminar"),
-    row!("wp_turbulent"),
-    row!("wp_dead_end"),
-];
 
 /// All rows that come with the program.
 ///
