@@ -135,10 +135,12 @@ mod tests {
     const PURE: &[&str] = &[
         "albedo",
         "bed_albedo",
+        "bed_texture",
         "centre_weight",
         "clearance_weight",
         "climb",
         "contrast",
+        "contrast_left",
         "coverage",
         "damping",
         "dropout",
@@ -171,6 +173,7 @@ mod tests {
         "quantum_yield",
         "ratio",
         "reach",
+        "reject_at",
         "resample_below",
         "roughening",
         "saturation",
@@ -184,6 +187,7 @@ mod tests {
         "texture",
         "threshold",
         "transverse",
+        "verify_at",
         "white_balance",
     ];
 
