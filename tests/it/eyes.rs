@@ -217,9 +217,14 @@ fn what_is_no_source_is_rejected_or_left_open() {
             );
         }
         let said = place.weigh();
-        assert_eq!(
-            said.answer,
-            Answer::Rejected,
+        // Dye that passes by as a wide band is partly taken for background: it may stay open.
+        let may = if what == "rock in passing dye" {
+            [Answer::Rejected, Answer::CannotTell]
+        } else {
+            [Answer::Rejected; 2]
+        };
+        assert!(
+            may.contains(&said.answer) && said.log_factor < 0.0,
             "{what}: {:.1}",
             said.log_factor
         );
@@ -247,7 +252,7 @@ fn what_is_no_source_is_rejected_or_left_open() {
 #[test]
 fn evidence_adds_up_over_pictures_and_not_over_copies() {
     let dusk = Sea {
-        light_klx: 0.6,
+        light_klx: 1.0,
         ..source(8.0)
     };
     let passes: Vec<_> = (1..5)

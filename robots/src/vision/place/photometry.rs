@@ -8,8 +8,10 @@
 //! pixels lie between black and white.
 //!
 //! *Deviations*: two contrasts are kept of the three colours. `bright` = (Y - background)/background with Y =
-//! (R + 2G + B)/4, the sum that the camera's colour saturation leaves as it is; `red` = change of R - G, relative to
-//! the background of Y. Both are relative, so that exposure and gain do not matter.
+//! (R + 2G + B)/4, the sum that the camera's colour saturation leaves as it is; `red` = change of R - G, relative to the
+//! background of Y. Both are relative, so that exposure and gain do not matter. What fills much of a picture bends its
+//! background: a dark patch of a seventh of it loses up to a quarter of its contrast, and beside wide dye the bed looks
+//! less red than it is.
 
 use image::RgbImage;
 use nalgebra::{SMatrix, SVector};
@@ -287,9 +289,9 @@ mod tests {
             n[i] += 1.0;
         }
         let [out, inside] = [0, 1].map(|i| sums[i] / n[i]);
-        // The patch bends the fit by a few hundredths of the light.
+        // A patch of a seventh of the picture bends the fit: up to a quarter of its contrast is lost.
         assert!(out.abs() < 0.03, "{out}");
-        assert!((inside + 0.4).abs() < 0.03, "{inside}");
+        assert!((-0.42..-0.3).contains(&inside), "{inside}");
         // Two levels of noise at some 140 are 2 · 2.2 · 2/140 of the light.
         assert!((0.02..0.05).contains(&c.noise[0]), "{:?}", c.noise);
     }

@@ -83,23 +83,28 @@ pub(super) fn drawn<'a>(
     })
 }
 
-/// Checks that every value that can be drawn is legal.
+/// Checks that the arms of draws are there and that every value that can be drawn is legal.
 ///
 /// # Errors
 /// The path and what is wrong with it.
-pub(super) fn check(draws: &[Draw], arm: &str, loaded: &Loaded) -> Result<(), String> {
+pub(super) fn check(draws: &[Draw], arms: &[(String, Loaded)]) -> Result<(), String> {
     for d in draws {
         if let Some(fault) = d.of.fault() {
             return Err(format!("draw `{}`: {fault}", d.path));
         }
+        let known = |name: &String| arms.iter().any(|(arm, _)| arm == name);
+        if let Some(astray) = d.arms.iter().find(|name| !known(name)) {
+            return Err(format!("draw `{}`: the row has no arm `{astray}`", d.path));
+        }
     }
-    for d in draws.iter().filter(|d| d.in_arm(arm)) {
-        for u in d.of.tries() {
-            let all = changed(draws, arm, loaded, &|path| {
-                if path == d.path { u } else { 0.5 }
-            })?;
-            let said = all.check();
-            said.map_err(|e| format!("draw `{}`: {e}", d.path))?;
+    for (arm, loaded) in arms {
+        for d in draws.iter().filter(|d| d.in_arm(arm)) {
+            for u in d.of.tries() {
+                let number = |path: &str| if path == d.path { u } else { 0.5 };
+                let all = changed(draws, arm, loaded, &number)?;
+                let said = all.check();
+                said.map_err(|e| format!("draw `{}`: {e}", d.path))?;
+            }
         }
     }
     Ok(())
@@ -192,12 +197,18 @@ mod tests {
             (Law::OneOf(Vec::new()), "OneOf needs at least one value"),
             (Law::Log(2.0, 1e4), "visibility_m"),
         ] {
-            let said = check(&[draw("optics.clarity.visibility_m", of)], "a", &loaded);
+            let arms = [("a".to_string(), loaded.clone())];
+            let said = check(&[draw("optics.clarity.visibility_m", of)], &arms);
             let said = said.unwrap_err();
             assert!(said.contains(told), "{said}");
         }
         let astray = draw("robots[7].id", Law::OneOf(vec!["\"b\"".to_string()]));
-        let said = check(&[astray], "a", &loaded).unwrap_err();
+        let arms = [("a".to_string(), loaded)];
+        let said = check(&[astray], &arms).unwrap_err();
         assert!(said.contains("robots[7].id"), "{said}");
+        let mut other = draw("time.limit_s", Law::Even(10.0, 20.0));
+        other.arms = vec!["murky".to_string()];
+        let said = check(&[other], &arms).unwrap_err();
+        assert_eq!(said, "draw `time.limit_s`: the row has no arm `murky`");
     }
 }

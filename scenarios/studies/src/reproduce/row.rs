@@ -287,19 +287,11 @@ impl Reference {
         if arms.is_empty() {
             arms.push((row.id.clone(), loaded.clone()));
         }
-        let wrong = |problem: String| ReproduceError::Row {
+        check(&row.draw, &arms).map_err(|problem| ReproduceError::Row {
             name: name.to_string(),
             problem,
-        };
-        for (arm, loaded) in &arms {
-            check(&row.draw, arm, loaded).map_err(wrong)?;
-        }
-        let astray = (row.draw.iter().flat_map(|d| &d.arms))
-            .find(|name| row.arms.iter().all(|a| a.name != **name));
-        match astray {
-            Some(arm) => Err(wrong(format!("draw: the row has no arm `{arm}`"))),
-            None => Ok(Self { row, loaded, arms }),
-        }
+        })?;
+        Ok(Self { row, loaded, arms })
     }
 
     /// Keeps these arms and their figures; each arm runs as it would together with the others.
