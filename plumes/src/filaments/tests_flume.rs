@@ -7,7 +7,7 @@ use crate::flow::eddies::tests_eddies::{BED, flume, water};
 use crate::flow::eddies::tests_small;
 use crate::flow::grid::GridShape;
 use crate::release::{BuoyancySpec, NozzleSpec, ReleaseSpec, SourceSpec};
-use std::collections::HashMap;
+use std::collections::BTreeMap;
 use world::fields::Flow;
 use world::ranges::{Finite, Positive};
 use world::seeds::Stream;
@@ -119,7 +119,7 @@ fn mixed_water_stays_mixed() {
             assert!(worst < 0.11, "dt {dt}, axis {axis}: {worst}: {counts:?}");
         }
         // Nor do they gather in small places: the counts of cubes of 5 cm scatter as those of a Poisson process.
-        let mut cubes = HashMap::<[i32; 3], f64>::new();
+        let mut cubes = BTreeMap::<[i32; 3], f64>::new();
         for f in &cloud {
             let cube = [f[0], f[1] + 0.535, f[2]].map(|p| (p / 0.05).floor() as i32);
             *cubes.entry(cube).or_default() += 1.0;

@@ -2,6 +2,7 @@
 
 use super::element::{Around, Element, Thread};
 use crate::release::BuoyancySpec;
+use world::math;
 use world::ranges::Finite;
 
 const RATE_HZ: f64 = 10.0;
@@ -45,7 +46,7 @@ fn plume_in_still_water() {
     let thread = thread(flux, 0.01, 0.005);
     let (z, e) = risen(&thread, around(0.0, 0.0, 0.0), 400.0, 0.5);
     let f = flux / std::f64::consts::PI;
-    let w = 5.0 / (6.0 * 0.117) * (0.9 * 0.117 * f).cbrt() * z.powf(-1.0 / 3.0);
+    let w = 5.0 / (6.0 * 0.117) * math::cbrt(0.9 * 0.117 * f) * math::powf(z, -1.0 / 3.0);
     let got = e.momentum_m4_s / e.shared_m3;
     // The opening shifts the plume's origin by some centimetres of 15 m.
     assert!((got / w - 1.0).abs() < 0.01, "{got} {w} at {z}");
@@ -62,7 +63,7 @@ fn plume_in_stratified_water() {
     let thread = thread(flux, 0.01, 0.002);
     let water = around(0.0, 0.0, n * n);
     let f = flux / std::f64::consts::PI;
-    let scale = f.powf(0.25) * n.powf(-0.75);
+    let scale = math::powf(f, 0.25) * math::powf(n, -0.75);
     let (mut e, mut z, mut top) = (thread.released(), 0.0_f64, 0.0_f64);
     let mut late = Vec::new();
     for step in 0..40_000 {
@@ -88,7 +89,7 @@ fn thread_bent_over_by_the_stream() {
     let f = flux / std::f64::consts::PI;
     for x in [1.0_f64, 5.0, 50.0] {
         let (z, e) = risen(&thread, around(speed, 0.0, 0.0), x / speed, 0.05);
-        let briggs = 1.6 * f.cbrt() * x.powf(2.0 / 3.0) / speed;
+        let briggs = 1.6 * math::cbrt(f) * math::powf(x, 2.0 / 3.0) / speed;
         // The nozzle's radius and the rise's own part of the speed shift it.
         assert!(
             (z / briggs - 1.0).abs() < if x < 2.0 { 0.15 } else { 0.05 },
@@ -104,7 +105,10 @@ fn strong_turbulence_leaves_little_of_the_rise() {
     let (flux, speed, epsilon) = (4.8e-8, 0.05, 1e-3_f64);
     let thread = thread(flux, 0.0021, speed);
     let (z, e) = risen(&thread, around(speed, epsilon, 0.0), 20.0, 0.05);
-    let r = (0.0021_f64.powf(2.0 / 3.0) + 2.0 / 3.0 * 1.0736 * epsilon.cbrt() * 20.0).powf(1.5);
+    let r = math::powf(
+        math::powf(0.0021, 2.0 / 3.0) + 2.0 / 3.0 * 1.0736 * math::cbrt(epsilon) * 20.0,
+        1.5,
+    );
     let got = (e.shared_m3 * RATE_HZ / (std::f64::consts::PI * speed)).sqrt();
     assert!((got / r - 1.0).abs() < 0.01, "{got} {r}");
     let (free, _) = risen(&thread, around(speed, 0.0, 0.0), 20.0, 0.05);

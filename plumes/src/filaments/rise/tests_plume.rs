@@ -10,6 +10,7 @@ use crate::release::{BuoyancySpec, SourceSpec};
 use nalgebra::Vector3;
 use world::bits::{Reader, Writer};
 use world::fields::{Concentration, Flow, Mixing};
+use world::math;
 use world::ranges::{Finite, Positive};
 use world::terrain::Terrain;
 
@@ -73,7 +74,7 @@ fn filaments_follow_their_elements() {
     // Briggs: 1.6 F^⅓ x^⅔/U above a source at 1 m.
     let f = 9.81 * 5.0 / 1026.0 * 1e-3 / std::f64::consts::PI;
     let x = f64::from(store.x[0]) - p.sources[0].p_W.x;
-    let briggs = 1.6 * f.cbrt() * x.powf(2.0 / 3.0) / 0.2;
+    let briggs = 1.6 * math::cbrt(f) * math::powf(x, 2.0 / 3.0) / 0.2;
     let risen = f64::from(store.z[0]) + 29.0;
     assert!((risen / briggs - 1.0).abs() < 0.05, "{risen} {briggs}");
     // Its own entrainment has widened the oldest to half of its radius, 0.6 of the rise.

@@ -52,11 +52,12 @@ impl Mosaic {
                     continue;
                 }
                 let left = water.left(s.way_m).max(FAINTEST);
-                for k in 0..2 {
-                    let noise = patch.noise[k].max(1e-4);
+                let at = y as usize * side + x as usize;
+                for ((sums, noise), mean) in sums.iter_mut().zip(patch.noise).zip(s.mean) {
+                    let noise = noise.max(1e-4);
                     let rate = s.pixels * left / (noise * noise);
-                    let sum = &mut sums[k][y as usize * side + x as usize];
-                    sum[0] += rate * s.mean[k];
+                    let sum = &mut sums[at];
+                    sum[0] += rate * mean;
                     sum[1] += rate * left;
                 }
             }
