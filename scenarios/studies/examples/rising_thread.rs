@@ -2,13 +2,14 @@
 //!
 //! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made neutral
 //! with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that Briggs's law
-//! would give without turbulence, and writes `docs/figures/rising_thread.svg`, or the file that is named after `--`: the
+//! would give without turbulence, and writes `docs/figures/rising_thread.png`, or the file that is named after `--`: the
 //! filaments at the end, and the mean height of all minutes.
 
 #![allow(clippy::print_stdout, reason = "it measures and speaks")]
 
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::Panel;
+use output::charts::png;
 use plumes::release::BuoyancySpec;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::load;
@@ -33,7 +34,7 @@ struct Side {
 
 fn main() -> Result<(), Box<dyn Error>> {
     let file = std::env::args().nth(1);
-    let file = file.as_deref().unwrap_or("docs/figures/rising_thread.svg");
+    let file = file.as_deref().unwrap_or("docs/figures/rising_thread.png");
     let loaded = load(Path::new("flume_crab"))?;
     let composition = loaded.scenario.sources[0].release.buoyancy.clone();
     let mut sides = Vec::new();
@@ -59,7 +60,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             100.0 * briggs(x)
         );
     }
-    std::fs::write(file, drawn(&sides))?;
+    std::fs::write(file, png(&drawn(&sides))?)?;
     println!("\n{file}");
     Ok(())
 }
