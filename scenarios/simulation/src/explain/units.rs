@@ -177,6 +177,7 @@ mod tests {
         "reject_at",
         "resample_below",
         "roughening",
+        "salinity",
         "saturation",
         "scale_error",
         "share",
