@@ -119,8 +119,8 @@ impl Cells {
         let sums = self.0.entry([north, east]).or_default();
         sums.0 += 1.0;
         sums.1 += way_m;
-        for k in 0..2 {
-            sums.2[k] += contrast[k];
+        for (sum, v) in sums.2.iter_mut().zip(contrast) {
+            *sum += v;
         }
     }
 

@@ -52,10 +52,10 @@ impl Mosaic {
                     continue;
                 }
                 let left = water.left(s.way_m).max(FAINTEST);
-                for k in 0..2 {
+                for (k, sums) in sums.iter_mut().enumerate() {
                     let noise = patch.noise[k].max(1e-4);
                     let rate = s.pixels * left / (noise * noise);
-                    let sum = &mut sums[k][y as usize * side + x as usize];
+                    let sum = &mut sums[y as usize * side + x as usize];
                     sum[0] += rate * s.mean[k];
                     sum[1] += rate * left;
                 }

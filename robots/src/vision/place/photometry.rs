@@ -273,7 +273,7 @@ mod tests {
             let l = if share <= 0.003_130_8 {
                 12.92 * share
             } else {
-                1.055 * share.powf(1.0 / 2.4) - 0.055
+                1.055 * world::math::powf(share, 1.0 / 2.4) - 0.055
             };
             255.0 * l
         };
