@@ -1,4 +1,5 @@
-//! Steps of a vehicle alone, with and without a look for contacts, and of a gantry. `cargo bench -p robots --bench vehicle`
+//! Steps of a vehicle alone, with and without a look for contacts, and of a gantry. `cargo bench -p robots --bench
+//! vehicle`
 
 use divan::Bencher;
 use nalgebra::{Matrix3, Vector2, Vector3};

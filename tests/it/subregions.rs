@@ -1,4 +1,5 @@
-//! A mission over subregions from file to summary: one without a plume, one that a plume comes into, one with its source.
+//! A mission over subregions from file to summary: one without a plume, one that a plume comes into, one with its
+//! source.
 
 use crate::common;
 use serde_json::Value;

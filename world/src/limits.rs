@@ -2,8 +2,8 @@
 //! `#[serde(deserialize_with = "world::limits::density_kg_m3")]`. The reader reports place, value and range, as it does
 //! for the types of [`crate::ranges`], which keep the sign.
 //!
-//! Beside it stands its twin, `#[schemars(transform = world::limits::schema::density_kg_m3)]`, which puts the same limit and
-//! its unit into the schema of scenario files.
+//! Beside it stands its twin, `#[schemars(transform = world::limits::schema::density_kg_m3)]`, which puts the same
+//! limit and its unit into the schema of scenario files.
 //!
 //! A limit does not judge whether a value is good. It marks where the models end: no water, instrument or hull lies
 //! beyond.

@@ -4,9 +4,9 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: a coordinate is the filament's place when the pattern began, moved on by the small eddies alone: that is
-//! where the water that is now at the filament would be if only they had moved it. A filament that is released later takes
-//! it from the water that passes the source. Kicks by what is smaller than the finest octave do not change it.
+//! *Deviations*: a coordinate is the filament's place when the pattern began, moved on by the small eddies alone: that
+//! is where the water that is now at the filament would be if only they had moved it. A filament that is released later
+//! takes it from the water that passes the source. Kicks by what is smaller than the finest octave do not change it.
 
 use super::bands::Span;
 use super::store::Store;

@@ -1,4 +1,5 @@
-//! Moves a band of filaments by one step, block by block, and reflects at walls what was kicked or carried through them.
+//! Moves a band of filaments by one step, block by block, and reflects at walls what was kicked or carried through
+//! them.
 //!
 //! *Source*: none.
 //!

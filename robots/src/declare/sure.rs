@@ -1,10 +1,10 @@
 //! Declares when the map states a high enough probability that the source is within a distance of its likeliest cell.
 //!
-//! *Source*: stopping when the posterior probability of a hypothesis passes a threshold: Wald 1947, Sequential Analysis,
-//! section 3; Berger 1985, Statistical Decision Theory and Bayesian Analysis, section 7.
+//! *Source*: stopping when the posterior probability of a hypothesis passes a threshold: Wald 1947, Sequential
+//! Analysis, section 3; Berger 1985, Statistical Decision Theory and Bayesian Analysis, section 7.
 //!
-//! *Parameters*: least probability, `probability`, 0.9; distance from the likeliest cell's centre, `within_m`, m, 5; how
-//! long it must have been so, `for_s`, s, 5.
+//! *Parameters*: least probability, `probability`, 0.9; distance from the likeliest cell's centre, `within_m`, m, 5;
+//! how long it must have been so, `for_s`, s, 5.
 //!
 //! *Deviations*: none of the papers has this rule. What it declares is as sure as it says only if the map is: see the
 //! maps' `doubt`.

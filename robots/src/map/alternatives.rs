@@ -1,9 +1,9 @@
 //! What a map cannot know of flow and source: one map for each of a few possibilities, weighted by what they predict.
 //!
-//! *Source*: five errors of the flow and their weights: Julier & Uhlmann 1997, Proc. SPIE 3068, 182 (unscented transform
-//! of two dimensions, κ = 1: mean, covariance and fourth moments of the Gaussian). Weights of models from what each
-//! predicted, with forgetting: Raftery, Kárný & Ettler 2010, Technometrics 52, 52, eqs. 15 and 16 (dynamic model
-//! averaging).
+//! *Source*: five errors of the flow and their weights: Julier & Uhlmann 1997, Proc. SPIE 3068, 182 (unscented
+//! transform of two dimensions, κ = 1: mean, covariance and fourth moments of the Gaussian). Weights of models from
+//! what each predicted, with forgetting: Raftery, Kárný & Ettler 2010, Technometrics 52, 52, eqs. 15 and 16 (dynamic
+//! model averaging).
 //!
 //! *Parameters*: standard deviation of the flow's error in each horizontal axis, `flow_m_s`; how long an error lasts,
 //! `flow_lasts_s`; possible strengths of the source, `strengths`.
@@ -13,9 +13,10 @@
 //! of a release by u times its age. The papers' source makes one release in a time unit; of a stronger one dye is met
 //! farther aside, and a map that does not know of it takes a near source for a far one. Each map believes that one
 //! possibility held all along; the belief is their mean, weighted by w_j Z_j, where Z_j is the probability that map j
-//! gave to all readings. With `flow_lasts_s` T the logarithm of Z_j decays by exp(−Δt/T), as the error that a map stands
-//! for does. Raftery's forgetting goes towards equal weights, ours towards those of the possibilities. `Bayesian` makes
-//! its likelihoods of detections sum to 1 in every map, so its weights come from readings without detection alone.
+//! gave to all readings. With `flow_lasts_s` T the logarithm of Z_j decays by exp(−Δt/T), as the error that a map
+//! stands for does. Raftery's forgetting goes towards equal weights, ours towards those of the possibilities.
+//! `Bayesian` makes its likelihoods of detections sum to 1 in every map, so its weights come from readings without
+//! detection alone.
 
 use super::catalogue::Mapper;
 use super::evidence::DoubtSpec;

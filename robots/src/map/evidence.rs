@@ -11,11 +11,11 @@
 //! *Deviations*: in the papers a map never doubts its model. γ is a product over hundreds of releases and may fall to
 //! 1e-280 in a second, so that a source that was once crossed without a detection never comes back. Here γ ← ν + (1 −
 //! ν) γ. With `Tempered` an update has the weight min(1, period / τ). With `Markov` a reading is, with chance ρ =
-//! exp(−Δt / τ), the one before it once more (the same patch of dye, or the same gap), which every source explains alike,
-//! and otherwise a new one with the model's chance: for the same result as before the likelihood is ρ + (1 − ρ) L, for
-//! another one (1 − ρ) L. So the first reading of an encounter and its end count in full, and what lies between counts
-//! once in τ. Klotz has one chance for all trials; here that of the moment, so that the chain's own share of detections
-//! follows L with a lag of τ. The defaults ν = 0 and τ = 0 give the papers' rules.
+//! exp(−Δt / τ), the one before it once more (the same patch of dye, or the same gap), which every source explains
+//! alike, and otherwise a new one with the model's chance: for the same result as before the likelihood is ρ + (1 − ρ)
+//! L, for another one (1 − ρ) L. So the first reading of an encounter and its end count in full, and what lies between
+//! counts once in τ. Klotz has one chance for all trials; here that of the moment, so that the chain's own share of
+//! detections follows L with a lag of τ. The defaults ν = 0 and τ = 0 give the papers' rules.
 
 use super::spec::invalid;
 use super::terms::LEAST;

@@ -9,8 +9,8 @@
 //! ~ N(0, σ²) for all readings, so their joint likelihood Λ is known as a function of s + δ alone, s being the source.
 //! Integrated over δ it is Λ convolved with the Gaussian: once per block of readings between two fixes, not once per
 //! reading. Blocks are independent: a fix replaces the position. Within a block σ² = fix² + (drift · time since)²,
-//! taken for all of its readings at its end. Before the first fix there is drift alone, because the mission begins where
-//! the vehicle believes it does. Beyond the map's edge Λ is as at the edge.
+//! taken for all of its readings at its end. Before the first fix there is drift alone, because the mission begins
+//! where the vehicle believes it does. Beyond the map's edge Λ is as at the edge.
 
 use super::evidence::DoubtSpec;
 use crate::handoff::BeliefGrid;

@@ -7,10 +7,11 @@
 //! `blocked_limit` (ours), 6: thirty centimetres aside; length of a sweep from the data builder.
 //!
 //! *Deviations*: if the contrast is zero, a coin decides the first side of a cast. A blocked motion counts as done at
-//! the head's place. If it led up-stream, the next motion goes to the side, first to that of the contrast, and stays
-//! on that side until the way is free. If the head reaches the up-stream end of the travel without a stop, the search
-//! has failed, or (`at_end: Stops`) ends there as found: the paper's steps of 10 cm from 114 cm lead to 14 cm, its mean
-//! final distance is 14.3 cm, and it does not say how far its travel went beyond. A neighbouring place is judged as any other step. None of these is in the paper.
+//! the head's place. If it led up-stream, the next motion goes to the side, first to that of the contrast, and stays on
+//! that side until the way is free. If the head reaches the up-stream end of the travel without a stop, the search has
+//! failed, or (`at_end: Stops`) ends there as found: the paper's steps of 10 cm from 114 cm lead to 14 cm, its mean
+//! final distance is 14.3 cm, and it does not say how far its travel went beyond. A neighbouring place is judged as any
+//! other step. None of these is in the paper.
 
 use super::advance::AdvanceSpec;
 use super::builder::DataBuilder;

@@ -9,9 +9,9 @@
 //! sides together; start of the average, `since`, `Decision`: the paper's words, so that spikes met in motion count;
 //! `Arrival` takes only those at rest.
 //!
-//! What the average runs over, `over`, `Time`: "'Average' means time average over the period since the previous step", the
-//! sum of magnitudes in a second; `Spikes`, their mean, compares magnitudes alone, so that how often spikes come matters to
-//! the stop rule only.
+//! What the average runs over, `over`, `Time`: "'Average' means time average over the period since the previous step",
+//! the sum of magnitudes in a second; `Spikes`, their mean, compares magnitudes alone, so that how often spikes come
+//! matters to the stop rule only.
 //!
 //! *Deviations*: none known.
 

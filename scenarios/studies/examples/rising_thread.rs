@@ -1,9 +1,9 @@
 //! The crab's plume from the side, beside a neutral one: `cargo run --release -p studies --example rising_thread`.
 //!
-//! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made neutral
-//! with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that Briggs's law
-//! would give without turbulence, and writes `docs/figures/rising_thread.png`, or the file that is named after `--`: the
-//! filaments at the end, and the mean height of all minutes.
+//! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made
+//! neutral with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that
+//! Briggs's law would give without turbulence, and writes `docs/figures/rising_thread.png`, or the file that is named
+//! after `--`: the filaments at the end, and the mean height of all minutes.
 
 #![allow(clippy::print_stdout, reason = "it measures and speaks")]
 

@@ -94,8 +94,8 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
 #[test]
 fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
     let mut shared = Vec::new();
-    // A row that draws values makes a scenario anew for each seed and arm: what is cut here would not hold, and no two of
-    // its arms share an ocean.
+    // A row that draws values makes a scenario anew for each seed and arm: what is cut here would not hold, and no two
+    // of its arms share an ocean.
     let rows = wanted(&[], &[]).unwrap();
     for mut reference in rows.into_iter().filter(|r| r.row.draw.is_empty()) {
         for (k, (_, loaded)) in reference.arms.iter_mut().enumerate() {

@@ -1,5 +1,5 @@
-//! A plume whose steps have all ended, written to bytes and read back into a fresh one of the same sources, place, water
-//! and seed.
+//! A plume whose steps have all ended, written to bytes and read back into a fresh one of the same sources, place,
+//! water and seed.
 //!
 //! The flow is evaluated anew at the next [pace](Plume::pace), so only the filaments are written. Every structure is
 //! taken apart field by field, so that a new field does not compile before somebody has said here whether it is kept.

@@ -1,10 +1,10 @@
 //! A piece of a buoyant thread: how it rises, shares its momentum and grows.
 //!
 //! *Source*: a Lagrangian element of a plume in a cross-flow (Lee & Cheung 1990, J. Environ. Eng. 116, 1085), top-hat,
-//! with the entrainment of Hoult, Fay & Forney 1969, J. Air Pollut. Control Assoc. 19, 585: α by its motion along itself,
-//! β by its motion across. Without cross-flow it is the plume of Morton, Taylor & Turner 1956, Proc. R. Soc. A 234, 1; bent
-//! over it is the line thermal of Briggs 1969, Plume Rise: z = 1.6 F^⅓ x^⅔/U. Turbulence around shares the momentum with
-//! more water: dr/dt = c (εr)^⅓ (Richardson 1926, Proc. R. Soc. A 110, 709), with [`SHARED`].
+//! with the entrainment of Hoult, Fay & Forney 1969, J. Air Pollut. Control Assoc. 19, 585: α by its motion along
+//! itself, β by its motion across. Without cross-flow it is the plume of Morton, Taylor & Turner 1956, Proc. R. Soc. A
+//! 234, 1; bent over it is the line thermal of Briggs 1969, Plume Rise: z = 1.6 F^⅓ x^⅔/U. Turbulence around shares the
+//! momentum with more water: dr/dt = c (εr)^⅓ (Richardson 1926, Proc. R. Soc. A 110, 709), with [`SHARED`].
 //!
 //! *Parameters*: [`ALONG`] α, [`ACROSS`] β, [`SHARED`] c.
 //!

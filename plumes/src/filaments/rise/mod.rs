@@ -5,8 +5,8 @@
 //!
 //! *Parameters*: those of the release.
 //!
-//! *Deviations*: within a step the rise comes after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal. 5,
-//! 506; first order in the step).
+//! *Deviations*: within a step the rise comes after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal.
+//! 5, 506; first order in the step).
 
 mod element;
 mod profile;

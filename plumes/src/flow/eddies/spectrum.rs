@@ -1,15 +1,16 @@
 //! The spectrum of the eddies, and what of it is resolved.
 //!
-//! *Source*: von Kármán 1948, Proc. Natl. Acad. Sci. 34, 530: E(k) ∝ (k/k_e)⁴/(1 + (k/k_e)²)^(17/6), k_e = 0.747/L, L the longitudinal
-//! integral scale (Pope 2000, Turbulent Flows, section 6.5.3); viscous end exp(−2.25 (kη)^(4/3)), Pao 1965, Phys. Fluids 8, 1063, η = (ν³/ε)^¼.
-//! Integral scale of open channels L = H(z/H)^½, at most 0.77 H: Nezu & Nakagawa 1993, ch. 4. Diffusivity of the eddies
-//! beyond a wave number k_c: 0.444 ε^⅓ k_c^(−4/3), the eddy viscosity that passes on ε (Lilly 1967, Proc. IBM Sci. Comp. Symp., 195, with
-//! Kolmogorov's 1.5), over a turbulent Schmidt number of 0.7 (Launder 1978, in: Turbulence, ed. Bradshaw).
+//! *Source*: von Kármán 1948, Proc. Natl. Acad. Sci. 34, 530: E(k) ∝ (k/k_e)⁴/(1 + (k/k_e)²)^(17/6), k_e = 0.747/L, L
+//! the longitudinal integral scale (Pope 2000, Turbulent Flows, section 6.5.3); viscous end exp(−2.25 (kη)^(4/3)), Pao
+//! 1965, Phys. Fluids 8, 1063, η = (ν³/ε)^¼. Integral scale of open channels L = H(z/H)^½, at most 0.77 H: Nezu &
+//! Nakagawa 1993, ch. 4. Diffusivity of the eddies beyond a wave number k_c: 0.444 ε^⅓ k_c^(−4/3), the eddy viscosity
+//! that passes on ε (Lilly 1967, Proc. IBM Sci. Comp. Symp., 195, with Kolmogorov's 1.5), over a turbulent Schmidt
+//! number of 0.7 (Launder 1978, in: Turbulence, ed. Bradshaw).
 //!
 //! *Parameters*: all follow from the channel; k_c from the spacing of the eddies' grid, four cells a wave.
 //!
-//! *Deviations*: one L (depth mean, 0.62 H) and one η (mid-depth ε) for the whole depth. Near bed and surface the sub-grid
-//! diffusivity is at most Elder's, so that it vanishes at both. In x the eddies are longer by [`ELONGATION`].
+//! *Deviations*: one L (depth mean, 0.62 H) and one η (mid-depth ε) for the whole depth. Near bed and surface the
+//! sub-grid diffusivity is at most Elder's, so that it vanishes at both. In x the eddies are longer by [`ELONGATION`].
 
 use crate::flow::channel::Channel;
 use crate::flow::mixing::parabolic;

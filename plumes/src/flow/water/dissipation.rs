@@ -1,7 +1,7 @@
 //! Dissipation of turbulent energy in a column of water.
 //!
-//! *Source*: a flume has that of its profile (`channel`). Elsewhere the bed's turbulence dissipates what it takes from the
-//! shear, K_z S², and the background mixing what Osborn 1980, J. Phys. Oceanogr. 10, 83, infers from it: K N²/0.2.
+//! *Source*: a flume has that of its profile (`channel`). Elsewhere the bed's turbulence dissipates what it takes from
+//! the shear, K_z S², and the background mixing what Osborn 1980, J. Phys. Oceanogr. 10, 83, infers from it: K N²/0.2.
 //!
 //! *Parameters*: none.
 //!

@@ -1,7 +1,7 @@
 //! What a release consists of, and how much lighter than the water around it becomes as it mixes.
 //!
-//! *Source*: conservation of mass, salt and heat, with the volumes of `solute` and `seawater`. Volumes of mixing are not
-//! additive: a release that is neutral at the nozzle need not stay neutral.
+//! *Source*: conservation of mass, salt and heat, with the volumes of `solute` and `seawater`. Volumes of mixing are
+//! not additive: a release that is neutral at the nozzle need not stay neutral.
 //!
 //! *Parameters*: [`CompositionSpec`].
 //!

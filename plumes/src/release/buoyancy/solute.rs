@@ -1,10 +1,10 @@
 //! What can be dissolved in a release, and the volume that it takes there.
 //!
-//! *Source*: apparent molar volumes at 20 °C. Sodium chloride: 16.35 + 1.87 c^½ cm³/mol (c in mol/L), the form of Redlich
-//! & Meyer 1964, Chem. Rev. 64, 221, through the densities of the CRC Handbook of Chemistry and Physics ("Concentrative
-//! properties of aqueous solutions"), within 0.1 cm³/mol up to 10 %. Ethanol: densities of OIML R 22 (1975), its formula
-//! at 20 °C. 2-Propanol: International Critical Tables 3 (1928), 120, smoothed; within 0.4 kg/m³ of Lebo 1921, J. Am.
-//! Chem. Soc. 43, 1005. Dye: the volume of the solid, sodium fluorescein of 1.6 g/cm³.
+//! *Source*: apparent molar volumes at 20 °C. Sodium chloride: 16.35 + 1.87 c^½ cm³/mol (c in mol/L), the form of
+//! Redlich & Meyer 1964, Chem. Rev. 64, 221, through the densities of the CRC Handbook of Chemistry and Physics
+//! ("Concentrative properties of aqueous solutions"), within 0.1 cm³/mol up to 10 %. Ethanol: densities of OIML R 22
+//! (1975), its formula at 20 °C. 2-Propanol: International Critical Tables 3 (1928), 120, smoothed; within 0.4 kg/m³ of
+//! Lebo 1921, J. Am. Chem. Soc. 43, 1005. Dye: the volume of the solid, sodium fluorescein of 1.6 g/cm³.
 //!
 //! *Parameters*: none.
 //!

@@ -11,8 +11,8 @@
 //! began: jumps by position fixes are taken out. Their mean moves the told place. A line leads, along the flow or
 //! against it, over the strip in which most of the likelihood of a source is left: over what is not yet seen, or what
 //! looks like one. Its altitude is the greatest at which `contrast_left` of the bed's contrast arrives by the pictures
-//! so far, within the limits; the first is flown at `altitude_m`. The bed's depth is the middle one of the last seconds,
-//! so that a body under the vehicle does not count as bed.
+//! so far, within the limits; the first is flown at `altitude_m`. The bed's depth is the middle one of the last
+//! seconds, so that a body under the vehicle does not count as bed.
 
 use super::spec::CameraPasses;
 use crate::behave::Passes;

@@ -7,9 +7,9 @@
 //!
 //! *Parameters*: `bed_texture` standard deviation of the bed's brightness from cell to cell; β [`VEIL`].
 //!
-//! *Deviations*: one c for all colours, and one β for all waters: over sand by daylight it is 0.3 to 0.5. A bed smoother
-//! than assumed makes the water look murkier. c is found on a grid by least squares over the pictures; each counts by
-//! its own uncertainty, and one that is far off counts as if it were three standard deviations off.
+//! *Deviations*: one c for all colours, and one β for all waters: over sand by daylight it is 0.3 to 0.5. A bed
+//! smoother than assumed makes the water look murkier. c is found on a grid by least squares over the pictures; each
+//! counts by its own uncertainty, and one that is far off counts as if it were three standard deviations off.
 
 use super::ground::Patch;
 use world::math;

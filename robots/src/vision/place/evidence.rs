@@ -6,16 +6,16 @@
 //! et al. 2013, section 5: a dark body with red dye next to it.
 //!
 //! *Parameters*: `verify_at`, `reject_at` the limits of its logarithm; `within_m` how far from the told place the
-//! source may be. The template: a dark box at the place; three stretches of dye down-flow of it, at `DYED_M`; none in two
-//! stretches up-flow, at `CLEAN_M`; in seven directions about the flow.
+//! source may be. The template: a dark box at the place; three stretches of dye down-flow of it, at `DYED_M`; none in
+//! two stretches up-flow, at `CLEAN_M`; in seven directions about the flow.
 //!
 //! *Deviations*: a source is more likely than another thing by the least of three logarithms: the body against dye
 //! without one, which is rare; the stretch that speaks least for dye, against coloured things that fill the other two;
 //! the clean water up-flow against dye that comes from elsewhere. Each is that of two normal distributions, about
 //! nothing and about what a source shows, at least `BODY` or `DYE`, limited to ±`CAP`, since neither model holds for
-//! ever. Their spread is what the boxes of the ground show, or what the noise of the pixels predicts if that is more. So
-//! another picture counts by as much as it makes the ground smoother: one taken twice adds nothing, and in clear water,
-//! where the bed's own unevenness limits, a hundred add little.
+//! ever. Their spread is what the boxes of the ground show, or what the noise of the pixels predicts if that is more.
+//! So another picture counts by as much as it makes the ground smoother: one taken twice adds nothing, and in clear
+//! water, where the bed's own unevenness limits, a hundred add little.
 
 use super::mosaic::{Boxed, Boxes, Mosaic};
 use nalgebra::Vector2;

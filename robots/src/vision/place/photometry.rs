@@ -7,8 +7,8 @@
 //! *Parameters*: blocks for the fit: some [`BLOCKS`] along the longer side; a picture is used if at least half of its
 //! pixels lie between black and white.
 //!
-//! *Deviations*: two contrasts are kept of the three colours. `bright` = (Y - background)/background with Y =
-//! (R + 2G + B)/4, the sum that the camera's colour saturation leaves as it is; `red` = change of R - G, relative to the
+//! *Deviations*: two contrasts are kept of the three colours. `bright` = (Y - background)/background with Y = (R + 2G +
+//! B)/4, the sum that the camera's colour saturation leaves as it is; `red` = change of R - G, relative to the
 //! background of Y. Both are relative, so that exposure and gain do not matter. What fills much of a picture bends its
 //! background: a dark patch of a seventh of it loses up to a quarter of its contrast, and beside wide dye the bed looks
 //! less red than it is.

@@ -1,22 +1,22 @@
 //! The cascade below the eddies of the grid: octaves of small eddies that move with the rest of the water.
 //!
-//! *Source*: kinematic simulation as a sub-grid model (Flohr & Vassilicos 2000, J. Fluid Mech. 407, 315), with
-//! E(k) = 1.5 ε^⅔ k^(−5/3) exp(−2.25 (kη)^(4/3)) (Pao 1965, Phys. Fluids 8, 1063; constant: Sreenivasan 1995, Phys. Fluids
-//! 7, 2778). Small eddies are swept along by the large ones; a field that is not is too weak a stirrer (Thomson & Devenish
-//! 2005, J. Fluid Mech. 526, 277). Here they are a function of coordinates that move with the mean flow and the eddies of
-//! the grid: each filament remembers, for each pattern, where it was in it when the pattern began.
+//! *Source*: kinematic simulation as a sub-grid model (Flohr & Vassilicos 2000, J. Fluid Mech. 407, 315), with E(k) =
+//! 1.5 ε^⅔ k^(−5/3) exp(−2.25 (kη)^(4/3)) (Pao 1965, Phys. Fluids 8, 1063; constant: Sreenivasan 1995, Phys. Fluids 7,
+//! 2778). Small eddies are swept along by the large ones; a field that is not is too weak a stirrer (Thomson & Devenish
+//! 2005, J. Fluid Mech. 526, 277). Here they are a function of coordinates that move with the mean flow and the eddies
+//! of the grid: each filament remembers, for each pattern, where it was in it when the pattern began.
 //!
 //! *Parameters*: [`SmallSpec`]. ε(z) and η(z) are the channel's.
 //!
-//! *Deviations*: an octave has two patterns at a time, which overlap with the weights sin and cos as those of the grid do,
-//! and live for the turn-over time 1/(k u_k), with u_k² = kE and the depth mean of ε^⅓. A pattern is drawn out by the mean
-//! shear since it began, and by nothing else. Towards bed and surface each octave falls as tanh(kz),
-//! by its potential, so that its velocity stays free of divergence. A filament is moved by each octave's mean over its
-//! kernel, exp(−k²R²/2) of it, as long as it grows; eddies smaller than itself make it grow. Once it has reached the size
-//! at which it stops growing, it is a marker: the octaves whose waves are longer than about its circumference, kR < 2, move
-//! it as the water at its centre. Shorter ones, which its kernel would hide, do not; they would spread it by less than a
-//! twentieth of what all eddies do. The velocity of the water at a place, as
-//! instruments see it, excludes these octaves: they are known only where filaments are.
+//! *Deviations*: an octave has two patterns at a time, which overlap with the weights sin and cos as those of the grid
+//! do, and live for the turn-over time 1/(k u_k), with u_k² = kE and the depth mean of ε^⅓. A pattern is drawn out by
+//! the mean shear since it began, and by nothing else. Towards bed and surface each octave falls as tanh(kz), by its
+//! potential, so that its velocity stays free of divergence. A filament is moved by each octave's mean over its kernel,
+//! exp(−k²R²/2) of it, as long as it grows; eddies smaller than itself make it grow. Once it has reached the size at
+//! which it stops growing, it is a marker: the octaves whose waves are longer than about its circumference, kR < 2,
+//! move it as the water at its centre. Shorter ones, which its kernel would hide, do not; they would spread it by less
+//! than a twentieth of what all eddies do. The velocity of the water at a place, as instruments see it, excludes these
+//! octaves: they are known only where filaments are.
 
 mod octave;
 mod table;

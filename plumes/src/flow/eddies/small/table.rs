@@ -1,12 +1,12 @@
 //! A periodic box of isotropic turbulence with wave lengths of one octave: velocity and vector potential on a grid.
 //!
-//! *Source*: kinematic simulation (Kraichnan 1970, Phys. Fluids 13, 22; Fung, Hunt, Malik & Perkins 1992, J. Fluid Mech.
-//! 236, 281): random Fourier modes with E(k) ∝ k^(−5/3).
+//! *Source*: kinematic simulation (Kraichnan 1970, Phys. Fluids 13, 22; Fung, Hunt, Malik & Perkins 1992, J. Fluid
+//! Mech. 236, 281): random Fourier modes with E(k) ∝ k^(−5/3).
 //!
 //! *Parameters*: [`NODES`] a side; wave numbers from [`LONGEST`] to twice as many waves in a side.
 //!
-//! *Deviations*: the same box serves every octave, each at its own size: the inertial range is similar to itself. Between
-//! nodes both fields are trilinear; the shortest wave has 6.4 nodes.
+//! *Deviations*: the same box serves every octave, each at its own size: the inertial range is similar to itself.
+//! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::Fourier;
 use crate::quad::Quad;

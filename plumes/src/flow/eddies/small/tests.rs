@@ -46,8 +46,8 @@ fn velocity(small: &Small, t_s: f64, shear: f32, p: [f32; 3]) -> [f32; 3] {
 fn nothing_gathers_in_them() {
     let (channel, small) = parts(0.0125);
     let mut rng = Stream::new(1, "test", "places");
-    // In mid-depth, where the shear hardly changes, and just above the bed, where it is left out here: there the strength
-    // changes fast.
+    // In mid-depth, where the shear hardly changes, and just above the bed, where it is left out here: there the
+    // strength changes fast.
     for (height, shear, within) in [
         (0.1, super::octave::shear(&channel)[128], 0.1),
         (0.004, 0.0, 0.35),
