@@ -1,6 +1,5 @@
-//! Kinematic vehicles in whole missions: any strategy, the same bits however they run, what is refused, what they cost.
+//! Kinematic vehicles in whole missions: any strategy, the same bits however they run, what is refused.
 
-mod cost;
 mod paths;
 mod refused;
 
@@ -11,6 +10,9 @@ use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Ended, Trial, Unwatched};
 use robots::handoff::Readings;
+use robots::sense::Sensors;
+use robots::vehicles::{Craft, InMemory, KinematicSpec, VehicleSpec};
+use world::catalogue::Entry;
 
 const WATER: &str = "Kinematic()";
 const GROUND: &str = "Kinematic(moves: OverGround, turn: Radius(radius_m: 11.5))";
@@ -155,4 +157,18 @@ fn the_list_shows_it_with_its_source() {
     let said = words.join(" ");
     assert!(said.contains("Kinematic"), "{said}");
     assert!(said.contains("Dubins 1957"), "{said}");
+}
+
+/// A kinematic vehicle carries every instrument where the REMUS carries it.
+#[test]
+fn every_instrument_has_the_mount_of_the_remus() {
+    let mount = |spec: VehicleSpec| Craft::load(&spec, &InMemory::default()).expect("built in");
+    let remus = mount(VehicleSpec::default());
+    let car = mount(VehicleSpec::Kinematic(KinematicSpec::default()));
+    let sensors = world::registry::Registry::default().entries::<Sensors>();
+    assert!(sensors.len() > 5, "{}", sensors.len());
+    for Entry { name, .. } in sensors {
+        assert!(remus.mount(name).is_some(), "{name}");
+        assert_eq!(car.mount(name), remus.mount(name), "{name}");
+    }
 }

@@ -25,7 +25,7 @@ use world::fields::{Flow, SideWalls};
 const REACH_BY_SOLIDS_M: f64 = 2.0;
 
 /// Filaments from which on their step is worth waking other threads.
-const WORTH_THREADS: usize = 8192;
+pub(super) const WORTH_THREADS: usize = 8192;
 
 /// A pool of so many threads; `None` for one, or if they cannot be started.
 #[must_use]

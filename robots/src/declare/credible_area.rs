@@ -10,6 +10,7 @@
 //! *Deviations*: none of the papers has this rule.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
+use super::held::Held;
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -56,7 +57,7 @@ impl BeliefRuleParams for Params {
 #[derive(Clone, Debug)]
 pub struct CredibleArea {
     params: Params,
-    since_s: Option<f64>,
+    held: Held,
 }
 
 impl CredibleArea {
@@ -65,7 +66,7 @@ impl CredibleArea {
     pub fn new(params: &Params) -> Self {
         Self {
             params: params.clone(),
-            since_s: None,
+            held: Held::default(),
         }
     }
 }
@@ -74,12 +75,9 @@ impl BeliefRule for CredibleArea {
     /// The source's place (ENU, m), if the map shows it at `t_s`: the likeliest cell. A mean over the cells near it
     /// could mix separate peaks.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
-        if !belief.informed || belief.credible_95 > self.params.below.get() {
-            self.since_s = None;
-            return None;
-        }
-        let since_s = *self.since_s.get_or_insert(t_s);
-        (t_s - since_s >= self.params.for_s.get()).then(|| belief.grid.centre(belief.best))
+        let small = belief.informed && belief.credible_95 <= self.params.below.get();
+        let declared = self.held.for_s(small, t_s, self.params.for_s.get());
+        declared.then(|| belief.grid.centre(belief.best))
     }
 }
 

@@ -5,6 +5,7 @@ mod catalogue;
 #[cfg(test)]
 mod cluster_tests;
 mod credible_area;
+mod held;
 mod siz_f;
 mod siz_t;
 mod sure;

@@ -10,6 +10,7 @@
 //! maps' `doubt`.
 
 use super::catalogue::{BeliefRule, BeliefRuleParams};
+use super::held::Held;
 use crate::handoff::Belief;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -59,7 +60,7 @@ impl BeliefRuleParams for Params {
 #[derive(Clone, Debug)]
 pub struct Sure {
     params: Params,
-    since_s: Option<f64>,
+    held: Held,
     /// The map and the cell of the last look, and what was stated then: a map changes seldom.
     stated: Option<(u64, usize, f64)>,
 }
@@ -70,7 +71,7 @@ impl Sure {
     pub fn new(params: &Params) -> Self {
         Self {
             params: params.clone(),
-            since_s: None,
+            held: Held::default(),
             stated: None,
         }
     }
@@ -91,12 +92,9 @@ impl Sure {
 impl BeliefRule for Sure {
     /// The source's place (ENU, m), if the map shows it at `t_s`: the likeliest cell.
     fn step(&mut self, t_s: f64, belief: &Belief) -> Option<Vector3<f64>> {
-        if !belief.informed || self.probability(belief) < self.params.probability.get() {
-            self.since_s = None;
-            return None;
-        }
-        let since_s = *self.since_s.get_or_insert(t_s);
-        (t_s - since_s >= self.params.for_s.get()).then(|| belief.grid.centre(belief.best))
+        let sure = belief.informed && self.probability(belief) >= self.params.probability.get();
+        let declared = self.held.for_s(sure, t_s, self.params.for_s.get());
+        declared.then(|| belief.grid.centre(belief.best))
     }
 }
 

@@ -6,50 +6,46 @@
 use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use plumes::filaments::{Plume, PlumeSettings};
-use plumes::flow::channel::OpenChannelSpec;
-use plumes::flow::eddies::EddiesSpec;
-use plumes::flow::{CurrentSpec, GridShape, WaterSpec};
-use plumes::release::{ReleaseSpec, SourceSpec};
+use rheotaxis::ocean::Origin;
+use rheotaxis::registry::Registry;
+use rheotaxis::scenario::{load_text, template};
 use robots::handoff::Picture;
-use robots::sense::camera::{
-    CameraModel, CameraSpec, ClaritySpec, Optics, OpticsSpec, Scene, looking, render, turned,
-};
+use robots::sense::camera::{CameraModel, CameraSpec, Optics, Scene, looking, render, turned};
 use robots::vision::place::{AddUpSpec, Mosaic, Place, Stand, Weighed};
 use std::error::Error;
 use std::f64::consts::FRAC_PI_2;
-use std::path::Path;
 use std::sync::Arc;
-use world::area::Area;
-use world::fields::Flow;
-use world::obstacles::{Base, BoxShape, Obstacle, ObstacleSpec, Obstacles, ShapeSpec, Surface};
-use world::ranges::{Finite, Fraction, HeadingDeg, NonNegative, Positive};
+use world::ranges::Positive;
 use world::terrain::Terrain;
 use world::units::Heading;
 
-const DEPTH_M: f64 = 8.0;
-const VISIBILITY_M: f64 = 6.0;
+/// The scenario whose water, bed and source these are, and its visibility, here 6 m.
+const SCENARIO: &str = "inspect_places";
+const CLEARER: (&str, &str) = ("visibility_m: 4", "visibility_m: 6");
 const ALTITUDE_M: f64 = 2.0;
+/// How far the told place is from the source, east and north, m.
+const TOLD_M: [f64; 2] = [0.4, -0.3];
 /// Sides of a cell in the drawing, px.
 const CELL_PX: u32 = 4;
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
 fn main() -> Result<(), Box<dyn Error>> {
     let to = std::env::args().nth(1).unwrap_or("mosaic.png".to_string());
-    let terrain = Terrain::Level { depth_m: DEPTH_M };
-    let plume = plume(&terrain)?;
-    let obstacles = Obstacles(vec![body(&terrain)?]);
-    let optics = Optics::new(&OpticsSpec {
-        clarity: ClaritySpec {
-            visibility_m: Positive::new(VISIBILITY_M),
-            ..ClaritySpec::default()
-        },
-        ..OpticsSpec::default()
-    })?;
+    let bundled = template(SCENARIO).ok_or("not in the catalogue")?;
+    let text = bundled.text.replace(CLEARER.0, CLEARER.1);
+    let loaded = load_text(&Registry::default(), SCENARIO, &text)?;
+    let mut ocean =
+        Origin::of(&loaded.scenario, &loaded.base_dir, 900_003).build(&loaded.base_dir)?;
+    ocean.spin_up(|_| true);
+    let Terrain::Level { depth_m } = ocean.terrain else {
+        return Err("a level bed is needed: all pictures are from one height".into());
+    };
+    let source = ocean.sources()[0].xy();
+    let optics = Optics::new(&loaded.scenario.optics)?;
     let scene = Scene {
-        terrain: &terrain,
-        obstacles: &obstacles,
-        dye: &plume,
+        terrain: &ocean.terrain,
+        obstacles: &ocean.obstacles,
+        dye: ocean.plume(),
         optics: &optics,
     };
     let camera = CameraModel::new(&CameraSpec {
@@ -60,14 +56,14 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let mut place = Place::new(
         &AddUpSpec::default(),
-        Vector2::new(0.4, -0.3),
+        source + Vector2::from(TOLD_M),
         Heading::from_deg(90.0),
     );
     let mut strip = Vec::new();
     for (n, north) in [0.0, 0.9, -0.9].into_iter().enumerate() {
         for k in 0..9 {
             let east = 1.5 * f64::from(k) - 6.0;
-            let at = Vector3::new(east, north, ALTITUDE_M - DEPTH_M);
+            let at = Vector3::new(source.x + east, source.y + north, ALTITUDE_M - depth_m);
             let noise = 100 * n as u64 + k as u64;
             let made = render(&camera, &looking(at, 0.0, FRAC_PI_2), &scene, noise);
             if n == 0 && (3..7).contains(&k) {
@@ -141,69 +137,4 @@ fn draw(strip: &[RgbImage], mosaic: &Mosaic, said: &Weighed) -> RgbImage {
         image::imageops::replace(&mut out, &larger, i64::from(n as u32 * (side + 10)), 260);
     }
     out
-}
-
-fn body(terrain: &Terrain) -> Result<Obstacle, Box<dyn Error>> {
-    let [l, w, h] = [1.0, 0.5, 0.5].map(Positive::new);
-    let dark = Fraction::new(0.05);
-    let spec = ObstacleSpec {
-        id: "source".to_string(),
-        shape: ShapeSpec::Box(BoxShape { size_m: (l, w, h) }),
-        east_m: Finite::new(0.0),
-        north_m: Finite::new(0.0),
-        base: Base::default(),
-        heading_deg: HeadingDeg::new(30.0),
-        surface: Surface {
-            albedo: (dark, dark, Fraction::new(0.065)),
-            ..Surface::default()
-        },
-    };
-    Ok(Obstacle::build(&spec, terrain, Path::new(""))?)
-}
-
-/// 2 g of dye a minute in a stream of 0.15 m/s to the east.
-fn plume(terrain: &Terrain) -> Result<Plume, Box<dyn Error>> {
-    let area = Area {
-        centre: Vector2::new(8.0, 0.0),
-        length_m: 36.0,
-        width_m: 18.0,
-        axis: Heading::from_deg(90.0),
-    };
-    let stream = OpenChannelSpec {
-        mean_m_s: Positive::new(0.15),
-        heading_deg: HeadingDeg::new(90.0),
-        roughness_m: NonNegative::new(0.01),
-        viscosity_m2_s: Positive::new(1e-6),
-        eddies: Some(EddiesSpec::default()),
-    };
-    let water = WaterSpec {
-        currents: vec![CurrentSpec::new(stream)],
-        ..WaterSpec::default()
-    };
-    let mut water = water.build(&area, terrain, 900_003)?;
-    let source = SourceSpec {
-        id: "source".to_string(),
-        east_m: Finite::new(0.0),
-        north_m: Finite::new(0.0),
-        height_m: Some(Finite::new(0.55)),
-        depth_m: None,
-        rate_g_s: Positive::new(0.033),
-        release: ReleaseSpec {
-            rate_hz: Positive::new(20.0),
-            initial_size_m: Positive::new(0.03),
-            eddy_size_m: Some(Positive::new(0.3)),
-            ..ReleaseSpec::default()
-        },
-    };
-    let settings = PlumeSettings {
-        grid: GridShape::fitting(&area),
-        refresh_s: 1e6,
-    };
-    let mut plume = Plume::new(&[source], &area, terrain, 900_003, settings)?;
-    for k in 0..200 {
-        let (from, to) = (0.5 * f64::from(k), 0.5 * f64::from(k + 1));
-        water.advance(to);
-        plume.drift(&water, from, to);
-    }
-    Ok(plume)
 }

@@ -206,3 +206,30 @@ fn a_buoyant_release_says_its_volume() {
         "{refused}"
     );
 }
+
+/// So many filaments that each step is shared out among threads, and a stream that carries them out of the basin while
+/// new ones come: what is left is the same, filament by filament and element by element.
+#[test]
+fn many_rising_filaments_are_the_same_on_two_threads() {
+    let stream = Given(|_| 1.0, |_| (0.01, 1e-3));
+    let grown = |threads| {
+        let mut spec = outfall(-2.0, 1.0);
+        spec.release.rate_hz = Positive::new(200.0);
+        let mut plume = plume(spec, &stream, 30.0);
+        plume.use_threads(super::super::threads(threads));
+        let mut most = 0;
+        let mut left = false;
+        for n in 0..150 {
+            let before = plume.stores[0].len();
+            plume.drift(&stream, 2.0 * f64::from(n), 2.0 * f64::from(n + 1));
+            let now = plume.stores[0].len();
+            left |= now < before + 400 && n > 1;
+            most = most.max(now);
+        }
+        assert!(most > 2 * super::super::step::WORTH_THREADS, "{most}");
+        assert!(left, "nothing left the basin");
+        let s = &plume.stores[0];
+        format!("{:?} {:?} {:?} {:?}", s.x, s.y, s.z, elements(&plume))
+    };
+    assert!(grown(1) == grown(2));
+}

@@ -1,13 +1,17 @@
-//! What a mission of a kinematic vehicle costs beside its plume:
-//! `cargo test --release -p command what_a_duck_mission_costs -- --ignored --nocapture`.
+//! What a mission of a kinematic vehicle costs beside its plume: `cargo run --release -p studies --example
+//! kinematic_cost`.
+//!
+//! For a few seeds of `duck_st`: core time of the mission less that of its plume, and of the questions that the
+//! fluorometer asks the plume. Linux only (`/proc/thread-self/schedstat`). Run it on an idle machine.
 
-#![cfg(target_os = "linux")]
+#![allow(clippy::print_stdout, reason = "it measures and speaks")]
 
-use super::with;
 use nalgebra::Vector3;
 use rheotaxis::ocean::SpunUp;
-use rheotaxis::scenario::Loaded;
+use rheotaxis::registry::Registry;
+use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Trial, Unwatched};
+use std::error::Error;
 use world::fields::Concentration;
 use world::frames::Truth;
 
@@ -22,6 +26,19 @@ const QUIET: (&str, &str) = (
     "success:",
     "record: (frame_period_s: 10, plume_period_s: 1000),\n    success:",
 );
+
+/// `duck_st` with another vehicle and a few other texts.
+fn duck(vehicle: &str, changes: &[(&str, &str)]) -> Result<Loaded, Box<dyn Error>> {
+    let bundled = template("duck_st").ok_or("no duck_st in the catalogue")?;
+    let mut text = bundled.text.replace("Remus100()", vehicle);
+    for (from, to) in changes {
+        if text.matches(from).count() != 1 {
+            return Err(format!("duck_st must hold `{from}` once").into());
+        }
+        text = text.replace(from, to);
+    }
+    Ok(load_text(&Registry::default(), "duck_st", &text)?)
+}
 
 /// Time of one core that this thread has had, s.
 fn core_s() -> f64 {
@@ -92,10 +109,7 @@ impl Mission<'_> {
 
 /// Prints, for a few seeds, the time of the mission less that of its plume: the plume alone, and the plume with the
 /// questions that the fluorometer asks it.
-#[test]
-#[expect(clippy::print_stdout, reason = "asked for by name, to read it")]
-#[ignore = "measures times: to be run on an idle machine"]
-fn what_a_duck_mission_costs() {
+fn main() -> Result<(), Box<dyn Error>> {
     let mut quiet = TENTHS.to_vec();
     quiet.push(QUIET);
     let usual = [QUIET];
@@ -104,13 +118,12 @@ fn what_a_duck_mission_costs() {
         ("point, steps of 0.02 s", "Kinematic()", &usual),
         ("point, steps of 0.1 s", "Kinematic()", &quiet),
     ] {
-        let loaded = with("duck_st", vehicle, changes);
+        let loaded = duck(vehicle, changes)?;
         let (mut beside_ms, mut asking_ms, mut lasts_s) = (Vec::new(), Vec::new(), 0.0);
         for seed in 900_001..900_006 {
-            let spun_up = Trial::assemble(&loaded, seed)
-                .expect("a run")
+            let spun_up = Trial::assemble(&loaded, seed)?
                 .spin_up(&mut Unwatched)
-                .expect("nobody stops it");
+                .ok_or("the spin-up was stopped")?;
             let mission = Mission {
                 loaded: &loaded,
                 seed,
@@ -139,4 +152,5 @@ fn what_a_duck_mission_costs() {
             mean(&asking_ms),
         );
     }
+    Ok(())
 }
