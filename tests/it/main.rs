@@ -11,6 +11,7 @@ mod determinism;
 mod eyes;
 mod flume;
 mod golden;
+mod hulls;
 mod interrupt;
 mod kinematic;
 mod lanes;

@@ -71,6 +71,7 @@ impl Autopilot {
                     rpm: c.rpm.clamp(-rpm, rpm),
                 }
             }
+            Command::Move(set) => self.step(&Command::Steer(set.steered()), estimate, dt_s),
             Command::Steer(setpoint) => {
                 let through_water = through_water_m_s(estimate);
                 // Without a flow estimate the gains follow the commanded speed.

@@ -58,6 +58,7 @@ impl Helm {
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> RateCommand {
         match command {
             Command::Direct(table) => self.by_table(table, dt_s),
+            Command::Move(set) => self.step(&Command::Steer(set.steered()), estimate, dt_s),
             Command::Steer(set) => {
                 let speed_m_s = self.speed(set.water_speed_m_s, dt_s);
                 let heading = estimate.attitude.heading;

@@ -1,9 +1,10 @@
-//! Whoever steers: the autopilot of a vehicle with fins, or the helm of a kinematic one.
+//! Whoever steers: the autopilot of the REMUS, that of a vehicle of a folder, or the helm of a kinematic one.
 
 use super::autopilot::Autopilot;
+use super::drives::DrivePilot;
 use super::helm::Helm;
 use super::spec::AutopilotSpec;
-use crate::handoff::{Actuation, Command, Estimate, RateLimits};
+use crate::handoff::{Actuation, Command, Control, Estimate};
 use bevy_ecs::prelude::Component;
 
 /// What steers a vehicle.
@@ -13,15 +14,18 @@ pub enum Pilot {
     Fins(Autopilot),
     /// Rates.
     Rates(Helm),
+    /// Drives of a vehicle of a folder.
+    Drives(Box<DrivePilot>),
 }
 
 impl Pilot {
-    /// What steers a vehicle with these limits, which sets out at a speed, m/s; without limits, one with fins.
+    /// What steers a vehicle, which sets out at a speed, m/s.
     #[must_use]
-    pub fn new(spec: &AutopilotSpec, limits: Option<RateLimits>, speed_m_s: f64) -> Self {
-        match limits {
-            Some(limits) => Self::Rates(Helm::new(limits, spec, speed_m_s)),
-            None => Self::Fins(Autopilot::new(spec)),
+    pub fn new(spec: &AutopilotSpec, control: &Control, speed_m_s: f64) -> Self {
+        match control {
+            Control::Rates(limits) => Self::Rates(Helm::new(*limits, spec, speed_m_s)),
+            Control::Fins => Self::Fins(Autopilot::new(spec)),
+            Control::Drives(plant) => Self::Drives(Box::new(DrivePilot::new(plant))),
         }
     }
 
@@ -30,6 +34,7 @@ impl Pilot {
         match self {
             Self::Fins(pilot) => Actuation::Fins(pilot.step(command, estimate, dt_s)),
             Self::Rates(helm) => Actuation::Rates(helm.step(command, estimate, dt_s)),
+            Self::Drives(pilot) => Actuation::Drives(pilot.step(command, estimate, dt_s)),
         }
     }
 }

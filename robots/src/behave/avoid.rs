@@ -224,9 +224,10 @@ fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
     };
     match *asked {
         Manoeuvre::Course { course } => Some((course, f64::INFINITY)),
-        Manoeuvre::GoToPoint { point, .. } | Manoeuvre::GoToPointWithHeading { point, .. } => {
-            towards(point)
-        }
+        Manoeuvre::GoToPoint { point, .. }
+        | Manoeuvre::GoToPointWithHeading { point, .. }
+        | Manoeuvre::Hold { point, .. }
+        | Manoeuvre::SlideTo { point, .. } => towards(point),
         Manoeuvre::FollowLine { from, to } => {
             let line = (to - from).try_normalize(0.0)?;
             let (along_m, off_m) = ((at - from).dot(&line), (at - from).perp(&line));

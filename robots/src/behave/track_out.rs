@@ -13,7 +13,8 @@
 //! of the plume nor concentrations tell the distance to the source, and gives no rule for `near`. Our rule uses
 //! headway: as long as the vehicle makes headway, each lost point lies about L_u up-flow of the one before it; near
 //! the source the points gather. L_u and L_c are multiplied by the extent of the newest points along the flow over
-//! `far_m`, held between `least` and 1. With fewer points they are not reduced.
+//! `far_m`, held between `least` and 1. With fewer points they are not reduced. A vehicle that goes sideways does so
+//! with its nose up-flow; one that hovers may wait at the lost point first (`wait_s`).
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
@@ -42,6 +43,10 @@ pub struct Params {
     pub across_m: NonNegative,
     /// How L_u and L_c shrink near the source. Without it they do not shrink.
     pub near: Option<Near>,
+    /// How long it first waits where it is for the plume to come back, s; more than 0 needs a vehicle that hovers.
+    #[serde(deserialize_with = "world::limits::response_s")]
+    #[schemars(transform = world::limits::schema::response_s)]
+    pub wait_s: NonNegative,
 }
 
 /// Shrinking near the source.
@@ -86,6 +91,7 @@ impl Default for Params {
             up_m: NonNegative::new(18.0),
             across_m: NonNegative::new(18.0),
             near: None,
+            wait_s: NonNegative::new(0.0),
         }
     }
 }
@@ -110,6 +116,8 @@ pub struct UpAcross {
     up_m: f64,
     across_m: f64,
     near: Option<Near>,
+    wait_s: f64,
+    waits_until_s: Option<f64>,
     begun: bool,
 }
 
@@ -127,6 +135,8 @@ impl UpAcross {
             up_m: params.up_m.get(),
             across_m: params.across_m.get(),
             near: params.near.clone(),
+            wait_s: params.wait_s.get(),
+            waits_until_s: None,
             begun: false,
         })
     }
@@ -135,6 +145,7 @@ impl UpAcross {
 impl Behave for UpAcross {
     fn enter(&mut self, _: &Observation, _: &PlumeMemory) {
         self.begun = false;
+        self.waits_until_s = None;
     }
 
     fn step(
@@ -147,6 +158,19 @@ impl Behave for UpAcross {
         if self.begun {
             return if arrived { Stride::Over } else { Stride::Keep };
         }
+        if self.wait_s > 0.0 && seen.able.hovers {
+            match self.waits_until_s {
+                None => {
+                    self.waits_until_s = Some(seen.t_s + self.wait_s);
+                    return Stride::Start(Manoeuvre::Hold {
+                        point: seen.estimate.position,
+                        heading: Some(memory.up_flow_or_nose(seen)),
+                    });
+                }
+                Some(until_s) if seen.t_s < until_s => return Stride::Keep,
+                Some(_) => {}
+            }
+        }
         self.begun = true;
         let up_flow = memory.up_flow_or_nose(seen);
         memory.lost.sort(up_flow);
@@ -158,9 +182,19 @@ impl Behave for UpAcross {
         let share = near.map_or(1.0, |n| n.share(memory.lcdps.all(), up_flow));
         let across = memory.leaves.other().sign() * self.across_m * share;
         let point = from.position + up_flow.unit() * (self.up_m * share) + right * across;
-        Stride::Start(Manoeuvre::GoToPoint {
-            point: inside(&seen.area, point, MARGIN_M),
-            radius_m: None,
+        let point = inside(&seen.area, point, MARGIN_M);
+        // A vehicle that goes sideways keeps its nose, and what it smells with, up-flow.
+        Stride::Start(if seen.able.sideways {
+            Manoeuvre::SlideTo {
+                point,
+                radius_m: None,
+                heading: up_flow,
+            }
+        } else {
+            Manoeuvre::GoToPoint {
+                point,
+                radius_m: None,
+            }
         })
     }
 }

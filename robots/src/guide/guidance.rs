@@ -12,10 +12,11 @@ use super::dubins::{Follower, FollowerLimits, Pose};
 use super::flow_compensation::compensate;
 use super::follow_line::{FollowLine, LineLimits};
 use super::go_to_point::GoToPoint;
+use super::hover::{Hovering, Wanted};
 use super::rate_filter::RateFilter;
 use super::spec::GuidanceSpec;
 use crate::handoff::{
-    ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, Setpoint,
+    ActuatorCommand, Command, Estimate, Goal, GuidanceStatus, Manoeuvre, MoveSetpoint, Setpoint,
 };
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
@@ -33,6 +34,7 @@ enum Mode {
     ToLine(Follower, FollowLine),
     Line(FollowLine),
     ToPose(Follower),
+    Hover(Hovering),
     Free,
 }
 
@@ -47,6 +49,8 @@ pub struct Guidance {
     aborted: bool,
     /// Whether the water carries the vehicle.
     carried: bool,
+    /// Whether the vehicle hovers.
+    hovers: bool,
 }
 
 impl Guidance {
@@ -61,6 +65,7 @@ impl Guidance {
             done: false,
             aborted: false,
             carried: true,
+            hovers: false,
         }
     }
 
@@ -68,6 +73,13 @@ impl Guidance {
     #[must_use]
     pub fn carried(mut self, carried: bool) -> Self {
         self.carried = carried;
+        self
+    }
+
+    /// The same for a vehicle that hovers, or not.
+    #[must_use]
+    pub fn hovering(mut self, hovers: bool) -> Self {
+        self.hovers = hovers;
         self
     }
 
@@ -104,8 +116,18 @@ impl Guidance {
             self.done = false;
             self.mode = self.start(est, goal, moving);
         }
-        let wanted = self.course(est, goal, moving, dt_s);
         self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
+        if let Mode::Hover(hovering) = &mut self.mode {
+            hovering.adjust(goal.manoeuvre);
+            let at = Pose {
+                position: est.position,
+                heading: est.attitude.heading,
+            };
+            let wanted = hovering.step(at, goal.speed_m_s);
+            self.done |= wanted.done;
+            return (self.moved(est, goal, &wanted, area), self.status(goal.id));
+        }
+        let wanted = self.course(est, goal, moving, dt_s);
         let course = cage(wanted, est.position, area, self.spec.cage_m.get());
         let drift = est.flow.filter(|_| self.carried);
         let drift = drift.map_or_else(Vector2::zeros, |f| f.velocity);
@@ -117,6 +139,23 @@ impl Guidance {
             vertical: goal.vertical,
         };
         (Command::Steer(setpoint), self.status(goal.id))
+    }
+
+    /// The command of a hovering vehicle: its velocity within the cage and the limit of its speed.
+    fn moved(&self, est: &Estimate, goal: &Goal, wanted: &Wanted, area: &Area) -> Command {
+        let speed = wanted.velocity_m_s.norm();
+        let over_ground_m_s = if speed > 0.0 {
+            let course = Heading::of(wanted.velocity_m_s);
+            let course = cage(course, est.position, area, self.spec.cage_m.get());
+            course.unit() * speed.min(self.spec.water_speed_limit_m_s.get())
+        } else {
+            Vector2::zeros()
+        };
+        Command::Move(MoveSetpoint {
+            heading: wanted.heading.unwrap_or(est.attitude.heading),
+            over_ground_m_s,
+            vertical: goal.vertical,
+        })
     }
 
     fn status(&self, goal_id: u32) -> GuidanceStatus {
@@ -148,21 +187,37 @@ impl Guidance {
             let radius_m = radius.unwrap_or(s.arrive_m.get());
             Mode::Point(GoToPoint::new(point, radius_m, s.turn_radius_m.get()))
         };
+        let follow = |from, to| {
+            let limits = LineLimits {
+                gain_rad_m,
+                capture_rad,
+                start_m: s.line_start_m.get(),
+                start_angle_rad: s.line_start_angle_deg.get().to_radians(),
+                end_m: s.arrive_m.get(),
+                overshoot_m: s.line_overshoot_m.get(),
+            };
+            FollowLine::new(from, to, limits)
+        };
+        if self.hovers {
+            let line = match goal.manoeuvre {
+                Manoeuvre::FollowLine { from, to } if (to - from).norm() >= SHORTEST_LINE_M => {
+                    Some(follow(from, to))
+                }
+                _ => None,
+            };
+            return Mode::Hover(Hovering::new(goal.manoeuvre, line, s.arrive_m.get()));
+        }
         match goal.manoeuvre {
             Manoeuvre::GoToPoint { point, radius_m } => to_point(point, radius_m),
+            Manoeuvre::Hold { point, .. } => to_point(point, None),
+            Manoeuvre::SlideTo {
+                point, radius_m, ..
+            } => to_point(point, radius_m),
             Manoeuvre::FollowLine { from, to } if (to - from).norm() < SHORTEST_LINE_M => {
                 to_point(to, None)
             }
             Manoeuvre::FollowLine { from, to } => {
-                let limits = LineLimits {
-                    gain_rad_m,
-                    capture_rad,
-                    start_m: s.line_start_m.get(),
-                    start_angle_rad: s.line_start_angle_deg.get().to_radians(),
-                    end_m: s.arrive_m.get(),
-                    overshoot_m: s.line_overshoot_m.get(),
-                };
-                let line = FollowLine::new(from, to, limits);
+                let line = follow(from, to);
                 let end = Pose {
                     position: from,
                     heading: line.direction(),
@@ -205,7 +260,7 @@ impl Guidance {
                 self.done |= over;
                 course
             }
-            Mode::Free => match goal.manoeuvre {
+            Mode::Hover(_) | Mode::Free => match goal.manoeuvre {
                 Manoeuvre::Course { course } => course,
                 _ => moving,
             },

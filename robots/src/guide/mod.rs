@@ -7,6 +7,7 @@ mod flow_compensation;
 mod follow_line;
 mod go_to_point;
 mod guidance;
+mod hover;
 mod rate_filter;
 mod spec;
 

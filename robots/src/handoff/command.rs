@@ -1,7 +1,8 @@
 //! What the guidance commands the autopilot, and the autopilot the actuators.
 
-use super::{RateCommand, Vertical};
+use super::{DriveCommand, MOST_DRIVES, RateCommand, Vertical};
 use bevy_ecs::prelude::Component;
+use nalgebra::Vector2;
 use world::units::Heading;
 
 /// Guidance output, within the vehicle's limits.
@@ -15,11 +16,41 @@ pub struct Setpoint {
     pub vertical: Vertical,
 }
 
+/// Guidance output for a vehicle that can hover.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MoveSetpoint {
+    /// Heading to hold.
+    pub heading: Heading,
+    /// Velocity over ground (east, north), m/s.
+    pub over_ground_m_s: Vector2<f64>,
+    /// Vertical part.
+    pub vertical: Vertical,
+}
+
+impl MoveSetpoint {
+    /// The same for a vehicle that cannot hover: heading and speed of the velocity.
+    #[must_use]
+    pub fn steered(&self) -> Setpoint {
+        let speed = self.over_ground_m_s.norm();
+        Setpoint {
+            heading: if speed > 0.0 {
+                Heading::of(self.over_ground_m_s)
+            } else {
+                self.heading
+            },
+            water_speed_m_s: speed,
+            vertical: self.vertical,
+        }
+    }
+}
+
 /// What the guidance hands to the stage `actuate`.
 #[derive(Component, Clone, Copy, Debug, PartialEq)]
 pub enum Command {
     /// For the autopilot.
     Steer(Setpoint),
+    /// For the autopilot of a vehicle that can hover.
+    Move(MoveSetpoint),
     /// Straight to the actuators.
     Direct(ActuatorCommand),
 }
@@ -31,6 +62,8 @@ pub enum Actuation {
     Fins(ActuatorCommand),
     /// Of a kinematic vehicle.
     Rates(RateCommand),
+    /// Of a vehicle of a folder.
+    Drives(DriveCommand),
 }
 
 impl Default for Actuation {
@@ -40,23 +73,29 @@ impl Default for Actuation {
 }
 
 impl Actuation {
-    /// The set-points with their names and units.
-    #[must_use]
-    pub fn named(&self) -> [(&'static str, f64); 3] {
-        match self {
-            Self::Fins(set) => [
-                ("rudder_rad", set.rudder_rad),
-                ("stern_rad", set.stern_rad),
-                ("rpm", set.rpm),
-            ],
-            Self::Rates(set) => [
-                ("turn_rad_s", set.turn_rad_s),
-                ("climb_m_s", set.climb_m_s),
-                ("speed_m_s", set.speed_m_s),
-            ],
-        }
+    /// The set-points with their names and units; the drives of a folder's vehicle have numbers.
+    pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
+        let (names, values): (&[&'static str], &[f64]) = match self {
+            Self::Fins(set) => (
+                &["rudder_rad", "stern_rad", "rpm"],
+                &[set.rudder_rad, set.stern_rad, set.rpm],
+            ),
+            Self::Rates(set) => (
+                &["turn_rad_s", "climb_m_s", "speed_m_s"],
+                &[set.turn_rad_s, set.climb_m_s, set.speed_m_s],
+            ),
+            Self::Drives(set) => (&DRIVES, set.all()),
+        };
+        let values: Vec<f64> = values.to_vec();
+        names.iter().copied().zip(values)
     }
 }
+
+/// Names of the drives in files and topics.
+const DRIVES: [&str; MOST_DRIVES] = [
+    "drive_1", "drive_2", "drive_3", "drive_4", "drive_5", "drive_6", "drive_7", "drive_8",
+    "drive_9", "drive_10", "drive_11", "drive_12", "drive_13", "drive_14", "drive_15", "drive_16",
+];
 
 /// Actuator set-points.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

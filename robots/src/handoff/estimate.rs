@@ -1,6 +1,6 @@
 //! What the vehicle believes. It is a type of its own so that nobody can confuse it with the truth.
 
-use super::{Belief, ChemicalReading, GuidanceStatus, RangeScan};
+use super::{Belief, Capabilities, ChemicalReading, GuidanceStatus, RangeScan};
 use super::{Picture, SidescanPing};
 use bevy_ecs::prelude::Component;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
@@ -114,6 +114,8 @@ pub struct Observation {
     pub area: Area,
     /// Where the vehicle was launched (its own first position); Go-Home leads there.
     pub home: Vector2<f64>,
+    /// What the vehicle can do.
+    pub able: Capabilities,
     /// Belief about the source's place, if the robot keeps a map of it.
     pub belief: Option<Belief>,
     /// Forward ranging, if the sensor reported in this tick.

@@ -37,6 +37,22 @@ pub enum Manoeuvre {
         /// Heading on arrival.
         heading: Heading,
     },
+    /// Stay at a point. A vehicle that cannot hover goes round it.
+    Hold {
+        /// Place (east, north), m.
+        point: Vector2<f64>,
+        /// Heading to hold; `None` for that of the way there.
+        heading: Option<Heading>,
+    },
+    /// Go to a point with a heading held. A vehicle that cannot go sideways goes to it nose first.
+    SlideTo {
+        /// Destination (east, north), m.
+        point: Vector2<f64>,
+        /// Arrival radius, m; `None` for the guidance's own.
+        radius_m: Option<f64>,
+        /// Heading to hold.
+        heading: Heading,
+    },
     /// Move over ground in a direction, without end.
     Course {
         /// Direction over ground.

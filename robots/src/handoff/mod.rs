@@ -5,6 +5,7 @@
 
 mod belief;
 mod command;
+mod control;
 mod decision;
 mod estimate;
 mod gantry;
@@ -12,6 +13,7 @@ mod goal;
 mod layers;
 mod lcdp;
 mod pictures;
+mod pilot_spec;
 mod rates;
 mod readings;
 mod regions;
@@ -19,7 +21,10 @@ mod setting;
 mod side;
 
 pub use belief::{Belief, BeliefGrid, Odour};
-pub use command::{Actuation, ActuatorCommand, Command, Setpoint};
+pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
+pub use control::{
+    Capabilities, Control, Does, DriveCommand, MOST_DRIVES, Plant, PlantDrive, ThrustTable,
+};
 pub use decision::{
     Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict,
 };
@@ -32,6 +37,7 @@ pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
 pub use pictures::{Picture, SidescanPing};
+pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};
 pub use readings::{
     AdcpReading, AltimeterReading, AttitudeReading, Beam, ChemicalReading, CtdReading,

@@ -1,7 +1,8 @@
 //! Observations written by hand, for tests.
 
 use super::{
-    Attitude, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation, Setpoint,
+    Attitude, Capabilities, ChemicalReading, Estimate, FlowEstimate, GuidanceStatus, Observation,
+    Setpoint,
 };
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::FRAC_PI_2;
@@ -53,6 +54,7 @@ pub(crate) fn seen(
         guidance: GuidanceStatus::default(),
         area: area(),
         home: Vector2::new(10.0, -250.0),
+        able: Capabilities::default(),
         belief: None,
         ranging: None,
         sidescan: None,

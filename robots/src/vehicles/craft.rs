@@ -1,13 +1,17 @@
 //! A vehicle of any kind that a scenario can choose for a robot.
 
 use super::files::Files;
+use super::folder::{BuiltIn, Described, SHIPPED, Shipped};
 use super::kinematic::Kinematic;
 use super::kinematic_spec::Moves;
 use super::spec::VehicleSpec;
 use super::vehicle::Vehicle;
 use crate::error::RobotError;
-use crate::handoff::{Actuation, RateLimits};
+use crate::handoff::{
+    Actuation, ActuatorCommand, Capabilities, Control, RateCommand, RateLimits, TurnLimit,
+};
 use nalgebra::Vector3;
+use std::path::Path;
 use world::fields::Flow;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
@@ -19,6 +23,44 @@ pub enum Craft {
     Finned(Box<Vehicle>),
     /// Without dynamics.
     Kinematic(Box<Kinematic>),
+    /// Of a folder.
+    Described(Box<Described>),
+}
+
+/// Below this speed through the water the fins of a REMUS have little effect, m/s (see its autopilot).
+const LEAST_FIN_M_S: f64 = 0.8;
+/// Longest `vehicle.ron`, bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// The vehicle of a folder.
+fn described(folder: &Path, files: &dyn Files) -> Result<Described, RobotError> {
+    let name = folder.join("vehicle.ron");
+    let path = files.path(&name).display().to_string();
+    let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File {
+        path: path.clone(),
+        problem,
+    })?;
+    Described::load(folder, &files.vehicle(&path, &text)?, files)
+}
+
+fn shipped(name: &str, files: &dyn Files) -> Result<Described, RobotError> {
+    let Some(shipped) = Shipped::named(name) else {
+        let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
+        return Err(RobotError::Invalid {
+            field: "vehicle".into(),
+            problem: format!(
+                "no vehicle \"{name}\" comes with the program; there are {}",
+                names.join(", ")
+            ),
+        });
+    };
+    described(
+        Path::new(name),
+        &BuiltIn {
+            shipped,
+            reader: files,
+        },
+    )
 }
 
 impl Craft {
@@ -32,6 +74,10 @@ impl Craft {
             VehicleSpec::Kinematic(spec) => {
                 Self::Kinematic(Box::new(Kinematic::load(spec, files)?))
             }
+            VehicleSpec::Shipped(name) => Self::Described(Box::new(shipped(name, files)?)),
+            VehicleSpec::File(folder) => {
+                Self::Described(Box::new(described(Path::new(folder), files)?))
+            }
         })
     }
 
@@ -39,8 +85,58 @@ impl Craft {
     #[must_use]
     pub fn limits(&self) -> Option<RateLimits> {
         match self {
-            Self::Finned(_) => None,
+            Self::Finned(_) | Self::Described(_) => None,
             Self::Kinematic(vehicle) => Some(vehicle.limits()),
+        }
+    }
+
+    /// What its autopilot knows of it.
+    #[must_use]
+    pub fn control(&self) -> Control {
+        match self {
+            Self::Finned(_) => Control::Fins,
+            Self::Kinematic(vehicle) => Control::Rates(vehicle.limits()),
+            Self::Described(vehicle) => Control::Drives(Box::new(vehicle.plant().clone())),
+        }
+    }
+
+    /// What it can do; `turn_radius_m` is that of the guidance, which a REMUS is held to.
+    #[must_use]
+    pub fn capabilities(&self, turn_radius_m: f64) -> Capabilities {
+        let swims = |least_speed_m_s, top_speed_m_s, turning_radius_m| Capabilities {
+            least_speed_m_s,
+            top_speed_m_s,
+            turning_radius_m,
+            hovers: false,
+            sideways: false,
+            dives: true,
+            holds_depth: true,
+        };
+        match self {
+            Self::Finned(vehicle) => swims(
+                LEAST_FIN_M_S,
+                vehicle.top_speed_m_s(f64::MAX),
+                turn_radius_m,
+            ),
+            Self::Kinematic(vehicle) => {
+                let limits = vehicle.limits();
+                let radius = match limits.turn {
+                    TurnLimit::Rate(rad_s) => limits.speed_m_s / rad_s,
+                    TurnLimit::Radius(m) => m,
+                };
+                swims(0.0, limits.speed_m_s, radius)
+            }
+            Self::Described(vehicle) => vehicle.capabilities(),
+        }
+    }
+
+    /// Set-points at which nothing moves it.
+    #[must_use]
+    pub fn idle(&self) -> Actuation {
+        match self {
+            Self::Finned(_) => Actuation::Fins(ActuatorCommand::default()),
+            Self::Kinematic(_) => Actuation::Rates(RateCommand::default()),
+            Self::Described(vehicle) => Actuation::Drives(vehicle.idle()),
         }
     }
 
@@ -48,7 +144,7 @@ impl Craft {
     #[must_use]
     pub fn is_carried(&self) -> bool {
         match self {
-            Self::Finned(_) => true,
+            Self::Finned(_) | Self::Described(_) => true,
             Self::Kinematic(vehicle) => vehicle.moves() == Moves::ThroughWater,
         }
     }
@@ -60,6 +156,7 @@ impl Craft {
         match self {
             Self::Finned(vehicle) => vehicle.top_speed_m_s(rpm),
             Self::Kinematic(vehicle) => vehicle.limits().speed_m_s,
+            Self::Described(vehicle) => vehicle.capabilities().top_speed_m_s,
         }
     }
 
@@ -69,6 +166,7 @@ impl Craft {
         match self {
             Self::Finned(vehicle) => vehicle.told(),
             Self::Kinematic(_) => &[],
+            Self::Described(vehicle) => vehicle.told(),
         }
     }
 
@@ -78,6 +176,7 @@ impl Craft {
         match self {
             Self::Finned(vehicle) => vehicle.mount(name),
             Self::Kinematic(vehicle) => vehicle.mount(name),
+            Self::Described(vehicle) => vehicle.mount(name),
         }
     }
 
@@ -87,6 +186,7 @@ impl Craft {
         match self {
             Self::Finned(vehicle) => vehicle.body_spec(id, truth),
             Self::Kinematic(vehicle) => vehicle.body_spec(id, truth),
+            Self::Described(vehicle) => vehicle.body_spec(id, truth),
         }
     }
 
@@ -115,11 +215,12 @@ impl Craft {
                 };
                 vehicle.step(truth, &water_m_s, set, dt_s)
             }
-            (Self::Finned(_), Actuation::Rates(_)) => {
-                panic!("a vehicle with fins was given rates; build its pilot with its own limits")
+            (Self::Described(vehicle), Actuation::Drives(set)) => {
+                let sample = water.sample(&truth.pose.p_WB, t_s);
+                vehicle.step(truth, &sample, set, dt_s)
             }
-            (Self::Kinematic(_), Actuation::Fins(_)) => {
-                panic!("a kinematic vehicle was given fins; build its pilot with its own limits")
+            (_, set) => {
+                panic!("a vehicle was given {set:?}; build its pilot with what the vehicle tells")
             }
         }
     }

@@ -3,6 +3,8 @@
 //! This crate opens no file itself, so that no searcher can read the scenario. Whoever builds a vehicle hands over
 //! [`Files`]; the simulation's reads the folder of the scenario file. [`InMemory`] holds the files in memory.
 
+use super::folder::VehicleFile;
+use crate::error::RobotError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
@@ -22,6 +24,18 @@ pub trait Files {
     /// # Errors
     /// Why it cannot be read, without its path; if it is not UTF-8, with the line.
     fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String>;
+
+    /// Reads the text of a `vehicle.ron`; errors call it `path`.
+    ///
+    /// # Errors
+    /// All its mistakes, with their places. Files in memory cannot read it.
+    fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
+        let _ = text;
+        Err(RobotError::File {
+            path: path.into(),
+            problem: "these files have no reader of RON: use those of a folder".into(),
+        })
+    }
 }
 
 /// Files held in memory, by name. A built-in vehicle needs none: use the default.

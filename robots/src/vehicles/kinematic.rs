@@ -18,7 +18,7 @@
 
 use super::files::Files;
 use super::kinematic_spec::{KinematicSpec, Moves};
-use super::remus::REMUS100;
+use super::remus100::REMUS100;
 use super::urdf::{self, Shell};
 use super::urdf_parts::UrdfText;
 use crate::error::RobotError;

@@ -1,20 +1,16 @@
 //! Bodies that move; the only place that touches urdf-rs.
 
-mod actuators;
-mod coefficients;
 mod craft;
+mod drives;
+mod dynamics;
 mod files;
+mod folder;
 mod gantry;
-mod hydrodynamics;
-#[cfg(test)]
-mod hydrodynamics_tests;
 mod kinematic;
 mod kinematic_spec;
 mod mesh;
-mod motion;
-mod remus;
+mod remus100;
 mod spec;
-mod surface;
 mod top_speed;
 mod urdf;
 mod urdf_mass;
@@ -23,12 +19,13 @@ mod urdf_parts;
 mod urdf_tests;
 mod vehicle;
 
-pub use coefficients::{Coefficients, Inflow, ParameterSet};
 pub use craft::Craft;
+pub use drives::{BuoyancyEngineSpec, CurveSpec, DriveSpec, FinSpec, MovingMassSpec, ThrusterSpec};
 pub use files::{Files, InMemory};
+pub use folder::{Axes, Block, Described, HydrodynamicsSpec, Row, SHIPPED, Shipped, VehicleFile};
 pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
-pub use hydrodynamics::Actuators;
 pub use kinematic::Kinematic;
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};
+pub use remus100::{Actuators, Coefficients, Inflow, ParameterSet};
 pub use spec::{CATALOGUE, RemusSpec, VehicleSpec};
 pub use vehicle::Vehicle;

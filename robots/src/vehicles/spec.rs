@@ -1,7 +1,7 @@
 //! Parameters of a vehicle.
 
-use super::coefficients::ParameterSet;
 use super::kinematic_spec::KinematicSpec;
+use super::remus100::ParameterSet;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
@@ -14,6 +14,10 @@ pub enum VehicleSpec {
     Remus100(RemusSpec),
     /// A vehicle without dynamics.
     Kinematic(KinematicSpec),
+    /// A vehicle that comes with the program, by the name of its folder: see `rheotaxis list vehicles`.
+    Shipped(String),
+    /// A vehicle of one's own: its folder, with `vehicle.ron` and a URDF, relative to the scenario file.
+    File(String),
 }
 
 impl Default for VehicleSpec {

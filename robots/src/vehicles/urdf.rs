@@ -7,7 +7,7 @@
 //! *Deviations:* the first link without a parent is the body; moving parts (fins, propeller) do not move, and their
 //! forces are in the hydrodynamics. Cylinders and capsules lie along z.
 
-use super::coefficients::Coefficients;
+use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
 use super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
 use crate::error::RobotError;

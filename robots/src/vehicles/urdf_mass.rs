@@ -8,7 +8,7 @@
 //! gravity may differ from theirs by 1 %, and the URDF's values are then used. A centre of gravity off the hull's
 //! axis, and products of inertia, within 1 % are left out. Both are reported.
 
-use super::coefficients::Coefficients;
+use super::remus100::Coefficients;
 use super::urdf_parts::{finite, joined, pose_of};
 use nalgebra::{Matrix3, Vector3};
 use std::collections::BTreeMap;
@@ -78,6 +78,11 @@ impl Ballast {
     /// Mass, kg; positive.
     pub(super) fn mass_kg(&self) -> f64 {
         self.mass_kg
+    }
+
+    /// Mass (kg), centre of gravity (m) and inertia about it (kg m²), FLU.
+    pub(super) fn whole(&self) -> (f64, Vector3<f64>, Matrix3<f64>) {
+        (self.mass_kg, self.p_BG, self.inertia_kg_m2)
     }
 
     /// Moment of inertia about the vertical axis through the centre of gravity, kg m².

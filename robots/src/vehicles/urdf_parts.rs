@@ -46,6 +46,11 @@ impl<'a> UrdfText<'a> {
                 files,
             });
         };
+        Self::open_at(name, files)
+    }
+
+    /// The URDF of a path.
+    pub(super) fn open_at(name: &'a Path, files: &'a dyn Files) -> Result<Self, RobotError> {
         let path = files.path(name).display().to_string();
         match files.text(name, LONGEST) {
             Ok(text) => Ok(Self {

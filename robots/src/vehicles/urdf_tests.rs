@@ -1,7 +1,7 @@
 //! Reads URDFs of vehicles, and checks the messages for wrong ones.
 
-use super::coefficients::{Coefficients, ParameterSet};
 use super::files::InMemory;
+use super::remus100::{Coefficients, ParameterSet};
 use super::spec::RemusSpec;
 use super::urdf::{Hull, read};
 use super::urdf_parts::as_file;

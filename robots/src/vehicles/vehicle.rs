@@ -1,16 +1,15 @@
 //! A vehicle with fins: hull, instruments' places, actuators and its equation of motion.
 
-use super::coefficients::Coefficients;
+use super::dynamics::Equation;
 use super::files::Files;
-use super::hydrodynamics::{Actuators, Hydrodynamics};
-use super::remus::REMUS100;
+use super::remus100::{Actuators, Coefficients, REMUS100, RemusTerms};
 use super::spec::RemusSpec;
 use super::urdf::{self, Hull};
 use super::urdf_parts::UrdfText;
 use crate::error::RobotError;
 use crate::handoff::ActuatorCommand;
 use bevy_ecs::prelude::Component;
-use nalgebra::{Matrix6, Vector3, Vector6};
+use nalgebra::Vector3;
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
@@ -19,7 +18,7 @@ use world::physics::BodySpec;
 #[derive(Component, Clone, Debug)]
 pub struct Vehicle {
     hull: Hull,
-    dynamics: Hydrodynamics,
+    equation: Equation,
     actuators: Actuators,
 }
 
@@ -33,7 +32,8 @@ impl Vehicle {
         let text = UrdfText::open(spec.urdf.as_deref(), files, REMUS100)?;
         let hull = urdf::read(&text, &coefficients)?;
         Ok(Self {
-            dynamics: Hydrodynamics::new(hull.coefficients.clone()),
+            equation: Equation::new(hull.coefficients.body())
+                .expect("the mass of a REMUS is near that of its parameters"),
             hull,
             actuators: Actuators::default(),
         })
@@ -42,7 +42,7 @@ impl Vehicle {
     /// The hull's numbers.
     #[must_use]
     pub fn coefficients(&self) -> &Coefficients {
-        &self.dynamics.c
+        &self.hull.coefficients
     }
 
     /// Where the URDF's mass differs from that of the hydrodynamic parameters, and what is done about it.
@@ -71,15 +71,13 @@ impl Vehicle {
     /// The body for the physics.
     #[must_use]
     pub fn body_spec(&self, id: &str, truth: Truth) -> BodySpec {
-        let c = &self.dynamics.c;
-        // FRD to FLU: a half turn about x.
-        let flip = Matrix6::from_diagonal(&Vector6::new(1.0, -1.0, -1.0, 1.0, -1.0, -1.0));
+        let c = &self.hull.coefficients;
         BodySpec {
             id: id.to_string(),
             truth,
             shapes: self.hull.shapes.clone(),
             p_BG: Vector3::new(0.0, 0.0, -c.z_g_m),
-            mass: flip * (c.rigid_mass() + c.added_mass()) * flip,
+            mass: self.equation.whole_mass_flu(),
         }
     }
 
@@ -91,10 +89,14 @@ impl Vehicle {
         command: &ActuatorCommand,
         dt_s: f64,
     ) -> Truth {
-        let asked = Actuators::asked(command, &self.dynamics.c);
+        let c = &self.hull.coefficients;
+        let terms = RemusTerms {
+            c,
+            asked: Actuators::asked(command, c),
+        };
         let (free, actuators) = self
-            .dynamics
-            .advance(truth, &self.actuators, &asked, water, dt_s);
+            .equation
+            .advance(&terms, truth, &self.actuators, water, dt_s);
         self.actuators = actuators;
         free
     }

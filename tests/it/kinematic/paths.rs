@@ -33,7 +33,7 @@ fn sail(moves: Moves, current: Vector3<f64>, end: Turned) -> (f64, Truth) {
         ..KinematicSpec::default()
     });
     let mut craft = Craft::load(&spec, &InMemory::default()).expect("built in");
-    let mut pilot = Pilot::new(&AutopilotSpec::default(), craft.limits(), 2.0);
+    let mut pilot = Pilot::new(&AutopilotSpec::default(), &craft.control(), 2.0);
     let mut guidance = Guidance::new(&GuidanceSpec::default()).carried(craft.is_carried());
     let area = Area {
         centre: Vector2::zeros(),

@@ -81,6 +81,17 @@ impl Shape {
             .is_some_and(|s| s.mass_properties(1.0).mass() > 1e-9)
     }
 
+    /// Tells of points, m in its own axes, whether they lie in it; of a flat hull none does.
+    #[must_use]
+    pub fn inside(&self) -> Box<dyn Fn(&Vector3<f64>) -> bool> {
+        let shared = self.shared();
+        Box::new(move |p| {
+            shared
+                .as_ref()
+                .is_some_and(|s| s.contains_local_point(vector(p)))
+        })
+    }
+
     /// Greatest distance of any of its points from its origin, m.
     #[must_use]
     pub fn reach_m(&self) -> f64 {
@@ -120,6 +131,10 @@ mod tests {
             let half = s.compute_local_aabb().half_extents();
             assert!(half.z >= half.x && half.z >= half.y, "{shape:?}");
             assert!(shape.reach_m() >= half.z - 1e-9, "{shape:?}");
+            let inside = shape.inside();
+            let along = |z| inside(&Vector3::new(0.0, 0.0, z));
+            let end = f64::from(half.z);
+            assert!(along(0.99 * end) && !along(1.01 * end), "{shape:?}");
         }
     }
 

@@ -187,21 +187,35 @@ impl Recorder {
                 &float64(v),
             )?;
         }
-        if let Some(Command::Steer(s)) = r.command {
-            let (name, height) = match s.vertical {
+        let asked = match r.command {
+            Some(Command::Steer(s)) => Some((s.heading, s.water_speed_m_s, s.vertical, None)),
+            Some(Command::Move(s)) => {
+                let v = s.over_ground_m_s;
+                Some((s.heading, v.norm(), s.vertical, Some(v)))
+            }
+            Some(Command::Direct(_)) | None => None,
+        };
+        if let Some((heading, speed_m_s, vertical, over_ground)) = asked {
+            let (name, height) = match vertical {
                 Vertical::Altitude(m) => ("command/altitude_m", m),
                 Vertical::Depth(m) => ("command/depth_m", m),
             };
             put(
                 "command/heading_rad",
                 MessageKind::Float64,
-                &float64(s.heading.rad()),
+                &float64(heading.rad()),
             )?;
-            put(
-                "command/water_speed_m_s",
-                MessageKind::Float64,
-                &float64(s.water_speed_m_s),
-            )?;
+            match over_ground {
+                None => put(
+                    "command/water_speed_m_s",
+                    MessageKind::Float64,
+                    &float64(speed_m_s),
+                )?,
+                Some(v) => {
+                    put("command/east_m_s", MessageKind::Float64, &float64(v.x))?;
+                    put("command/north_m_s", MessageKind::Float64, &float64(v.y))?;
+                }
+            }
             put(name, MessageKind::Float64, &float64(height))?;
         }
         if self.behaviours[k] != r.behaviour.name() {

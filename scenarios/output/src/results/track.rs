@@ -138,6 +138,7 @@ impl RobotTrack {
         self.skip = self.stride - 1;
         let asked = match r.command {
             Some(Command::Steer(s)) => Some(s.vertical),
+            Some(Command::Move(s)) => Some(s.vertical),
             _ => None,
         };
         self.rows.push(TrackRow {

@@ -16,8 +16,8 @@ use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
 use robots::guide::Guidance;
 use robots::handoff::{
-    Actuation, ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre,
-    RateCommand, Readings, Setting, Vertical,
+    ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
+    Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::Craft;
@@ -104,15 +104,13 @@ fn spawn(
         OnBoard::new(id, seed, dt_s),
     )?;
     let carried = vehicle.is_carried();
+    let able = vehicle.capabilities(spec.guidance.turn_radius_m.get());
     let pilot = Pilot::new(
         &spec.autopilot,
-        vehicle.limits(),
+        &vehicle.control(),
         spec.start.speed_m_s.get(),
     );
-    let still = match pilot {
-        Pilot::Fins(_) => Actuation::Fins(ActuatorCommand::default()),
-        Pilot::Rates(_) => Actuation::Rates(RateCommand::default()),
-    };
+    let still = vehicle.idle();
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
@@ -154,9 +152,12 @@ fn spawn(
             Briefing {
                 area: setting.area,
                 home: fix,
+                able,
             },
             Decision::new(Behaviour::Idle, goal),
-            Guidance::new(&spec.guidance).carried(carried),
+            Guidance::new(&spec.guidance)
+                .carried(carried)
+                .hovering(able.hovers),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
             pilot,

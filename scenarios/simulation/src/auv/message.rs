@@ -138,6 +138,16 @@ fn goal(t_s: f64, g: &Goal) -> Value {
         Manoeuvre::GoToPointWithHeading { point, heading } => json!({
             "manoeuvre": "go_to_point_with_heading", "point_m": point.as_slice(), "heading_rad": heading.rad(),
         }),
+        Manoeuvre::Hold { point, .. } => {
+            json!({"manoeuvre": "hold", "point_m": point.as_slice()})
+        }
+        Manoeuvre::SlideTo {
+            point,
+            radius_m,
+            heading,
+        } => json!({
+            "manoeuvre": "slide_to", "point_m": point.as_slice(), "radius_m": radius_m, "heading_rad": heading.rad(),
+        }),
         Manoeuvre::Course { course } => json!({"manoeuvre": "course", "heading_rad": course.rad()}),
         Manoeuvre::Direct { .. } => json!({"manoeuvre": "direct"}),
     };
@@ -156,6 +166,14 @@ fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
             let (vertical, vertical_m) = vertical(s.vertical);
             json!({
                 "kind": "steer", "heading_rad": s.heading.rad(), "water_speed_m_s": s.water_speed_m_s,
+                "vertical": vertical, "vertical_m": vertical_m,
+            })
+        }
+        Command::Move(s) => {
+            let (vertical, vertical_m) = vertical(s.vertical);
+            json!({
+                "kind": "move", "heading_rad": s.heading.rad(),
+                "east_m_s": s.over_ground_m_s.x, "north_m_s": s.over_ground_m_s.y,
                 "vertical": vertical, "vertical_m": vertical_m,
             })
         }

@@ -9,7 +9,7 @@ pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 
 use bevy_ecs::prelude::{Component, Entity, Resource};
 use nalgebra::Vector2;
-use robots::handoff::ChemicalReading;
+use robots::handoff::{Capabilities, ChemicalReading};
 use robots::map::Mapper;
 use robots::strategy::Strategy;
 use robots::vehicles::Craft;
@@ -46,6 +46,8 @@ pub struct Briefing {
     pub area: Area,
     /// Where it was launched, according to its navigation (east, north), m.
     pub home: Vector2<f64>,
+    /// What the vehicle can do.
+    pub able: Capabilities,
 }
 
 /// A robot's map of where the source may be, if it keeps one.

@@ -92,6 +92,7 @@ pub(crate) fn decide(clock: Res<Clock>, mut robots: Query<Deciding>) {
             guidance: *guidance,
             area: briefing.area,
             home: briefing.home,
+            able: briefing.able,
             belief: belief.cloned(),
             ranging: readings.ranging.clone(),
             sidescan: readings.sidescan.clone(),
@@ -180,7 +181,7 @@ pub(crate) fn digest_robots(
         digest.f64s(truth.w_WB_B.as_slice());
         digest.f64s(estimate.position.as_slice());
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
-        digest.f64s(&set.named().map(|(_, value)| value));
+        digest.f64s(&set.named().map(|(_, value)| value).collect::<Vec<_>>());
         digest.f64s(&[f64::from(decision.goal.id), decision.behaviour.number()]);
         // Only when it is new: a map is large and changes seldom.
         if let Some(belief) = belief.filter(|b| b.is_changed()) {

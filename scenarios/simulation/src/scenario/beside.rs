@@ -1,6 +1,9 @@
 //! Reads the files that a scenario names for its vehicles. The robots open no file themselves.
 
-use robots::vehicles::Files;
+use super::fault::ScenarioError;
+use super::reader;
+use robots::error::RobotError;
+use robots::vehicles::{Files, VehicleFile};
 use std::path::{Path, PathBuf};
 use world::files;
 
@@ -18,6 +21,21 @@ impl Files for Beside<'_> {
 
     fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
         files::read_text(&self.path(name), most_bytes).map_err(|e| e.to_string())
+    }
+
+    fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
+        reader::read::<VehicleFile>(path, text, &|_| Vec::new()).map_err(|e| {
+            let lines = match &e {
+                ScenarioError::File { problem, .. } => vec![problem.clone()],
+                _ => (e.lines().iter())
+                    .map(|line| line.trim_start_matches(path).trim_start_matches(':').into())
+                    .collect::<Vec<String>>(),
+            };
+            RobotError::File {
+                path: path.into(),
+                problem: lines.join("\n"),
+            }
+        })
     }
 }
 

@@ -7,8 +7,29 @@
 //! *Deviations:* none.
 
 use super::coefficients::Coefficients;
-use super::hydrodynamics::Actuators;
 use crate::handoff::ActuatorCommand;
+use crate::vehicles::dynamics::Carried;
+
+/// State of the actuators.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Actuators {
+    /// Rudder, positive turns to starboard, rad.
+    pub rudder_rad: f64,
+    /// Stern plane, positive pitches the nose down, rad.
+    pub stern_rad: f64,
+    /// Propeller, rpm.
+    pub rpm: f64,
+}
+
+impl Carried for Actuators {
+    fn moved(&self, rate: &Self, h: f64) -> Self {
+        Self {
+            rudder_rad: self.rudder_rad + rate.rudder_rad * h,
+            stern_rad: self.stern_rad + rate.stern_rad * h,
+            rpm: self.rpm + rate.rpm * h,
+        }
+    }
+}
 
 impl Actuators {
     /// The nearest state that the vehicle's actuators can reach.
@@ -22,7 +43,7 @@ impl Actuators {
     }
 
     /// The commanded state, limited unless the limits act on the state.
-    pub(super) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
+    pub(in crate::vehicles) fn asked(command: &ActuatorCommand, c: &Coefficients) -> Self {
         let asked = Self {
             rudder_rad: command.rudder_rad,
             stern_rad: command.stern_rad,
@@ -41,15 +62,6 @@ impl Actuators {
             rudder_rad: (asked.rudder_rad - self.rudder_rad) / c.fin_lag_s,
             stern_rad: (asked.stern_rad - self.stern_rad) / c.fin_lag_s,
             rpm: (asked.rpm - self.rpm) / c.propeller_lag_s,
-        }
-    }
-
-    /// The state after `h` seconds at a rate.
-    pub(super) fn moved(&self, rate: &Self, h: f64) -> Self {
-        Self {
-            rudder_rad: self.rudder_rad + rate.rudder_rad * h,
-            stern_rad: self.stern_rad + rate.stern_rad * h,
-            rpm: self.rpm + rate.rpm * h,
         }
     }
 }

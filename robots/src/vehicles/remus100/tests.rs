@@ -1,9 +1,43 @@
 //! The hull's accelerations against those of the published model, one effect after the other.
 
+use super::actuators::Actuators;
 use super::coefficients::{Coefficients, Inflow, ParameterSet};
-use super::hydrodynamics::{Actuators, HullWater, Hydrodynamics};
+use super::terms::RemusTerms;
+use crate::vehicles::dynamics::{Equation, HullWater, Relative, Stage};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use std::f64::consts::FRAC_PI_2;
+
+/// A hull with its numbers.
+struct Hydrodynamics {
+    c: Coefficients,
+    equation: Equation,
+}
+
+impl Hydrodynamics {
+    fn new(c: Coefficients) -> Self {
+        let equation = Equation::new(c.body()).expect("masses");
+        Self { c, equation }
+    }
+
+    fn terms(&self) -> RemusTerms<'_> {
+        RemusTerms {
+            c: &self.c,
+            asked: Actuators::default(),
+        }
+    }
+
+    fn acceleration(
+        &self,
+        R_WB: &Rotation3<f64>,
+        v: &Vector3<f64>,
+        w: &Vector3<f64>,
+        water: &HullWater,
+        actuators: &Actuators,
+    ) -> (Vector3<f64>, Vector3<f64>) {
+        let terms = self.terms();
+        (self.equation).acceleration(&terms, R_WB, v, w, water, actuators, Stage::Start)
+    }
+}
 
 fn still() -> HullWater {
     HullWater {
@@ -12,7 +46,8 @@ fn still() -> HullWater {
         rate_W: Vector3::zeros(),
         density_kg_m3: 1026.0,
         wet: 1.0,
-        wet_x_m: 0.0,
+        wet_r: Vector3::zeros(),
+        z_m: -10.0,
     }
 }
 
@@ -24,7 +59,7 @@ fn both() -> [Hydrodynamics; 2] {
 /// Every row of the published model's table, with the propeller's inflow as first and as later published.
 #[test]
 fn published_derivatives() {
-    let table = include_str!("../../../tests/reference/remus100/derivative_points.csv");
+    let table = include_str!("../../../../tests/reference/remus100/derivative_points.csv");
     let mut worst: f64 = 0.0;
     for (inflow, first) in [(Inflow::Ground, 17), (Inflow::Water, 23)] {
         let hull = Hydrodynamics::new(Coefficients {
@@ -115,7 +150,19 @@ fn planes_of_the_shipped_set_are_alike() {
         ..Coefficients::of(ParameterSet::Remus100)
     });
     let none = Vector3::zeros();
-    let f = |v, w| hull.water_forces(&v, &v, &w, &none, 1026.0, &Actuators::default());
+    let f = |v, w| {
+        let at = Relative {
+            v_ground: v,
+            v,
+            w,
+            along: none,
+            rho: 1026.0,
+            down: Vector3::z(),
+            z_m: -10.0,
+            wet: 1.0,
+        };
+        hull.terms().submerged(&at, &Actuators::default())
+    };
     let (side, turn) = f(Vector3::new(1.0, 0.3, 0.0), Vector3::new(0.0, 0.0, 0.2));
     let (heave, pitch) = f(Vector3::new(1.0, 0.0, 0.3), Vector3::new(0.0, -0.2, 0.0));
     assert!((side.y - heave.z).abs() < 1e-12 && (side.x - heave.x).abs() < 1e-12);

@@ -23,7 +23,8 @@
 //! | linear heave damping | at all speeds | fades with speed as in surge and sway |
 //! | limits of the actuators | on their state | on the command |
 
-use nalgebra::{Matrix6, Vector3};
+use crate::vehicles::dynamics::{Body, Envelope, Mass};
+use nalgebra::{Matrix3, Matrix6, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::math;
@@ -256,24 +257,24 @@ impl Coefficients {
         }
     }
 
+    /// The hull as the equation of motion sees it.
+    pub(in crate::vehicles) fn body(&self) -> Body {
+        let i = Matrix3::from_diagonal(&self.inertia_kg_m2);
+        Body {
+            mass: Mass::about_centre(self.mass_kg, Vector3::new(0.0, 0.0, self.z_g_m), &i),
+            added: self.added_mass(),
+            volume_m3: self.volume_m3,
+            r_B: Vector3::zeros(),
+            gravity_m_s2: GRAVITY_M_S2,
+            envelope: Envelope::Spheroid(self.length_m, self.diameter_m),
+            current_by_yaw_only: self.current_by_yaw_only,
+        }
+    }
+
     /// Rigid-body mass matrix about CO, FRD.
     #[must_use]
     pub fn rigid_mass(&self) -> Matrix6<f64> {
-        let (m, z) = (self.mass_kg, self.z_g_m);
-        let i = self.inertia_kg_m2;
-        let mut M = Matrix6::from_diagonal(&nalgebra::Vector6::new(
-            m,
-            m,
-            m,
-            i.x + m * z * z,
-            i.y + m * z * z,
-            i.z,
-        ));
-        M[(0, 4)] = m * z;
-        M[(4, 0)] = m * z;
-        M[(1, 3)] = -m * z;
-        M[(3, 1)] = -m * z;
-        M
+        self.body().mass.matrix()
     }
 
     /// Added mass matrix, FRD.

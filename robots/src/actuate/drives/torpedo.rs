@@ -1,0 +1,90 @@
+//! Steers a torpedo of a folder: the autopilot of the REMUS with gains from the hull, mixed to its fins.
+//!
+//! *Source:* as `autopilot.rs`; gains in `torpedo_gains.rs`.
+//!
+//! *Parameters:* [`TorpedoSpec`].
+//!
+//! *Deviations:* a fin turns for the rudder and for the stern plane in proportion to what it does in yaw and in pitch,
+//! so crosses and X tails are steered alike. The propeller's number is a share of full thrust: 1000 is full thrust
+//! ahead, and thrust goes with its square.
+
+use super::super::autopilot::Autopilot;
+use super::torpedo_gains::{FULL_RPM, gains};
+use crate::handoff::{Command, Does, DriveCommand, Estimate, Plant, ThrustTable, TorpedoSpec};
+
+/// A fin's part of the mix.
+#[derive(Clone, Debug, PartialEq)]
+struct Mixed {
+    drive: usize,
+    limit_rad: f64,
+    /// Deflection for 1 rad of rudder and of stern plane.
+    rudder: f64,
+    stern: f64,
+}
+
+/// The autopilot.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TorpedoPilot {
+    autopilot: Autopilot,
+    idle: Vec<f64>,
+    fins: Vec<Mixed>,
+    propellers: Vec<(usize, f64, ThrustTable)>,
+}
+
+impl TorpedoPilot {
+    /// From what is known of the vehicle.
+    #[must_use]
+    pub fn new(plant: &Plant, spec: &TorpedoSpec) -> Self {
+        let arms = plant.drives.iter().filter_map(|d| match &d.does {
+            Does::Lifts(arm) => Some(*arm),
+            _ => None,
+        });
+        let (yaw, pitch) = arms.fold((1e-12f64, 1e-12f64), |(y, p), arm| {
+            (y.max(arm[5].abs()), p.max(arm[4].abs()))
+        });
+        let mut fins = Vec::new();
+        let mut propellers = Vec::new();
+        for (k, drive) in plant.drives.iter().enumerate() {
+            match &drive.does {
+                Does::Lifts(arm) => fins.push(Mixed {
+                    drive: k,
+                    limit_rad: drive.limits[1],
+                    // FLU: to starboard is a negative moment about z, nose down a positive one about y.
+                    rudder: -arm[5] / yaw,
+                    stern: arm[4] / pitch,
+                }),
+                Does::Pushes(arm, table) if arm[0].abs() > 0.5 => {
+                    propellers.push((k, arm[0].signum(), table.clone()));
+                }
+                _ => {}
+            }
+        }
+        Self {
+            autopilot: Autopilot::new(&gains(plant, spec)),
+            idle: plant.drives.iter().map(|d| d.idle).collect(),
+            fins,
+            propellers,
+        }
+    }
+
+    /// Set-points of all drives for the coming `dt_s`.
+    pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> DriveCommand {
+        let asked = self.autopilot.step(command, estimate, dt_s);
+        let mut set = self.idle.clone();
+        for fin in &self.fins {
+            let angle = fin.rudder * asked.rudder_rad + fin.stern * asked.stern_rad;
+            set[fin.drive] = angle.clamp(-fin.limit_rad, fin.limit_rad);
+        }
+        let share = (asked.rpm / FULL_RPM).clamp(-1.0, 1.0);
+        for (k, way, table) in &self.propellers {
+            let [astern, ahead] = table.thrusts_n();
+            let push = way * share * share.abs();
+            set[*k] = table.input(if push < 0.0 {
+                -push * astern
+            } else {
+                push * ahead
+            });
+        }
+        DriveCommand::new(&set)
+    }
+}

@@ -1,0 +1,179 @@
+//! What an autopilot knows of its vehicle: plain numbers, all in body axes FLU about the body's origin.
+
+use super::{PilotSpec, RateLimits};
+use nalgebra::{Matrix6, Vector3, Vector6};
+
+/// Most drives that a vehicle of a folder has.
+pub const MOST_DRIVES: usize = 16;
+
+/// How a vehicle is steered, and what its autopilot knows of it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Control {
+    /// Rudder, stern plane and propeller, with the gains of the scenario.
+    Fins,
+    /// Rates, within limits.
+    Rates(RateLimits),
+    /// Several drives.
+    Drives(Box<Plant>),
+}
+
+/// A vehicle of a folder, as its autopilot knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plant {
+    /// M_RB + M_A.
+    pub mass: Matrix6<f64>,
+    /// D, D_q and D_u: the water's force is −D ν − D_q |ν|∘ν − |u| D_u ν.
+    pub damping: [Matrix6<f64>; 3],
+    /// Weight times the distance of the centre of gravity below that of buoyancy, N m: the moment at 1 rad of roll or
+    /// pitch.
+    pub righting_n_m: f64,
+    /// Weight less buoyancy in the water of the damping, N.
+    pub heavy_n: f64,
+    /// Volume, m³.
+    pub volume_m3: f64,
+    /// Directions (surge, sway, heave, roll, pitch, yaw) in which its thrusters push, each without the others.
+    pub pushes: [bool; 6],
+    /// Its drives, in the order of its file.
+    pub drives: Vec<PlantDrive>,
+    /// Greatest speed ahead through the water, m/s.
+    pub top_speed_m_s: f64,
+    /// Who steers it.
+    pub pilot: PilotSpec,
+}
+
+/// A drive, as an autopilot knows it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PlantDrive {
+    /// Least and greatest set-point.
+    pub limits: [f64; 2],
+    /// Set-point at which it does nothing.
+    pub idle: f64,
+    /// What it is.
+    pub does: Does,
+}
+
+/// What a drive does.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Does {
+    /// Pushes: force and moment for each N of thrust, and its curve in still water.
+    Pushes(Vector6<f64>, ThrustTable),
+    /// Lifts: force and moment at 1 m/s ahead, 1 rad of deflection and a density of 1 kg/m³.
+    Lifts(Vector6<f64>),
+    /// Changes the volume at a place, m.
+    Swells(Vector3<f64>),
+    /// Moves a mass, kg, in a direction.
+    Shifts(Vector3<f64>, f64),
+}
+
+/// Thrust in still water by input: pairs of input and thrust (N), both not falling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ThrustTable(pub Vec<(f64, f64)>);
+
+impl ThrustTable {
+    /// Least and greatest input.
+    #[must_use]
+    pub fn inputs(&self) -> [f64; 2] {
+        [self.0[0].0, self.0[self.0.len() - 1].0]
+    }
+
+    /// Least and greatest thrust, N.
+    #[must_use]
+    pub fn thrusts_n(&self) -> [f64; 2] {
+        [self.0[0].1, self.0[self.0.len() - 1].1]
+    }
+
+    /// Thrust, N, of an input.
+    #[must_use]
+    pub fn thrust_n(&self, input: f64) -> f64 {
+        between(&self.0, input, |p| *p)
+    }
+
+    /// The input that gives a thrust, N: in a dead band its middle.
+    #[must_use]
+    pub fn input(&self, thrust_n: f64) -> f64 {
+        let mut same = self.0.iter().filter(|(_, n)| *n == thrust_n);
+        if let Some(first) = same.next() {
+            let last = same.last().unwrap_or(first);
+            return (first.0 + last.0) / 2.0;
+        }
+        between(&self.0, thrust_n, |(i, n)| (*n, *i))
+    }
+}
+
+/// Straight lines between points; the ends hold beyond them.
+fn between(points: &[(f64, f64)], x: f64, as_xy: impl Fn(&(f64, f64)) -> (f64, f64)) -> f64 {
+    let above = points.partition_point(|p| as_xy(p).0 < x);
+    if above == 0 {
+        return as_xy(&points[0]).1;
+    }
+    let (x_0, y_0) = as_xy(&points[above - 1]);
+    let Some((x_1, y_1)) = points.get(above).map(as_xy) else {
+        return y_0;
+    };
+    y_0 + (y_1 - y_0) * (x - x_0) / (x_1 - x_0)
+}
+
+/// Set-points of a vehicle's drives, in the order of its file.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DriveCommand {
+    set: [f64; MOST_DRIVES],
+    n: usize,
+}
+
+impl DriveCommand {
+    /// From at most [`MOST_DRIVES`] set-points.
+    #[must_use]
+    pub fn new(set_points: &[f64]) -> Self {
+        let mut set = [0.0; MOST_DRIVES];
+        set[..set_points.len()].copy_from_slice(set_points);
+        Self {
+            set,
+            n: set_points.len(),
+        }
+    }
+
+    /// The set-points.
+    #[must_use]
+    pub fn all(&self) -> &[f64] {
+        &self.set[..self.n]
+    }
+
+    /// The set-points, to change them.
+    pub fn all_mut(&mut self) -> &mut [f64] {
+        &mut self.set[..self.n]
+    }
+}
+
+/// What a vehicle can do, for searchers that can use it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Capabilities {
+    /// Least speed through the water at which it can be steered, m/s; 0 for one that hovers.
+    pub least_speed_m_s: f64,
+    /// Greatest speed ahead, m/s.
+    pub top_speed_m_s: f64,
+    /// Radius of its tightest turn, m; 0 for one that turns on the spot.
+    pub turning_radius_m: f64,
+    /// Holds its place, within its speeds.
+    pub hovers: bool,
+    /// Moves sideways, with its heading held.
+    pub sideways: bool,
+    /// Chooses its depth; false for a craft on the surface.
+    pub dives: bool,
+    /// Holds a depth; false for a glider, which goes up and down between two.
+    pub holds_depth: bool,
+}
+
+/// Those of a REMUS 100, for observations made by hand.
+impl Default for Capabilities {
+    fn default() -> Self {
+        Self {
+            least_speed_m_s: 0.8,
+            top_speed_m_s: 2.5,
+            turning_radius_m: 15.0,
+            hovers: false,
+            sideways: false,
+            dives: true,
+            holds_depth: true,
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! The hydrodynamic part of `vehicle.ron`.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::ranges::{Finite, Positive};
+
+/// What still and moving water does to a hull.
+///
+/// Forces are −D ν − D_q |ν|∘ν − u D_u ν, with ν = (surge, sway, heave, roll, pitch, yaw) at the origin of the body's
+/// link, relative to the water. So damping that resists has positive numbers on its diagonal.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct HydrodynamicsSpec {
+    /// Axes of the blocks: FLU (forward, left, up) as the URDF, or FRD (forward, right, down) as most printed tables.
+    /// The places of this file are always FLU.
+    #[serde(default)]
+    pub axes: Axes,
+    /// Take the blocks, the volume and the centre of buoyancy from the URDF's extensions, where they are not given
+    /// here: `<hydrodynamic_model>` of uuv_simulator, or the Hydrodynamics plugin of gz-sim.
+    #[serde(default)]
+    pub from_urdf: bool,
+    /// Displaced volume, m³.
+    #[serde(default)]
+    pub volume_m3: Option<Positive>,
+    /// Centre of buoyancy from the body's origin, m.
+    #[serde(default)]
+    pub centre_of_buoyancy_m: Option<(Finite, Finite, Finite)>,
+    /// Added mass, kg, kg m, kg m²; symmetric.
+    #[serde(default)]
+    pub added_mass: Option<Block>,
+    /// Linear damping D, N s/m, N s, N m s.
+    #[serde(default)]
+    pub linear_damping: Option<Block>,
+    /// Quadratic damping D_q: columns times |ν_j| ν_j.
+    #[serde(default)]
+    pub quadratic_damping: Option<Block>,
+    /// Damping D_u that grows with the speed ahead.
+    #[serde(default)]
+    pub forward_damping: Option<Block>,
+    /// Density of the water for which the damping holds, kg/m³; in other water it is proportional to the density.
+    #[serde(default = "sea")]
+    pub density_kg_m3: Positive,
+    /// Gravity, m/s².
+    #[serde(default = "gravity")]
+    pub gravity_m_s2: Positive,
+    /// It floats: the blocks hold at the draught at which it floats at rest, not for a hull all under water.
+    #[serde(default)]
+    pub floats: bool,
+}
+
+/// Axes in which blocks are given.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+pub enum Axes {
+    /// Forward, left, up.
+    #[default]
+    Flu,
+    /// Forward, right, down.
+    Frd,
+}
+
+/// A matrix of six by six.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub enum Block {
+    /// Only a diagonal.
+    Diagonal(Row),
+    /// Six rows.
+    Full((Row, Row, Row, Row, Row, Row)),
+}
+
+/// Six numbers: surge, sway, heave, roll, pitch, yaw.
+pub type Row = (Finite, Finite, Finite, Finite, Finite, Finite);
+
+fn sea() -> Positive {
+    Positive::new(1025.0)
+}
+
+fn gravity() -> Positive {
+    Positive::new(9.80665)
+}

@@ -1,0 +1,15 @@
+//! A vehicle that is a folder: `vehicle.ron` and a URDF, the user's own or one of those that come with the program.
+
+mod blocks;
+mod described;
+mod hydrodynamics_spec;
+mod load;
+mod plant;
+mod shipped;
+mod spec;
+
+pub use described::Described;
+pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row};
+pub(super) use shipped::BuiltIn;
+pub use shipped::{SHIPPED, Shipped};
+pub use spec::VehicleFile;
