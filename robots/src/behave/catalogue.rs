@@ -14,6 +14,11 @@ pub trait BehaviourParams: Spec {
     /// # Errors
     /// [`RobotError::Invalid`] if a parameter makes no sense.
     fn build(&self) -> Result<Box<dyn Behave>, RobotError>;
+
+    /// Its field that asks the vehicle to wait at a place, if it is set.
+    fn waits(&self) -> Option<&'static str> {
+        None
+    }
 }
 
 const HEADING: &str = "Behaviours";

@@ -108,6 +108,10 @@ impl BehaviourParams for Params {
     fn build(&self) -> Result<Box<dyn Behave>, RobotError> {
         Ok(Box::new(UpAcross::new(self)?))
     }
+
+    fn waits(&self) -> Option<&'static str> {
+        (self.wait_s.get() > 0.0).then_some("wait_s")
+    }
 }
 
 /// State of the behaviour.

@@ -4,6 +4,7 @@ use super::amp::AmpSpec;
 use super::inspect::InspectSpec;
 use super::map_and_plan::MapAndPlanSpec;
 use super::open_loop::OpenLoopSpec;
+use super::route::RouteSpec;
 use super::spec::StrategyParams;
 use super::subregions::SubregionsSpec;
 use super::subsumption::SubsumptionSpec;
@@ -14,6 +15,6 @@ kind! {
     /// declaration rule, each chosen by name.
     pub StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
-        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec],
+        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec],
     }
 }

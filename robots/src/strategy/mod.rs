@@ -5,6 +5,7 @@ mod catalogue;
 mod inspect;
 mod map_and_plan;
 mod open_loop;
+mod route;
 mod spec;
 mod subregions;
 mod subsumption;
@@ -18,6 +19,7 @@ pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,
 };
 pub use open_loop::{OpenLoop, OpenLoopSpec};
+pub use route::{Route, RouteSpec};
 pub use spec::{Strategy, StrategyParams, VerticalSpec};
 pub use subregions::{
     EdgeSpec, Entry, GridSpec, RectangleSpec, RectanglesSpec, RegionsSpec, Subregions,

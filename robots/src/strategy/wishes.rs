@@ -13,6 +13,8 @@ pub struct Wishes {
     pub verticals: Vec<(String, Vertical)>,
     /// Speeds over ground, m/s.
     pub speeds_m_s: Vec<(String, f64)>,
+    /// Fields that ask it to wait at a place.
+    pub waits: Vec<String>,
 }
 
 impl Wishes {
@@ -21,6 +23,22 @@ impl Wishes {
         Self {
             verticals: vec![("vertical".to_string(), vertical.into())],
             speeds_m_s: vec![("speed_m_s".to_string(), speed_m_s.get())],
+            waits: Vec::new(),
+        }
+    }
+
+    /// With that of a part, by its field, which waits at a place.
+    pub(super) fn waiting(mut self, path: &str, field: Option<&'static str>) -> Self {
+        self.waits.extend(field.map(|f| format!("{path}.{f}")));
+        self
+    }
+
+    /// The demands of a mission at one speed, at whatever height.
+    pub(super) fn speed(speed_m_s: Positive) -> Self {
+        Self {
+            verticals: Vec::new(),
+            speeds_m_s: vec![("speed_m_s".to_string(), speed_m_s.get())],
+            waits: Vec::new(),
         }
     }
 
@@ -60,6 +78,9 @@ impl Wishes {
                 .collect(),
             speeds_m_s: (self.speeds_m_s.into_iter())
                 .map(|(at, v)| (format!("{path}.{at}"), v))
+                .collect(),
+            waits: (self.waits.into_iter())
+                .map(|at| format!("{path}.{at}"))
                 .collect(),
         }
     }

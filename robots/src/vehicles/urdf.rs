@@ -26,6 +26,8 @@ pub(super) struct Shell {
     pub(super) body: String,
     /// Its mass.
     pub(super) ballast: Ballast,
+    /// Shapes to look at, in body axes, with their colours (`#rrggbb`).
+    pub(super) visuals: Vec<(Pose, Shape, String)>,
 }
 
 /// Contents of the URDF of a vehicle with fins.
@@ -91,6 +93,25 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
             shapes.push((at, shape));
         }
     }
+    let mut visuals = Vec::new();
+    for link in &robot.links {
+        for (i, visual) in link.visual.iter().enumerate() {
+            // A mesh of many corners is looked at by what it collides with.
+            if matches!(visual.geometry, urdf_rs::Geometry::Mesh { .. }) {
+                continue;
+            }
+            let place = format!("link \"{}\", visual {}", link.name, i + 1);
+            finite(&visual.origin, &place).map_err(fail)?;
+            let shape = shape(&visual.geometry, urdf)
+                .map_err(|problem| fail(format!("{place}: {problem}")))?;
+            let at = joined(&links[&link.name], &pose_of(&visual.origin));
+            visuals.push((at, shape, colour(&robot, visual)));
+        }
+    }
+    if visuals.is_empty() {
+        let plain = |(pose, shape): &(Pose, Shape)| (*pose, shape.clone(), GREY.to_string());
+        visuals = shapes.iter().map(plain).collect();
+    }
     if shapes.is_empty() {
         return Err(fail(
             "no link has a <collision>: the hull could not touch anything".into(),
@@ -101,5 +122,26 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
         links,
         body,
         ballast,
+        visuals,
     })
+}
+
+/// Colour of what has none.
+const GREY: &str = "#9a9a9a";
+
+/// Colour of a visual: its own, or that of the material of its name.
+fn colour(robot: &urdf_rs::Robot, visual: &urdf_rs::Visual) -> String {
+    let Some(material) = &visual.material else {
+        return GREY.into();
+    };
+    let named = || {
+        let same = robot.materials.iter().find(|m| m.name == material.name);
+        same.and_then(|m| m.color.clone())
+    };
+    let Some(colour) = material.color.clone().or_else(named) else {
+        return GREY.into();
+    };
+    let byte = |v: f64| (255.0 * v.clamp(0.0, 1.0) + 0.5) as u8;
+    let [r, g, b, _] = colour.rgba.0;
+    format!("#{:02x}{:02x}{:02x}", byte(r), byte(g), byte(b))
 }

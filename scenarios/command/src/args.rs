@@ -6,6 +6,7 @@ use super::args_explain::ExplainArgs;
 use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
+use super::args_vehicle::VehicleArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
 use super::version;
 use clap::{Parser, Subcommand, ValueEnum};
@@ -119,6 +120,9 @@ pub enum Command {
     /// Score how well dye and source are found, on rendered pictures whose truth is known.
     #[command(long_about = super::args_vision::SCORE_VISION_ABOUT)]
     ScoreVision(ScoreVisionArgs),
+    /// Check a vehicle of your own and put it through trials.
+    #[command(long_about = super::args_vehicle::VEHICLE_ABOUT)]
+    Vehicle(VehicleArgs),
 }
 
 /// Arguments of `run`.

@@ -13,6 +13,7 @@ mod args_explain;
 mod args_key;
 mod args_picture;
 mod args_reproduce;
+mod args_vehicle;
 mod args_vision;
 mod cache;
 mod campaign;
@@ -37,6 +38,7 @@ mod statistics;
 mod stop;
 mod time_left;
 mod topics;
+mod vehicle;
 mod version;
 
 pub use args::{
@@ -51,6 +53,9 @@ pub use args_campaign::{
 pub use args_explain::ExplainArgs;
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
+pub use args_vehicle::{
+    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs,
+};
 pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;
 
@@ -97,6 +102,7 @@ fn dispatch(command: Command) -> Exit {
         Command::Picture(args) => picture::picture(&args),
         Command::Segment(args) => segment::segment(&args),
         Command::ScoreVision(args) => score_vision::score_vision(&args),
+        Command::Vehicle(args) => vehicle::vehicle(&args),
     }
 }
 

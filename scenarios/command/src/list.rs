@@ -3,8 +3,11 @@
 use super::args::{ListArgs, ListKind};
 use super::exit::Exit;
 use super::say;
+use super::vehicle::capabilities;
 use rheotaxis::registry::{Group, Registry, sections};
-use rheotaxis::scenario::{CATALOG, parse};
+use rheotaxis::scenario::{Beside, CATALOG, parse};
+use robots::vehicles::{Craft, Files, SHIPPED, VehicleSpec};
+use std::path::Path;
 
 /// Prints the sections asked for, or all of them.
 pub(super) fn list(args: &ListArgs) -> Exit {
@@ -22,8 +25,34 @@ pub(super) fn list(args: &ListArgs) -> Exit {
             print(entry.name, entry.what, entry.source);
         }
         say::line("");
+        if section.heading == "Vehicles and gantries" {
+            shipped();
+        }
     }
     Exit::Success
+}
+
+/// Prints the vehicles that come with the program as folders, and what each can do.
+fn shipped() {
+    say::line(
+        "Vehicles of folders, by `vehicle: Shipped(\"name\")`; your own by `vehicle: File(\"folder\")`",
+    );
+    let reader = Beside(Path::new(""));
+    for vehicle in SHIPPED {
+        let spec = VehicleSpec::Shipped(vehicle.folder.into());
+        let told = reader.vehicle(vehicle.folder, vehicle.file);
+        match (told, Craft::load(&spec, &reader)) {
+            (Ok(file), Ok(craft)) => {
+                print(vehicle.folder, &file.what, &file.source);
+                for line in capabilities(&craft.capabilities(0.0)) {
+                    say::line(format_args!("  {:<22} {line}", ""));
+                }
+            }
+            // A test makes sure that this does not happen.
+            (Err(error), _) | (_, Err(error)) => print(vehicle.folder, &error.to_string(), "-"),
+        }
+    }
+    say::line("");
 }
 
 fn kind(group: Group) -> ListKind {

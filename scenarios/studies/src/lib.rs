@@ -6,3 +6,4 @@ pub mod reproduce;
 pub mod score_vision;
 pub mod segment;
 pub mod statistics;
+pub mod trials;

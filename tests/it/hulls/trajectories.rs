@@ -81,7 +81,7 @@ fn lauv() -> Described {
     // Its autopilot needs fins: they are there, as small as can be.
     for drive in fins {
         if let DriveSpec::Fin(mut fin) = drive {
-            fin.area_m2 = world::ranges::Positive::new(1e-15);
+            fin.area_m2 = world::ranges::Positive::new(1e-10);
             fin.drag_0 = world::ranges::NonNegative::new(0.0);
             file.drives.push(DriveSpec::Fin(fin));
         }

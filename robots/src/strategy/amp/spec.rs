@@ -85,7 +85,9 @@ impl StrategyParams for AmpSpec {
     }
 
     fn wishes(&self) -> Wishes {
-        Wishes::mission(self.speed_m_s, self.vertical).after(&self.after_declaration)
+        Wishes::mission(self.speed_m_s, self.vertical)
+            .after(&self.after_declaration)
+            .waiting("track_out", self.track_out.waits())
     }
 }
 

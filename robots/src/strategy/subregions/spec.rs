@@ -79,6 +79,7 @@ impl StrategyParams for SubregionsSpec {
         let search = self.search.wishes().within("search");
         wishes.verticals.extend(search.verticals);
         wishes.speeds_m_s.extend(search.speeds_m_s);
+        wishes.waits.extend(search.waits);
         wishes
     }
 

@@ -105,7 +105,13 @@ impl StrategyParams for SubsumptionSpec {
     }
 
     fn wishes(&self) -> Wishes {
-        let wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        let mut wishes = Wishes::mission(self.speed_m_s, self.vertical);
+        for (k, layer) in self.layers.iter().enumerate() {
+            if let LayerSpec::Maintain(maintain) = layer {
+                let waits = maintain.track_out.as_ref().and_then(|t| t.waits());
+                wishes = wishes.waiting(&format!("layers[{k}].track_out"), waits);
+            }
+        }
         match &self.survey {
             Some(survey) => wishes.survey("survey", survey),
             None => wishes,

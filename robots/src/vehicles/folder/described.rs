@@ -5,24 +5,24 @@
 //! *Parameters:* [`VehicleFile`](super::VehicleFile).
 //!
 //! *Deviations:* a step is cut into so many equal ones that the fastest decay and the fastest swing of the hull stay
-//! within what a Runge-Kutta step follows ([`FASTEST`]), 64 at most. What is asked of the drives holds for the whole
+//! within what a Runge-Kutta step follows ([`FASTEST`]), 1024 at most. What is asked of the drives holds for the whole
 //! step; they follow it exactly.
 
 use super::blocks::{Damping, Step};
 use crate::handoff::{Capabilities, DriveCommand, MOST_DRIVES, Plant};
-use crate::vehicles::drives::Drive;
+use crate::vehicles::drives::{Drive, Kind};
 use crate::vehicles::dynamics::Equation;
 use crate::vehicles::urdf::Shell;
-use nalgebra::Vector3;
+use nalgebra::{Matrix6, Vector3, Vector6};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
-use world::physics::BodySpec;
+use world::physics::{BodySpec, Shape};
 
 /// Greatest product of a step and a rate of the hull. Runge-Kutta's fourth order is stable to 2.8; at 0.5 its error in
 /// amplitude is below 1e-4 of a swing.
 const FASTEST: f64 = 0.5;
 /// Most parts of a step.
-const MOST_PARTS: f64 = 64.0;
+const MOST_PARTS: f64 = 1024.0;
 
 /// Rates of a hull, 1/s, of which none is exceeded by an eigenvalue of its linearised motion.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +31,23 @@ pub(super) struct Rates {
     pub(super) rest: f64,
     /// Quadratic damping, for each unit of each velocity.
     pub(super) by_speed: [f64; 6],
+    /// Mass with added mass, FLU, and the inverse of its root.
+    pub(super) mass: [Matrix6<f64>; 2],
+}
+
+impl Rates {
+    /// Rate of the Coriolis forces: twice the norm of C(ν) between inverse roots of the mass, for they are quadratic.
+    fn coriolis(&self, nu: &Vector6<f64>) -> f64 {
+        let [mass, root] = &self.mass;
+        let momentum = mass * nu;
+        let l = momentum.fixed_rows::<3>(0).into_owned().cross_matrix();
+        let h = momentum.fixed_rows::<3>(3).into_owned().cross_matrix();
+        let mut C = Matrix6::zeros();
+        C.fixed_view_mut::<3, 3>(0, 3).copy_from(&l);
+        C.fixed_view_mut::<3, 3>(3, 0).copy_from(&l);
+        C.fixed_view_mut::<3, 3>(3, 3).copy_from(&h);
+        2.0 * (root * C * root).norm()
+    }
 }
 
 /// A vehicle of a folder, and the state of its drives; pose and velocity belong to the physics.
@@ -73,6 +90,43 @@ impl Described {
     #[must_use]
     pub fn capabilities(&self) -> Capabilities {
         self.capabilities
+    }
+
+    /// Mass by its URDF, kg.
+    #[must_use]
+    pub fn mass_kg(&self) -> f64 {
+        self.equation.body.mass.kg
+    }
+
+    /// Centres of gravity and of buoyancy, FLU, m.
+    #[must_use]
+    pub fn centres(&self) -> [Vector3<f64>; 2] {
+        let body = &self.equation.body;
+        [body.mass.r_G, body.r_B].map(|r| Vector3::new(r.x, -r.y, -r.z))
+    }
+
+    /// Shapes to look at, in body axes, with their colours (`#rrggbb`).
+    #[must_use]
+    pub fn visuals(&self) -> &[(Pose, Shape, String)] {
+        &self.shell.visuals
+    }
+
+    /// Where each drive acts and in which direction for a positive set-point, FLU: a moving mass along its way, a
+    /// buoyancy engine upwards.
+    pub fn acting(&self) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> {
+        self.drives.iter().map(|drive| {
+            let (r, way) = match &drive.kind {
+                Kind::Thruster(t) => (t.r, t.axis),
+                // A positive angle turns its leading edge against the lift.
+                Kind::Fin(fin) => (fin.r, -fin.lift),
+                Kind::Buoyancy(r, _) => (*r, -Vector3::z()),
+                Kind::Mass(way, _, _) => (Vector3::zeros(), *way),
+            };
+            (
+                Vector3::new(r.x, -r.y, -r.z),
+                Vector3::new(way.x, -way.y, -way.z),
+            )
+        })
     }
 
     /// Links of its drives, in the order of their set-points.
@@ -123,7 +177,7 @@ impl Described {
     #[must_use]
     pub fn energy_J(&self, truth: &Truth, density_kg_m3: f64) -> f64 {
         let (v, w) = (truth.v_WB_B, truth.w_WB_B);
-        let nu = nalgebra::Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+        let nu = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
         let body = &self.equation.body;
         let flu = |r: Vector3<f64>| Vector3::new(r.x, -r.y, -r.z);
         let height = |r| truth.pose.point(flu(r)).z;
@@ -173,9 +227,9 @@ impl Described {
         let v = truth.v_WB_B - truth.pose.R_WB.inverse() * water.velocity;
         let w = truth.w_WB_B;
         let by_speed = &self.rates.by_speed;
-        // Its own turning is a rate, too: velocities turn in its axes.
+        let nu = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
         let fast = self.rates.rest
-            + w.norm()
+            + self.rates.coriolis(&nu)
             + by_speed[0] * v.x.abs()
             + by_speed[1] * v.y.abs()
             + by_speed[2] * v.z.abs()

@@ -61,9 +61,9 @@ pub enum Axes {
 /// A matrix of six by six.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Block {
-    /// Only a diagonal.
+    /// Only a diagonal: six numbers.
     Diagonal(Row),
-    /// Six rows.
+    /// Six rows of six numbers, each in parentheses.
     Full((Row, Row, Row, Row, Row, Row)),
 }
 

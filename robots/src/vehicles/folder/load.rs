@@ -398,7 +398,9 @@ fn rates(equation: &Equation, damping: &Damping) -> Rates {
         *rate = 2.0 * size(column);
     }
     by_speed[0] += size(damping.forward);
+    let half_turn = turned(&root);
     Rates {
+        mass: [equation.whole_mass_flu(), half_turn],
         rest: swing + size(damping.linear),
         by_speed,
     }

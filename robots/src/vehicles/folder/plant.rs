@@ -219,7 +219,7 @@ pub(super) fn doubts(
             }
             let moments = |k: usize| {
                 plant.drives.iter().any(|d| match &d.does {
-                    Does::Lifts(arm) => arm[k].abs() > 1e-9,
+                    Does::Lifts(arm) => arm[k].abs() > 1e-12,
                     _ => false,
                 })
             };

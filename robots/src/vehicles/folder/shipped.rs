@@ -56,12 +56,12 @@ impl Files for BuiltIn<'_> {
     }
 
     fn bytes(&self, name: &Path, _: u64) -> Result<Vec<u8>, String> {
-        let wanted = Path::new(self.shipped.folder).join(self.shipped.urdf.0);
-        if name == wanted {
-            Ok(self.shipped.urdf.1.into())
-        } else {
-            Err("there is no such file".into())
-        }
+        let folder = Path::new(self.shipped.folder);
+        [("vehicle.ron", self.shipped.file), self.shipped.urdf]
+            .into_iter()
+            .find(|(file, _)| name == folder.join(file))
+            .map(|(_, text)| text.into())
+            .ok_or_else(|| "there is no such file".into())
     }
 
     fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {

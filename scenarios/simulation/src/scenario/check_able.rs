@@ -104,6 +104,55 @@ pub(super) fn speeds(
     }
 }
 
+/// What a strategy asks of a vehicle that it cannot do.
+pub(super) fn capabilities(i: usize, robot: &RobotSpec, vehicle: &Craft, found: &mut Vec<Found>) {
+    let able = vehicle.capabilities(robot.guidance.turn_radius_m.get());
+    let strategy = robot.strategy.name();
+    let wishes = robot.strategy.wishes();
+    if let Some((field, _)) = wishes.verticals.first() {
+        let path = format!("robots[{i}].strategy.{field}");
+        if !able.dives {
+            let problem = format!(
+                "{strategy} commands a height, and this vehicle stays on the surface: what it carries is as deep as its \
+                 URDF says"
+            );
+            found.push(Found::warning(path, problem));
+        } else if !able.holds_depth {
+            let problem = format!(
+                "{strategy} commands a height, and this vehicle holds none: it goes up and down between the depths of \
+                 its autopilot"
+            );
+            found.push(
+                Found::error(path, problem).hint("a strategy without a height, such as Route"),
+            );
+        }
+    }
+    for field in &wishes.waits {
+        if !able.hovers {
+            let problem = format!(
+                "{strategy} waits at a place, and this vehicle cannot hover: its least speed is {:.2} m/s",
+                able.least_speed_m_s
+            );
+            found.push(
+                Found::error(format!("robots[{i}].strategy.{field}"), problem)
+                    .hint("`rheotaxis list vehicles` names vehicles that hover"),
+            );
+        }
+    }
+    for (field, m_s) in wishes.speeds_m_s {
+        if m_s < able.least_speed_m_s {
+            let problem = format!(
+                "{m_s} m/s is slower than this vehicle can be steered at, {:.2} m/s",
+                able.least_speed_m_s
+            );
+            found.push(Found::warning(
+                format!("robots[{i}].strategy.{field}"),
+                problem,
+            ));
+        }
+    }
+}
+
 /// Whether the strategies can make as many declarations as the success rule asks for.
 pub(super) fn declarations(scenario: &Scenario, found: &mut Vec<Found>) {
     let SuccessSpec::AllDeclared(wanted) = &scenario.success else {

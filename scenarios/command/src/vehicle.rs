@@ -1,0 +1,243 @@
+//! `rheotaxis vehicle`: checks a vehicle of a folder, draws it, and runs its trials.
+
+use super::args_vehicle::{
+    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs,
+};
+use super::exit::Exit;
+use super::say;
+use output::files::write_whole;
+use rheotaxis::scenario::Beside;
+use robots::handoff::{Capabilities, Does};
+use robots::vehicles::{Craft, Described, RemusSpec, SHIPPED, Shipped, VehicleSpec};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+use studies::trials::{Looks, Trial, drawn, figure, trials};
+
+/// Runs a subcommand.
+pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
+    let done = match &args.command {
+        VehicleCommand::Check(args) => check(args),
+        VehicleCommand::Trials(args) => on_trial(args),
+        VehicleCommand::Init(args) => init(args),
+    };
+    match done {
+        Ok(()) => Exit::Success,
+        Err((problem, hint)) => {
+            say::error(problem, hint.as_deref());
+            Exit::Error
+        }
+    }
+}
+
+/// What is wrong, and what would help.
+type Wrong = (String, Option<String>);
+
+fn plainly(problem: impl ToString) -> Wrong {
+    (problem.to_string(), None)
+}
+
+/// A folder of the user's own, or a vehicle that comes with the program.
+fn spec(folder: &Path) -> Result<VehicleSpec, Wrong> {
+    let name = folder.to_string_lossy().trim_end_matches('/').to_string();
+    if folder.is_dir() {
+        return Ok(VehicleSpec::File(name));
+    }
+    if name == "remus100" {
+        return Ok(VehicleSpec::Remus100(RemusSpec::default()));
+    }
+    if Shipped::named(&name).is_some() {
+        return Ok(VehicleSpec::Shipped(name));
+    }
+    Err((
+        format!("{name}: there is no such folder, and no such vehicle comes with the program"),
+        Some(format!("vehicles that come with the program: {}", names())),
+    ))
+}
+
+fn names() -> String {
+    let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
+    names.join(", ")
+}
+
+fn loaded(folder: &Path) -> Result<Craft, Wrong> {
+    Craft::load(&spec(folder)?, &Beside(Path::new(""))).map_err(plainly)
+}
+
+/// A name for files, from a folder.
+fn stem(folder: &Path) -> String {
+    folder
+        .file_name()
+        .map_or("vehicle".into(), |n| n.to_string_lossy().into_owned())
+}
+
+fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
+    let craft = loaded(&args.folder)?;
+    for doubt in craft.told() {
+        say::line(format_args!("doubt: {doubt}"));
+    }
+    let Craft::Described(vehicle) = &craft else {
+        say::line("the REMUS 100 of this program: its numbers are in robots/src/vehicles/remus100");
+        return Ok(());
+    };
+    print(vehicle);
+    let out =
+        (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
+    write_whole(&out, drawn(&looks(vehicle)).as_bytes()).map_err(plainly)?;
+    say::line(out.display());
+    let n = craft.told().len();
+    say::line(match n {
+        0 => "no doubts".to_string(),
+        1 => "1 doubt".to_string(),
+        n => format!("{n} doubts"),
+    });
+    Ok(())
+}
+
+/// What follows from its file, in numbers.
+fn print(vehicle: &Described) {
+    let plant = vehicle.plant();
+    let able = vehicle.capabilities();
+    let [rigid, whole] = [vehicle.mass_kg(), plant.mass[(0, 0)]];
+    say::line(vehicle.name());
+    say::line(format_args!(
+        "  mass                    {rigid:.3} kg, {whole:.3} kg with the water that surges along"
+    ));
+    say::line(format_args!(
+        "  weight less buoyancy    {:.2} N in water of 1025 kg/m3, or of the density of its file",
+        plant.heavy_n
+    ));
+    say::line(format_args!(
+        "  righting moment         {:.2} N m at 1 rad; period in roll {}, in pitch {}",
+        plant.righting_n_m,
+        period(plant.righting_n_m, plant.mass[(3, 3)]),
+        period(plant.righting_n_m, plant.mass[(4, 4)])
+    ));
+    for line in capabilities(&able) {
+        say::line(format_args!("  {line}"));
+    }
+    for (k, (drive, link)) in plant.drives.iter().zip(vehicle.drives()).enumerate() {
+        let [least, most] = drive.limits;
+        let does = match &drive.does {
+            Does::Pushes(_, table) => {
+                let [astern, ahead] = table.thrusts_n();
+                format!("thruster, {astern:.1} to {ahead:.1} N at inputs from {least} to {most}")
+            }
+            Does::Lifts(_) => format!(
+                "fin, {:.1} to {:.1} degrees",
+                least.to_degrees(),
+                most.to_degrees()
+            ),
+            Does::Swells(_) => format!("buoyancy engine, {least} to {most} m3"),
+            Does::Shifts(_, kg) => format!("moving mass of {kg} kg, {least} to {most} m"),
+        };
+        say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
+    }
+}
+
+fn period(righting: f64, inertia: f64) -> String {
+    if righting <= 0.0 {
+        return "none".into();
+    }
+    format!(
+        "{:.2} s",
+        std::f64::consts::TAU * (inertia / righting).sqrt()
+    )
+}
+
+/// What a vehicle can do, a line each.
+pub(super) fn capabilities(able: &Capabilities) -> [String; 3] {
+    let yes = |b: bool| if b { "yes" } else { "no" };
+    [
+        format!(
+            "speed through the water {:.2} m/s at most, {:.2} m/s at least",
+            able.top_speed_m_s, able.least_speed_m_s
+        ),
+        format!("turning radius          {:.1} m", able.turning_radius_m),
+        format!(
+            "hovers {}, goes sideways {}, dives {}, holds a depth {}",
+            yes(able.hovers),
+            yes(able.sideways),
+            yes(able.dives),
+            yes(able.holds_depth)
+        ),
+    ]
+}
+
+fn looks(vehicle: &Described) -> Looks {
+    Looks {
+        name: vehicle.name().to_string(),
+        shapes: vehicle.visuals().to_vec(),
+        centres: vehicle.centres(),
+        drives: (vehicle.acting().enumerate())
+            .map(|(k, (at, way))| (at, way, k + 1))
+            .collect(),
+    }
+}
+
+fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
+    let craft = loaded(&args.folder)?;
+    let name = match &craft {
+        Craft::Described(vehicle) => vehicle.name().to_string(),
+        _ => "REMUS 100".to_string(),
+    };
+    say::line(format_args!(
+        "{name}: trials in water of 1025 kg/m3, steps of 0.02 s"
+    ));
+    let all = trials(&craft);
+    for trial in &all {
+        say::line(trial.name);
+        for found in &trial.found {
+            let value = found.value.map_or("not reached".to_string(), |v| {
+                format!("{v:.3} {}", found.unit)
+            });
+            say::line(format_args!("  {:<42} {value}", found.what));
+        }
+    }
+    std::fs::create_dir_all(&args.out)
+        .map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
+    for (file, text) in [
+        ("trials.csv", table(&all)),
+        ("trials.svg", figure(&name, &all)),
+    ] {
+        let path = args.out.join(file);
+        write_whole(&path, text.as_bytes()).map_err(plainly)?;
+        say::line(path.display());
+    }
+    Ok(())
+}
+
+fn table(trials: &[Trial]) -> String {
+    let mut text = String::from("trial,what,value,unit\n");
+    for trial in trials {
+        for found in &trial.found {
+            let value = found.value.map_or(String::new(), |v| v.to_string());
+            let what = found.what.replace(',', ";");
+            writeln!(text, "{},{what},{value},{}", trial.name, found.unit)
+                .expect("writing to a String succeeds");
+        }
+    }
+    text
+}
+
+fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
+    let Some(shipped) = Shipped::named(&args.name) else {
+        return Err((
+            format!("no vehicle \"{}\" comes with the program", args.name),
+            Some(format!("there are {}", names())),
+        ));
+    };
+    if args.folder.exists() {
+        return Err((
+            format!("{} exists already", args.folder.display()),
+            Some("name a new folder".into()),
+        ));
+    }
+    std::fs::create_dir_all(&args.folder)
+        .map_err(|e| plainly(format!("{}: {e}", args.folder.display())))?;
+    for (name, text) in [("vehicle.ron", shipped.file), shipped.urdf] {
+        let path = args.folder.join(name);
+        write_whole(&path, text.as_bytes()).map_err(plainly)?;
+        say::line(path.display());
+    }
+    Ok(())
+}

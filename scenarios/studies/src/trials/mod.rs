@@ -1,0 +1,10 @@
+//! Trials of a vehicle in open water: what its builder measures before he trusts it with a mission.
+
+mod figure;
+mod hull;
+mod manoeuvres;
+mod sail;
+
+pub use figure::figure;
+pub use hull::{Looks, drawn};
+pub use manoeuvres::{Curve, Measured, Trial, trials};
