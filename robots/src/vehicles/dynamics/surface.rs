@@ -16,7 +16,7 @@ use world::physics::Shape;
 /// Slices along a spheroid.
 const SLICES: usize = 10;
 /// Boxes along the longest side of a hull.
-const BOXES: usize = 12;
+const BOXES: usize = 20;
 
 /// A hull's shape where it comes out of the water.
 #[derive(Clone, Debug, PartialEq)]

@@ -34,6 +34,7 @@ pub(super) fn of(
     damping: &Damping,
     drives: &[Drive],
     pilot: &PilotSpec,
+    floats: bool,
 ) -> Plant {
     let body = &equation.body;
     let flu = |r: &Vector3<f64>| Vector3::new(r.x, -r.y, -r.z);
@@ -53,7 +54,8 @@ pub(super) fn of(
         mass: equation.whole_mass_flu(),
         damping: [&damping.linear, &damping.quadratic, &damping.forward].map(turned),
         righting_n_m: (body.mass.r_G.z * weight - body.r_B.z * buoyancy).max(0.0),
-        heavy_n: weight - buoyancy,
+        // What floats carries itself at its draught.
+        heavy_n: if floats { 0.0 } else { weight - buoyancy },
         volume_m3: body.volume_m3,
         drives: each.collect(),
         pushes: [false; 6],

@@ -140,7 +140,7 @@ fn speed(craft: &Craft, able: &Capabilities) -> Trial {
     let last = &all[all.len() - (10.0 / STEP_S) as usize..];
     let top = last.iter().sum::<f64>() / last.len() as f64;
     let risen = all.iter().position(|v| *v >= 0.632 * top);
-    let (_, pitch) = sailing.truth.pose.roll_pitch();
+    let pitch = -sailing.truth.pose.roll_pitch().1;
     Trial {
         name: "speed",
         found: vec![
@@ -423,7 +423,7 @@ fn sawtooth(craft: &Craft, able: &Capabilities) -> Trial {
             points.push([p.y, p.z]);
         }
         let v = sailing.truth.pose.R_WB * sailing.truth.v_WB_B;
-        let (_, pitch) = sailing.truth.pose.roll_pitch();
+        let pitch = -sailing.truth.pose.roll_pitch().1;
         // Away from the turns.
         if v.z.abs() > 0.03 && sailing.t_s() > 60.0 {
             legs[usize::from(v.z > 0.0)].push((v.xy().norm(), v.z, pitch.to_degrees()));

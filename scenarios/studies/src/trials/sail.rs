@@ -84,7 +84,7 @@ impl Sailing {
 
     /// What navigation without error says.
     pub(super) fn estimate(&self) -> Estimate {
-        let (roll, pitch) = self.truth.pose.roll_pitch();
+        let (roll, pitch_down) = self.truth.pose.roll_pitch();
         let p = self.truth.pose.p_WB;
         Estimate {
             t_s: self.t_s(),
@@ -94,7 +94,7 @@ impl Sailing {
             attitude: Attitude {
                 heading: self.truth.pose.heading(),
                 roll_rad: roll,
-                pitch_rad: pitch,
+                pitch_rad: -pitch_down,
                 rates_rad_s: self.truth.w_WB_B,
             },
             v_ground_body: self.truth.v_WB_B,
