@@ -3,6 +3,7 @@
 mod craft;
 mod drives;
 mod dynamics;
+mod extensions;
 mod files;
 mod folder;
 mod gantry;

@@ -2,6 +2,9 @@
 
 mod blocks;
 mod described;
+mod doubts;
+mod fitted;
+mod given;
 mod hydrodynamics_spec;
 mod load;
 mod plant;

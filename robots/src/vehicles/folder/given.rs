@@ -1,0 +1,114 @@
+//! The hydrodynamic numbers of a vehicle: those of `vehicle.ron`, and those of its URDF's extensions.
+//!
+//! *Source:* see `extensions`.
+//!
+//! *Parameters:* [`HydrodynamicsSpec`].
+//!
+//! *Deviations:* what `vehicle.ron` gives counts before what the URDF gives.
+
+use super::blocks::Damping;
+use super::hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec};
+use crate::error::RobotError;
+use crate::vehicles::extensions;
+use crate::vehicles::urdf_parts::UrdfText;
+use nalgebra::{Matrix6, Vector3};
+
+/// FLU to FRD and back.
+pub(super) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
+    let sign = |k: usize| if k == 0 || k == 3 { 1.0 } else { -1.0 };
+    Matrix6::from_fn(|i, j| sign(i) * sign(j) * block[(i, j)])
+}
+
+/// A block in FRD.
+fn matrix(block: &Block, axes: Axes) -> Matrix6<f64> {
+    let given = match block {
+        Block::Diagonal(d) => Matrix6::from_diagonal(&row(d)),
+        Block::Full((a, b, c, d, e, f)) => {
+            Matrix6::from_columns(&[a, b, c, d, e, f].map(row)).transpose()
+        }
+    };
+    match axes {
+        Axes::Flu => turned(&given),
+        Axes::Frd => given,
+    }
+}
+
+fn row((a, b, c, d, e, f): &super::Row) -> nalgebra::Vector6<f64> {
+    nalgebra::Vector6::from([a, b, c, d, e, f].map(|v| v.get()))
+}
+
+/// Blocks in FRD, from `vehicle.ron` and, where that asks for it, from the URDF's extensions.
+pub(super) struct Given {
+    pub(super) added: Option<Matrix6<f64>>,
+    pub(super) damping: Damping,
+    pub(super) volume_m3: Option<f64>,
+    /// FLU, m.
+    pub(super) centre_of_buoyancy: Option<Vector3<f64>>,
+    pub(super) gravity_m_s2: f64,
+    pub(super) floats: bool,
+}
+
+pub(super) fn given(
+    spec: &HydrodynamicsSpec,
+    urdf: &UrdfText,
+    kg: f64,
+    told: &mut Vec<String>,
+) -> Result<Given, RobotError> {
+    let block = |b: &Option<Block>| b.as_ref().map(|b| matrix(b, spec.axes));
+    let mut given = Given {
+        added: block(&spec.added_mass),
+        damping: Damping {
+            linear: Matrix6::zeros(),
+            quadratic: Matrix6::zeros(),
+            forward: Matrix6::zeros(),
+            density_kg_m3: spec.density_kg_m3.get(),
+            wet: 1.0,
+        },
+        volume_m3: spec.volume_m3.map(|v| v.get()),
+        centre_of_buoyancy: spec
+            .centre_of_buoyancy_m
+            .map(|(x, y, z)| Vector3::new(x.get(), y.get(), z.get())),
+        gravity_m_s2: spec.gravity_m_s2.get(),
+        floats: spec.floats,
+    };
+    let mut damping = [
+        block(&spec.linear_damping),
+        block(&spec.quadratic_damping),
+        block(&spec.forward_damping),
+    ];
+    let extension = extensions::read(&urdf.text).map_err(|problem| urdf.fault(problem))?;
+    match (spec.from_urdf, extension) {
+        (true, None) => {
+            return Err(urdf.fault(
+                "hydrodynamics.from_urdf: it has no <hydrodynamic_model> of uuv_simulator and no Hydrodynamics plugin \
+                 of gz-sim"
+                    .into(),
+            ));
+        }
+        (true, Some(found)) => {
+            told.extend(found.doubts);
+            let from_urdf = [found.linear, found.quadratic, found.forward];
+            for (block, found) in damping.iter_mut().zip(from_urdf) {
+                block.get_or_insert_with(|| turned(&found));
+            }
+            given.added.get_or_insert_with(|| turned(&found.added_mass));
+            if let Some(density) = found.density_kg_m3 {
+                given.damping.density_kg_m3 = density;
+            }
+            let neutral = found.neutral.then(|| kg / given.damping.density_kg_m3);
+            given.volume_m3 = given.volume_m3.or(found.volume_m3).or(neutral);
+            given.centre_of_buoyancy = given.centre_of_buoyancy.or(found.centre_of_buoyancy_m);
+        }
+        (false, Some(found)) => told.push(format!(
+            "the URDF has hydrodynamics for {}, which are not used: `from_urdf: true` takes them",
+            found.source
+        )),
+        (false, None) => {}
+    }
+    [
+        given.damping.linear,
+        given.damping.quadratic,
+        given.damping.forward,
+    ] = damping.map(|block| block.unwrap_or_else(Matrix6::zeros));
+    Ok(given)
+}
