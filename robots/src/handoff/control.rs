@@ -41,6 +41,18 @@ pub struct Plant {
     pub pilot: PilotSpec,
 }
 
+impl Plant {
+    /// C(ν)ν of a velocity through the water and an angular velocity.
+    #[must_use]
+    pub fn coriolis(&self, v: &Vector3<f64>, w: &Vector3<f64>) -> Vector6<f64> {
+        let momentum = self.mass * Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
+        let l = momentum.fixed_rows::<3>(0).into_owned();
+        let h = momentum.fixed_rows::<3>(3).into_owned();
+        let (force, moment) = (w.cross(&l), v.cross(&l) + w.cross(&h));
+        Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z)
+    }
+}
+
 /// A drive, as an autopilot knows it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlantDrive {

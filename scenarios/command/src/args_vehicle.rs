@@ -46,7 +46,7 @@ pub struct VehicleCheckArgs {
     /// Folder of the vehicle, or the name of one that comes with the program.
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// Where to draw it [default: FOLDER.svg in the present folder].
+    /// Where to draw it, as SVG or PNG by its ending [default: FOLDER.svg in the present folder].
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
 }
@@ -57,7 +57,7 @@ pub struct VehicleTrialsArgs {
     /// Folder of the vehicle, the name of one that comes with the program, or `remus100`.
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// Folder for `trials.csv` and `trials.svg`.
+    /// Folder for `trials.csv`, `trials.svg` and `trials.png`.
     #[arg(long, value_name = "DIR", default_value = "trials")]
     pub out: PathBuf,
 }

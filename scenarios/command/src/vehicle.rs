@@ -5,6 +5,7 @@ use super::args_vehicle::{
 };
 use super::exit::Exit;
 use super::say;
+use output::charts::png;
 use output::files::write_whole;
 use rheotaxis::scenario::Beside;
 use robots::handoff::{Capabilities, Does};
@@ -82,7 +83,12 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
     print(vehicle);
     let out =
         (args.out.clone()).unwrap_or_else(|| PathBuf::from(format!("{}.svg", stem(&args.folder))));
-    write_whole(&out, drawn(&looks(vehicle)).as_bytes()).map_err(plainly)?;
+    let svg = drawn(&looks(vehicle));
+    if out.extension().is_some_and(|e| e == "png") {
+        write_whole(&out, &png(&svg).map_err(plainly)?).map_err(plainly)?;
+    } else {
+        write_whole(&out, svg.as_bytes()).map_err(plainly)?;
+    }
     say::line(out.display());
     let n = craft.told().len();
     say::line(match n {
@@ -195,12 +201,14 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
     }
     std::fs::create_dir_all(&args.out)
         .map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
-    for (file, text) in [
-        ("trials.csv", table(&all)),
-        ("trials.svg", figure(&name, &all)),
+    let svg = figure(&name, &all);
+    for (file, bytes) in [
+        ("trials.csv", table(&all).into_bytes()),
+        ("trials.png", png(&svg).map_err(plainly)?),
+        ("trials.svg", svg.into_bytes()),
     ] {
         let path = args.out.join(file);
-        write_whole(&path, text.as_bytes()).map_err(plainly)?;
+        write_whole(&path, &bytes).map_err(plainly)?;
         say::line(path.display());
     }
     Ok(())

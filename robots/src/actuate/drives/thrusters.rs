@@ -9,8 +9,10 @@
 //! heading: r_d = clamp(ω e_ψ, ±r_max)     depth: w_d = clamp(ω e_z, ±w_max)
 //! a_d = (ν_d − ν)/T + ∫(ν_d − ν)/(4 T²)   in surge, sway, heave and yaw (T = 1/(2 ω) in yaw)
 //! roll, pitch: a_d = −4 ω² φ − 4 ω p      where thrusters can
-//! τ = M a_d + D ν_w + D_q |ν_w|∘ν_w + |u| D_u ν_w − weight + buoyancy,   ν_w = ν_d through the water
+//! τ = M a_d + C(ν) ν + D ν_w + D_q |ν_w|∘ν_w + |u| D_u ν_w − weight + buoyancy,   ν_w = ν_d through the water
 //! ```
+//!
+//! C(ν) ν, of the velocities as they are believed, holds against the moment of Munk, which turns a short hull over.
 //!
 //! *Deviations:* velocities of a [`MoveSetpoint`] are over ground, those of a [`Setpoint`] ahead through the water; the
 //! drag is that of the water's speed as it is believed. Without a flow estimate the water counts as at rest, and the
@@ -216,7 +218,8 @@ impl ThrusterPilot {
         let [linear, quadratic, forward] = &self.plant.damping;
         let drag = linear * nu + quadratic * squared + forward * nu * nu.x.abs();
         let carried = back * Vector3::new(0.0, 0.0, self.plant.heavy_n);
-        let mut tau = self.plant.mass * acceleration + drag;
+        let now = e.v_ground_body - back * Vector3::new(water.x, water.y, 0.0);
+        let mut tau = self.plant.mass * acceleration + drag + self.plant.coriolis(&now, &rates);
         for k in 0..3 {
             tau[k] += carried[k];
         }

@@ -106,12 +106,9 @@ fn turning(plant: &Plant, u: f64, yaw: &Vector6<f64>) -> f64 {
 
 /// Force on a hull that moves steadily, with fins at zero.
 fn free(plant: &Plant, nu: &Vector6<f64>) -> Vector6<f64> {
-    let momentum = plant.mass * nu;
     let part = |a: &Vector6<f64>, k: usize| Vector3::new(a[k], a[k + 1], a[k + 2]);
-    let (v, w) = (part(nu, 0), part(nu, 3));
-    let (l, h) = (part(&momentum, 0), part(&momentum, 3));
-    let (force, moment) = (w.cross(&l), v.cross(&l) + w.cross(&h));
-    let coriolis = Vector6::new(force.x, force.y, force.z, moment.x, moment.y, moment.z);
+    let v = part(nu, 0);
+    let coriolis = plant.coriolis(&v, &part(nu, 3));
     let [linear, quadratic, forward] = &plant.damping;
     let squared = nu.map(|v| v * v.abs());
     let mut all = -coriolis - linear * nu - quadratic * squared - forward * nu * nu.x.abs();

@@ -5,7 +5,7 @@ use super::schema::{RobotSpec, Scenario};
 use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
-use robots::handoff::TurnLimit;
+use robots::handoff::{TurnLimit, Vertical};
 use robots::vehicles::Craft;
 use world::area::Area;
 use world::fields::Flow;
@@ -109,7 +109,9 @@ pub(super) fn capabilities(i: usize, robot: &RobotSpec, vehicle: &Craft, found: 
     let able = vehicle.capabilities(robot.guidance.turn_radius_m.get());
     let strategy = robot.strategy.name();
     let wishes = robot.strategy.wishes();
-    if let Some((field, _)) = wishes.verticals.first() {
+    // A depth of zero is the surface itself.
+    let asked = |v: &Vertical| *v != Vertical::Depth(0.0);
+    if let Some((field, _)) = wishes.verticals.iter().find(|(_, v)| asked(v)) {
         let path = format!("robots[{i}].strategy.{field}");
         if !able.dives {
             let problem = format!(
