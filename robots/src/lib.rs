@@ -10,6 +10,7 @@ pub mod behave;
 pub mod declare;
 pub mod error;
 pub mod estimate;
+pub mod faults;
 pub mod guide;
 pub mod handoff;
 pub mod map;

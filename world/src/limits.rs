@@ -224,6 +224,22 @@ limits! {
     vehicle_m_s: 0.0, 15.0, "m/s";
     /// Error of a position, m.
     error_m: 0.0, 1e5, "m";
+    /// What a faulty instrument reads too much of a length, m.
+    bias_m: -1e5, 1e5, "m";
+    /// The same, growing.
+    drift_m_s: -100.0, 100.0, "m/s";
+    /// What a faulty compass turns a heading by.
+    bias_deg: -180.0, 180.0, "degrees";
+    /// The same, growing.
+    drift_deg_s: -10.0, 10.0, "degrees/s";
+    /// What a faulty instrument adds to a velocity in each second.
+    drift_m_s2: -1.0, 1.0, "m/s2";
+    /// What a faulty fluorometer reads too much.
+    bias_ug_l: -1e6, 1e6, "ug/L";
+    /// The same, growing.
+    drift_ug_l_s: -1e4, 1e4, "ug/(L s)";
+    /// What a faulty CTD adds to the density in each second.
+    drift_kg_m3_s: -10.0, 10.0, "kg/(m3 s)";
     /// Range of a sonar, m.
     sonar_m: 0.01, 5000.0, "m";
     /// Turning radius of a vehicle, m.

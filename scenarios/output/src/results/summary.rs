@@ -161,6 +161,9 @@ pub struct AbnormalSummary {
     pub robot: String,
     /// The kind of event.
     pub what: Abnormality,
+    /// What failed and how, if it is a fault of the scenario.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<String>,
     /// Beginning, s of mission time.
     pub t_s: f64,
     /// Duration, s.
@@ -180,6 +183,7 @@ impl From<&Abnormal> for AbnormalSummary {
         Self {
             robot: a.robot.clone(),
             what: a.what,
+            fault: a.fault.clone(),
             t_s: a.t_s,
             lasted_s: a.lasted_s,
             over: a.over,

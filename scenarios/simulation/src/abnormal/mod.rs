@@ -3,7 +3,12 @@
 //!
 //! A system compares the state with what it should be in every tick and keeps an event for each time something went
 //! wrong, with its place and duration. Neither the vehicle nor the digest depends on it. For another kind of event
-//! add a line to [`Abnormality`] and to the system `watch` of the searcher.
+//! add a line to [`Abnormality`] and to the system `watch` of the searcher. The faults that a scenario injects are told
+//! beside them, from their list.
+
+mod faults;
+
+pub(crate) use faults::FaultLog;
 
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector3;
@@ -33,11 +38,13 @@ pub enum Abnormality {
     NoFlow,
     /// It touched the bed or an obstacle.
     Touched,
+    /// A fault of the scenario began.
+    Fault,
 }
 
 impl Abnormality {
-    /// All of them.
-    pub const ALL: [Self; 5] = [
+    /// Those that are watched for; faults are known beforehand.
+    pub const WATCHED: [Self; 5] = [
         Self::LeftArea,
         Self::NoBottomLock,
         Self::NoAltitude,
@@ -54,13 +61,14 @@ impl Abnormality {
             Self::NoAltitude => "no altitude",
             Self::NoFlow => "no flow",
             Self::Touched => "touched the bed or an obstacle",
+            Self::Fault => "fault",
         }
     }
 
     /// How long it must last to count, s.
     fn patience_s(self) -> f64 {
         match self {
-            Self::LeftArea | Self::Touched => 0.0,
+            Self::LeftArea | Self::Touched | Self::Fault => 0.0,
             Self::NoBottomLock | Self::NoAltitude | Self::NoFlow => BLIND_S,
         }
     }
@@ -73,6 +81,8 @@ pub struct Abnormal {
     pub robot: String,
     /// The kind of event.
     pub what: Abnormality,
+    /// What failed and how, if it is a fault.
+    pub fault: Option<String>,
     /// Beginning, s of mission time.
     pub t_s: f64,
     /// Duration so far, s.
@@ -84,6 +94,15 @@ pub struct Abnormal {
 }
 
 impl Abnormal {
+    /// What is wrong, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match &self.fault {
+            Some(fault) => format!("{}: {fault}", self.what.words()),
+            None => self.what.words().to_string(),
+        }
+    }
+
     /// On one line, for people.
     #[must_use]
     pub fn line(&self) -> String {
@@ -95,7 +114,7 @@ impl Abnormal {
         };
         format!(
             "{} at {:.1} s, {:.1} m E, {:.1} m N, {:.1} m deep{lasted}",
-            self.what.words(),
+            self.words(),
             self.t_s,
             p.x,
             p.y,
@@ -117,7 +136,7 @@ struct Episode {
 
 /// The present events of a robot.
 #[derive(Component, Clone, Debug, Default)]
-pub struct Lookout([Episode; Abnormality::ALL.len()]);
+pub struct Lookout([Episode; Abnormality::WATCHED.len()]);
 
 impl Lookout {
     /// Notes whether something is wrong now; `None` if this tick has no reading.
@@ -145,6 +164,7 @@ impl Lookout {
                     events.push(Abnormal {
                         robot: robot.to_string(),
                         what,
+                        fault: None,
                         t_s: began_s,
                         lasted_s,
                         over: false,

@@ -1,7 +1,7 @@
 //! Brings robots into a run.
 
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
-use crate::abnormal::Lookout;
+use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
@@ -14,6 +14,7 @@ use nalgebra::Vector2;
 use robots::actuate::Pilot;
 use robots::error::RobotError;
 use robots::estimate::{Estimator, Start};
+use robots::faults::{DriveFaults, SensorFaults, mistakes};
 use robots::guide::Guidance;
 use robots::handoff::{
     ActuatorCommand, Behaviour, Command, Decision, Goal, GuidanceStatus, Manoeuvre, Readings,
@@ -72,6 +73,7 @@ impl Apparatus for RobotSpec {
                     system::digest_robots.before(digest_plume),
                     system::keep_score,
                     system::watch,
+                    system::tell_faults,
                     system::keep_log,
                 )
                     .chain(),
@@ -111,6 +113,12 @@ fn spawn(
         spec.start.speed_m_s.get(),
     );
     let still = vehicle.idle();
+    if let Some(mistake) = mistakes(&spec.faults, &spec.sensors, Some(&still)).first() {
+        return Err(RobotError::Invalid {
+            field: mistake.field.clone(),
+            problem: mistake.problem.clone(),
+        });
+    }
     let fix_noise_m = spec.start.fix_noise_m.get();
     let mut rng = Stream::new(seed, id, "launch fix");
     let fix = p_W.xy() + Vector2::from_fn(|_, _| rng.normal()) * fix_noise_m;
@@ -164,6 +172,11 @@ fn spawn(
             still,
             Log::default(),
             Lookout::default(),
+        ),
+        (
+            SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
+            DriveFaults::new(&spec.faults, dt_s),
+            FaultLog::new(&spec.faults, dt_s),
         ),
     ));
     if let Some(mapper) = mapper {

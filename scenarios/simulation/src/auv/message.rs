@@ -82,9 +82,9 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(
             json!({"region": k, "region_name": region_name(k), "region_m": corners}),
         );
     }
-    let wrong: Vec<&str> = (abnormal.iter())
+    let wrong: Vec<String> = (abnormal.iter())
         .filter(|a| a.robot == r.id && !a.over)
-        .map(|a| a.what.words())
+        .map(Abnormal::words)
         .collect();
     if !wrong.is_empty() {
         doing = merged(doing, json!({ "abnormal": wrong }));

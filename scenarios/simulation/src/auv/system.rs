@@ -1,7 +1,7 @@
 //! The systems of robots: each passes components and the ocean to plain state machines.
 
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching};
-use crate::abnormal::{Abnormality, Lookout, OUTSIDE_M};
+use crate::abnormal::{Abnormality, FaultLog, Lookout, OUTSIDE_M};
 use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
@@ -11,6 +11,7 @@ use bevy_ecs::prelude::{DetectChanges, Query, Ref, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
 use robots::estimate::Estimator;
+use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{
     Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
@@ -27,9 +28,15 @@ pub(crate) fn read_instruments(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     optics: Res<Optics>,
-    mut robots: Query<(&Truth, &Decision, &mut SensorSuite, &mut Readings)>,
+    mut robots: Query<(
+        &Truth,
+        &Decision,
+        &mut SensorSuite,
+        &mut SensorFaults,
+        &mut Readings,
+    )>,
 ) {
-    for (truth, decision, mut suite, mut readings) in &mut robots {
+    for (truth, decision, mut suite, mut faults, mut readings) in &mut robots {
         *readings = suite.read(&Around {
             clock: &clock,
             truth,
@@ -40,6 +47,7 @@ pub(crate) fn read_instruments(
             optics: &optics,
             asked: Asked::from(decision),
         });
+        faults.alter(&clock, &mut readings);
     }
 }
 
@@ -122,10 +130,17 @@ pub(crate) fn guide(
 
 pub(crate) fn actuate(
     clock: Res<Clock>,
-    mut robots: Query<(&Command, &Estimate, &mut Pilot, &mut Actuation)>,
+    mut robots: Query<(
+        &Command,
+        &Estimate,
+        &mut Pilot,
+        &mut DriveFaults,
+        &mut Actuation,
+    )>,
 ) {
-    for (command, estimate, mut pilot, mut set) in &mut robots {
+    for (command, estimate, mut pilot, mut faults, mut set) in &mut robots {
         *set = pilot.step(command, estimate, clock.dt_s);
+        faults.alter(&clock, &mut set);
     }
 }
 
@@ -249,6 +264,16 @@ pub(crate) fn watch(
         ] {
             lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
         }
+    }
+}
+
+pub(crate) fn tell_faults(
+    clock: Res<Clock>,
+    mut score: ResMut<Score>,
+    mut robots: Query<(&SearcherId, &Truth, &mut FaultLog)>,
+) {
+    for (id, truth, mut log) in &mut robots {
+        log.see(&clock, &id.name, truth.pose.p_WB, &mut score.abnormal);
     }
 }
 

@@ -73,7 +73,7 @@ pub const TOPICS: &[Topic] = &[
         Field::sometimes("region", FieldKind::Count, "Subregion it searches, from 0; absent in transits and where the area is one."),
         Field::sometimes("region_name", FieldKind::Text, "Its name on maps and in tables: a letter, in the order of search."),
         Field::sometimes("region_m", FieldKind::Points, "The corners of that subregion (east, north), m."),
-        Field::sometimes("abnormal", FieldKind::Words, "What is wrong now: left the area, no bottom lock, no altitude, no flow, touched the bed or an obstacle; absent where nothing is."),
+        Field::sometimes("abnormal", FieldKind::Words, "What is wrong now: left the area, no bottom lock, no altitude, no flow, touched the bed or an obstacle, fault: and what fails; absent where nothing is."),
     ]),
     Topic::json("layers", "auv/<id>/layers", STATE_RATE, "Who holds the vehicle among the layers of its planner; absent for a strategy without layers.", &[
         T,

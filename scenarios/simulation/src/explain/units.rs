@@ -54,6 +54,7 @@ const NAMED: &[(&str, &str, &str)] = &[
 const VARIANTS: &[(&str, &str, &str)] = &[
     ("Base", "Depth", "m"),
     ("Base", "Z", "m"),
+    ("DriveFault", "StuckAt", "degrees, of a propeller rpm"),
     ("VerticalSpec", "Altitude", "m"),
     ("VerticalSpec", "Depth", "m"),
     ("ZoneSize", "Fixed", "m"),
@@ -133,6 +134,7 @@ mod tests {
 
     /// Shares, factors, weights, coefficients.
     const PURE: &[&str] = &[
+        "Weak",
         "albedo",
         "bed_albedo",
         "bed_texture",

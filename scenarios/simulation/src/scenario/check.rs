@@ -5,8 +5,8 @@ use super::fault::Found;
 use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
-    check_able, check_berth, check_fitted, check_limits, check_obstacles, check_sources,
-    check_steps, check_view, cost,
+    check_able, check_berth, check_faults, check_fitted, check_limits, check_obstacles,
+    check_sources, check_steps, check_view, cost,
 };
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -78,7 +78,10 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
-        if let Some(vehicle) = parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found) {
+        let vehicle = parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+        let limit_s = scenario.time.limit_s.get();
+        check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
+        if let Some(vehicle) = vehicle {
             let place = check_view::Place {
                 area: &area,
                 terrain: &terrain,

@@ -5,6 +5,7 @@ mod catalog;
 mod check;
 mod check_able;
 mod check_berth;
+mod check_faults;
 mod check_fitted;
 mod check_gantry;
 mod check_limits;

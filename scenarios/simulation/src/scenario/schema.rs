@@ -9,6 +9,7 @@ use plumes::flow::WaterSpec;
 use plumes::release::SourceSpec;
 use robots::actuate::AutopilotSpec;
 use robots::estimate::EstimatorSpec;
+use robots::faults::FaultSpec;
 use robots::guide::GuidanceSpec;
 use robots::handoff::Setting;
 use robots::map::MapSpec;
@@ -219,6 +220,9 @@ pub struct RobotSpec {
     pub chart: Vec<String>,
     /// Its strategy.
     pub strategy: StrategySpec,
+    /// What fails on its mission; any number. The robot learns of a fault only by its readings.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub faults: Vec<FaultSpec>,
 }
 
 impl RobotSpec {

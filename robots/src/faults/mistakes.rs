@@ -1,0 +1,240 @@
+//! What is wrong with the faults of a robot: things that it has not, times that contradict each other.
+
+use super::amiss::Instrument;
+use super::drive_spec::DriveFault;
+use super::drives::{Unit, drives};
+use super::spec::{FaultSpec, Faulty, Of};
+use crate::handoff::Actuation;
+use crate::sense::SensorsSpec;
+use world::limits::{Limited, range};
+use world::ranges::Finite;
+
+/// A mistake in the faults of a robot.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mistake {
+    /// Its field, as in `faults[1].until_s`.
+    pub field: String,
+    /// What is wrong, and what would be legal.
+    pub problem: String,
+    /// How to correct it.
+    pub help: Option<String>,
+}
+
+/// All mistakes in the faults of a robot with these instruments. `set` are any set-points of its vehicle; without them
+/// its drives are not checked.
+#[must_use]
+pub fn mistakes(
+    faults: &[FaultSpec],
+    sensors: &SensorsSpec,
+    set: Option<&Actuation>,
+) -> Vec<Mistake> {
+    let mut found = Vec::new();
+    for (i, fault) in faults.iter().enumerate() {
+        let mut say = |field: &str, problem: String, help: Option<String>| {
+            found.push(Mistake {
+                field: format!("faults[{i}].{field}"),
+                problem,
+                help,
+            });
+        };
+        let at_s = fault.at_s.get();
+        if let Some(until_s) = fault.until_s
+            && until_s.get() <= at_s
+        {
+            let problem = format!("must be later than at_s, {at_s} s, got {}", until_s.get());
+            let help = "leave it out for a fault that lasts";
+            say("until_s", problem, Some(help.to_string()));
+        }
+        match fault.what.of() {
+            Of::Instrument(what, _) if !sensors.has(what.field()) => {
+                let (field, problem) = (what.field(), lacks(what));
+                let help = format!(
+                    "fit one, as in `sensors: ({field}: ())`, or leave the fault out; on board: {}",
+                    on_board(sensors)
+                );
+                say("what", problem, Some(help));
+            }
+            Of::Instrument(..) => {}
+            Of::Drive(name, how) => {
+                if let Some((at, problem, help)) = set.and_then(|set| misfit(set, name, &how)) {
+                    let field = match (&fault.what, at) {
+                        (Faulty::Drive(_), Some(at)) => format!("what.{at}"),
+                        _ => "what".to_string(),
+                    };
+                    say(&field, problem, Some(help));
+                }
+            }
+        }
+        let twin = (faults[..i].iter())
+            .position(|other| of_one_thing(fault, other) && fault.overlaps(other));
+        if let Some(j) = twin {
+            let problem = format!("holds at the same time as faults[{j}], which is of the same");
+            let help = "a thing has one fault at a time: end the first with until_s, or begin the second later";
+            say("what", problem, Some(help.to_string()));
+        }
+    }
+    found
+}
+
+fn lacks(what: Instrument) -> String {
+    match what {
+        Instrument::Lbl => {
+            "there are no position fixes: the robot carries no lbl, which makes them".to_string()
+        }
+        other => format!("the robot carries no {}", other.field()),
+    }
+}
+
+fn on_board(sensors: &SensorsSpec) -> String {
+    let names: Vec<&str> = sensors.iter().map(|s| s.name()).collect();
+    if names.is_empty() {
+        "nothing".to_string()
+    } else {
+        names.join(", ")
+    }
+}
+
+/// Why a drive of this name cannot fail like this: the field below `what`, the problem and the cure.
+fn misfit(
+    set: &Actuation,
+    name: &str,
+    how: &DriveFault,
+) -> Option<(Option<&'static str>, String, String)> {
+    let mut set = *set;
+    let all = drives(&mut set);
+    let Some((_, unit, _)) = all.iter().find(|(drive, ..)| *drive == name) else {
+        if all.is_empty() {
+            let problem = format!(
+                "a kinematic vehicle has no {} that could fail: it moves as its helm asks",
+                name.replace('_', " ")
+            );
+            let help =
+                "take a vehicle with drives, such as `vehicle: Remus100()`, or leave the fault out";
+            return Some((None, problem, help.to_string()));
+        }
+        let names: Vec<&str> = all.iter().map(|(drive, ..)| *drive).collect();
+        let problem = format!("the vehicle has no drive \"{name}\"");
+        let help = format!("its drives: {}", names.join(", "));
+        return Some((Some("link"), problem, help));
+    };
+    let DriveFault::StuckAt(at) = how else {
+        return None;
+    };
+    let legal = match unit {
+        Unit::Fin => &range::fin_deg,
+        Unit::Rpm => &range::rpm,
+    };
+    let problem = Finite::limited(at.get(), legal).err()?;
+    let help = format!("the set-points of {name} are in {}", legal.2);
+    Some((Some("how"), problem, help))
+}
+
+fn of_one_thing(a: &FaultSpec, b: &FaultSpec) -> bool {
+    match (a.what.of(), b.what.of()) {
+        (Of::Instrument(a, _), Of::Instrument(b, _)) => a == b,
+        (Of::Drive(a, _), Of::Drive(b, _)) => a == b,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::fault;
+    use super::super::{DriveSpec, FinFault, FixFault, HeadingFault};
+    use super::*;
+    use crate::handoff::{ActuatorCommand, RateCommand};
+    use crate::sense::CompassSpec;
+
+    fn told(faults: &[FaultSpec], set: Actuation) -> Vec<(String, String)> {
+        let sensors = SensorsSpec::default().with(CompassSpec::default());
+        let found = mistakes(faults, &sensors, Some(&set));
+        assert!(found.iter().all(|m| m.help.is_some()));
+        found.into_iter().map(|m| (m.field, m.problem)).collect()
+    }
+
+    fn drive(link: &str, how: DriveFault) -> Faulty {
+        Faulty::Drive(DriveSpec {
+            link: link.to_string(),
+            how,
+        })
+    }
+
+    #[test]
+    fn each_mistake_is_told_with_its_field() {
+        let fins = Actuation::Fins(ActuatorCommand::default());
+        let rates = Actuation::Rates(RateCommand::default());
+        let compass = || Faulty::Compass(HeadingFault::Stuck);
+        let rudder = || Faulty::Rudder(FinFault::Stuck);
+        for (faults, set, field, problem) in [
+            (
+                vec![fault(20.0, Some(20.0), compass())],
+                fins,
+                "faults[0].until_s",
+                "must be later than at_s, 20 s, got 20",
+            ),
+            (
+                vec![fault(0.0, None, Faulty::Fixes(FixFault::Silent))],
+                fins,
+                "faults[0].what",
+                "there are no position fixes: the robot carries no lbl, which makes them",
+            ),
+            (
+                vec![fault(0.0, None, rudder())],
+                rates,
+                "faults[0].what",
+                "a kinematic vehicle has no rudder that could fail: it moves as its helm asks",
+            ),
+            (
+                vec![
+                    fault(0.0, None, compass()),
+                    fault(0.0, None, drive("ruder", DriveFault::Dead)),
+                ],
+                fins,
+                "faults[1].what.link",
+                "the vehicle has no drive \"ruder\"",
+            ),
+            (
+                vec![fault(
+                    0.0,
+                    None,
+                    drive("rudder", DriveFault::StuckAt(Finite::new(100.0))),
+                )],
+                fins,
+                "faults[0].what.how",
+                "must be from -90 to 90 degrees, got 100",
+            ),
+            (
+                vec![
+                    fault(0.0, Some(20.0), rudder()),
+                    fault(19.0, None, drive("rudder", DriveFault::Dead)),
+                ],
+                fins,
+                "faults[1].what",
+                "holds at the same time as faults[0], which is of the same",
+            ),
+        ] {
+            assert_eq!(
+                told(&faults, set),
+                [(field.to_string(), problem.to_string())]
+            );
+        }
+    }
+
+    #[test]
+    fn what_fits_is_not_spoken_of() {
+        let faults = [
+            fault(0.0, Some(20.0), Faulty::Compass(HeadingFault::Silent)),
+            fault(20.0, None, Faulty::Compass(HeadingFault::Stuck)),
+            fault(0.0, None, Faulty::Rudder(FinFault::Dead)),
+            fault(
+                0.0,
+                None,
+                drive("propeller", DriveFault::StuckAt(Finite::new(900.0))),
+            ),
+        ];
+        assert_eq!(
+            told(&faults, Actuation::Fins(ActuatorCommand::default())),
+            []
+        );
+    }
+}

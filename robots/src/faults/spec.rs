@@ -1,0 +1,193 @@
+//! A fault as a scenario states it: when, of what, and how.
+
+use super::amiss::{Amiss, Instrument};
+use super::drive_spec::{DriveFault, DriveSpec, FinFault, PropellerFault};
+use super::instrument_spec::{
+    DensityFault, DyeFault, EyeFault, FixFault, HeadingFault, MetresFault, SpeedFault,
+};
+use super::span::Span;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::ranges::{NonNegative, Positive};
+
+/// A fault of a robot.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct FaultSpec {
+    /// When it begins, s of mission time.
+    pub at_s: NonNegative,
+    /// When it ends, s of mission time; without it, it lasts.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub until_s: Option<Positive>,
+    /// What fails, and how.
+    pub what: Faulty,
+}
+
+/// What fails, and how.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+pub enum Faulty {
+    /// The fluorometer; its number is the concentration.
+    Fluorometer(DyeFault),
+    /// The compass; its number is the heading. Roll, pitch and rates fall silent or stick with it.
+    Compass(HeadingFault),
+    /// The depth sensor; its number is the depth.
+    Depth(MetresFault),
+    /// The altimeter; its number is the height above the bed.
+    Altimeter(MetresFault),
+    /// The forward ranging; its number is the range of each echo.
+    Ranging(MetresFault),
+    /// The Doppler log; its number is the velocity over ground, ahead.
+    Dvl(SpeedFault),
+    /// The current profiler; its number is the velocity of the water relative to the vehicle, ahead.
+    Adcp(SpeedFault),
+    /// The CTD; its number is the density.
+    Ctd(DensityFault),
+    /// The sidescan sonar.
+    Sidescan(EyeFault),
+    /// The camera.
+    Camera(EyeFault),
+    /// The position fixes, those of `sensors.lbl`.
+    Fixes(FixFault),
+    /// The rudder.
+    Rudder(FinFault),
+    /// The stern plane.
+    SternPlane(FinFault),
+    /// The propeller.
+    Propeller(PropellerFault),
+    /// A drive by its name.
+    Drive(DriveSpec),
+}
+
+/// Names of the drives that have a choice of their own.
+const RUDDER: &str = "rudder";
+const STERN_PLANE: &str = "stern_plane";
+const PROPELLER: &str = "propeller";
+
+/// What a fault is of.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Of<'a> {
+    Instrument(Instrument, Amiss),
+    /// A drive by its name.
+    Drive(&'a str, DriveFault),
+}
+
+impl Faulty {
+    /// What it is of.
+    pub(super) fn of(&self) -> Of<'_> {
+        match self {
+            Self::Fluorometer(how) => Of::Instrument(Instrument::Fluorometer, how.into()),
+            Self::Compass(how) => Of::Instrument(Instrument::Compass, how.into()),
+            Self::Depth(how) => Of::Instrument(Instrument::Depth, how.into()),
+            Self::Altimeter(how) => Of::Instrument(Instrument::Altimeter, how.into()),
+            Self::Ranging(how) => Of::Instrument(Instrument::Ranging, how.into()),
+            Self::Dvl(how) => Of::Instrument(Instrument::Dvl, how.into()),
+            Self::Adcp(how) => Of::Instrument(Instrument::Adcp, how.into()),
+            Self::Ctd(how) => Of::Instrument(Instrument::Ctd, how.into()),
+            Self::Sidescan(how) => Of::Instrument(Instrument::Sidescan, how.into()),
+            Self::Camera(how) => Of::Instrument(Instrument::Camera, how.into()),
+            Self::Fixes(how) => Of::Instrument(Instrument::Lbl, how.into()),
+            Self::Rudder(how) => Of::Drive(RUDDER, how.into()),
+            Self::SternPlane(how) => Of::Drive(STERN_PLANE, how.into()),
+            Self::Propeller(how) => Of::Drive(PROPELLER, how.into()),
+            Self::Drive(drive) => Of::Drive(&drive.link, drive.how.clone()),
+        }
+    }
+
+    /// In words, for people.
+    #[must_use]
+    pub fn words(&self) -> String {
+        match self.of() {
+            Of::Instrument(what, how) => format!("{} {}", what.words(), how.words()),
+            Of::Drive(name, how) => {
+                let unit = match self {
+                    Self::Rudder(_) | Self::SternPlane(_) => "degrees",
+                    Self::Propeller(_) => "rpm",
+                    _ => "",
+                };
+                format!("{} {}", name.replace('_', " "), how.words(unit))
+            }
+        }
+    }
+}
+
+impl FaultSpec {
+    /// When it holds, in steps of `dt_s`.
+    #[must_use]
+    pub fn span(&self, dt_s: f64) -> Span {
+        Span::new(self.at_s.get(), self.until_s.map(Positive::get), dt_s)
+    }
+
+    /// Whether both hold at some time.
+    pub(super) fn overlaps(&self, other: &Self) -> bool {
+        let ends = |f: &Self| f.until_s.map_or(f64::INFINITY, Positive::get);
+        self.at_s.get() < ends(other) && other.at_s.get() < ends(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::testing::fault;
+    use super::super::{DriveFault, DriveSpec, HeadingFault, LieSpec, PropellerFault};
+    use super::*;
+    use world::ranges::{Finite, Fraction};
+
+    #[test]
+    fn a_fault_is_said_in_words() {
+        let five = Finite::new(5.0);
+        for (what, words) in [
+            (
+                Faulty::Fluorometer(DyeFault::Silent),
+                "fluorometer silent".to_string(),
+            ),
+            (
+                Faulty::Compass(HeadingFault::Biased(five)),
+                "compass off by 5 degrees".to_string(),
+            ),
+            (
+                Faulty::Dvl(SpeedFault::Drifting(Finite::new(-0.01))),
+                "Doppler log drifting by -0.01 m/s in each second".to_string(),
+            ),
+            (
+                Faulty::Fixes(FixFault::Lie(LieSpec {
+                    east_m: Finite::new(20.0),
+                    north_m: Finite::new(-10.0),
+                    over_s: NonNegative::new(60.0),
+                })),
+                "position fixes displaced by 20 m E, -10 m N within 60 s".to_string(),
+            ),
+            (
+                Faulty::SternPlane(FinFault::StuckAt(five)),
+                "stern plane stuck at 5 degrees".to_string(),
+            ),
+            (
+                Faulty::Propeller(PropellerFault::Weak(Fraction::new(0.5))),
+                "propeller weak, with 0.5 of each set-point".to_string(),
+            ),
+            (
+                Faulty::Drive(DriveSpec {
+                    link: "rudder".into(),
+                    how: DriveFault::StuckAt(five),
+                }),
+                "rudder stuck at 5".to_string(),
+            ),
+        ] {
+            assert_eq!(what.words(), words);
+        }
+    }
+
+    #[test]
+    fn faults_one_after_the_other_do_not_overlap() {
+        let silent = |at_s, until_s| fault(at_s, until_s, Faulty::Compass(HeadingFault::Silent));
+        let first = silent(10.0, Some(20.0));
+        for (at_s, until_s, overlaps) in [
+            (0.0, Some(10.0), false),
+            (20.0, None, false),
+            (0.0, None, true),
+            (12.0, Some(13.0), true),
+            (19.0, Some(30.0), true),
+        ] {
+            assert_eq!(first.overlaps(&silent(at_s, until_s)), overlaps, "{at_s}");
+            assert_eq!(silent(at_s, until_s).overlaps(&first), overlaps, "{at_s}");
+        }
+    }
+}
