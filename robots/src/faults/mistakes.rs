@@ -68,7 +68,8 @@ pub fn mistakes(
         let twin = (faults[..i].iter())
             .position(|other| of_one_thing(fault, other) && fault.overlaps(other));
         if let Some(j) = twin {
-            let problem = format!("holds at the same time as faults[{j}], which is of the same");
+            let problem =
+                format!("holds at the same time as faults[{j}], which is of the same thing");
             let help = "a thing has one fault at a time: end the first with until_s, or begin the second later";
             say("what", problem, Some(help.to_string()));
         }
@@ -210,7 +211,7 @@ mod tests {
                 ],
                 fins,
                 "faults[1].what",
-                "holds at the same time as faults[0], which is of the same",
+                "holds at the same time as faults[0], which is of the same thing",
             ),
         ] {
             assert_eq!(

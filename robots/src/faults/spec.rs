@@ -17,7 +17,7 @@ pub struct FaultSpec {
     /// When it begins, s of mission time.
     pub at_s: NonNegative,
     /// When it ends, s of mission time; without it, it lasts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default)]
     pub until_s: Option<Positive>,
     /// What fails, and how.
     pub what: Faulty,

@@ -221,7 +221,7 @@ pub struct RobotSpec {
     /// Its strategy.
     pub strategy: StrategySpec,
     /// What fails on its mission; any number. The robot learns of a fault only by its readings.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(default)]
     pub faults: Vec<FaultSpec>,
 }
 
