@@ -1,5 +1,6 @@
 //! Bad input: each mistake with the exact message it gets.
 
+mod faults;
 mod odd;
 mod releases;
 mod rounds;

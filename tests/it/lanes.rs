@@ -3,6 +3,7 @@
 mod bundled;
 mod campaigns;
 mod command;
+mod faults;
 
 use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::Loaded;

@@ -9,6 +9,7 @@ mod common;
 mod cost;
 mod determinism;
 mod eyes;
+mod faults;
 mod flume;
 mod golden;
 mod hulls;

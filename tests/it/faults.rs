@@ -1,0 +1,315 @@
+//! Faults of robots: what they do to a mission, from when on, and what is said of them.
+
+use crate::common;
+use rheotaxis::frame::{Frame, RobotFrame};
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::{Loaded, load_text, template};
+use rheotaxis::trial::{Ended, Trial, Watch};
+use robots::handoff::Actuation;
+use world::registry::Registry;
+
+/// A scenario of the catalogue with these faults and changes.
+#[track_caller]
+fn with(name: &str, faults: &str, changes: &[(&str, &str)]) -> String {
+    let text = template(name).unwrap().text.to_string();
+    let estimator = "estimator: DeadReckoning(),";
+    let faulty = format!("{estimator}\n            faults: [{faults}],");
+    let changes = changes
+        .iter()
+        .copied()
+        .chain([(estimator, faulty.as_str())]);
+    changes.fold(text, |text, (from, to)| {
+        assert_eq!(text.matches(from).count(), 1, "{from}");
+        text.replace(from, to)
+    })
+}
+
+fn loaded(text: &str) -> Loaded {
+    let registry = Registry::default();
+    let loaded = load_text(&registry, "faulty", text).unwrap_or_else(|e| panic!("{:?}", e.lines()));
+    assert!(loaded.check().is_ok(), "{:?}", loaded.check());
+    loaded
+}
+
+/// The channel with these faults, for so long.
+fn channel(faults: &str, limit_s: f64) -> Loaded {
+    let time = format!("spin_up_s: 60, limit_s: {limit_s}");
+    let times = ("spin_up_s: 2000, limit_s: 1800", time.as_str());
+    loaded(&with("uniform_channel", faults, &[times]))
+}
+
+/// All states of the one robot.
+#[derive(Default)]
+struct States(Vec<(f64, RobotFrame)>);
+
+impl Watch for States {
+    fn frame(&mut self, frame: &Frame) {
+        self.0.push((frame.t_s, frame.robots[0].clone()));
+    }
+}
+
+fn flown(loaded: &Loaded) -> (Ended, Vec<(f64, RobotFrame)>) {
+    let mut states = States::default();
+    let ended = Trial::assemble(loaded, 3).unwrap().run(&mut states);
+    (ended, states.0)
+}
+
+/// Whether something is so of every state after a time.
+fn after(states: &[(f64, RobotFrame)], t_s: f64, so: impl Fn(&RobotFrame) -> bool) -> bool {
+    states.iter().filter(|(t, _)| *t >= t_s).all(|(_, r)| so(r))
+}
+
+#[test]
+fn a_fault_changes_nothing_before_its_time() {
+    let none = template("uniform_channel").unwrap().text;
+    let none = none.replace(
+        "spin_up_s: 2000, limit_s: 1800",
+        "spin_up_s: 60, limit_s: 30",
+    );
+    let (well, healthy) = flown(&loaded(&none));
+    assert_eq!(flown(&channel("", 30.0)).0, well, "an empty list");
+    for what in [
+        "Fluorometer(Biased(1))",
+        "Compass(Stuck)",
+        "Depth(Drifting(0.1))",
+        "Dvl(Silent)",
+        "Fixes(Silent)",
+        "Rudder(StuckAt(5))",
+        "Propeller(Dead)",
+        "Drive(link: \"stern_plane\", how: Weak(0.2))",
+    ] {
+        let (ended, faulty) = flown(&channel(&format!("(at_s: 20, what: {what})"), 30.0));
+        // A frame at 20 s is taken at the end of a step that began before.
+        for ((t_s, well), (_, ill)) in healthy.iter().zip(&faulty) {
+            if *t_s <= 20.0 {
+                assert_eq!(well, ill, "{what} at {t_s}");
+            }
+        }
+        // Within these ten seconds no fix was due.
+        let same = what == "Fixes(Silent)";
+        assert_eq!(ended.digest == well.digest, same, "{what}");
+        // Faults after the end and faults that have ended do what they should.
+        let late = flown(&channel(&format!("(at_s: 31, what: {what})"), 30.0));
+        assert_eq!(late.0, well, "{what}");
+    }
+}
+
+#[test]
+fn a_vehicle_with_a_stuck_rudder_goes_round_in_circles() {
+    for how in [
+        "Rudder(StuckAt(10))",
+        "Drive(link: \"rudder\", how: StuckAt(10))",
+    ] {
+        let (_, states) = flown(&channel(&format!("(at_s: 10, what: {how})"), 160.0));
+        let angle = 10_f64.to_radians();
+        let is_stuck = |r: &RobotFrame| match r.actuators {
+            Actuation::Fins(set) => set.rudder_rad == angle,
+            Actuation::Rates(_) => false,
+        };
+        assert!(after(&states, 10.1, is_stuck));
+        // It turns to starboard all the time, more than twice round.
+        let headings = states.iter().map(|(_, r)| r.truth.pose.heading());
+        let turned = headings.clone().zip(headings.skip(1));
+        let turned: f64 = turned.skip(150).map(|(a, b)| a.turn_to(b)).sum();
+        assert!(turned > 2.0 * std::f64::consts::TAU, "{turned} rad");
+        // The circles drift with the water, 0.2 m/s, and are narrower than 60 m.
+        let at = |n: usize| states[n].1.truth.pose.p_WB.xy();
+        let far = (150..states.len())
+            .map(|n| (at(n) - at(150)).norm())
+            .fold(0.0, f64::max);
+        assert!(far < 60.0 + 0.2 * 150.0, "{far} m");
+    }
+}
+
+/// A rudder that sticks stays where it was, and lets go at the end of the fault.
+#[test]
+fn a_rudder_that_sticks_stays_and_comes_free() {
+    let (_, states) = flown(&channel("(at_s: 5, until_s: 8, what: Rudder(Stuck))", 12.0));
+    let rudder = |from: f64, to: f64| -> Vec<f64> {
+        let within = |(t, _): &&(f64, RobotFrame)| *t > from + 0.01 && *t < to + 0.01;
+        let angle = |(_, r): &(f64, RobotFrame)| match r.actuators {
+            Actuation::Fins(set) => set.rudder_rad,
+            Actuation::Rates(_) => f64::NAN,
+        };
+        states.iter().filter(within).map(angle).collect()
+    };
+    let stuck = rudder(5.0, 8.0);
+    assert!(stuck.len() >= 29 && stuck.iter().all(|r| *r == stuck[0]));
+    for free in [rudder(3.0, 5.0), rudder(8.0, 12.0)] {
+        assert!(free.iter().any(|r| *r != free[0]));
+    }
+}
+
+#[test]
+fn a_vehicle_with_a_dead_propeller_drifts_with_the_water() {
+    let current = "water: (currents: [Uniform(speed_m_s: 0.3, heading_deg: 90)]),";
+    let text = with(
+        "remus_turning_circle",
+        "(at_s: 20, what: Propeller(Dead))",
+        &[("water: (),", current)],
+    );
+    let (_, states) = flown(&loaded(&text));
+    assert!(states.iter().any(|(_, r)| r.truth.v_world().norm() > 1.5));
+    let drifts = |r: &RobotFrame| {
+        let v = r.truth.v_world();
+        (v.x - 0.3).abs() < 0.03 && v.y.abs() < 0.03
+    };
+    assert!(after(&states, 200.0, drifts));
+}
+
+#[test]
+fn a_search_without_smell_ends_at_its_limit_and_declares_nothing() {
+    let (ended, states) = flown(&channel("(at_s: 0, what: Fluorometer(Silent))", 400.0));
+    assert_eq!(ended.outcome, RunOutcome::TimeOut);
+    assert!(ended.declarations.values().all(Vec::is_empty));
+    assert!(after(&states, 0.0, |r| r.chemical.is_none() && !r.detected));
+}
+
+#[test]
+fn fixes_that_lie_move_the_estimate() {
+    let off = |lie: &str| {
+        let faults = format!("(at_s: 100, what: Fixes(Lie(east_m: 30, north_m: -20{lie})))");
+        let (_, states) = flown(&channel(&faults, 300.0));
+        let off = |t_s: f64| {
+            let (_, r) = states.iter().find(|(t, _)| *t >= t_s).unwrap();
+            r.estimate.position - r.truth.pose.p_WB.xy()
+        };
+        [off(95.0), off(290.0)]
+    };
+    // Fixes are good to 1 m; between them the estimate drifts by some metres.
+    let [before, jumped] = off("");
+    assert!(before.norm() < 8.0, "{before}");
+    assert!(
+        (jumped - nalgebra::Vector2::new(30.0, -20.0)).norm() < 8.0,
+        "{jumped}"
+    );
+    let [same, grown] = off(", over_s: 2000");
+    assert_eq!(same, before);
+    assert!(grown.norm() < 12.0, "{grown}");
+}
+
+/// Whatever is wrong with whatever, and by how much, a mission goes on.
+#[test]
+fn a_mission_survives_every_fault() {
+    for faults in [
+        "Compass(Silent)",
+        "Compass(Drifting(-10))",
+        "Depth(Silent)",
+        "Depth(Biased(-100000))",
+        "Depth(Biased(100000))",
+        "Altimeter(Biased(-100000))",
+        "Altimeter(Stuck)",
+        "Dvl(Biased(15))",
+        "Adcp(Drifting(-1))",
+        "Adcp(Silent)",
+        "Fixes(Lie(east_m: 100000, north_m: -100000))",
+        "Fluorometer(Biased(1000000))",
+        "Fluorometer(Stuck)",
+        "SternPlane(StuckAt(90))",
+        "Propeller(StuckAt(-10000))",
+    ] {
+        for at_s in ["0", "40"] {
+            let fault = format!("(at_s: {at_s}, what: {faults})");
+            let (ended, _) = flown(&channel(&fault, 120.0));
+            assert!(ended.t_s > 0.0, "{faults}");
+        }
+    }
+}
+
+/// On the terminal, in the summary and on the page.
+#[test]
+fn faults_are_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let faults =
+        "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
+    let short = (
+        "spin_up_s: 2000, limit_s: 1800",
+        "spin_up_s: 60, limit_s: 8",
+    );
+    let text = with("uniform_channel", faults, &[short]);
+    std::fs::write(dir.path().join("odd.ron"), text).unwrap();
+    let args = [
+        "run",
+        "odd.ron",
+        "--no-zenoh",
+        "--no-record",
+        "--out",
+        "out",
+    ];
+    let end = common::rheotaxis_in(dir.path(), &args);
+    let read = |name: &str| std::fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
+    let events = summary["abnormal"].as_array().unwrap();
+    let of = |n: usize, field: &str| events[n][field].clone();
+    for (n, words, t_s, lasted_s, over) in [
+        (0, "compass off by 5 degrees", 3.0, 2.0, true),
+        (1, "propeller dead", 4.0, 3.98, false),
+    ] {
+        assert_eq!(of(n, "robot"), "auv0");
+        assert_eq!(of(n, "what"), "fault");
+        assert_eq!(of(n, "fault"), words);
+        assert_eq!(of(n, "over"), over);
+        assert!((of(n, "t_s").as_f64().unwrap() - t_s).abs() < 1e-9);
+        assert!((of(n, "lasted_s").as_f64().unwrap() - lasted_s).abs() < 1e-9);
+    }
+    assert_eq!(events.len(), 2, "{events:?}");
+    let told = String::from_utf8_lossy(&end.stderr).into_owned();
+    let told = told + &String::from_utf8_lossy(&end.stdout);
+    for said in [
+        "! auv0: fault: compass off by 5 degrees at 3.0 s, ",
+        ", for 2.0 s",
+        "! auv0: fault: propeller dead at 4.0 s, ",
+    ] {
+        assert!(told.contains(said), "{told}");
+    }
+    assert!(read("report.html").contains("fault: propeller dead"));
+}
+
+/// What is published says which faults hold now.
+#[test]
+fn faults_are_published_while_they_hold() {
+    let faults =
+        "(at_s: 3, until_s: 5, what: Compass(Biased(5))), (at_s: 4, what: Propeller(Dead))";
+    let mut trial = Trial::assemble(&channel(faults, 10.0), 3).unwrap();
+    let mut said = Vec::new();
+    for t_s in [2.5, 3.5, 4.5, 5.5] {
+        trial.until(t_s);
+        let all = rheotaxis::registry::messages(trial.frame().unwrap());
+        let (_, doing) = all.iter().find(|(k, _)| k == "auv/auv0/behaviour").unwrap();
+        let wrong = doing["abnormal"].as_array().cloned().unwrap_or_default();
+        said.push(
+            wrong
+                .iter()
+                .map(|w| w.as_str().unwrap().to_string())
+                .collect::<Vec<_>>(),
+        );
+    }
+    let (compass, propeller) = ("fault: compass off by 5 degrees", "fault: propeller dead");
+    assert_eq!(
+        said,
+        [
+            vec![],
+            vec![compass],
+            vec![compass, propeller],
+            vec![propeller]
+        ]
+    );
+}
+
+/// The example of the documents is a scenario.
+#[test]
+fn the_example_in_docs_is_legal() {
+    let text = std::fs::read_to_string(common::root().join("docs/faults.md")).unwrap();
+    let example = text
+        .split("```ron\n")
+        .nth(1)
+        .unwrap()
+        .split("```")
+        .next()
+        .unwrap();
+    let faults = example.trim().strip_prefix("faults: [").unwrap();
+    let faults = faults.strip_suffix("],").unwrap();
+    let loaded = channel(faults, 2000.0);
+    assert_eq!(loaded.check().unwrap().len(), 0);
+    assert!(loaded.scenario.robots[0].faults.len() > 5);
+}
