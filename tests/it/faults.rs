@@ -104,7 +104,7 @@ fn a_vehicle_with_a_stuck_rudder_goes_round_in_circles() {
         let angle = 10_f64.to_radians();
         let is_stuck = |r: &RobotFrame| match r.actuators {
             Actuation::Fins(set) => set.rudder_rad == angle,
-            Actuation::Rates(_) => false,
+            _ => false,
         };
         assert!(after(&states, 10.1, is_stuck));
         // It turns to starboard all the time, more than twice round.
@@ -129,7 +129,7 @@ fn a_rudder_that_sticks_stays_and_comes_free() {
         let within = |(t, _): &&(f64, RobotFrame)| *t > from + 0.01 && *t < to + 0.01;
         let angle = |(_, r): &(f64, RobotFrame)| match r.actuators {
             Actuation::Fins(set) => set.rudder_rad,
-            Actuation::Rates(_) => f64::NAN,
+            _ => f64::NAN,
         };
         states.iter().filter(within).map(angle).collect()
     };

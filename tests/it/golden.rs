@@ -15,7 +15,7 @@ use world::ranges::{NonNegative, Positive};
 const EARLY_S: f64 = 5.0;
 
 /// Scenario, seed, most seconds of spin-up and of the mission, and what the run is there for.
-const RUNS: [(&str, u64, f64, f64, &str); 13] = [
+const RUNS: [(&str, u64, f64, f64, &str); 17] = [
     ("remus_zigzag", 1, 0.0, 1e4, "hull, open loop"),
     (
         "uniform_channel",
@@ -59,6 +59,16 @@ const RUNS: [(&str, u64, f64, f64, &str); 13] = [
     ("block_in_channel", 1, 60.0, 30.0, "water round obstacles"),
     ("eyes_over_source", 1, 30.0, 60.0, "sidescan, camera, eyes"),
     ("mound", 1, 30.0, 30.0, "an obstacle from a file"),
+    ("lauv_bay", 1, 300.0, 60.0, "a hull of a folder, fins mixed"),
+    ("bluerov_harbour", 1, 60.0, 60.0, "hovering, allocation"),
+    ("surface_lake", 1, 60.0, 60.0, "a floating hull"),
+    (
+        "glider_shelf",
+        1,
+        60.0,
+        300.0,
+        "buoyancy engine, moving mass",
+    ),
 ];
 
 fn line(name: &str, seed: u64, spin_up_s: f64, limit_s: f64) -> String {

@@ -1,5 +1,7 @@
-//! Vehicles of folders: trajectories of reference, what holds for any hull, what is refused.
+//! Vehicles of folders: trajectories of reference, what holds for any hull, what is refused, instruments aboard.
 
+mod aboard;
 mod kit;
 mod physics;
+mod refused;
 mod trajectories;

@@ -11,34 +11,9 @@
 use super::drive_spec::DriveFault;
 use super::span::Span;
 use super::spec::{FaultSpec, Of};
-use crate::handoff::Actuation;
+use crate::handoff::{Actuation, DriveUnit, NamedDrive};
 use bevy_ecs::prelude::Component;
 use world::clock::Clock;
-
-/// Unit in which a scenario gives the set-points of a drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
-    /// Degrees; the set-point itself is in rad.
-    Fin,
-    /// Revolutions per minute.
-    Rpm,
-}
-
-/// A drive: its name, its unit, its set-point.
-pub(super) type Drive<'a> = (&'static str, Unit, &'a mut f64);
-
-/// The drives of a vehicle that can fail, by the names that faults use.
-pub(super) fn drives(set: &mut Actuation) -> Vec<Drive<'_>> {
-    match set {
-        Actuation::Fins(set) => vec![
-            ("rudder", Unit::Fin, &mut set.rudder_rad),
-            ("stern_plane", Unit::Fin, &mut set.stern_rad),
-            ("propeller", Unit::Rpm, &mut set.rpm),
-        ],
-        // It moves as its helm asks, and has nothing that could fail.
-        Actuation::Rates(_) => Vec::new(),
-    }
-}
 
 /// The faults of a robot's drives.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
@@ -48,54 +23,63 @@ pub struct DriveFaults(Vec<Failing>);
 #[derive(Clone, Debug, PartialEq)]
 struct Failing {
     span: Span,
-    drive: String,
+    /// Its place among the set-points, its unit, and its set-point at which it does nothing.
+    place: usize,
+    unit: DriveUnit,
+    idle: f64,
     how: DriveFault,
     /// Its last set-point.
     last: Option<f64>,
 }
 
 impl DriveFaults {
-    /// Those among the faults of a robot; steps take `dt_s`.
+    /// Those among the faults of a robot with these drives; steps take `dt_s`.
+    ///
+    /// # Panics
+    /// If the vehicle has no drive of a name: `mistakes` finds that before a run.
     #[must_use]
-    pub fn new(faults: &[FaultSpec], dt_s: f64) -> Self {
+    pub fn new(faults: &[FaultSpec], dt_s: f64, drives: &[NamedDrive]) -> Self {
         let failing = |fault: &FaultSpec| match fault.what.of() {
-            Of::Drive(drive, how) => Some(Failing {
-                span: fault.span(dt_s),
-                drive: drive.to_string(),
-                how,
-                last: None,
-            }),
+            Of::Drive(name, how) => {
+                let place = drives
+                    .iter()
+                    .position(|d| d.name == name)
+                    .unwrap_or_else(|| {
+                        panic!("a fault is of the drive {name}, which the vehicle has not; check the scenario")
+                    });
+                Some(Failing {
+                    span: fault.span(dt_s),
+                    place,
+                    unit: drives[place].unit,
+                    idle: drives[place].idle,
+                    how,
+                    last: None,
+                })
+            }
             Of::Instrument(..) => None,
         };
         Self(faults.iter().filter_map(failing).collect())
     }
 
     /// Alters the set-points of this step.
-    ///
-    /// # Panics
-    /// If the vehicle has no drive of a name: `mistakes` finds that before a run.
     pub fn alter(&mut self, clock: &Clock, set: &mut Actuation) {
         for fault in self.0.iter_mut().filter(|f| !f.span.is_over(clock)) {
-            let (_, unit, value) = (drives(set).into_iter())
-                .find(|(name, ..)| *name == fault.drive)
-                .unwrap_or_else(|| {
-                    panic!(
-                        "a fault is of the drive {}, which the vehicle has not; check the scenario",
-                        fault.drive
-                    )
-                });
+            let mut value = set
+                .drive(fault.place)
+                .expect("it is a drive of the vehicle that takes these set-points");
             if fault.span.holds(clock) {
-                *value = match &fault.how {
-                    DriveFault::Stuck => fault.last.unwrap_or(*value),
-                    DriveFault::StuckAt(at) => match unit {
-                        Unit::Fin => at.get().to_radians(),
-                        Unit::Rpm => at.get(),
+                value = match &fault.how {
+                    DriveFault::Stuck => fault.last.unwrap_or(value),
+                    DriveFault::StuckAt(at) => match fault.unit {
+                        DriveUnit::Fin => at.get().to_radians(),
+                        DriveUnit::Rpm | DriveUnit::Own => at.get(),
                     },
-                    DriveFault::Weak(share) => *value * share.get(),
-                    DriveFault::Dead => 0.0,
+                    DriveFault::Weak(share) => fault.idle + (value - fault.idle) * share.get(),
+                    DriveFault::Dead => fault.idle,
                 };
             }
-            fault.last = Some(*value);
+            *set = set.with_drive(fault.place, value);
+            fault.last = Some(value);
         }
     }
 }
@@ -103,14 +87,14 @@ impl DriveFaults {
 #[cfg(test)]
 mod tests {
     use super::super::testing::fault;
-    use super::super::{Faulty, FinFault, PropellerFault};
+    use super::super::{DriveSpec, Faulty, FinFault, PropellerFault};
     use super::*;
-    use crate::handoff::{ActuatorCommand, RateCommand};
+    use crate::handoff::{ActuatorCommand, DriveCommand};
     use world::ranges::{Finite, Fraction};
 
     /// Rudder, stern plane and propeller in ten steps of 1 s in which the pilot asks for ever more.
     fn flown(faults: &[FaultSpec]) -> Vec<ActuatorCommand> {
-        let mut faults = DriveFaults::new(faults, 1.0);
+        let mut faults = DriveFaults::new(faults, 1.0, &NamedDrive::fins());
         let step = |step: u64| {
             let t = step as f64;
             let mut set = Actuation::Fins(ActuatorCommand {
@@ -121,7 +105,7 @@ mod tests {
             faults.alter(&Clock { step, dt_s: 1.0 }, &mut set);
             match set {
                 Actuation::Fins(set) => set,
-                Actuation::Rates(_) => unreachable!("fins stay fins"),
+                _ => unreachable!("fins stay fins"),
             }
         };
         (0..10).map(step).collect()
@@ -176,7 +160,25 @@ mod tests {
     }
 
     #[test]
-    fn a_kinematic_vehicle_has_no_drives() {
-        assert!(drives(&mut Actuation::Rates(RateCommand::default())).is_empty());
+    fn a_weak_thruster_is_weak_from_where_it_does_nothing() {
+        let thruster = NamedDrive {
+            name: "thruster".into(),
+            unit: DriveUnit::Own,
+            idle: 1500.0,
+        };
+        let set = |how| {
+            let what = Faulty::Drive(DriveSpec {
+                link: "thruster".into(),
+                how,
+            });
+            let drives = [thruster.clone()];
+            let mut faults = DriveFaults::new(&[fault(0.0, None, what)], 1.0, &drives);
+            let mut set = Actuation::Drives(DriveCommand::new(&[1900.0]));
+            faults.alter(&Clock { step: 0, dt_s: 1.0 }, &mut set);
+            set.drive(0).expect("it has one")
+        };
+        assert_eq!(set(DriveFault::Weak(Fraction::new(0.5))), 1700.0);
+        assert_eq!(set(DriveFault::Dead), 1500.0);
+        assert_eq!(set(DriveFault::StuckAt(Finite::new(1600.0))), 1600.0);
     }
 }

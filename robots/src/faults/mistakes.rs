@@ -2,9 +2,8 @@
 
 use super::amiss::Instrument;
 use super::drive_spec::DriveFault;
-use super::drives::{Unit, drives};
 use super::spec::{FaultSpec, Faulty, Of};
-use crate::handoff::Actuation;
+use crate::handoff::{DriveUnit, NamedDrive};
 use crate::sense::SensorsSpec;
 use world::limits::{Limited, range};
 use world::ranges::Finite;
@@ -20,13 +19,13 @@ pub struct Mistake {
     pub help: Option<String>,
 }
 
-/// All mistakes in the faults of a robot with these instruments. `set` are any set-points of its vehicle; without them
-/// its drives are not checked.
+/// All mistakes in the faults of a robot with these instruments. `drives` are those of its vehicle; without them they
+/// are not checked.
 #[must_use]
 pub fn mistakes(
     faults: &[FaultSpec],
     sensors: &SensorsSpec,
-    set: Option<&Actuation>,
+    drives: Option<&[NamedDrive]>,
 ) -> Vec<Mistake> {
     let mut found = Vec::new();
     for (i, fault) in faults.iter().enumerate() {
@@ -56,7 +55,7 @@ pub fn mistakes(
             }
             Of::Instrument(..) => {}
             Of::Drive(name, how) => {
-                if let Some((at, problem, help)) = set.and_then(|set| misfit(set, name, &how)) {
+                if let Some((at, problem, help)) = drives.and_then(|all| misfit(all, name, &how)) {
                     let field = match (&fault.what, at) {
                         (Faulty::Drive(_), Some(at)) => format!("what.{at}"),
                         _ => "what".to_string(),
@@ -97,13 +96,11 @@ fn on_board(sensors: &SensorsSpec) -> String {
 
 /// Why a drive of this name cannot fail like this: the field below `what`, the problem and the cure.
 fn misfit(
-    set: &Actuation,
+    all: &[NamedDrive],
     name: &str,
     how: &DriveFault,
 ) -> Option<(Option<&'static str>, String, String)> {
-    let mut set = *set;
-    let all = drives(&mut set);
-    let Some((_, unit, _)) = all.iter().find(|(drive, ..)| *drive == name) else {
+    let Some(drive) = all.iter().find(|d| d.name == name) else {
         if all.is_empty() {
             let problem = format!(
                 "a kinematic vehicle has no {} that could fail: it moves as its helm asks",
@@ -113,7 +110,7 @@ fn misfit(
                 "take a vehicle with drives, such as `vehicle: Remus100()`, or leave the fault out";
             return Some((None, problem, help.to_string()));
         }
-        let names: Vec<&str> = all.iter().map(|(drive, ..)| *drive).collect();
+        let names: Vec<&str> = all.iter().map(|d| d.name.as_str()).collect();
         let problem = format!("the vehicle has no drive \"{name}\"");
         let help = format!("its drives: {}", names.join(", "));
         return Some((Some("link"), problem, help));
@@ -121,9 +118,11 @@ fn misfit(
     let DriveFault::StuckAt(at) = how else {
         return None;
     };
-    let legal = match unit {
-        Unit::Fin => &range::fin_deg,
-        Unit::Rpm => &range::rpm,
+    let legal = match drive.unit {
+        DriveUnit::Fin => &range::fin_deg,
+        DriveUnit::Rpm => &range::rpm,
+        // A thruster's curve, a pump and a moving mass have limits of their own, at which the drive stops.
+        DriveUnit::Own => return None,
     };
     let problem = Finite::limited(at.get(), legal).err()?;
     let help = format!("the set-points of {name} are in {}", legal.2);
@@ -143,12 +142,11 @@ mod tests {
     use super::super::testing::fault;
     use super::super::{DriveSpec, FinFault, FixFault, HeadingFault};
     use super::*;
-    use crate::handoff::{ActuatorCommand, RateCommand};
     use crate::sense::CompassSpec;
 
-    fn told(faults: &[FaultSpec], set: Actuation) -> Vec<(String, String)> {
+    fn told(faults: &[FaultSpec], drives: &[NamedDrive]) -> Vec<(String, String)> {
         let sensors = SensorsSpec::default().with(CompassSpec::default());
-        let found = mistakes(faults, &sensors, Some(&set));
+        let found = mistakes(faults, &sensors, Some(drives));
         assert!(found.iter().all(|m| m.help.is_some()));
         found.into_iter().map(|m| (m.field, m.problem)).collect()
     }
@@ -162,8 +160,8 @@ mod tests {
 
     #[test]
     fn each_mistake_is_told_with_its_field() {
-        let fins = Actuation::Fins(ActuatorCommand::default());
-        let rates = Actuation::Rates(RateCommand::default());
+        let fins = &NamedDrive::fins()[..];
+        let rates = &[][..];
         let compass = || Faulty::Compass(HeadingFault::Stuck);
         let rudder = || Faulty::Rudder(FinFault::Stuck);
         for (faults, set, field, problem) in [
@@ -233,9 +231,6 @@ mod tests {
                 drive("propeller", DriveFault::StuckAt(Finite::new(900.0))),
             ),
         ];
-        assert_eq!(
-            told(&faults, Actuation::Fins(ActuatorCommand::default())),
-            []
-        );
+        assert_eq!(told(&faults, &NamedDrive::fins()), []);
     }
 }

@@ -73,6 +73,36 @@ impl Default for Actuation {
 }
 
 impl Actuation {
+    /// The set-point of a drive by its place in [`NamedDrive`](super::NamedDrive)'s order; `None` without such a drive.
+    #[must_use]
+    pub fn drive(&self, place: usize) -> Option<f64> {
+        match self {
+            Self::Fins(set) => [set.rudder_rad, set.stern_rad, set.rpm].get(place).copied(),
+            Self::Rates(_) => None,
+            Self::Drives(set) => set.all().get(place).copied(),
+        }
+    }
+
+    /// The same with another set-point of that drive.
+    #[must_use]
+    pub fn with_drive(self, place: usize, value: f64) -> Self {
+        match self {
+            Self::Fins(set) => Self::Fins(match place {
+                0 => ActuatorCommand {
+                    rudder_rad: value,
+                    ..set
+                },
+                1 => ActuatorCommand {
+                    stern_rad: value,
+                    ..set
+                },
+                _ => ActuatorCommand { rpm: value, ..set },
+            }),
+            Self::Rates(set) => Self::Rates(set),
+            Self::Drives(set) => Self::Drives(set.with(place, value)),
+        }
+    }
+
     /// The set-points with their names and units; the drives of a folder's vehicle have numbers.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
         let (names, values): (&[&'static str], &[f64]) = match self {

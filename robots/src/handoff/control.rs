@@ -150,10 +150,54 @@ impl DriveCommand {
         &self.set[..self.n]
     }
 
-    /// The set-points, to change them.
-    pub fn all_mut(&mut self) -> &mut [f64] {
-        &mut self.set[..self.n]
+    /// The same with another set-point of one drive.
+    #[must_use]
+    pub fn with(self, place: usize, value: f64) -> Self {
+        let mut set = self.set;
+        set[place] = value;
+        Self { set, ..self }
     }
+}
+
+/// A drive that can fail, in the order of its vehicle's set-points.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedDrive {
+    /// Its name: the link of a folder's vehicle.
+    pub name: String,
+    /// Unit in which a scenario gives its set-points.
+    pub unit: DriveUnit,
+    /// Set-point at which it does nothing.
+    pub idle: f64,
+}
+
+impl NamedDrive {
+    /// Those of a vehicle with a rudder, a stern plane and a propeller.
+    #[must_use]
+    pub fn fins() -> Vec<Self> {
+        let named = |(name, unit): (&str, DriveUnit)| Self {
+            name: name.to_string(),
+            unit,
+            idle: 0.0,
+        };
+        [
+            ("rudder", DriveUnit::Fin),
+            ("stern_plane", DriveUnit::Fin),
+            ("propeller", DriveUnit::Rpm),
+        ]
+        .map(named)
+        .to_vec()
+    }
+}
+
+/// Unit in which a scenario gives the set-points of a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DriveUnit {
+    /// Degrees; the set-point itself is in rad.
+    Fin,
+    /// Revolutions per minute.
+    Rpm,
+    /// That of the drive itself: the input of a thruster's curve, m³ of a buoyancy engine, m of a moving mass.
+    Own,
 }
 
 /// What a vehicle can do, for searchers that can use it.

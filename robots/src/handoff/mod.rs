@@ -23,7 +23,8 @@ mod side;
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{
-    Capabilities, Control, Does, DriveCommand, MOST_DRIVES, Plant, PlantDrive, ThrustTable,
+    Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant,
+    PlantDrive, ThrustTable,
 };
 pub use decision::{
     Behaviour, Decision, Declaration, Evidence, Outcome, PictureEvidence, UP_FLOW_EDGE, Verdict,

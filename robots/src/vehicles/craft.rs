@@ -1,17 +1,17 @@
 //! A vehicle of any kind that a scenario can choose for a robot.
 
 use super::files::Files;
-use super::folder::{BuiltIn, Described, SHIPPED, Shipped};
+use super::folder::{Described, of_folder, shipped};
 use super::kinematic::Kinematic;
 use super::kinematic_spec::Moves;
 use super::spec::VehicleSpec;
 use super::vehicle::Vehicle;
 use crate::error::RobotError;
 use crate::handoff::{
-    Actuation, ActuatorCommand, Capabilities, Control, RateCommand, RateLimits, TurnLimit,
+    Actuation, ActuatorCommand, Capabilities, Control, NamedDrive, RateCommand, RateLimits,
+    TurnLimit,
 };
 use nalgebra::Vector3;
-use std::path::Path;
 use world::fields::Flow;
 use world::frames::{Pose, Truth};
 use world::physics::BodySpec;
@@ -29,40 +29,6 @@ pub enum Craft {
 
 /// Below this speed through the water the fins of a REMUS have little effect, m/s (see its autopilot).
 const LEAST_FIN_M_S: f64 = 0.8;
-/// Longest `vehicle.ron`, bytes.
-const LONGEST: u64 = 1 << 20;
-
-/// The vehicle of a folder.
-fn described(folder: &Path, files: &dyn Files) -> Result<Described, RobotError> {
-    let name = folder.join("vehicle.ron");
-    let path = files.path(&name).display().to_string();
-    let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File {
-        path: path.clone(),
-        problem,
-    })?;
-    Described::load(folder, &files.vehicle(&path, &text)?, files)
-}
-
-fn shipped(name: &str, files: &dyn Files) -> Result<Described, RobotError> {
-    let Some(shipped) = Shipped::named(name) else {
-        let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
-        return Err(RobotError::Invalid {
-            field: "vehicle".into(),
-            problem: format!(
-                "no vehicle \"{name}\" comes with the program; there are {}",
-                names.join(", ")
-            ),
-        });
-    };
-    described(
-        Path::new(name),
-        &BuiltIn {
-            shipped,
-            reader: files,
-        },
-    )
-}
-
 impl Craft {
     /// Builds the vehicle that a scenario asks for; `files` gives the URDF and its meshes, if it names one.
     ///
@@ -75,9 +41,7 @@ impl Craft {
                 Self::Kinematic(Box::new(Kinematic::load(spec, files)?))
             }
             VehicleSpec::Shipped(name) => Self::Described(Box::new(shipped(name, files)?)),
-            VehicleSpec::File(folder) => {
-                Self::Described(Box::new(described(Path::new(folder), files)?))
-            }
+            VehicleSpec::File(folder) => Self::Described(Box::new(of_folder(folder, files)?)),
         })
     }
 
@@ -127,6 +91,26 @@ impl Craft {
                 swims(0.0, limits.speed_m_s, radius)
             }
             Self::Described(vehicle) => vehicle.capabilities(),
+        }
+    }
+
+    /// Its drives that can fail; none of a kinematic vehicle, which moves as its helm asks.
+    #[must_use]
+    pub fn named_drives(&self) -> Vec<NamedDrive> {
+        match self {
+            Self::Finned(_) => NamedDrive::fins(),
+            Self::Kinematic(_) => Vec::new(),
+            Self::Described(vehicle) => vehicle.named_drives(),
+        }
+    }
+
+    /// Electric power of its drives now, W; none of a kinematic vehicle.
+    #[must_use]
+    pub fn power_w(&self) -> f64 {
+        match self {
+            Self::Finned(vehicle) => vehicle.power_w(),
+            Self::Kinematic(_) => 0.0,
+            Self::Described(vehicle) => vehicle.power_w(),
         }
     }
 

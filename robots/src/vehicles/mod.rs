@@ -3,6 +3,7 @@
 mod craft;
 mod drives;
 mod dynamics;
+mod energy;
 mod extensions;
 mod files;
 mod folder;
@@ -22,6 +23,7 @@ mod vehicle;
 
 pub use craft::Craft;
 pub use drives::{BuoyancyEngineSpec, CurveSpec, DriveSpec, FinSpec, MovingMassSpec, ThrusterSpec};
+pub use energy::{Battery, EnergySpec};
 pub use files::{Files, InMemory};
 pub use folder::{Axes, Block, Described, HydrodynamicsSpec, Row, SHIPPED, Shipped, VehicleFile};
 pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};

@@ -1,6 +1,7 @@
 //! A vehicle with fins: hull, instruments' places, actuators and its equation of motion.
 
 use super::dynamics::Equation;
+use super::energy::REMUS_SHARE;
 use super::files::Files;
 use super::remus100::{Actuators, Coefficients, REMUS100, RemusTerms};
 use super::spec::RemusSpec;
@@ -20,6 +21,7 @@ pub struct Vehicle {
     hull: Hull,
     equation: Equation,
     actuators: Actuators,
+    power_w: f64,
 }
 
 impl Vehicle {
@@ -36,6 +38,7 @@ impl Vehicle {
                 .expect("the mass of a REMUS is near that of its parameters"),
             hull,
             actuators: Actuators::default(),
+            power_w: 0.0,
         })
     }
 
@@ -61,6 +64,12 @@ impl Vehicle {
     #[must_use]
     pub fn actuators(&self) -> Actuators {
         self.actuators
+    }
+
+    /// Electric power of its propeller in the last step, W.
+    #[must_use]
+    pub fn power_w(&self) -> f64 {
+        self.power_w
     }
 
     /// Sets the state of fins and propeller at a start.
@@ -98,6 +107,10 @@ impl Vehicle {
             .equation
             .advance(&terms, truth, &self.actuators, water, dt_s);
         self.actuators = actuators;
+        let through = truth.v_WB_B - truth.pose.R_WB.inverse() * water.velocity;
+        let [v_ground, v] = [truth.v_WB_B, through].map(|v| Vector3::new(v.x, -v.y, -v.z));
+        let shaft_w = terms.shaft_w(&v_ground, &v, water.density_kg_m3, actuators.rpm);
+        self.power_w = shaft_w / REMUS_SHARE;
         free
     }
 }

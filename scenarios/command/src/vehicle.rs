@@ -13,6 +13,7 @@ use robots::vehicles::{Craft, Described, RemusSpec, SHIPPED, Shipped, VehicleSpe
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, trials};
+use world::files::make_folder;
 
 /// Runs a subcommand.
 pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
@@ -199,8 +200,7 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
             say::line(format_args!("  {:<42} {value}", found.what));
         }
     }
-    std::fs::create_dir_all(&args.out)
-        .map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
+    make_folder(&args.out).map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
     let svg = figure(&name, &all);
     for (file, bytes) in [
         ("trials.csv", table(&all).into_bytes()),
@@ -240,8 +240,7 @@ fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
             Some("name a new folder".into()),
         ));
     }
-    std::fs::create_dir_all(&args.folder)
-        .map_err(|e| plainly(format!("{}: {e}", args.folder.display())))?;
+    make_folder(&args.folder).map_err(|e| plainly(format!("{}: {e}", args.folder.display())))?;
     for (name, text) in [("vehicle.ron", shipped.file), shipped.urdf] {
         let path = args.folder.join(name);
         write_whole(&path, text.as_bytes()).map_err(plainly)?;

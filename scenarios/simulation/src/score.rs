@@ -8,6 +8,7 @@ use crate::abnormal::Abnormal;
 use bevy_ecs::prelude::Resource;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Declaration, Outcome};
+use robots::vehicles::Battery;
 
 /// The score of all searchers.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -20,6 +21,32 @@ pub struct Score {
     pub abnormal: Vec<Abnormal>,
     /// Whether a mission ended since somebody last asked.
     ended: bool,
+}
+
+/// What a searcher has taken from its battery.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Energy {
+    /// Energy of the full battery, Wh.
+    pub battery_wh: f64,
+    /// Used by the drives, Wh.
+    pub drives_wh: f64,
+    /// Used by everything else, Wh.
+    pub hotel_wh: f64,
+    /// Time for which it was counted, s.
+    pub counted_s: f64,
+    /// When the battery was empty, s.
+    pub emptied_s: Option<f64>,
+}
+
+impl Energy {
+    /// How long a full battery lasts at the mean power so far, s; infinite at none.
+    #[must_use]
+    pub fn endurance_s(&self) -> f64 {
+        match self.emptied_s {
+            Some(t_s) => t_s,
+            None => self.battery_wh * self.counted_s / (self.drives_wh + self.hotel_wh),
+        }
+    }
 }
 
 /// The score of one searcher.
@@ -45,6 +72,8 @@ pub struct SearcherScore {
     pub final_position_error_m: f64,
     /// Greatest distance between believed and true position so far, m.
     pub greatest_position_error_m: f64,
+    /// Its battery; `None` if energy is not counted.
+    pub energy: Option<Energy>,
     /// Where it was last.
     last: Option<Vector3<f64>>,
 }
@@ -62,6 +91,7 @@ impl SearcherScore {
             first_detection: None,
             final_position_error_m: 0.0,
             greatest_position_error_m: 0.0,
+            energy: None,
             last: None,
         }
     }
@@ -91,6 +121,19 @@ impl SearcherScore {
     pub fn misplaced(&mut self, error_m: f64) {
         self.final_position_error_m = error_m;
         self.greatest_position_error_m = self.greatest_position_error_m.max(error_m);
+    }
+
+    /// Its battery stands like this at a time, s.
+    pub fn powered(&mut self, t_s: f64, battery: &Battery) {
+        let emptied_s = self.energy.and_then(|e| e.emptied_s);
+        let [drives_wh, hotel_wh] = battery.used_wh();
+        self.energy = Some(Energy {
+            battery_wh: battery.full_wh(),
+            drives_wh,
+            hotel_wh,
+            counted_s: t_s,
+            emptied_s: emptied_s.or(battery.is_empty().then_some(t_s)),
+        });
     }
 
     /// It declares. A declaration of the same number takes the place of the earlier one.

@@ -9,7 +9,7 @@
 //! step; they follow it exactly.
 
 use super::blocks::{Damping, Step};
-use crate::handoff::{Capabilities, DriveCommand, MOST_DRIVES, Plant};
+use crate::handoff::{Capabilities, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant};
 use crate::vehicles::drives::{Drive, Kind};
 use crate::vehicles::dynamics::Equation;
 use crate::vehicles::urdf::Shell;
@@ -147,6 +147,20 @@ impl Described {
         each.map(|(d, (now, asked))| d.power_w(*now, *asked)).sum()
     }
 
+    /// Its drives by the names of their links.
+    #[must_use]
+    pub fn named_drives(&self) -> Vec<NamedDrive> {
+        let named = |drive: &Drive| NamedDrive {
+            name: drive.link.clone(),
+            unit: match drive.kind {
+                Kind::Fin(_) => DriveUnit::Fin,
+                _ => DriveUnit::Own,
+            },
+            idle: drive.idle(),
+        };
+        self.drives.iter().map(named).collect()
+    }
+
     /// Set-points at which no drive does anything.
     #[must_use]
     pub fn idle(&self) -> DriveCommand {
@@ -220,6 +234,18 @@ impl Described {
             self.states = states[2];
         }
         now
+    }
+
+    /// Whether a step can be cut finely enough for its motion at rest.
+    #[must_use]
+    pub fn follows(&self, step_s: f64) -> bool {
+        step_s * self.rates.rest <= FASTEST * MOST_PARTS
+    }
+
+    /// Time in which its fastest motion at rest decays or swings, s.
+    #[must_use]
+    pub fn shortest_s(&self) -> f64 {
+        1.0 / self.rates.rest
     }
 
     /// Into how many parts a step is cut.

@@ -13,6 +13,6 @@ mod spec;
 
 pub use described::Described;
 pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row};
-pub(super) use shipped::BuiltIn;
 pub use shipped::{SHIPPED, Shipped};
+pub(super) use shipped::{of_folder, shipped};
 pub use spec::VehicleFile;

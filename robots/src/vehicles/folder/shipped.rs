@@ -1,5 +1,7 @@
-//! The vehicles that come with the program: their folders, in the program itself.
+//! Opens the folder of a vehicle: a user's own, or one of those that are in the program itself.
 
+use super::described::Described;
+use crate::error::RobotError;
 use crate::vehicles::files::Files;
 use std::path::{Path, PathBuf};
 
@@ -76,4 +78,43 @@ impl Files for BuiltIn<'_> {
     ) -> Result<super::VehicleFile, crate::error::RobotError> {
         self.reader.vehicle(path, text)
     }
+}
+
+/// Longest `vehicle.ron`, bytes.
+const LONGEST: u64 = 1 << 20;
+
+/// The vehicle of a folder.
+pub(in crate::vehicles) fn of_folder(
+    folder: &str,
+    files: &dyn Files,
+) -> Result<Described, RobotError> {
+    let folder = Path::new(folder);
+    let name = folder.join("vehicle.ron");
+    let path = files.path(&name).display().to_string();
+    let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File {
+        path: path.clone(),
+        problem,
+    })?;
+    Described::load(folder, &files.vehicle(&path, &text)?, files)
+}
+
+/// One that comes with the program.
+pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Described, RobotError> {
+    let Some(shipped) = Shipped::named(name) else {
+        let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
+        return Err(RobotError::Invalid {
+            field: "vehicle".into(),
+            problem: format!(
+                "no vehicle \"{name}\" comes with the program; there are {}",
+                names.join(", ")
+            ),
+        });
+    };
+    of_folder(
+        name,
+        &BuiltIn {
+            shipped,
+            reader: files,
+        },
+    )
 }

@@ -192,6 +192,19 @@ impl RemusTerms<'_> {
         )
     }
 
+    /// Power of the shaft, W, at a velocity through the water (FRD).
+    pub(in crate::vehicles) fn shaft_w(
+        &self,
+        v_ground: &Vector3<f64>,
+        v: &Vector3<f64>,
+        rho: f64,
+        rpm: f64,
+    ) -> f64 {
+        let n = rpm / 60.0;
+        let (_, torque) = self.propeller(v_ground, v, v.norm(), rho, n);
+        (torque.x / self.c.torque_share * n * std::f64::consts::TAU).max(0.0)
+    }
+
     /// Thrust and shaft torque by linear open-water curves, n in rev/s.
     fn propeller(
         &self,

@@ -113,6 +113,21 @@ pub struct RegionSummary {
     pub until_s: Option<f64>,
 }
 
+/// What a robot took from its battery.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EnergySummary {
+    /// Energy of the full battery, Wh.
+    pub battery_wh: f64,
+    /// Used by the drives, Wh.
+    pub drives_wh: f64,
+    /// Used by the hotel load, Wh.
+    pub hotel_wh: f64,
+    /// How long a full battery lasts at the mean power of the mission, s; `None` if no power was used.
+    pub endurance_s: Option<f64>,
+    /// When the battery was empty, s.
+    pub emptied_s: Option<f64>,
+}
+
 /// The results of one robot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobotSummary {
@@ -148,6 +163,8 @@ pub struct RobotSummary {
     pub final_position_error_m: f64,
     /// Greatest distance between believed and true position, m.
     pub greatest_position_error_m: f64,
+    /// What it took from its battery; `None` if the scenario gives it none.
+    pub energy: Option<EnergySummary>,
     /// Behaviour at the end.
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.

@@ -4,8 +4,8 @@ use super::GantryPath;
 use super::RunInfo;
 use super::sources::SourceTruth;
 use super::summary::{
-    AbnormalSummary, DeclarationSummary, DeclaredKind, Position, RegionSummary, RobotSummary,
-    RunSummary, SourceSummary, Summary, Totals, Versions,
+    AbnormalSummary, DeclarationSummary, DeclaredKind, EnergySummary, Position, RegionSummary,
+    RobotSummary, RunSummary, SourceSummary, Summary, Totals, Versions,
 };
 use super::{MapEnd, MapStated};
 use nalgebra::Vector2;
@@ -176,6 +176,13 @@ impl Robot {
             travelled_m: score.travelled_m,
             final_position_error_m: score.final_position_error_m,
             greatest_position_error_m: score.greatest_position_error_m,
+            energy: score.energy.map(|e| EnergySummary {
+                battery_wh: e.battery_wh,
+                drives_wh: e.drives_wh,
+                hotel_wh: e.hotel_wh,
+                endurance_s: Some(e.endurance_s()).filter(|s| s.is_finite()),
+                emptied_s: e.emptied_s,
+            }),
             last_behaviour: self.behaviour.name().to_owned(),
             behaviour_s: self
                 .behaviour_s

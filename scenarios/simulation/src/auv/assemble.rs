@@ -21,7 +21,7 @@ use robots::handoff::{
     Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::Craft;
+use robots::vehicles::{Battery, Craft};
 use world::catalogue::Entry;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
@@ -113,7 +113,8 @@ fn spawn(
         spec.start.speed_m_s.get(),
     );
     let still = vehicle.idle();
-    if let Some(mistake) = mistakes(&spec.faults, &spec.sensors, Some(&still)).first() {
+    let drives = vehicle.named_drives();
+    if let Some(mistake) = mistakes(&spec.faults, &spec.sensors, Some(&drives)).first() {
         return Err(RobotError::Invalid {
             field: mistake.field.clone(),
             problem: mistake.problem.clone(),
@@ -175,12 +176,15 @@ fn spawn(
         ),
         (
             SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
-            DriveFaults::new(&spec.faults, dt_s),
+            DriveFaults::new(&spec.faults, dt_s, &drives),
             FaultLog::new(&spec.faults, dt_s),
         ),
     ));
     if let Some(mapper) = mapper {
         robot.insert((mapper.belief().clone(), Mapping { mapper }));
+    }
+    if let Some(energy) = &spec.energy {
+        robot.insert(Battery::new(energy));
     }
     let robot = robot.id();
     world.get_resource_or_init::<Robots>().0.push(robot);

@@ -19,6 +19,7 @@ use robots::handoff::{
 use robots::map::MapObservation;
 use robots::sense::camera::Optics;
 use robots::sense::{Around, Asked, SensorSuite};
+use robots::vehicles::Battery;
 use world::clock::Clock;
 use world::digest::Digest;
 use world::frames::Truth;
@@ -136,11 +137,16 @@ pub(crate) fn actuate(
         &mut Pilot,
         &mut DriveFaults,
         &mut Actuation,
+        Option<&Battery>,
+        &Hull,
     )>,
 ) {
-    for (command, estimate, mut pilot, mut faults, mut set) in &mut robots {
+    for (command, estimate, mut pilot, mut faults, mut set, battery, hull) in &mut robots {
         *set = pilot.step(command, estimate, clock.dt_s);
         faults.alter(&clock, &mut set);
+        if battery.is_some_and(Battery::is_empty) {
+            *set = hull.vehicle.idle();
+        }
     }
 }
 
@@ -149,13 +155,16 @@ pub(crate) fn push_bodies(
     ocean: Res<Ocean>,
     roster: Res<Robots>,
     mut physics: ResMut<Physics>,
-    mut robots: Query<(&Truth, &Actuation, &mut Hull)>,
+    mut robots: Query<(&Truth, &Actuation, &mut Hull, Option<&mut Battery>)>,
 ) {
     let mut each = robots.iter_many_mut(&roster.0);
-    while let Some((truth, set, mut hull)) = each.fetch_next().map(whole) {
+    while let Some((truth, set, mut hull, battery)) = each.fetch_next().map(whole) {
         let (t_s, dt_s) = (clock.t_s(), clock.dt_s);
         let push = hull.vehicle.step(truth, &*ocean, t_s, set, dt_s);
         physics.push(hull.body, push);
+        if let Some(mut battery) = battery {
+            battery.use_w(hull.vehicle.power_w(), dt_s);
+        }
     }
 }
 
@@ -206,6 +215,7 @@ pub(crate) fn digest_robots(
 }
 
 type Scored<'a> = (
+    Option<&'a Battery>,
     &'a SearcherId,
     &'a Truth,
     &'a Estimate,
@@ -219,13 +229,17 @@ pub(crate) fn keep_score(
     mut score: ResMut<Score>,
     robots: Query<Scored>,
 ) {
-    for (id, truth, estimate, readings, decision) in robots.iter_many(&roster.0).map(whole) {
+    for (battery, id, truth, estimate, readings, decision) in robots.iter_many(&roster.0).map(whole)
+    {
         let p_W = truth.pose.p_WB;
         score.at(id.place, &p_W);
         score.outcome(id.place, decision.outcome);
         let own = &mut score.searchers[id.place];
         if let Some(declaration) = decision.declared {
             own.declared(declaration);
+        }
+        if let Some(battery) = battery {
+            own.powered(clock.t_next_s(), battery);
         }
         own.misplaced((estimate.position - p_W.xy()).norm());
         if readings.chemical.is_some_and(|c| c.detected) {

@@ -102,6 +102,10 @@ pub const CATALOG: &[Template] = catalog![
     "reef_mesh" with "meshes/reef.obj",
     "mound" with "meshes/mound.asc",
     "t13_siz",
+    "lauv_bay",
+    "bluerov_harbour",
+    "surface_lake",
+    "glider_shelf",
 ];
 
 /// The scenario of that name.

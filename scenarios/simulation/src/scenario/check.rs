@@ -78,7 +78,8 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     twins("robots", &robot_ids, &mut found);
     for (i, robot) in scenario.robots.iter().enumerate() {
         start(i, robot, &area, &terrain, &obstacles, &mut found);
-        let vehicle = parts(i, robot, scenario.time.step_s.get(), base_dir, &mut found);
+        let step_s = scenario.time.step_s.get();
+        let vehicle = parts(i, robot, step_s, base_dir, &mut found);
         let limit_s = scenario.time.limit_s.get();
         check_faults::faults(i, robot, vehicle.as_ref(), limit_s, &mut found);
         if let Some(vehicle) = vehicle {
@@ -94,7 +95,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
                 .map_or(0.0, |w| w.velocity(&p_W, 0.0).norm());
             check_able::speeds(i, robot, &vehicle, water_m_s, &mut found);
-            check_able::capabilities(i, robot, &vehicle, &mut found);
+            check_able::capabilities(i, robot, &vehicle, step_s, &mut found);
         }
         let setting = robot.setting(&area, &terrain, &obstacles);
         let path = format!("robots[{i}].chart");
@@ -286,7 +287,11 @@ fn parts(
     match Craft::load(&robot.vehicle, &Beside(base_dir)) {
         Ok(vehicle) => {
             for told in vehicle.told() {
-                found.push(Found::warning(format!("{path}.vehicle.urdf"), told.clone()));
+                let field = match vehicle {
+                    Craft::Described(_) => format!("{path}.vehicle"),
+                    _ => format!("{path}.vehicle.urdf"),
+                };
+                found.push(Found::warning(field, told.clone()));
             }
             let mounts = |name: &str| vehicle.mount(name);
             let id = robot.id.as_str();

@@ -5,6 +5,7 @@ use super::schema::{RobotSpec, Scenario};
 use super::success::SuccessSpec;
 use nalgebra::Vector2;
 use plumes::flow::Water;
+use robots::actuate::AutopilotSpec;
 use robots::handoff::{TurnLimit, Vertical};
 use robots::vehicles::Craft;
 use world::area::Area;
@@ -105,7 +106,27 @@ pub(super) fn speeds(
 }
 
 /// What a strategy asks of a vehicle that it cannot do.
-pub(super) fn capabilities(i: usize, robot: &RobotSpec, vehicle: &Craft, found: &mut Vec<Found>) {
+pub(super) fn capabilities(
+    i: usize,
+    robot: &RobotSpec,
+    vehicle: &Craft,
+    step_s: f64,
+    found: &mut Vec<Found>,
+) {
+    if let Craft::Described(hull) = vehicle {
+        if !hull.follows(step_s) {
+            let problem = format!(
+                "steps of {step_s} s are too long for this hull, whose motion decays within {:.1e} s: look at its mass \
+                 and damping",
+                hull.shortest_s()
+            );
+            found.push(Found::error(format!("robots[{i}].vehicle"), problem));
+        }
+        if robot.autopilot != AutopilotSpec::default() {
+            let problem = "is that of a REMUS, and has no effect on this vehicle: its own stands in its vehicle.ron";
+            found.push(Found::warning(format!("robots[{i}].autopilot"), problem));
+        }
+    }
     let able = vehicle.capabilities(robot.guidance.turn_radius_m.get());
     let strategy = robot.strategy.name();
     let wishes = robot.strategy.wishes();

@@ -3,7 +3,6 @@
 use super::fault::Found;
 use super::schema::RobotSpec;
 use robots::faults::mistakes;
-use robots::handoff::{Actuation, ActuatorCommand, RateCommand};
 use robots::vehicles::Craft;
 
 /// Finds faults of what the robot has not, times that contradict each other, and faults after the mission. `vehicle`
@@ -15,8 +14,8 @@ pub(super) fn faults(
     limit_s: f64,
     found: &mut Vec<Found>,
 ) {
-    let set = vehicle.map(still);
-    for mistake in mistakes(&robot.faults, &robot.sensors, set.as_ref()) {
+    let drives = vehicle.map(Craft::named_drives);
+    for mistake in mistakes(&robot.faults, &robot.sensors, drives.as_deref()) {
         let told = Found::error(format!("robots[{i}].{}", mistake.field), mistake.problem);
         found.push(match mistake.help {
             Some(help) => told.hint(help),
@@ -32,14 +31,6 @@ pub(super) fn faults(
             let path = format!("robots[{i}].faults[{k}].at_s");
             found.push(Found::warning(path, problem).hint("begin it earlier, or raise the limit"));
         }
-    }
-}
-
-/// Set-points of the kind that the vehicle takes.
-fn still(vehicle: &Craft) -> Actuation {
-    match vehicle.limits() {
-        None => Actuation::Fins(ActuatorCommand::default()),
-        Some(_) => Actuation::Rates(RateCommand::default()),
     }
 }
 

@@ -16,7 +16,7 @@ use robots::map::MapSpec;
 use robots::sense::SensorsSpec;
 use robots::sense::camera::OpticsSpec;
 use robots::strategy::StrategySpec;
-use robots::vehicles::VehicleSpec;
+use robots::vehicles::{EnergySpec, VehicleSpec};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -220,6 +220,9 @@ pub struct RobotSpec {
     pub chart: Vec<String>,
     /// Its strategy.
     pub strategy: StrategySpec,
+    /// Its battery and what empties it. Without it, energy is not counted and never ends.
+    #[serde(default)]
+    pub energy: Option<EnergySpec>,
     /// What fails on its mission; any number. The robot learns of a fault only by its readings.
     #[serde(default)]
     pub faults: Vec<FaultSpec>,

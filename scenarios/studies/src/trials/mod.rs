@@ -2,8 +2,11 @@
 
 mod figure;
 mod hull;
+mod kinds;
 mod manoeuvres;
 mod sail;
+mod straight;
+mod turns;
 
 pub use figure::figure;
 pub use hull::{Looks, drawn};

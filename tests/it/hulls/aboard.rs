@@ -1,0 +1,119 @@
+//! Instruments aboard other hulls: where the URDF puts them, in every scenario.
+
+use super::kit::shipped;
+use rheotaxis::registry::Registry;
+use rheotaxis::scenario::{Beside, CATALOG, load_text, template};
+use rheotaxis::trial::Trial;
+use robots::handoff::Readings;
+use robots::sense::Sensors;
+use robots::vehicles::{Craft, SHIPPED, VehicleSpec};
+use std::path::Path;
+use world::ranges::{NonNegative, Positive};
+
+#[test]
+fn every_shipped_vehicle_has_a_mount_for_every_instrument() {
+    for vehicle in SHIPPED {
+        let spec = VehicleSpec::Shipped(vehicle.folder.into());
+        let craft = Craft::load(&spec, &Beside(Path::new(""))).expect("shipped");
+        assert!(
+            craft.told().is_empty(),
+            "{}: {:?}",
+            vehicle.folder,
+            craft.told()
+        );
+        for sensor in world::registry::Registry::default().entries::<Sensors>() {
+            assert!(
+                craft.mount(sensor.name).is_some(),
+                "{}: {}",
+                vehicle.folder,
+                sensor.name
+            );
+        }
+    }
+}
+
+/// The altimeter reads more by as much as its link is raised.
+#[test]
+fn an_instrument_reads_from_where_its_link_is() {
+    let (_, urdf) = shipped("bluerov2_heavy");
+    let joint = urdf.find("altimeter_joint").expect("its joint");
+    let origin = joint + urdf[joint..].find("<origin xyz=\"").expect("its place") + 13;
+    let place = urdf[origin..].split('"').next().expect("numbers");
+    let numbers: Vec<f64> = place
+        .split_whitespace()
+        .map(|n| n.parse().expect("a number"))
+        .collect();
+    let raised = format!("{} {} {}", numbers[0], numbers[1], numbers[2] + 0.25);
+    let other = [&urdf[..origin], &raised, &urdf[origin + place.len()..]].concat();
+    let dir = tempfile::tempdir().expect("a folder");
+    let reads = |urdf: &str| {
+        let folder = dir.path().join("hull");
+        std::fs::create_dir_all(&folder).expect("a folder");
+        let file = robots::vehicles::Shipped::named("bluerov2_heavy")
+            .expect("shipped")
+            .file;
+        std::fs::write(folder.join("vehicle.ron"), file).expect("a file");
+        std::fs::write(folder.join("bluerov2_heavy.urdf"), urdf).expect("a file");
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        let hull = format!("File(\"{}\")", folder.display());
+        let text = text
+            .replace("Remus100()", &hull)
+            .replace("speed_m_s: 1.5)", "speed_m_s: 0.5)")
+            .replace("spin_up_s: 2000", "spin_up_s: 0");
+        let loaded = load_text(&Registry::default(), "lever", &text).expect("legal");
+        let mut trial = Trial::assemble(&loaded, 1).expect("a run");
+        let mut first = None;
+        while first.is_none() && trial.step() {
+            let world = &mut trial.simulation.world;
+            let readings = world.query::<&Readings>().single(world).expect("a robot");
+            first = readings
+                .altimeter
+                .as_ref()
+                .filter(|r| r.valid)
+                .map(|r| r.altitude_m);
+        }
+        first.expect("a reading")
+    };
+    let difference = reads(&other) - reads(&urdf);
+    // The reading has noise, the same in both runs but for its rounding.
+    assert!((difference - 0.25).abs() < 0.02, "{difference}");
+}
+
+/// Every scenario of the catalogue with a REMUS runs with a BlueROV2 Heavy and with a LAUV in its place, or `check`
+/// says why not.
+#[test]
+fn the_catalogue_runs_with_other_hulls() {
+    let mut ran = 0;
+    for template in CATALOG.iter().filter(|t| t.text.contains("Remus100(")) {
+        for hull in ["bluerov2_heavy", "lauv"] {
+            let mut text = template.text.to_string();
+            while let Some(at) = text.find("Remus100(") {
+                let end = at + text[at..].find(')').expect("its end") + 1;
+                text.replace_range(at..end, &format!("Shipped(\"{hull}\")"));
+            }
+            let folder = template.unpack().expect("its files");
+            let loaded = load_text(&Registry::default(), template.name, &text);
+            let mut loaded = match loaded {
+                Ok(loaded) => loaded,
+                Err(why) => panic!("{} with {hull}: {:?}", template.name, why.lines()),
+            };
+            loaded.base_dir = folder;
+            if let Err(why) = loaded.check() {
+                let lines = why.lines().join("; ");
+                assert!(
+                    lines.contains("robots["),
+                    "{} with {hull}: {lines}",
+                    template.name
+                );
+                continue;
+            }
+            let time = &mut loaded.scenario.time;
+            time.spin_up_s = NonNegative::new(time.spin_up_s.get().min(10.0));
+            time.limit_s = Positive::new(10.0);
+            let ended = Trial::assemble(&loaded, 1).expect("a run").finish_quietly();
+            assert!(ended.steps > 0, "{} with {hull}", template.name);
+            ran += 1;
+        }
+    }
+    assert!(ran > 30, "{ran}");
+}
