@@ -1,0 +1,64 @@
+//! A battery: it is counted, it changes nothing while it lasts, and the drives stop when it is empty.
+
+use crate::common;
+use rheotaxis::scenario::template;
+
+/// The channel for two minutes with a battery or without.
+fn flown(name: &str, vehicle: &str, energy: &str) -> serde_json::Value {
+    let dir = tempfile::tempdir().expect("a folder");
+    let text = template("uniform_channel").expect("in the catalogue").text;
+    let text = text
+        .replace("Remus100()", vehicle)
+        .replace(
+            "strategy: Amp(speed_m_s: 1.5",
+            &format!("{energy} strategy: Amp(speed_m_s: 1.4"),
+        )
+        .replace(
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 10, limit_s: 120",
+        );
+    common::mission(dir.path(), name, &text).1
+}
+
+#[test]
+fn a_battery_that_lasts_changes_nothing_and_tells_its_endurance() {
+    for vehicle in ["Remus100()", "Shipped(\"lauv\")"] {
+        let without = flown("without", vehicle, "");
+        let with = flown("with", vehicle, "energy: (battery_wh: 1000, hotel_w: 30),");
+        assert_eq!(without["digest"], with["digest"], "{vehicle}");
+        assert!(without["robots"][0]["energy"].is_null());
+        let energy = &with["robots"][0]["energy"];
+        let number = |field: &str| energy[field].as_f64().expect("a number");
+        assert!((number("hotel_wh") - 1.0).abs() < 0.01, "{energy}");
+        // Some tens of watts at 1.4 m/s.
+        let watts = number("drives_wh") * 30.0;
+        assert!((3.0..200.0).contains(&watts), "{vehicle}: {watts} W");
+        let endurance_s = 1000.0 * 3600.0 / (watts + 30.0);
+        assert!(
+            (number("endurance_s") / endurance_s - 1.0).abs() < 0.02,
+            "{energy}"
+        );
+        assert!(energy["emptied_s"].is_null());
+    }
+}
+
+#[test]
+fn an_empty_battery_stops_the_drives() {
+    let full = flown("full", "Shipped(\"lauv\")", "energy: (),");
+    let empty = flown(
+        "empty",
+        "Shipped(\"lauv\")",
+        "energy: (battery_wh: 0.5, hotel_w: 30),",
+    );
+    let energy = &empty["robots"][0]["energy"];
+    let emptied_s = energy["emptied_s"].as_f64().expect("it was emptied");
+    assert!((5.0..60.0).contains(&emptied_s), "{energy}");
+    let way = |s: &serde_json::Value| s["robots"][0]["travelled_m"].as_f64().expect("a way");
+    // It coasts to rest in the water and drifts with 0.2 m/s.
+    assert!(
+        way(&empty) < 0.6 * way(&full),
+        "{} of {} m",
+        way(&empty),
+        way(&full)
+    );
+}

@@ -1,0 +1,68 @@
+//! `docs/vehicles.md` as printed: its commands run, and what they write can search.
+
+use crate::common;
+use rheotaxis::scenario::template;
+
+#[test]
+fn bring_your_own_works_as_printed() {
+    let page = std::fs::read_to_string(common::root().join("docs/vehicles.md")).expect("the page");
+    let dir = tempfile::tempdir().expect("a folder");
+    let mut ran = 0;
+    for line in page.lines().filter(|l| l.starts_with("rheotaxis ")) {
+        let args: Vec<&str> = line.split_whitespace().skip(1).collect();
+        let ended = common::rheotaxis_in(dir.path(), &args);
+        let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+        assert!(ended.status.success(), "{line}: {said}");
+        ran += 1;
+    }
+    assert_eq!(ran, 3, "commands in the page");
+    for file in [
+        "my_auv/vehicle.ron",
+        "my_auv/lauv.urdf",
+        "my_auv.png",
+        "my_auv_trials/trials.csv",
+        "my_auv_trials/trials.svg",
+        "my_auv_trials/trials.png",
+    ] {
+        let bytes = std::fs::read(dir.path().join(file)).unwrap_or_default();
+        assert!(bytes.len() > 200, "{file}");
+    }
+    let text = template("lauv_bay").expect("in the catalogue").text;
+    let own = text.replace("Shipped(\"lauv\")", "File(\"my_auv/\")");
+    assert_ne!(own, text);
+    std::fs::write(dir.path().join("mine.ron"), own).expect("a file");
+    let checked = common::rheotaxis_in(dir.path(), &["check", "mine.ron"]);
+    assert!(checked.status.success());
+}
+
+/// A folder that is wrong: the error names the file, and the place in it.
+#[test]
+fn a_broken_folder_gets_a_plain_error() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let run = |args: &[&str]| {
+        let ended = common::rheotaxis_in(dir.path(), args);
+        (
+            ended.status.code(),
+            String::from_utf8_lossy(&ended.stderr).into_owned(),
+        )
+    };
+    let (code, said) = run(&["vehicle", "check", "nowhere"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("there is no such folder") && said.contains("lauv"),
+        "{said}"
+    );
+    assert_eq!(run(&["vehicle", "init", "lauv", "mine"]).0, Some(0));
+    let (code, said) = run(&["vehicle", "init", "lauv", "mine"]);
+    assert!(code == Some(1) && said.contains("exists already"), "{said}");
+    let file = dir.path().join("mine/vehicle.ron");
+    let text = std::fs::read_to_string(&file).expect("it was written");
+    std::fs::write(&file, text.replace("lag_s: 0.05", "lag_s: -0.05")).expect("a file");
+    let (code, said) = run(&["vehicle", "trials", "mine"]);
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("mine/vehicle.ron") && said.contains("drives[0].lag_s"),
+        "{said}"
+    );
+    assert!(said.contains("must be >= 0"), "{said}");
+}
