@@ -51,6 +51,16 @@ pub const CATALOGUE: &[Entry] = &[
         source: "Dubins 1957; the point that searches in Li, Farrell & Cardé 2001, Adaptive Behavior 9",
     },
     Entry {
+        name: "Shipped",
+        what: "A vehicle of a folder that comes with the program, by the folder's name.",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; each folder names its own",
+    },
+    Entry {
+        name: "File",
+        what: "A vehicle of a folder of your own: vehicle.ron and a URDF.",
+        source: "Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2nd ed. 2021; its file names its own",
+    },
+    Entry {
         name: "CrabGantry",
         what: "Two-axis gantry over a flume with a head of three probes: servo drives, end stops, contacts.",
         source: "Webster, Volyanskyy & Weissburg 2012, section 3.1 and Figs. 5, 6",

@@ -37,6 +37,8 @@ const ENDS: &[(&str, &str)] = &[
     ("s", "s"),
     ("ug_l", "ug/L"),
     ("v", "V"),
+    ("w", "W"),
+    ("wh", "Wh"),
 ];
 
 /// Fields that have a paper's name, by type.
