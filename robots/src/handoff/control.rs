@@ -105,7 +105,7 @@ impl ThrustTable {
     pub fn input(&self, thrust_n: f64) -> f64 {
         let mut same = self.0.iter().filter(|(_, n)| *n == thrust_n);
         if let Some(first) = same.next() {
-            let last = same.last().unwrap_or(first);
+            let last = same.next_back().unwrap_or(first);
             return (first.0 + last.0) / 2.0;
         }
         between(&self.0, thrust_n, |(i, n)| (*n, *i))

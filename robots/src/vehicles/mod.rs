@@ -25,7 +25,9 @@ pub use craft::Craft;
 pub use drives::{BuoyancyEngineSpec, CurveSpec, DriveSpec, FinSpec, MovingMassSpec, ThrusterSpec};
 pub use energy::{Battery, EnergySpec};
 pub use files::{Files, InMemory};
-pub use folder::{Axes, Block, Described, HydrodynamicsSpec, Row, SHIPPED, Shipped, VehicleFile};
+pub use folder::{
+    Axes, Block, Described, HydrodynamicsSpec, Row, Rows, SHIPPED, Shipped, VehicleFile,
+};
 pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
 pub use kinematic::Kinematic;
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};

@@ -72,7 +72,7 @@ fn full(m: &Matrix6<f64>) -> Block {
         let at = |j: usize| Finite::new(m[(i, j)]);
         (at(0), at(1), at(2), at(3), at(4), at(5))
     };
-    Block::Full((row(0), row(1), row(2), row(3), row(4), row(5)))
+    Block::Full(Box::new((row(0), row(1), row(2), row(3), row(4), row(5))))
 }
 
 /// A symmetric matrix without a negative direction, of the size of a hull's forces and moments.

@@ -21,5 +21,5 @@ mod solid_tests;
 
 pub use gantry::{AxisDrive, AxisSpec, GantryBodySpec, GantryId, JointState};
 pub use gantry_report::{GantryContact, Solid};
-pub use shape::Shape;
+pub use shape::{Inside, Shape};
 pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};

@@ -39,6 +39,9 @@ pub enum Shape {
     },
 }
 
+/// Tells of a point, m, whether it lies in a shape.
+pub type Inside = Box<dyn Fn(&Vector3<f64>) -> bool>;
+
 impl Shape {
     /// The shape in the solver's form; `None` if the points of a hull lie in one plane.
     pub(super) fn shared(&self) -> Option<SharedShape> {
@@ -83,7 +86,7 @@ impl Shape {
 
     /// Tells of points, m in its own axes, whether they lie in it; of a flat hull none does.
     #[must_use]
-    pub fn inside(&self) -> Box<dyn Fn(&Vector3<f64>) -> bool> {
+    pub fn inside(&self) -> Inside {
         let shared = self.shared();
         Box::new(move |p| {
             shared
@@ -133,7 +136,7 @@ mod tests {
             assert!(shape.reach_m() >= half.z - 1e-9, "{shape:?}");
             let inside = shape.inside();
             let along = |z| inside(&Vector3::new(0.0, 0.0, z));
-            let end = f64::from(half.z);
+            let end = half.z;
             assert!(along(0.99 * end) && !along(1.01 * end), "{shape:?}");
         }
     }

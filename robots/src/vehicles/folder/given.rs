@@ -23,7 +23,8 @@ pub(super) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
 fn matrix(block: &Block, axes: Axes) -> Matrix6<f64> {
     let given = match block {
         Block::Diagonal(d) => Matrix6::from_diagonal(&row(d)),
-        Block::Full((a, b, c, d, e, f)) => {
+        Block::Full(rows) => {
+            let (a, b, c, d, e, f) = &**rows;
             Matrix6::from_columns(&[a, b, c, d, e, f].map(row)).transpose()
         }
     };

@@ -64,8 +64,11 @@ pub enum Block {
     /// Only a diagonal: six numbers.
     Diagonal(Row),
     /// Six rows of six numbers, each in parentheses.
-    Full((Row, Row, Row, Row, Row, Row)),
+    Full(Box<Rows>),
 }
+
+/// Six rows.
+pub type Rows = (Row, Row, Row, Row, Row, Row);
 
 /// Six numbers: surge, sway, heave, roll, pitch, yaw.
 pub type Row = (Finite, Finite, Finite, Finite, Finite, Finite);

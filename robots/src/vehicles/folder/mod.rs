@@ -12,7 +12,7 @@ mod shipped;
 mod spec;
 
 pub use described::Described;
-pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row};
+pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row, Rows};
 pub use shipped::{SHIPPED, Shipped};
 pub(super) use shipped::{of_folder, shipped};
 pub use spec::VehicleFile;

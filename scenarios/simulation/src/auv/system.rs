@@ -129,18 +129,17 @@ pub(crate) fn guide(
     }
 }
 
-pub(crate) fn actuate(
-    clock: Res<Clock>,
-    mut robots: Query<(
-        &Command,
-        &Estimate,
-        &mut Pilot,
-        &mut DriveFaults,
-        &mut Actuation,
-        Option<&Battery>,
-        &Hull,
-    )>,
-) {
+type Actuated<'a> = (
+    &'a Command,
+    &'a Estimate,
+    &'a mut Pilot,
+    &'a mut DriveFaults,
+    &'a mut Actuation,
+    Option<&'a Battery>,
+    &'a Hull,
+);
+
+pub(crate) fn actuate(clock: Res<Clock>, mut robots: Query<Actuated>) {
     for (command, estimate, mut pilot, mut faults, mut set, battery, hull) in &mut robots {
         *set = pilot.step(command, estimate, clock.dt_s);
         faults.alter(&clock, &mut set);

@@ -50,6 +50,7 @@ const NAMED: &[(&str, &str, &str)] = &[
     ("ColourSpec", "epsilon", "levels of 255"),
     ("ColourSpec", "rho_m", "levels of 255"),
     ("CredibleAreaParams", "below", "m2, in space m3"),
+    ("RouteSpec", "points", "m"),
 ];
 
 /// Numbers in the parentheses of a variant, by type and name.

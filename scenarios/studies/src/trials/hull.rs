@@ -35,11 +35,15 @@ pub fn drawn(looks: &Looks) -> String {
             (points, colour.as_str())
         })
         .collect();
-    let reach = outlines
-        .iter()
-        .flat_map(|(points, _)| points)
-        .chain(looks.drives.iter().map(|d| &d.0))
-        .map(|p| p.amax())
+    let points = || {
+        outlines
+            .iter()
+            .flat_map(|(points, _)| points)
+            .chain(looks.drives.iter().map(|d| &d.0))
+    };
+    let across = |p: &Vector3<f64>| p.y.abs().max(p.z.abs()) * SIDES[0] / SIDES[1];
+    let reach = points()
+        .map(|p| p.x.abs().max(across(p)))
         .fold(0.1, f64::max);
     // From the side one looks to port: x to the right, z up. From above: x to the right, y up.
     for (k, (title, axes)) in [("from starboard", [0, 2]), ("from above", [0, 1])]
@@ -59,6 +63,12 @@ pub fn drawn(looks: &Looks) -> String {
         };
         view(&mut c, &panel, title, axes, &outlines, looks);
     }
+    c.text(
+        [60.0, SIDES[1] + 110.0],
+        11.0,
+        Anchor::Start,
+        "in m; G centre of gravity, B centre of buoyancy; arrows: where a positive set-point pushes or lifts",
+    );
     c.svg("hull")
 }
 
@@ -96,7 +106,8 @@ fn view(
     for (at, way, n) in &looks.drives {
         let start = flat(at);
         let end = flat(&(at + way * 0.25 * panel.x[1]));
-        if (end[0] - start[0]).hypot(end[1] - start[1]) > 3.0 {
+        let long = nalgebra::Vector2::new(end[0] - start[0], end[1] - start[1]).norm();
+        if long > 3.0 {
             c.arrow(start, end, "#b3541e", 2.0);
         } else {
             c.circle(start, 4.0, &Style::line("#b3541e", 2.0));
@@ -122,12 +133,6 @@ fn view(
         c.rimmed([at[0] - 12.0, y], 12.0, Anchor::Start, name);
     }
     c.unclip();
-    c.text(
-        [panel.left, panel.bottom() + 40.0],
-        11.0,
-        Anchor::Start,
-        "m; G centre of gravity, B centre of buoyancy; arrows: where a positive set-point pushes or lifts",
-    );
 }
 
 /// Points whose convex hull is the shape.

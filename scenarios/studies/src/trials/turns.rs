@@ -26,7 +26,7 @@ pub(super) fn circle(craft: &Craft, able: &Capabilities) -> Trial {
     let (mut turned, mut last) = (0.0, begun.heading());
     let (mut advance, mut diameter) = (None, None);
     let mut points = vec![];
-    let most = if glides { 300.0 } else { 240.0 };
+    let most = if glides { 2000.0 } else { 240.0 };
     let mut half = None;
     for k in 0..(most / STEP_S) as u64 {
         let ahead = last.turned(std::f64::consts::FRAC_PI_2);
