@@ -19,15 +19,7 @@ fn channel(changes: &[(&str, &str)]) -> String {
 /// Runs it; standard error, summary and page.
 fn run(dir: &Path, text: &str) -> (String, serde_json::Value, String) {
     std::fs::write(dir.join("odd.ron"), text).unwrap();
-    let args = [
-        "run",
-        "odd.ron",
-        "--no-zenoh",
-        "--no-record",
-        "--out",
-        "out",
-    ];
-    let end = common::rheotaxis_in(dir, &args);
+    let end = common::rheotaxis_in(dir, &common::ODD);
     let read = |name: &str| std::fs::read_to_string(dir.join("out").join(name)).unwrap();
     let summary = serde_json::from_str(&read("summary.json")).unwrap();
     let said = String::from_utf8_lossy(&end.stderr).into_owned();

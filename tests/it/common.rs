@@ -38,6 +38,16 @@ pub(crate) fn apart(command: &mut Command) -> &mut Command {
     command.env("NO_COLOR", "1").env("RHEOTAXIS_NO_CACHE", "1")
 }
 
+/// Arguments that run `odd.ron` into `out`.
+pub(crate) const ODD: [&str; 6] = [
+    "run",
+    "odd.ron",
+    "--no-zenoh",
+    "--no-record",
+    "--out",
+    "out",
+];
+
 /// Runs `rheotaxis` with these arguments in `dir` to its end.
 pub(crate) fn rheotaxis_in(dir: &Path, args: &[&str]) -> Output {
     command(dir, args).output().expect("rheotaxis starts")

@@ -228,15 +228,7 @@ fn faults_are_told() {
     );
     let text = with("uniform_channel", faults, &[short]);
     std::fs::write(dir.path().join("odd.ron"), text).unwrap();
-    let args = [
-        "run",
-        "odd.ron",
-        "--no-zenoh",
-        "--no-record",
-        "--out",
-        "out",
-    ];
-    let end = common::rheotaxis_in(dir.path(), &args);
+    let end = common::rheotaxis_in(dir.path(), &common::ODD);
     let read = |name: &str| std::fs::read_to_string(dir.path().join("out").join(name)).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&read("summary.json")).unwrap();
     let events = summary["abnormal"].as_array().unwrap();

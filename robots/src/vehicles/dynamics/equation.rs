@@ -101,6 +101,18 @@ pub(in crate::vehicles) fn flip(v: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, 0.0 - v.y, 0.0 - v.z)
 }
 
+/// A block of FLU in FRD, and back. A zero stays +0.
+pub(in crate::vehicles) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
+    let turns = |k: usize| !k.is_multiple_of(3);
+    Matrix6::from_fn(|i, j| {
+        if turns(i) == turns(j) {
+            block[(i, j)]
+        } else {
+            0.0 - block[(i, j)]
+        }
+    })
+}
+
 impl Equation {
     /// `None` if the mass matrix cannot be inverted.
     pub(in crate::vehicles) fn new(body: Body) -> Option<Self> {
@@ -110,8 +122,7 @@ impl Equation {
 
     /// M_RB + M_A in FLU, for contacts.
     pub(in crate::vehicles) fn whole_mass_flu(&self) -> Matrix6<f64> {
-        let half_turn = Matrix6::from_diagonal(&Vector6::new(1.0, -1.0, -1.0, 1.0, -1.0, -1.0));
-        half_turn * (self.body.mass.matrix() + self.body.added) * half_turn
+        turned(&(self.body.mass.matrix() + self.body.added))
     }
 
     /// (v̇, ω̇) in body axes (FLU) of velocity over ground `v` and angular velocity `w` (FLU).

@@ -10,6 +10,6 @@ mod surface;
 pub(super) use body::{Body, Mass, added_coriolis};
 #[cfg(test)]
 pub(super) use equation::HullWater;
-pub(super) use equation::{Equation, Relative, Stage, Terms};
+pub(super) use equation::{Equation, Relative, Stage, Terms, flip, turned};
 pub(super) use motion::Carried;
 pub(super) use surface::{Envelope, cells_of};

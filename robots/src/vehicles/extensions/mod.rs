@@ -21,6 +21,7 @@ mod tests_wrong;
 mod text;
 mod uuv;
 
+use super::dynamics::turned;
 use nalgebra::{Matrix6, Vector3};
 use text::{Node, Report, elements, is_xacro, name};
 
@@ -113,19 +114,6 @@ pub(super) fn read(text: &str) -> Result<Option<FossenBlocks>, String> {
     let mut blocks = read(plugins, &mut report)?;
     blocks.doubts = report.into_doubts();
     Ok(Some(blocks))
-}
-
-/// Changes a matrix from the axes forward, right, down to forward, left, up, or back: y and z change sign.
-fn turned(m: &Matrix6<f64>) -> Matrix6<f64> {
-    let turns = |k: usize| !k.is_multiple_of(3);
-    // 0 - x, so that no zero becomes -0.
-    Matrix6::from_fn(|i, j| {
-        if turns(i) == turns(j) {
-            m[(i, j)]
-        } else {
-            0.0 - m[(i, j)]
-        }
-    })
 }
 
 /// Minus a matrix, without -0.

@@ -8,14 +8,10 @@
 
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::drives::{Drive, DriveSpec, Fin, Follows, Kind, Thruster, table};
+use crate::vehicles::dynamics::flip;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use world::frames::Pose;
-
-/// FLU to FRD and back.
-fn flip(v: Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, -v.y, -v.z)
-}
 
 /// The drives on their links.
 pub(super) fn drives(

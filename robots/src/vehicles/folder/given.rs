@@ -9,15 +9,10 @@
 use super::blocks::Damping;
 use super::hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec};
 use crate::error::RobotError;
+use crate::vehicles::dynamics::turned;
 use crate::vehicles::extensions;
 use crate::vehicles::urdf_parts::UrdfText;
 use nalgebra::{Matrix6, Vector3};
-
-/// FLU to FRD and back.
-pub(super) fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
-    let sign = |k: usize| if k == 0 || k == 3 { 1.0 } else { -1.0 };
-    Matrix6::from_fn(|i, j| sign(i) * sign(j) * block[(i, j)])
-}
 
 /// A block in FRD.
 fn matrix(block: &Block, axes: Axes) -> Matrix6<f64> {

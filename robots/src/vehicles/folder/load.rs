@@ -11,21 +11,17 @@ use super::blocks::Damping;
 use super::described::{Described, Rates};
 use super::doubts::{resists, symmetric, trim};
 use super::fitted::drives;
-use super::given::{Given, given, turned};
+use super::given::{Given, given};
 use super::plant;
 use super::spec::VehicleFile;
 use crate::error::RobotError;
 use crate::handoff::MOST_DRIVES;
-use crate::vehicles::dynamics::{Body, Equation, Mass, cells_of};
+use crate::vehicles::dynamics::{Body, Equation, Mass, cells_of, flip, turned};
 use crate::vehicles::files::Files;
 use crate::vehicles::urdf::{self, Shell};
 use crate::vehicles::urdf_parts::UrdfText;
 use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3};
 use std::path::Path;
-
-fn flip(v: Vector3<f64>) -> Vector3<f64> {
-    Vector3::new(v.x, -v.y, -v.z)
-}
 
 impl Described {
     /// Builds a vehicle from the text of its `vehicle.ron`, which stands in a folder of `files`.

@@ -12,16 +12,11 @@
 use super::blocks::Damping;
 use crate::handoff::{Capabilities, Does, PilotSpec, Plant, PlantDrive};
 use crate::vehicles::drives::{Drive, Fin, Kind};
-use crate::vehicles::dynamics::Equation;
-use nalgebra::{DMatrix, Matrix6, Vector3, Vector6};
+use crate::vehicles::dynamics::{Equation, turned};
+use nalgebra::{DMatrix, Vector3, Vector6};
 
 /// Least share of the thrusters' summed force that counts as a push in a direction.
 const WORTH: f64 = 0.05;
-
-fn turned(block: &Matrix6<f64>) -> Matrix6<f64> {
-    let sign = |k: usize| if k == 0 || k == 3 { 1.0 } else { -1.0 };
-    Matrix6::from_fn(|i, j| sign(i) * sign(j) * block[(i, j)])
-}
 
 /// Force and moment, FRD, as one vector in FLU.
 fn wrench((force, moment): (Vector3<f64>, Vector3<f64>)) -> Vector6<f64> {

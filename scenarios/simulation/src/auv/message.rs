@@ -3,7 +3,7 @@
 use crate::abnormal::Abnormal;
 use crate::frame::RobotFrame;
 use crate::topic::{chunk, merged, with};
-use robots::handoff::{Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
+use robots::handoff::{Actuation, Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
 use serde_json::{Value, json};
 
 /// All messages of a robot in a frame; `abnormal` are the events of all robots.
@@ -180,6 +180,10 @@ fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
         Command::Direct(_) => json!({"kind": "direct"}),
     };
     let mut said = merged(asked, json!({ "t_s": t_s }));
+    if let Actuation::Drives(set) = &r.actuators {
+        said["drives"] = set.all().into();
+        return said;
+    }
     for (name, value) in r.actuators.named() {
         said[name] = value.into();
     }

@@ -30,7 +30,7 @@ pub const TOPICS: &[Topic] = &[
     Topic::json("goal", "auv/<id>/goal", STATE_RATE, "What the strategy asks of the guidance.", &[
         T,
         Field::always("id", FieldKind::Count, "Number of the goal, growing by one with each new one."),
-        Field::always("manoeuvre", FieldKind::Word(&["go_to_point", "follow_line", "go_to_point_with_heading", "course", "direct"]), "Horizontal part."),
+        Field::always("manoeuvre", FieldKind::Word(&["go_to_point", "follow_line", "go_to_point_with_heading", "hold", "slide_to", "course", "direct"]), "Horizontal part."),
         Field::sometimes("point_m", E_N, "Destination, or end of the line (east, north), m."),
         Field::sometimes("from_m", E_N, "Start of the line (east, north), m."),
         Field::sometimes("radius_m", FieldKind::Number, "Arrival radius, m."),
@@ -41,9 +41,11 @@ pub const TOPICS: &[Topic] = &[
     ]),
     Topic::json("command", "auv/<id>/command", STATE_RATE, "What the guidance asks of the autopilot, and the autopilot of the vehicle's drives.", &[
         T,
-        Field::always("kind", FieldKind::Word(&["steer", "direct"]), "Through the autopilot, or straight to the actuators."),
+        Field::always("kind", FieldKind::Word(&["steer", "move", "direct"]), "Through the autopilot as heading and speed or as a velocity over ground, or straight to the actuators."),
         Field::sometimes("heading_rad", FieldKind::Number, "Heading to steer, clockwise from north, rad."),
         Field::sometimes("water_speed_m_s", FieldKind::Number, "Speed through the water, m/s; over ground for a vehicle that the water does not carry."),
+        Field::sometimes("east_m_s", FieldKind::Number, "Velocity over ground of a vehicle that hovers, eastwards, m/s."),
+        Field::sometimes("north_m_s", FieldKind::Number, "The same northwards, m/s."),
         Field::sometimes("vertical", FieldKind::Word(&["altitude", "depth"]), "What the vertical part keeps."),
         Field::sometimes("vertical_m", FieldKind::Number, "Height above the bed or depth to keep, m."),
         Field::sometimes("rudder_rad", FieldKind::Number, "Rudder asked for, positive turns to starboard, rad; of a vehicle with fins, as the next two."),
@@ -52,6 +54,7 @@ pub const TOPICS: &[Topic] = &[
         Field::sometimes("turn_rad_s", FieldKind::Number, "Turn rate asked for, positive to starboard, rad/s; of a kinematic vehicle, as the next two."),
         Field::sometimes("climb_m_s", FieldKind::Number, "Upward speed asked for, m/s."),
         Field::sometimes("speed_m_s", FieldKind::Number, "Speed ahead asked for, m/s."),
+        Field::sometimes("drives", FieldKind::Numbers, "Set-points of the drives of a folder's vehicle, in the order of its file: inputs of thrusters, angles of fins in rad, volumes in m3, places of masses in m."),
     ]),
     Topic::json("chemical", "auv/<id>/chemical", STATE_RATE, "Newest reading of the chemical sensor.", &[
         T,
