@@ -1,5 +1,6 @@
 //! Arguments of `rheotaxis vehicle`.
 
+use super::args_picture::Numbers;
 use clap::Subcommand;
 use std::path::PathBuf;
 
@@ -36,6 +37,8 @@ pub enum VehicleCommand {
     Check(VehicleCheckArgs),
     /// Run its trials in open water: a table and a figure.
     Trials(VehicleTrialsArgs),
+    /// Fly it by a table of set-points, to compare it with a tank or another simulator.
+    Fly(VehicleFlyArgs),
     /// Write a copy of a shipped vehicle to start from.
     Init(VehicleInitArgs),
 }
@@ -61,6 +64,73 @@ pub struct VehicleTrialsArgs {
     #[arg(long, value_name = "DIR", default_value = "trials")]
     pub out: PathBuf,
 }
+
+/// Arguments of `vehicle fly`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(after_help = FLY_AFTER)]
+pub struct VehicleFlyArgs {
+    /// Folder of the vehicle, or the name of one that comes with the program.
+    #[arg(value_name = "FOLDER")]
+    pub folder: PathBuf,
+    /// Table of set-points (CSV): `t_s`, and a column for each drive by the name of its link. A row holds until the
+    /// next.
+    #[arg(long, value_name = "FILE")]
+    pub table: PathBuf,
+    /// Where to write the states (CSV).
+    #[arg(long, value_name = "FILE", default_value = "flown.csv")]
+    pub out: PathBuf,
+    /// How long it flies, s.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0)]
+    pub lasts_s: f64,
+    /// Step, s.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.02)]
+    pub step_s: f64,
+    /// Time from row to row of the states, s.
+    #[arg(long, value_name = "SECONDS", default_value_t = 0.1)]
+    pub every_s: f64,
+    /// Depth at the start, m; its nose is to the north.
+    #[arg(
+        long,
+        value_name = "M",
+        default_value_t = 10.0,
+        allow_negative_numbers = true
+    )]
+    pub depth_m: f64,
+    /// Roll (right side down) and pitch (nose up) at the start, degrees.
+    #[arg(
+        long,
+        value_name = "ROLL,PITCH",
+        default_value = "0,0",
+        allow_hyphen_values = true
+    )]
+    pub tilt_deg: Numbers<2>,
+    /// Velocity through the water at the start: ahead, left, up, m/s.
+    #[arg(
+        long,
+        value_name = "AHEAD,LEFT,UP",
+        default_value = "0,0,0",
+        allow_hyphen_values = true
+    )]
+    pub velocity: Numbers<3>,
+    /// Velocity of the water: east, north, up, m/s.
+    #[arg(
+        long,
+        value_name = "EAST,NORTH,UP",
+        default_value = "0,0,0",
+        allow_hyphen_values = true
+    )]
+    pub water: Numbers<3>,
+    /// Density of the water, kg/m3.
+    #[arg(long, value_name = "KG_M3", default_value_t = 1025.0)]
+    pub density: f64,
+}
+
+const FLY_AFTER: &str = "\
+Set-points are inputs of thrusters' curves, angles of fins in rad, volumes in m3, places of masses in m. The states are \
+place (ENU), attitude (quaternion, body FLU to ENU), velocity over ground and angular velocity in body axes (FLU), and \
+the state of each drive.
+
+Example: rheotaxis vehicle fly my_auv --table tank.csv --velocity 1.5,0,0 --lasts-s 120";
 
 /// Arguments of `vehicle init`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]

@@ -39,6 +39,7 @@ mod stop;
 mod time_left;
 mod topics;
 mod vehicle;
+mod vehicle_fly;
 mod version;
 
 pub use args::{
@@ -54,7 +55,8 @@ pub use args_explain::ExplainArgs;
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
 pub use args_vehicle::{
-    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleInitArgs, VehicleTrialsArgs,
+    VehicleArgs, VehicleCheckArgs, VehicleCommand, VehicleFlyArgs, VehicleInitArgs,
+    VehicleTrialsArgs,
 };
 pub use args_vision::{ColourArgs, EdgesArg, ScoreVisionArgs, SegmentArgs};
 pub use exit::Exit;

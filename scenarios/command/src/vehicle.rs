@@ -5,6 +5,7 @@ use super::args_vehicle::{
 };
 use super::exit::Exit;
 use super::say;
+use super::vehicle_fly::flown;
 use output::charts::png;
 use output::files::write_whole;
 use rheotaxis::scenario::Beside;
@@ -20,6 +21,7 @@ pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
     let done = match &args.command {
         VehicleCommand::Check(args) => check(args),
         VehicleCommand::Trials(args) => on_trial(args),
+        VehicleCommand::Fly(args) => flown(args),
         VehicleCommand::Init(args) => init(args),
     };
     match done {
@@ -32,9 +34,9 @@ pub(super) fn vehicle(args: &VehicleArgs) -> Exit {
 }
 
 /// What is wrong, and what would help.
-type Wrong = (String, Option<String>);
+pub(super) type Wrong = (String, Option<String>);
 
-fn plainly(problem: impl ToString) -> Wrong {
+pub(super) fn plainly(problem: impl ToString) -> Wrong {
     (problem.to_string(), None)
 }
 
@@ -61,7 +63,7 @@ fn names() -> String {
     names.join(", ")
 }
 
-fn loaded(folder: &Path) -> Result<Craft, Wrong> {
+pub(super) fn loaded(folder: &Path) -> Result<Craft, Wrong> {
     Craft::load(&spec(folder)?, &Beside(Path::new(""))).map_err(plainly)
 }
 

@@ -66,3 +66,62 @@ fn a_broken_folder_gets_a_plain_error() {
     );
     assert!(said.contains("must be >= 0"), "{said}");
 }
+
+/// A table of set-points gives a table of states; a wrong one is told with its line.
+#[test]
+fn a_table_flies_it() {
+    let dir = tempfile::tempdir().expect("a folder");
+    let run = |table: &str| {
+        std::fs::write(dir.path().join("tank.csv"), table).expect("a file");
+        let args = [
+            "vehicle",
+            "fly",
+            "lauv",
+            "--table",
+            "tank.csv",
+            "--velocity",
+            "1.5,0,0",
+            "--water",
+            "0.2,0,0",
+            "--lasts-s",
+            "20",
+            "--every-s",
+            "1",
+        ];
+        let ended = common::rheotaxis_in(dir.path(), &args);
+        (
+            ended.status.code(),
+            String::from_utf8_lossy(&ended.stderr).into_owned(),
+        )
+    };
+    let header = "t_s,propeller,fin_top,fin_bottom,fin_port,fin_starboard";
+    let (code, said) = run(&format!("{header}\n0,8,0,0,0,0\n10,0,0,0,0,0\n"));
+    assert_eq!(code, Some(0), "{said}");
+    let text = std::fs::read_to_string(dir.path().join("flown.csv")).expect("the states");
+    let rows: Vec<Vec<f64>> = (text.lines().skip(1))
+        .map(|l| l.split(',').map(|n| n.parse().expect("a number")).collect())
+        .collect();
+    assert_eq!(rows.len(), 21);
+    // Nose to the north, carried to the east with the water; it coasts when the propeller stops.
+    let [start, middle, end] = [&rows[0], &rows[10], &rows[20]];
+    assert!(
+        (start[1], start[2], start[3]) == (0.0, 0.0, -10.0),
+        "{start:?}"
+    );
+    assert!(
+        middle[2] > 12.0 && (middle[1] - 2.0).abs() < 0.3,
+        "{middle:?}"
+    );
+    assert!(end[8] < middle[8] - 0.2, "{end:?}");
+    let (code, said) = run(&format!("{header}\n0,8,0,0,0,fast\n"));
+    assert_eq!(code, Some(1));
+    assert!(
+        said.contains("tank.csv: line 2, fin_starboard: not a number"),
+        "{said}"
+    );
+    let (code, said) = run("t_s,propeller\n0,8\n");
+    assert!(
+        code == Some(1) && said.contains("no column \"fin_top\""),
+        "{said}"
+    );
+}

@@ -1,6 +1,7 @@
 //! Trials of a vehicle in open water: what its builder measures before he trusts it with a mission.
 
 mod figure;
+mod fly;
 mod hull;
 mod kinds;
 mod manoeuvres;
@@ -9,5 +10,6 @@ mod straight;
 mod turns;
 
 pub use figure::figure;
+pub use fly::{Flight, Flown, fly, table};
 pub use hull::{Looks, drawn};
 pub use manoeuvres::{Curve, Measured, Trial, trials};
