@@ -21,7 +21,8 @@ pub struct Vehicle {
     hull: Hull,
     equation: Equation,
     actuators: Actuators,
-    power_w: f64,
+    /// State, velocity (ENU) and density of the water at the beginning of the last step.
+    last: Option<(Truth, Vector3<f64>, f64)>,
 }
 
 impl Vehicle {
@@ -38,7 +39,7 @@ impl Vehicle {
                 .expect("the mass of a REMUS is near that of its parameters"),
             hull,
             actuators: Actuators::default(),
-            power_w: 0.0,
+            last: None,
         })
     }
 
@@ -69,7 +70,17 @@ impl Vehicle {
     /// Electric power of its propeller in the last step, W.
     #[must_use]
     pub fn power_w(&self) -> f64 {
-        self.power_w
+        let Some((truth, water_m_s, density_kg_m3)) = &self.last else {
+            return 0.0;
+        };
+        let through = truth.v_WB_B - truth.pose.R_WB.inverse() * water_m_s;
+        let [v_ground, v] = [truth.v_WB_B, through].map(|v| Vector3::new(v.x, -v.y, -v.z));
+        let terms = RemusTerms {
+            c: &self.hull.coefficients,
+            asked: self.actuators,
+        };
+        let shaft_w = terms.shaft_w(&v_ground, &v, *density_kg_m3, self.actuators.rpm);
+        shaft_w / REMUS_SHARE
     }
 
     /// Sets the state of fins and propeller at a start.
@@ -107,10 +118,7 @@ impl Vehicle {
             .equation
             .advance(&terms, truth, &self.actuators, water, dt_s);
         self.actuators = actuators;
-        let through = truth.v_WB_B - truth.pose.R_WB.inverse() * water.velocity;
-        let [v_ground, v] = [truth.v_WB_B, through].map(|v| Vector3::new(v.x, -v.y, -v.z));
-        let shaft_w = terms.shaft_w(&v_ground, &v, water.density_kg_m3, actuators.rpm);
-        self.power_w = shaft_w / REMUS_SHARE;
+        self.last = Some((*truth, water.velocity, water.density_kg_m3));
         free
     }
 }

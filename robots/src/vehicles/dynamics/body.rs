@@ -50,6 +50,7 @@ impl Mass {
     }
 
     /// Linear and angular momentum.
+    #[inline]
     pub(super) fn momentum(
         &self,
         v: &Vector3<f64>,

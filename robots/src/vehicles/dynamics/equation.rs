@@ -130,6 +130,7 @@ impl Equation {
         clippy::too_many_arguments,
         reason = "the state, the water and the drives of one instant"
     )]
+    #[inline]
     pub(in crate::vehicles) fn acceleration<T: Terms>(
         &self,
         terms: &T,

@@ -27,6 +27,7 @@ pub(in crate::vehicles) struct RemusTerms<'a> {
 impl Terms for RemusTerms<'_> {
     type Drives = Actuators;
 
+    #[inline]
     fn forces(
         &self,
         _: &Body,
@@ -50,6 +51,7 @@ impl Terms for RemusTerms<'_> {
 
 impl RemusTerms<'_> {
     /// All forces of the water on a fully submerged hull.
+    #[inline]
     pub(super) fn submerged(
         &self,
         at: &Relative,
