@@ -13,7 +13,7 @@ use robots::error::RobotError;
 use robots::handoff::Setting;
 use robots::sense::camera::Optics;
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::Craft;
+use robots::vehicles::{Craft, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
 use world::fields::Flow;
@@ -300,7 +300,17 @@ fn parts(
                 Err(e) => found.push(robot_error(&path, "sensors", e)),
             }
         }
-        Err(e) => found.push(robot_error(&path, "vehicle", e)),
+        Err(e) => {
+            let mut fault = robot_error(&path, "vehicle", e);
+            // A folder has files of its own, and no field for them here.
+            if matches!(
+                robot.vehicle,
+                VehicleSpec::File(_) | VehicleSpec::Shipped(_)
+            ) {
+                fault.path = format!("{path}.vehicle");
+            }
+            found.push(fault);
+        }
     }
     None
 }
