@@ -6,7 +6,7 @@ use world::ranges::{Finite, Positive};
 
 /// What still and moving water does to a hull.
 ///
-/// Forces are −D ν − D_q |ν|∘ν − u D_u ν, with ν = (surge, sway, heave, roll, pitch, yaw) at the origin of the body's
+/// Forces are −D ν − D_q |ν|∘ν − |u| D_u ν, with ν = (surge, sway, heave, roll, pitch, yaw) at the origin of the body's
 /// link, relative to the water. So damping that resists has positive numbers on its diagonal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -34,7 +34,7 @@ pub struct HydrodynamicsSpec {
     /// Quadratic damping D_q: columns times |ν_j| ν_j.
     #[serde(default)]
     pub quadratic_damping: Option<Block>,
-    /// Damping D_u that grows with the speed ahead.
+    /// Damping D_u, times the speed ahead or astern, |u|.
     #[serde(default)]
     pub forward_damping: Option<Block>,
     /// Density of the water for which the damping holds, kg/m³; in other water it is proportional to the density.

@@ -9,7 +9,7 @@ use robots::handoff::{Capabilities, Goal, Manoeuvre, Vertical};
 use robots::vehicles::Craft;
 use world::units::Heading;
 
-/// Holds a point in a current of half its greatest speed sideways, from ahead, abeam and astern, 60 s each.
+/// Holds a point in a current of 0.25 m/s, from ahead, abeam and astern, 90 s each; the first 30 s do not count.
 pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
     let speed = 0.25;
     let mut points = Vec::new();
