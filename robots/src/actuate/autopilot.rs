@@ -63,6 +63,15 @@ impl Autopilot {
         let fin = self.spec.fin_limit_deg.get().to_radians();
         let rpm = self.spec.rpm_limit.get();
         match command {
+            Command::Drives(set) => {
+                let of = |place: usize| set.all().get(place).copied().unwrap_or(0.0);
+                let direct = ActuatorCommand {
+                    rudder_rad: of(0),
+                    stern_rad: of(1),
+                    rpm: of(2),
+                };
+                self.step(&Command::Direct(direct), estimate, dt_s)
+            }
             Command::Direct(c) => {
                 *self = Self::new(&self.spec);
                 ActuatorCommand {

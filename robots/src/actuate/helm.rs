@@ -58,6 +58,17 @@ impl Helm {
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> RateCommand {
         match command {
             Command::Direct(table) => self.by_table(table, dt_s),
+            Command::Drives(set) => {
+                self.heading = Counted::default();
+                self.height = Counted::default();
+                let of = |place: usize| set.all().get(place).copied().unwrap_or(0.0);
+                let speed_m_s = self.speed(of(2), dt_s);
+                self.limits.held(&RateCommand {
+                    turn_rad_s: of(0),
+                    climb_m_s: of(1),
+                    speed_m_s,
+                })
+            }
             Command::Move(set) => self.step(&Command::Steer(set.steered()), estimate, dt_s),
             Command::Steer(set) => {
                 let speed_m_s = self.speed(set.water_speed_m_s, dt_s);

@@ -4,7 +4,7 @@ use super::autopilot::Autopilot;
 use super::drives::DrivePilot;
 use super::helm::Helm;
 use super::spec::AutopilotSpec;
-use crate::handoff::{Actuation, Command, Control, Estimate};
+use crate::handoff::{Actuation, Command, Control, DriveCommand, Estimate, Plant};
 use bevy_ecs::prelude::Component;
 
 /// What steers a vehicle.
@@ -14,8 +14,8 @@ pub enum Pilot {
     Fins(Autopilot),
     /// Rates.
     Rates(Helm),
-    /// Drives of a vehicle of a folder.
-    Drives(Box<DrivePilot>),
+    /// Drives of a vehicle of a folder, which is known beforehand.
+    Drives(Box<DrivePilot>, Box<Plant>),
 }
 
 impl Pilot {
@@ -25,7 +25,7 @@ impl Pilot {
         match control {
             Control::Rates(limits) => Self::Rates(Helm::new(*limits, spec, speed_m_s)),
             Control::Fins => Self::Fins(Autopilot::new(spec)),
-            Control::Drives(plant) => Self::Drives(Box::new(DrivePilot::new(plant))),
+            Control::Drives(plant) => Self::Drives(Box::new(DrivePilot::new(plant)), plant.clone()),
         }
     }
 
@@ -34,7 +34,23 @@ impl Pilot {
         match self {
             Self::Fins(pilot) => Actuation::Fins(pilot.step(command, estimate, dt_s)),
             Self::Rates(helm) => Actuation::Rates(helm.step(command, estimate, dt_s)),
-            Self::Drives(pilot) => Actuation::Drives(pilot.step(command, estimate, dt_s)),
+            Self::Drives(pilot, plant) => Actuation::Drives(match command {
+                Command::Drives(set) => {
+                    // Sums that the autopilot has kept are of no use after a time of drives set from outside.
+                    **pilot = DrivePilot::new(plant);
+                    held(plant, set)
+                }
+                _ => pilot.step(command, estimate, dt_s),
+            }),
         }
     }
+}
+
+/// Set-points within the limits of the drives; a drive without one is idle.
+fn held(plant: &Plant, asked: &DriveCommand) -> DriveCommand {
+    let held = plant.drives.iter().enumerate().map(|(k, drive)| {
+        let [least, most] = drive.limits;
+        (asked.all().get(k)).map_or(drive.idle, |set| set.clamp(least, most))
+    });
+    DriveCommand::new(&held.collect::<Vec<_>>())
 }

@@ -235,7 +235,8 @@ fn leads_to(asked: &Manoeuvre, seen: &Observation) -> Option<(Heading, f64)> {
             let on = along_m > 0.0 && off_m.abs() < ON_LINE_M;
             towards(if on { to } else { from })
         }
-        Manoeuvre::Direct { .. } => None,
+        // These keep clear of obstacles themselves.
+        _ => None,
     }
 }
 

@@ -92,22 +92,15 @@ impl Guidance {
         area: &Area,
         dt_s: f64,
     ) -> (Command, GuidanceStatus) {
-        if let Manoeuvre::Direct {
-            rudder_rad,
-            stern_rad,
-            rpm,
-        } = goal.manoeuvre
-        {
-            // Open loop: neither cage nor filter stands between the table and the actuators.
+        if let Some(command) = straight(goal) {
+            // Neither cage nor filter stands between the searcher and the autopilot or the drives.
             self.filter.reset();
             self.goal_id = None;
             self.done = false;
-            let actuators = ActuatorCommand {
-                rudder_rad,
-                stern_rad,
-                rpm,
-            };
-            return (Command::Direct(actuators), self.status(goal.id));
+            if !matches!(goal.manoeuvre, Manoeuvre::Direct { .. }) {
+                self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
+            }
+            return (command, self.status(goal.id));
         }
 
         let moving = course_over_ground(est);
@@ -228,7 +221,7 @@ impl Guidance {
                 position: point,
                 heading,
             })),
-            Manoeuvre::Course { .. } | Manoeuvre::Direct { .. } => Mode::Free,
+            _ => Mode::Free,
         }
     }
 
@@ -266,6 +259,37 @@ impl Guidance {
             },
         }
     }
+}
+
+/// The command of a goal that the guidance hands on as it is.
+fn straight(goal: &Goal) -> Option<Command> {
+    let vertical = goal.vertical;
+    Some(match goal.manoeuvre {
+        Manoeuvre::Direct {
+            rudder_rad,
+            stern_rad,
+            rpm,
+        } => Command::Direct(ActuatorCommand {
+            rudder_rad,
+            stern_rad,
+            rpm,
+        }),
+        Manoeuvre::Drives(set) => Command::Drives(set),
+        Manoeuvre::Steer { heading } => Command::Steer(Setpoint {
+            heading,
+            water_speed_m_s: goal.speed_m_s,
+            vertical,
+        }),
+        Manoeuvre::Slide {
+            heading,
+            over_ground_m_s,
+        } => Command::Move(MoveSetpoint {
+            heading,
+            over_ground_m_s,
+            vertical,
+        }),
+        _ => return None,
+    })
 }
 
 fn course_over_ground(est: &Estimate) -> Heading {

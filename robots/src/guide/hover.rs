@@ -120,7 +120,10 @@ impl Hovering {
                 heading: Some(course),
                 done: false,
             },
-            Manoeuvre::Direct { .. } => Wanted {
+            Manoeuvre::Direct { .. }
+            | Manoeuvre::Steer { .. }
+            | Manoeuvre::Slide { .. }
+            | Manoeuvre::Drives(_) => Wanted {
                 velocity_m_s: Vector2::zeros(),
                 heading: None,
                 done: false,

@@ -51,8 +51,10 @@ pub enum Command {
     Steer(Setpoint),
     /// For the autopilot of a vehicle that can hover.
     Move(MoveSetpoint),
-    /// Straight to the actuators.
+    /// Straight to rudder, stern plane and propeller.
     Direct(ActuatorCommand),
+    /// Straight to the vehicle's own drives, in their order.
+    Drives(DriveCommand),
 }
 
 /// What a vehicle's own drives are set to.

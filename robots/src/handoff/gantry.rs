@@ -4,6 +4,7 @@
 //! a flume), left along y, zero where the URDF has both joints at zero. The searcher has no other frame: it knows
 //! neither the flume's coordinates nor the flow.
 
+use super::Told;
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 
@@ -68,12 +69,14 @@ pub struct GantryLayout {
 }
 
 /// What a gantry's searcher sees in one tick.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct GantryObservation {
     /// Time, s.
     pub t_s: f64,
     /// Readings.
     pub readings: GantryReadings,
+    /// What a searcher outside this program was heard to say in this tick, if it was asked.
+    pub told: Option<Told>,
 }
 
 /// What a gantry's searcher is doing.

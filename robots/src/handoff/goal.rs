@@ -1,5 +1,6 @@
 //! What a strategy commands the guidance, and what the guidance answers.
 
+use super::DriveCommand;
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use world::units::Heading;
@@ -58,7 +59,21 @@ pub enum Manoeuvre {
         /// Direction over ground.
         course: Heading,
     },
-    /// Drive the actuators directly, bypassing guidance and autopilot.
+    /// Steer a heading through the water, with neither cage nor compensation of the flow.
+    Steer {
+        /// Heading.
+        heading: Heading,
+    },
+    /// Move over ground with a heading held. A vehicle that cannot hover steers along the velocity.
+    Slide {
+        /// Heading to hold.
+        heading: Heading,
+        /// Velocity over ground (east, north), m/s.
+        over_ground_m_s: Vector2<f64>,
+    },
+    /// Set the vehicle's own drives, bypassing guidance and autopilot.
+    Drives(DriveCommand),
+    /// Drive rudder, stern plane and propeller directly, bypassing guidance and autopilot.
     Direct {
         /// Rudder angle, rad (positive turns to starboard, as in the reference data).
         rudder_rad: f64,

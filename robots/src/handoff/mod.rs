@@ -3,6 +3,7 @@
 //! A type here has public fields, constructors and simple accessors. Algorithms and state that lasts from tick to
 //! tick belong to the stages, or to [`crate::memory`] and [`crate::places`] where several stages need them.
 
+mod answer;
 mod belief;
 mod command;
 mod control;
@@ -20,6 +21,7 @@ mod regions;
 mod setting;
 mod side;
 
+pub use answer::{Answer, Consulted, HeadOrder, MoveOrder, Order, Told};
 pub use belief::{Belief, BeliefGrid, Odour};
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{

@@ -58,6 +58,7 @@ pub(crate) fn seen(
         belief: None,
         ranging: None,
         sidescan: None,
+        told: None,
         picture: None,
         other: Vec::new(),
     }

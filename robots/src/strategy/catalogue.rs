@@ -1,6 +1,7 @@
 //! The strategies by name.
 
 use super::amp::AmpSpec;
+use super::external::ExternalSpec;
 use super::inspect::InspectSpec;
 use super::map_and_plan::MapAndPlanSpec;
 use super::open_loop::OpenLoopSpec;
@@ -15,6 +16,6 @@ kind! {
     /// declaration rule, each chosen by name.
     pub StrategySpec = Strategies of StrategyParams {
         heading: "Strategies",
-        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec],
+        rows: [AmpSpec, MapAndPlanSpec, SubsumptionSpec, OpenLoopSpec, SubregionsSpec, InspectSpec, RouteSpec, ExternalSpec],
     }
 }

@@ -2,6 +2,7 @@
 
 mod amp;
 mod catalogue;
+mod external;
 mod inspect;
 mod map_and_plan;
 mod open_loop;
@@ -14,6 +15,7 @@ mod wishes;
 
 pub use amp::{Amp, AmpSpec, Detections, StartAt};
 pub use catalogue::{Strategies, StrategySpec};
+pub use external::{ExternalSpec, OnLate};
 pub use inspect::{Inspect, InspectSpec, ToldSpec};
 pub use map_and_plan::{
     AtTarget, CrossSpec, MapAndPlan, MapAndPlanSpec, PlaneSpec, RoomSpec, SpaceSpec,

@@ -2,7 +2,7 @@
 
 use super::wishes::Wishes;
 use crate::error::RobotError;
-use crate::handoff::{Decision, Observation, Setting, Vertical};
+use crate::handoff::{Consulted, Decision, Observation, Setting, Vertical};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::area::Area;
@@ -56,6 +56,11 @@ pub trait StrategyParams: Spec {
     /// Most declarations of it that can remain at the end; those that it rejects itself do not remain.
     fn declares_at_most(&self) -> usize {
         usize::from(self.searches())
+    }
+
+    /// If a searcher outside this program decides: how often it is asked.
+    fn consulted(&self) -> Option<Consulted> {
+        None
     }
 
     /// Whether its decisions name subregions.

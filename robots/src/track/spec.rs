@@ -2,8 +2,9 @@
 
 use super::chemotaxis::ChemotaxisSpec;
 use super::crab_spec::CrabSpec;
+use super::external::ExternalSpec;
 use crate::error::RobotError;
-use crate::handoff::{GantryDecision, GantryLayout, GantryObservation};
+use crate::handoff::{Consulted, GantryDecision, GantryLayout, GantryObservation};
 use world::kind;
 use world::registry::Spec;
 use world::seeds::Stream;
@@ -21,12 +22,17 @@ pub trait GantryStrategyParams: Spec {
     /// # Errors
     /// [`RobotError::Invalid`] if the machine cannot do what the searcher needs.
     fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError>;
+
+    /// If a searcher outside this program decides: how often it is asked.
+    fn consulted(&self) -> Option<Consulted> {
+        None
+    }
 }
 
 kind! {
     /// Searchers that move a gantry's head by what its probes read.
     pub GantryStrategySpec = GantryStrategies of GantryStrategyParams {
         heading: "Searchers of a gantry (gantries: tracker)",
-        rows: [CrabSpec, ChemotaxisSpec],
+        rows: [CrabSpec, ChemotaxisSpec, ExternalSpec],
     }
 }

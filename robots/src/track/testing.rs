@@ -160,6 +160,7 @@ impl Rig {
                 scan: scanned,
                 joints: self.joints,
             },
+            told: None,
         };
         let d = self.strategy.step(&seen, &mut self.rng);
         let travel = self.layout.travel_m;

@@ -111,20 +111,31 @@ impl Simulation {
         self.world.resource_mut()
     }
 
-    /// One tick.
+    /// One tick, in which nobody outside is asked.
     pub fn tick(&mut self) {
-        self.search();
-        let clock = self.clock();
-        drift(&clock, &mut self.ocean_mut());
+        self.observe();
+        self.act();
+        self.drift();
         self.report();
     }
 
-    /// The half of a tick before the step of the ocean.
-    pub(crate) fn search(&mut self) {
-        self.tick.search(&mut self.world);
+    /// The step of the ocean.
+    pub(crate) fn drift(&mut self) {
+        let clock = self.clock();
+        drift(&clock, &mut self.ocean_mut());
     }
 
-    /// The half of a tick after it.
+    /// The part of a tick before the answers from outside.
+    pub(crate) fn observe(&mut self) {
+        self.tick.observe(&mut self.world);
+    }
+
+    /// The part from there to the step of the ocean.
+    pub(crate) fn act(&mut self) {
+        self.tick.act(&mut self.world);
+    }
+
+    /// The part after it.
     pub(crate) fn report(&mut self) {
         self.tick.report(&mut self.world);
     }
@@ -187,12 +198,12 @@ fn schedule(world: &mut World, fleet: &Fleet, registry: &Registry) -> Result<Tic
     let truth = truth(world);
     let mut faults = Vec::new();
     for (turn, kind) in kinds.iter().enumerate() {
-        let mut systems = Systems::new(tick.halves(), world, &truth, turn);
+        let mut systems = Systems::new(tick.parts(), world, &truth, turn);
         kind.systems(&mut systems);
         faults.extend(systems.faults());
     }
     for (turn, addition) in (kinds.len()..).zip(additions) {
-        let mut systems = Systems::new(tick.halves(), world, &truth, turn);
+        let mut systems = Systems::new(tick.parts(), world, &truth, turn);
         (addition.0)(&mut systems);
         faults.extend(systems.faults());
     }

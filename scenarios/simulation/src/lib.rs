@@ -71,6 +71,7 @@ pub mod apparatus;
 pub mod assemble;
 pub mod auv;
 pub mod cache;
+pub mod control;
 pub mod error;
 pub mod explain;
 pub mod extend;

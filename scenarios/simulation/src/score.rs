@@ -49,6 +49,23 @@ impl Energy {
     }
 }
 
+/// How often a machine asked a searcher outside this program, by what came back.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Consultations {
+    /// Questions.
+    pub asked: u64,
+    /// Answers.
+    pub answered: u64,
+    /// Too late.
+    pub late: u64,
+    /// Nobody there.
+    pub absent: u64,
+    /// Gone while it was asked.
+    pub gone: u64,
+    /// No answers, or such as cannot be carried out.
+    pub nonsense: u64,
+}
+
 /// The score of one searcher.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearcherScore {
@@ -74,6 +91,8 @@ pub struct SearcherScore {
     pub greatest_position_error_m: f64,
     /// Its battery; `None` if energy is not counted.
     pub energy: Option<Energy>,
+    /// How often it asked a searcher outside this program; `None` if it never did.
+    pub consulted: Option<Consultations>,
     /// Where it was last.
     last: Option<Vector3<f64>>,
 }
@@ -92,6 +111,7 @@ impl SearcherScore {
             final_position_error_m: 0.0,
             greatest_position_error_m: 0.0,
             energy: None,
+            consulted: None,
             last: None,
         }
     }

@@ -3,8 +3,9 @@
 //! One thread, one order, and one writer for each type. If the order of two systems that touch the same data is not
 //! defined, the run is refused. Runs are parallel to each other, not inside, so a run is the same on any machine.
 //!
-//! The tick has two halves, with the step of the ocean between them. So runs in the same ocean can share that step: see
-//! [`lanes`](crate::lanes).
+//! The tick has three parts. Between the first and the second, searchers outside this program answer: see
+//! [`control`](crate::control). Between the second and the third the ocean makes its step, which runs in the same ocean
+//! share: see [`lanes`](crate::lanes).
 //!
 //! Here stand only the systems that every run has. Each apparatus of the scenario and each extension of the registry
 //! adds its own to the stages, in a fixed order of turns.
@@ -18,30 +19,35 @@ use world::clock::Clock;
 use world::physics::Physics;
 use world::stage::Stage;
 
-/// Label of the schedule of half a tick.
+/// Label of the schedule of a part of a tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Half {
-    /// What the searchers do in the water as it is: all stages up to the physics.
-    Search,
+pub enum Part {
+    /// What the searchers see of the water as it is: up to their maps.
+    Observe,
+    /// What they do: from their decisions to the physics.
+    Act,
     /// What follows the step of the ocean.
     Report,
 }
 
-/// The tick: `Sense → Estimate → Map → Decide → Guide → Actuate → Physics`, then the ocean, then `Drift → Report`.
+/// The tick: `Sense → Estimate → Map`, then answers from outside, then `Decide → Guide → Actuate → Physics`, then the
+/// ocean, then `Drift → Report`.
 pub(crate) struct Tick {
-    search: Schedule,
+    observe: Schedule,
+    act: Schedule,
     report: Schedule,
 }
 
 impl Tick {
     /// A tick with room for so many turns, of which the first `own` are of this program.
     pub(crate) fn new(turns: usize, own: usize) -> Self {
-        let [before @ .., drift, report] = Stage::ALL;
+        let [sense, estimate, map, before @ .., drift, report] = Stage::ALL;
         let mut tick = Self {
-            search: half(Half::Search, &before, turns, own),
-            report: half(Half::Report, &[drift, report], turns, own),
+            observe: part(Part::Observe, &[sense, estimate, map], turns, own),
+            act: part(Part::Act, &before, turns, own),
+            report: part(Part::Report, &[drift, report], turns, own),
         };
-        tick.search.add_systems(
+        tick.act.add_systems(
             move_bodies
                 .in_set(Stage::Physics)
                 .in_set(BodiesMove)
@@ -63,57 +69,62 @@ impl Tick {
         tick
     }
 
-    /// Both halves, for what is added to them.
-    pub(crate) fn halves(&mut self) -> [&mut Schedule; 2] {
-        [&mut self.search, &mut self.report]
+    /// Its parts, for what is added to them.
+    pub(crate) fn parts(&mut self) -> [&mut Schedule; 3] {
+        [&mut self.observe, &mut self.act, &mut self.report]
     }
 
     /// Fixes the order of all systems; an error says why there is none.
     pub(crate) fn initialize(&mut self, world: &mut World) -> Result<(), String> {
-        for half in self.halves() {
-            let done = half.initialize(world);
-            done.map_err(|error| error.to_string(half.graph(), world))?;
+        for part in self.parts() {
+            let done = part.initialize(world);
+            done.map_err(|error| error.to_string(part.graph(), world))?;
         }
         Ok(())
     }
 
-    /// The half before the step of the ocean.
-    pub(crate) fn search(&mut self, world: &mut World) {
-        self.search.run(world);
+    /// The part before the answers from outside.
+    pub(crate) fn observe(&mut self, world: &mut World) {
+        self.observe.run(world);
     }
 
-    /// The half after it.
+    /// The part from there to the step of the ocean.
+    pub(crate) fn act(&mut self, world: &mut World) {
+        self.act.run(world);
+    }
+
+    /// The part after it.
     pub(crate) fn report(&mut self, world: &mut World) {
         self.report.run(world);
     }
 }
 
 /// These stages one after the other, each with its turns.
-fn half(label: Half, stages: &[Stage], turns: usize, own: usize) -> Schedule {
-    let mut half = Schedule::new(label);
-    half.set_executor(SingleThreadedExecutor::new());
-    half.set_build_settings(ScheduleBuildSettings {
+fn part(label: Part, stages: &[Stage], turns: usize, own: usize) -> Schedule {
+    let mut part = Schedule::new(label);
+    part.set_executor(SingleThreadedExecutor::new());
+    part.set_build_settings(ScheduleBuildSettings {
         ambiguity_detection: LogLevel::Error,
         ..Default::default()
     });
     for pair in stages.windows(2) {
-        half.configure_sets(pair[0].before(pair[1]));
+        part.configure_sets(pair[0].before(pair[1]));
     }
     for &stage in stages {
-        half.configure_sets(Turn::Added(stage).in_set(stage));
+        part.configure_sets(Turn::Added(stage).in_set(stage));
         for n in 0..turns {
             let turn = Turn::Of(stage, n);
             if n < own {
-                half.configure_sets(turn.in_set(stage).before(Turn::Added(stage)));
+                part.configure_sets(turn.in_set(stage).before(Turn::Added(stage)));
             } else {
-                half.configure_sets(turn.in_set(Turn::Added(stage)));
+                part.configure_sets(turn.in_set(Turn::Added(stage)));
             }
             if n > 0 {
-                half.configure_sets(turn.after(Turn::Of(stage, n - 1)));
+                part.configure_sets(turn.after(Turn::Of(stage, n - 1)));
             }
         }
     }
-    half
+    part
 }
 
 /// One step of the physics for all bodies.

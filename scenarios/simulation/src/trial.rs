@@ -3,8 +3,13 @@
 //! [`Trial::run`] makes the whole run. [`Trial::step`] and [`Trial::until`] make a part of it, and the state can be
 //! read in between. All three give the same run, bit for bit.
 
+mod asking;
+
+pub use asking::{NotControlled, controlled};
+
 use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
+use crate::control::{Consultation, Controller, Question};
 use crate::error::AssembleError;
 use crate::fleet::Fleet;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -34,6 +39,8 @@ pub trait Watch {
     fn frame(&mut self, _frame: &Frame) {}
     /// A new picture of the plume.
     fn plume(&mut self, _plume: &PlumeFrame) {}
+    /// A searcher outside this program was asked, and this came of it.
+    fn consulted(&mut self, _told: &Consultation) {}
     /// A new picture by a robot's camera.
     fn picture(&mut self, _picture: &PictureFrame) {}
     /// A new ping of a robot's sidescan sonar.
@@ -87,6 +94,11 @@ pub struct Trial {
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
     frame: Option<Frame>,
+    /// Time of the ocean at which the mission began, s.
+    began_s: f64,
+    controllers: BTreeMap<String, Box<dyn Controller>>,
+    /// The first part of a tick is done, and these questions are not answered yet.
+    open: Option<Vec<Question>>,
 }
 
 impl Trial {
@@ -116,6 +128,9 @@ impl Trial {
             flow_samples: 0,
             sources,
             frame: None,
+            began_s: 0.0,
+            controllers: BTreeMap::new(),
+            open: None,
         }
     }
 
@@ -175,6 +190,19 @@ impl Trial {
             RunPhase::SpunUp
         };
         self.simulation.ocean_mut().set_out();
+        self.digest_plume();
+    }
+
+    /// Begins the mission in an ocean that others have used before, in this step of theirs.
+    pub(crate) fn begin_at(&mut self, step: u64) {
+        self.phase = RunPhase::SpunUp;
+        let mut clock = self.simulation.world.resource_mut::<Clock>();
+        clock.step = step;
+        self.began_s = clock.t_s();
+        self.digest_plume();
+    }
+
+    fn digest_plume(&mut self) {
         let world = &mut self.simulation.world;
         world.resource_scope::<Digest, ()>(|world, mut digest| {
             world.resource::<Ocean>().plume().digest_into(&mut digest);
@@ -210,7 +238,9 @@ impl Trial {
         if !self.going() {
             return false;
         }
-        self.simulation.tick();
+        self.search(watch);
+        self.simulation.drift();
+        self.simulation.report();
         self.heed(watch)
     }
 
@@ -225,7 +255,7 @@ impl Trial {
         let t_s = self.simulation.t_s();
         if !watch.go_on(t_s) {
             self.phase = RunPhase::Stopped;
-        } else if self.all_over() || t_s >= self.scenario.time.limit_s.get() - 1e-9 {
+        } else if self.all_over() || t_s - self.began_s >= self.scenario.time.limit_s.get() - 1e-9 {
             self.phase = RunPhase::Ended;
         }
         self.going()

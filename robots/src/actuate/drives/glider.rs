@@ -66,7 +66,7 @@ impl GliderPilot {
             // FLU: to starboard is negative.
             Command::Steer(set) => -HEADING_1_S * e.attitude.heading.turn_to(set.heading),
             Command::Move(set) => -HEADING_1_S * e.attitude.heading.turn_to(set.heading),
-            Command::Direct(_) => 0.0,
+            Command::Direct(_) | Command::Drives(_) => 0.0,
         };
         let most = s.heading_rate_deg_s.get().to_radians();
         let helm = RUDDER_S * (turn.clamp(-most, most) - e.attitude.rates_rad_s.z);

@@ -96,6 +96,8 @@ impl ThrusterPilot {
         };
         let s = &self.spec;
         let (wanted, turn, up) = match command {
+            // They do not come here: the drives take them as they are.
+            Command::Drives(_) => (Vector2::new(water_ahead, water_left), Turn::Rate(0.0), 0.0),
             Command::Direct(table) => {
                 let share = |of: f64, full: f64| (of / full).clamp(-1.0, 1.0);
                 let ahead = share(table.rpm, FULL_RPM) * s.speed_m_s.get();

@@ -193,7 +193,7 @@ impl Recorder {
                 let v = s.over_ground_m_s;
                 Some((s.heading, v.norm(), s.vertical, Some(v)))
             }
-            Some(Command::Direct(_)) | None => None,
+            Some(Command::Direct(_) | Command::Drives(_)) | None => None,
         };
         if let Some((heading, speed_m_s, vertical, over_ground)) = asked {
             let (name, height) = match vertical {

@@ -2,7 +2,7 @@
 
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{
-    IntoScheduleConfigs, IntoSystem, Resource, Schedule, System, SystemSet, World,
+    IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System, SystemSet, World,
 };
 use bevy_ecs::system::{ScheduleSystem, SystemAccess};
 use world::stage::Stage;
@@ -29,7 +29,8 @@ pub struct BodiesMove;
 /// the one before. Two systems of one turn that touch the same data need an explicit order (`(a, b).chain()`,
 /// `b.after(a)`); without one the run is refused, because its result would not be defined.
 pub struct Systems<'a> {
-    search: &'a mut Schedule,
+    observe: &'a mut Schedule,
+    act: &'a mut Schedule,
     report: &'a mut Schedule,
     world: &'a mut World,
     truth: &'a [(ComponentId, &'static str)],
@@ -38,15 +39,16 @@ pub struct Systems<'a> {
 }
 
 impl<'a> Systems<'a> {
-    /// For one turn in both halves of the tick. Systems added as blind may not read `truth`.
+    /// For one turn in all parts of the tick. Systems added as blind may not read `truth`.
     pub(crate) fn new(
-        [search, report]: [&'a mut Schedule; 2],
+        [observe, act, report]: [&'a mut Schedule; 3],
         world: &'a mut World,
         truth: &'a [(ComponentId, &'static str)],
         turn: usize,
     ) -> Self {
         Self {
-            search,
+            observe,
+            act,
             report,
             world,
             truth,
@@ -61,11 +63,12 @@ impl<'a> Systems<'a> {
         stage: Stage,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
     ) -> &mut Self {
-        let half = match stage {
+        let part = match stage {
+            Stage::Sense | Stage::Estimate | Stage::Map => &mut *self.observe,
             Stage::Drift | Stage::Report => &mut *self.report,
-            _ => &mut *self.search,
+            _ => &mut *self.act,
         };
-        half.add_systems(systems.in_set(Turn::Of(stage, self.turn)));
+        part.add_systems(systems.in_set(Turn::Of(stage, self.turn)));
         self
     }
 
@@ -86,6 +89,30 @@ impl<'a> Systems<'a> {
         S: IntoSystem<(), (), M>,
         S::System: Send + Sync,
     {
+        let system = self.blind(system);
+        self.add(stage, system)
+    }
+
+    /// The same after another system of the stage.
+    pub fn add_blind_after<M, N, S>(
+        &mut self,
+        stage: Stage,
+        system: S,
+        other: impl IntoSystemSet<N>,
+    ) -> &mut Self
+    where
+        S: IntoSystem<(), (), M>,
+        S::System: Send + Sync,
+    {
+        let system = self.blind(system);
+        self.add(stage, system.after(other))
+    }
+
+    /// A system of which it is known whether it reads the truth.
+    fn blind<M, S>(&mut self, system: S) -> S::System
+    where
+        S: IntoSystem<(), (), M>,
+    {
         let mut system = IntoSystem::into_system(system);
         let access = system.initialize(self.world);
         let name = std::any::type_name::<S>();
@@ -97,7 +124,7 @@ impl<'a> Systems<'a> {
                 ));
             }
         }
-        self.add(stage, system)
+        system
     }
 
     /// Puts a resource into the world.

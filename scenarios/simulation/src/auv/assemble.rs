@@ -3,6 +3,7 @@
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
 use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
+use crate::control::consulting::{Asking, Consulting};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
@@ -57,6 +58,7 @@ impl Apparatus for RobotSpec {
             .add(Stage::Sense, system::read_instruments)
             .add_blind(Stage::Estimate, system::estimate_state)
             .add_blind(Stage::Map, system::update_map)
+            .add_blind_after(Stage::Map, system::ask, system::update_map)
             .add_blind(Stage::Decide, system::decide)
             .add_blind(Stage::Guide, system::guide)
             .add_blind(Stage::Actuate, system::actuate)
@@ -186,7 +188,14 @@ fn spawn(
     if let Some(energy) = &spec.energy {
         robot.insert(Battery::new(energy));
     }
+    let consulted = spec.strategy.consulted();
+    if let Some(consulted) = consulted {
+        robot.insert(Consulting::robot(consulted, still.named().count(), dt_s));
+    }
     let robot = robot.id();
+    if consulted.is_some() {
+        world.get_resource_or_init::<Asking>().0.push(robot);
+    }
     world.get_resource_or_init::<Robots>().0.push(robot);
     Ok(())
 }

@@ -149,6 +149,16 @@ fn goal(t_s: f64, g: &Goal) -> Value {
             "manoeuvre": "slide_to", "point_m": point.as_slice(), "radius_m": radius_m, "heading_rad": heading.rad(),
         }),
         Manoeuvre::Course { course } => json!({"manoeuvre": "course", "heading_rad": course.rad()}),
+        Manoeuvre::Steer { heading } => {
+            json!({"manoeuvre": "steer", "heading_rad": heading.rad()})
+        }
+        Manoeuvre::Slide {
+            heading,
+            over_ground_m_s: v,
+        } => {
+            json!({"manoeuvre": "slide", "heading_rad": heading.rad(), "velocity_m_s": v.as_slice()})
+        }
+        Manoeuvre::Drives(set) => json!({"manoeuvre": "drives", "drives": set.all()}),
         Manoeuvre::Direct { .. } => json!({"manoeuvre": "direct"}),
     };
     let (vertical, vertical_m) = vertical(g.vertical);
@@ -177,7 +187,7 @@ fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
                 "vertical": vertical, "vertical_m": vertical_m,
             })
         }
-        Command::Direct(_) => json!({"kind": "direct"}),
+        Command::Direct(_) | Command::Drives(_) => json!({"kind": "direct"}),
     };
     let mut said = merged(asked, json!({ "t_s": t_s }));
     if let Actuation::Drives(set) = &r.actuators {

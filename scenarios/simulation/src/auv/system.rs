@@ -2,6 +2,8 @@
 
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching};
 use crate::abnormal::{Abnormality, FaultLog, Lookout, OUTSIDE_M};
+use crate::control::Seen;
+use crate::control::consulting::{Consulting, Kept};
 use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
@@ -81,32 +83,64 @@ pub(crate) fn update_map(
     }
 }
 
-type Deciding<'a> = (
+type Perceived<'a> = (
     &'a Readings,
     &'a Estimate,
     &'a GuidanceStatus,
     &'a Briefing,
     Option<&'a Belief>,
+);
+
+/// What a robot sees in this tick.
+fn observation(clock: &Clock, parts: Perceived) -> Observation {
+    let (readings, estimate, guidance, briefing, belief) = parts;
+    Observation {
+        t_s: clock.t_s(),
+        estimate: *estimate,
+        chemical: readings.chemical,
+        guidance: *guidance,
+        area: briefing.area,
+        home: briefing.home,
+        able: briefing.able,
+        belief: belief.cloned(),
+        ranging: readings.ranging.clone(),
+        sidescan: readings.sidescan.clone(),
+        picture: readings.picture.clone(),
+        other: readings.other.clone(),
+        told: None,
+    }
+}
+
+/// Asks the searchers outside this program; the answers come between this stage and the next.
+pub(crate) fn ask(
+    clock: Res<Clock>,
+    mut robots: Query<(Perceived, &SearcherId, &Decision, &mut Consulting)>,
+) {
+    for (parts, id, decision, mut consulting) in &mut robots {
+        if let Kept::Robot(gathered) = &mut consulting.kept {
+            gathered.add(clock.t_s(), parts.0);
+        }
+        if decision.outcome.is_none() && consulting.due(&clock) {
+            consulting.ask(&clock, &id.name, |kept| {
+                let seen = Box::new(observation(&clock, parts));
+                Seen::Robot(seen, Box::new(kept.take_robot()))
+            });
+        }
+    }
+}
+
+type Deciding<'a> = (
+    Perceived<'a>,
     &'a mut Searching,
     &'a mut Decision,
+    Option<&'a mut Consulting>,
 );
 
 pub(crate) fn decide(clock: Res<Clock>, mut robots: Query<Deciding>) {
-    for (readings, estimate, guidance, briefing, belief, mut searching, mut decision) in &mut robots
-    {
+    for (parts, mut searching, mut decision, consulting) in &mut robots {
         let seen = Observation {
-            t_s: clock.t_s(),
-            estimate: *estimate,
-            chemical: readings.chemical,
-            guidance: *guidance,
-            area: briefing.area,
-            home: briefing.home,
-            able: briefing.able,
-            belief: belief.cloned(),
-            ranging: readings.ranging.clone(),
-            sidescan: readings.sidescan.clone(),
-            picture: readings.picture.clone(),
-            other: readings.other.clone(),
+            told: consulting.and_then(|mut c| c.take_told()),
+            ..observation(&clock, parts)
         };
         let searching = &mut *searching;
         *decision = searching.strategy.step(&seen, &mut searching.rng);

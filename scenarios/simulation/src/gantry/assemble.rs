@@ -3,6 +3,7 @@
 use super::Gantries;
 use super::system::{self, Head, Rig, Searcher};
 use crate::apparatus::{Apparatus, Launch, Systems};
+use crate::control::consulting::{Asking, Consulting};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
@@ -44,6 +45,7 @@ impl Apparatus for GantryBlock {
     fn systems(&self, systems: &mut Systems) {
         systems
             .add(Stage::Sense, system::read_probes)
+            .add_blind(Stage::Map, system::ask)
             .add_blind(Stage::Decide, system::track)
             .add(Stage::Actuate, system::drive_gantries)
             .add(
@@ -75,7 +77,7 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
     let probes = Probes::new(&block.probes, &names, &OnBoard::new(id, seed, dt_s))?;
     let strategy = block.tracker.build(&layout)?;
     let place = world.resource_mut::<Score>().join(id);
-    let gantry = world.spawn((
+    let mut gantry = world.spawn((
         SearcherId {
             name: id.to_string(),
             place,
@@ -102,7 +104,14 @@ fn spawn(block: &GantryBlock, world: &mut World, launch: &Launch) -> Result<(), 
             stopped: None,
         },
     ));
+    let consulted = block.tracker.consulted();
+    if let Some(consulted) = consulted {
+        gantry.insert(Consulting::gantry(consulted, dt_s));
+    }
     let gantry = gantry.id();
+    if consulted.is_some() {
+        world.get_resource_or_init::<Asking>().0.push(gantry);
+    }
     world.get_resource_or_init::<Gantries>().0.push(gantry);
     Ok(())
 }

@@ -1,6 +1,8 @@
 //! The systems of gantries: probes and encoders, the searcher, the drives, score and frames.
 
 use super::Gantries;
+use crate::control::Seen;
+use crate::control::consulting::{Consulting, Kept};
 use crate::frame::GantryFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
@@ -87,14 +89,46 @@ pub(crate) fn read_probes(
     }
 }
 
-pub(crate) fn track(
+/// Asks the searchers outside this program; the answers come between this stage and the next.
+pub(crate) fn ask(
     clock: Res<Clock>,
-    mut gantries: Query<(&GantryReadings, &mut Searcher, &mut GantryDecision)>,
+    mut gantries: Query<(
+        &SearcherId,
+        &GantryReadings,
+        &GantryDecision,
+        &mut Consulting,
+    )>,
 ) {
-    for (readings, mut searcher, mut decision) in &mut gantries {
+    for (id, readings, decision, mut consulting) in &mut gantries {
+        if let Kept::Gantry(gathered) = &mut consulting.kept {
+            gathered.scans.extend(readings.scan);
+        }
+        if decision.stopped.is_none() && consulting.due(&clock) {
+            let seen = GantryObservation {
+                t_s: clock.t_s(),
+                readings: *readings,
+                told: None,
+            };
+            consulting.ask(&clock, &id.name, |kept| {
+                Seen::Gantry(seen, kept.take_gantry())
+            });
+        }
+    }
+}
+
+type Tracking<'a> = (
+    &'a GantryReadings,
+    &'a mut Searcher,
+    &'a mut GantryDecision,
+    Option<&'a mut Consulting>,
+);
+
+pub(crate) fn track(clock: Res<Clock>, mut gantries: Query<Tracking>) {
+    for (readings, mut searcher, mut decision, consulting) in &mut gantries {
         let seen = GantryObservation {
             t_s: clock.t_s(),
             readings: *readings,
+            told: consulting.and_then(|mut c| c.take_told()),
         };
         let searcher = &mut *searcher;
         *decision = searcher.strategy.step(&seen, &mut searcher.rng);

@@ -22,11 +22,13 @@
 
 mod alike;
 mod caught;
+mod shared;
 #[cfg(test)]
 mod tests;
 
 pub use alike::alike;
 pub use caught::caught;
+pub use shared::{Shared, Standing};
 
 use crate::assemble::Simulation;
 use crate::error::AssembleError;
@@ -237,8 +239,8 @@ impl<W: Watch> Lanes<W> {
         }
     }
 
-    /// The turn of each lane between two steps of the ocean: the second half of a tick, unless it is the `first`, and
-    /// the first half of the next. Lanes that have ended leave; `false` if there is none left.
+    /// The turn of each lane between two steps of the ocean: the end of a tick, unless it is the `first`, and the
+    /// next one up to that step. Lanes that have ended leave; `false` if there is none left.
     fn turns(&mut self, first: bool, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) -> bool {
         let mut n = 0;
         while let Some(lane) = self.lanes.get_mut(n) {
@@ -250,7 +252,7 @@ impl<W: Watch> Lanes<W> {
                     trial.heed(watch)
                 };
                 if going {
-                    trial.simulation.search();
+                    trial.search(watch);
                 }
                 going
             });

@@ -81,6 +81,7 @@ macro_rules! catalog {
 pub const CATALOG: &[Template] = catalog![
     "duck_st",
     "dalian_bay",
+    "duck_external",
     "duck_mt",
     "san_clemente",
     "moth_plus",
@@ -89,6 +90,7 @@ pub const CATALOG: &[Template] = catalog![
     "moth_eyes",
     "inspect_places",
     "flume_crab",
+    "flume_external",
     "uniform_channel",
     "remus_turning_circle",
     "remus_zigzag",

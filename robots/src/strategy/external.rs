@@ -1,0 +1,244 @@
+//! A searcher outside this program decides: each period it is asked, and its answer is carried out.
+//!
+//! *Source*: ours; the lock-step of a simulator and a controller, as in hardware-in-the-loop tests.
+//!
+//! *Parameters*: see [`ExternalSpec`].
+//!
+//! *Deviations*: none. Between two answers the last order holds. Before the first one the vehicle keeps the heading,
+//! depth and speed with which it set out. Who answers, and how, is the business of the run: here are only the answers.
+
+use super::catalogue::StrategySpec;
+use super::spec::{Strategy, StrategyParams};
+use super::wishes::Wishes;
+use crate::error::RobotError;
+use crate::handoff::{
+    Answer, Behaviour, Consulted, Decision, Goal, GuidanceStatus, Manoeuvre, Observation, Order,
+    Outcome, Setting, Told, Vertical,
+};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::ranges::Positive;
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// Parameters of the strategy.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct ExternalSpec {
+    /// Simulated time between two questions, s; at least one step.
+    pub period_s: Positive,
+    /// How long the run waits for an answer, s of real time.
+    pub deadline_s: Positive,
+    /// What the robot does without an answer.
+    pub on_late: OnLate,
+}
+
+impl Default for ExternalSpec {
+    fn default() -> Self {
+        Self {
+            period_s: Positive::new(1.0),
+            deadline_s: Positive::new(1.0),
+            on_late: OnLate::Hold,
+        }
+    }
+}
+
+/// What a robot does when an answer is late, absent or of no use.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum OnLate {
+    /// It goes on with the last order.
+    Hold,
+    /// A strategy of this program decides until the next answer.
+    Fallback(Box<StrategySpec>),
+    /// It ends its mission.
+    Abort,
+}
+
+impl Listed for ExternalSpec {
+    const ENTRY: Entry = Entry {
+        name: "External",
+        what: "a searcher outside this program decides, asked in lock-step over zenoh, from Python or from Rust",
+        source: "ours; docs/doors.md",
+    };
+}
+
+impl ExternalSpec {
+    fn fallback(&self) -> Option<&StrategySpec> {
+        match &self.on_late {
+            OnLate::Fallback(spec) => Some(spec),
+            _ => None,
+        }
+    }
+}
+
+impl StrategyParams for ExternalSpec {
+    fn build(&self, setting: &Setting) -> Result<Box<dyn Strategy>, RobotError> {
+        let late = match &self.on_late {
+            OnLate::Hold => Late::Hold,
+            OnLate::Abort => Late::Abort,
+            OnLate::Fallback(spec) if spec.consulted().is_some() => {
+                return Err(RobotError::Invalid {
+                    field: "strategy.on_late".into(),
+                    problem: "must be a strategy of this program, got External".into(),
+                });
+            }
+            OnLate::Fallback(spec) => Late::Fallback(spec.build(setting)?),
+        };
+        Ok(Box::new(External {
+            late,
+            goal: None,
+            behaviour: Behaviour::Other("external"),
+            outcome: None,
+            standing_in: None,
+        }))
+    }
+
+    fn check(&self, setting: &Setting) -> Result<(), RobotError> {
+        self.fallback().map_or(Ok(()), |spec| spec.check(setting))
+    }
+
+    fn consulted(&self) -> Option<Consulted> {
+        Some(Consulted {
+            period_s: self.period_s.get(),
+            deadline_s: self.deadline_s.get(),
+        })
+    }
+
+    fn needs_ranging(&self) -> bool {
+        self.fallback().is_some_and(|spec| spec.needs_ranging())
+    }
+
+    fn flies_for(&self) -> [bool; 2] {
+        self.fallback().map_or([true; 2], |spec| spec.flies_for())
+    }
+
+    fn wishes(&self) -> Wishes {
+        self.fallback()
+            .map(|spec| spec.wishes())
+            .unwrap_or_default()
+    }
+
+    fn declares_at_most(&self) -> usize {
+        usize::MAX
+    }
+}
+
+/// What stands in for an answer.
+#[derive(Debug)]
+enum Late {
+    Hold,
+    Fallback(Box<dyn Strategy>),
+    Abort,
+}
+
+/// State of the strategy.
+#[derive(Debug)]
+struct External {
+    late: Late,
+    goal: Option<Goal>,
+    behaviour: Behaviour,
+    outcome: Option<Outcome>,
+    /// While the fallback decides: what its goals' numbers are counted from.
+    standing_in: Option<u32>,
+}
+
+impl Strategy for External {
+    fn step(&mut self, seen: &Observation, rng: &mut Stream) -> Decision {
+        if seen.guidance.aborted {
+            self.outcome.get_or_insert(Outcome::Aborted);
+        }
+        let goal = *self.goal.get_or_insert_with(|| setting_out(seen));
+        let mut answer = &Answer::default();
+        match &seen.told {
+            Some(Told::Answer(told)) => {
+                self.standing_in = None;
+                answer = told;
+                self.take(told);
+            }
+            Some(Told::Nothing) => match &self.late {
+                Late::Hold => {}
+                Late::Fallback(_) => {
+                    self.standing_in.get_or_insert(goal.id);
+                }
+                Late::Abort => {
+                    self.outcome.get_or_insert(Outcome::Aborted);
+                }
+            },
+            None => {}
+        }
+        if let (Some(base), Late::Fallback(strategy)) = (self.standing_in, &mut self.late) {
+            let decision = stand_in(strategy.as_mut(), base, seen, rng);
+            self.goal = Some(decision.goal);
+            self.behaviour = decision.behaviour;
+            self.outcome = self.outcome.or(decision.outcome);
+            return Decision {
+                outcome: self.outcome,
+                ..decision
+            };
+        }
+        Decision {
+            declared: answer.declared,
+            picture: answer.picture,
+            outcome: self.outcome,
+            ..Decision::new(self.behaviour, self.goal.unwrap_or(goal))
+        }
+    }
+}
+
+impl External {
+    fn take(&mut self, told: &Answer) {
+        if let (Some(Order::Move(order)), Some(last)) = (&told.order, self.goal) {
+            self.goal = Some(Goal {
+                id: order.id.unwrap_or(last.id.wrapping_add(1)),
+                manoeuvre: order.manoeuvre,
+                vertical: order.vertical.unwrap_or(last.vertical),
+                speed_m_s: order.speed_m_s.unwrap_or(last.speed_m_s),
+            });
+        }
+        self.behaviour = told.behaviour.unwrap_or(self.behaviour);
+        self.outcome = self.outcome.or(told.outcome);
+    }
+}
+
+/// The goal before the first answer: on as it set out.
+fn setting_out(seen: &Observation) -> Goal {
+    let e = &seen.estimate;
+    Goal {
+        id: 0,
+        manoeuvre: Manoeuvre::Steer {
+            heading: e.attitude.heading,
+        },
+        vertical: Vertical::Depth(e.depth_m.max(0.0)),
+        speed_m_s: e.v_ground_body.x.max(0.0),
+    }
+}
+
+/// A decision of the fallback. It counts its goals from 0, so it is shown the guidance's answers in its own numbers.
+fn stand_in(
+    strategy: &mut dyn Strategy,
+    base: u32,
+    seen: &Observation,
+    rng: &mut Stream,
+) -> Decision {
+    let guidance = match seen.guidance.goal_id.checked_sub(base) {
+        Some(goal_id) => GuidanceStatus {
+            goal_id,
+            ..seen.guidance
+        },
+        None => GuidanceStatus::default(),
+    };
+    let own = Observation {
+        guidance,
+        told: None,
+        ..seen.clone()
+    };
+    let mut decision = strategy.step(&own, rng);
+    decision.goal.id = decision.goal.id.saturating_add(base);
+    decision
+}
+
+#[cfg(test)]
+#[path = "external_tests.rs"]
+mod tests;

@@ -1,0 +1,207 @@
+//! A searcher outside this program moves the head: each period it is asked, and its answer is carried out.
+//!
+//! *Source*: ours; the gantry's side of the robots' strategy of this name.
+//!
+//! *Parameters*: see [`ExternalSpec`].
+//!
+//! *Deviations*: none. Between two answers, and without one, the last order holds. The head waits before the first one.
+
+use super::spec::{GantryStrategy, GantryStrategyParams};
+use crate::error::RobotError;
+use crate::handoff::{
+    Consulted, GantryBehaviour, GantryDecision, GantryLayout, GantryObservation, Order, Outcome,
+    Told, TrackerState,
+};
+use nalgebra::Vector2;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+use world::catalogue::Entry;
+use world::ranges::Positive;
+use world::registry::Listed;
+use world::seeds::Stream;
+
+/// Parameters of the searcher.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "ExternalHeadSpec")]
+#[serde(deny_unknown_fields, default)]
+pub struct ExternalSpec {
+    /// Simulated time between two questions, s; at least one step.
+    pub period_s: Positive,
+    /// How long the run waits for an answer, s of real time.
+    pub deadline_s: Positive,
+    /// What the searcher does without an answer.
+    pub on_late: OnLate,
+}
+
+impl Default for ExternalSpec {
+    fn default() -> Self {
+        Self {
+            period_s: Positive::new(0.2),
+            deadline_s: Positive::new(1.0),
+            on_late: OnLate::Hold,
+        }
+    }
+}
+
+/// What a gantry does when an answer is late, absent or of no use.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "OnLateHead")]
+#[serde(deny_unknown_fields)]
+pub enum OnLate {
+    /// It goes on with the last order.
+    Hold,
+    /// It gives up.
+    Abort,
+}
+
+impl Listed for ExternalSpec {
+    const ENTRY: Entry = Entry {
+        name: "External",
+        what: "a searcher outside this program moves the head, asked in lock-step over zenoh, from Python or from Rust",
+        source: "ours; docs/doors.md",
+    };
+}
+
+impl GantryStrategyParams for ExternalSpec {
+    fn build(&self, layout: &GantryLayout) -> Result<Box<dyn GantryStrategy>, RobotError> {
+        Ok(Box::new(External {
+            on_late: self.on_late,
+            fastest_m_s: Vector2::from(layout.max_speed_m_s),
+            travel_m: layout.travel_m,
+            last: GantryDecision {
+                behaviour: GantryBehaviour::Idle,
+                id: 0,
+                target_m: Vector2::zeros(),
+                speed_m_s: Vector2::zeros(),
+                working: TrackerState::default(),
+                stopped: None,
+            },
+        }))
+    }
+
+    fn consulted(&self) -> Option<Consulted> {
+        Some(Consulted {
+            period_s: self.period_s.get(),
+            deadline_s: self.deadline_s.get(),
+        })
+    }
+}
+
+/// State of the searcher: its last decision.
+#[derive(Debug)]
+struct External {
+    on_late: OnLate,
+    fastest_m_s: Vector2<f64>,
+    travel_m: [[f64; 2]; 2],
+    last: GantryDecision,
+}
+
+impl GantryStrategy for External {
+    fn step(&mut self, seen: &GantryObservation, _: &mut Stream) -> GantryDecision {
+        if self.last.id == 0 {
+            self.last.target_m = seen.readings.joints.position_m;
+        }
+        match &seen.told {
+            Some(Told::Answer(told)) => {
+                if let Some(Order::Head(order)) = &told.order {
+                    self.last.id = order.id.unwrap_or(self.last.id.wrapping_add(1));
+                    self.last.target_m = self.within(order.target_m);
+                    let asked = order.speed_m_s.unwrap_or(self.fastest_m_s);
+                    self.last.speed_m_s = asked.inf(&self.fastest_m_s);
+                    self.last.behaviour = order.behaviour;
+                }
+                if let Some(outcome) = told.outcome {
+                    self.stop(outcome == Outcome::Completed);
+                }
+            }
+            Some(Told::Nothing) if self.on_late == OnLate::Abort => self.stop(false),
+            Some(Told::Nothing) | None => {}
+        }
+        self.last.clone()
+    }
+}
+
+impl External {
+    fn stop(&mut self, found: bool) {
+        self.last.stopped.get_or_insert(found);
+        self.last.behaviour = GantryBehaviour::Done;
+    }
+
+    /// The nearest place that the axes reach.
+    fn within(&self, target_m: Vector2<f64>) -> Vector2<f64> {
+        let [forward, left] = self.travel_m;
+        Vector2::new(
+            target_m.x.clamp(forward[0], forward[1]),
+            target_m.y.clamp(left[0], left[1]),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::handoff::{Answer, GantryReadings, HeadOrder};
+
+    fn searcher(on_late: OnLate) -> Box<dyn GantryStrategy> {
+        let layout = GantryLayout {
+            travel_m: [[0.0, 2.0], [-0.5, 0.5]],
+            max_speed_m_s: [0.1, 0.2],
+            probes: Vec::new(),
+            range_v: [-5.0, 5.0],
+            scan_hz: 10.0,
+        };
+        let spec = ExternalSpec {
+            on_late,
+            ..ExternalSpec::default()
+        };
+        spec.build(&layout).expect("legal")
+    }
+
+    fn seen(told: Option<Told>) -> GantryObservation {
+        GantryObservation {
+            t_s: 1.0,
+            readings: GantryReadings::default(),
+            told,
+        }
+    }
+
+    fn to(forward: f64, left: f64) -> Option<Told> {
+        Some(Told::Answer(Box::new(Answer {
+            order: Some(Order::Head(HeadOrder {
+                id: None,
+                target_m: Vector2::new(forward, left),
+                speed_m_s: None,
+                behaviour: GantryBehaviour::Cast,
+            })),
+            ..Answer::default()
+        })))
+    }
+
+    #[test]
+    fn orders_stay_within_the_machine_and_hold() {
+        let mut s = searcher(OnLate::Hold);
+        let mut rng = Stream::new(1, "crab0", "tracker");
+        assert_eq!(s.step(&seen(None), &mut rng).id, 0);
+        let told = s.step(&seen(to(3.0, -0.2)), &mut rng);
+        assert_eq!((told.id, told.target_m), (1, Vector2::new(2.0, -0.2)));
+        assert_eq!(told.speed_m_s, Vector2::new(0.1, 0.2));
+        assert_eq!(s.step(&seen(Some(Told::Nothing)), &mut rng), told);
+        assert_eq!(s.step(&seen(to(1.0, 0.0)), &mut rng).id, 2);
+    }
+
+    #[test]
+    fn it_stops_when_told_and_gives_up_without_answers_if_asked_to() {
+        let mut rng = Stream::new(1, "crab0", "tracker");
+        let over = Some(Told::Answer(Box::new(Answer {
+            outcome: Some(Outcome::Completed),
+            ..Answer::default()
+        })));
+        let mut s = searcher(OnLate::Hold);
+        assert_eq!(s.step(&seen(over), &mut rng).stopped, Some(true));
+        let mut s = searcher(OnLate::Abort);
+        assert_eq!(
+            s.step(&seen(Some(Told::Nothing)), &mut rng).stopped,
+            Some(false)
+        );
+    }
+}

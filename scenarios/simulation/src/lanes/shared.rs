@@ -1,0 +1,261 @@
+//! One ocean in which searchers come and go: for batches of short runs, as learners make them.
+//!
+//! Each place holds at most one run. A run that begins later finds the ocean as it is then. It follows from the
+//! scenario, the ocean's seed, the searcher's own seed and the step in which it begins, and it is the same, bit by bit,
+//! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
+//! [`Trial`] alone.
+
+use super::{LaneError, caught, lend, take_back};
+use crate::assemble::Simulation;
+use crate::control::{Consultation, Heard, Question};
+use crate::ocean::system::drift;
+use crate::ocean::{Ocean, Origin, SpunUp};
+use crate::scenario::Loaded;
+use crate::trial::{Trial, Unwatched};
+use bevy_ecs::prelude::World;
+use world::clock::Clock;
+use world::seeds::Seed;
+
+/// An ocean with places for runs.
+pub struct Shared {
+    loaded: Loaded,
+    origin: Origin,
+    /// In the world of a run while that run has its turn.
+    ocean: Option<Ocean>,
+    clock: Clock,
+    runs: Vec<Option<Run>>,
+}
+
+struct Run {
+    trial: Trial,
+    at: At,
+    failed: Option<String>,
+}
+
+/// Where a run is in the present tick.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum At {
+    /// It has asked.
+    Asked,
+    /// It has done its part, up to the step of the ocean.
+    Acted,
+    Over,
+}
+
+/// How a run in a place stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Standing {
+    /// Nobody is there.
+    Empty,
+    /// It has asked, or will.
+    Going,
+    /// It is over.
+    Ended,
+    /// It panicked.
+    Failed,
+}
+
+impl Shared {
+    /// The ocean of a scenario for a seed, spun up or as `kept`, with so many empty places.
+    ///
+    /// # Errors
+    /// If the ocean cannot be built.
+    pub fn new(
+        loaded: &Loaded,
+        seed: impl Into<Seed>,
+        places: usize,
+        kept: Option<&SpunUp>,
+    ) -> Result<Self, LaneError> {
+        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+        let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
+        let mut ocean = built?;
+        ocean.step_at_most(loaded.scenario.time.drift_period_s.get());
+        let copied = kept.map(|kept| kept.copy_for(&origin));
+        match copied {
+            Some(Ok(state)) => ocean.put_state(state),
+            _ => ocean.spin_up(|_| true),
+        }
+        ocean.set_out();
+        Ok(Self {
+            loaded: loaded.clone(),
+            origin,
+            ocean: Some(ocean),
+            clock: Clock::new(loaded.scenario.time.step_s.get()),
+            runs: (0..places).map(|_| None).collect(),
+        })
+    }
+
+    /// A copy of an ocean that was spun up for these searchers, for others that share it later.
+    ///
+    /// # Errors
+    /// If it cannot be built.
+    pub fn spin_up(loaded: &Loaded, seed: impl Into<Seed>) -> Result<SpunUp, LaneError> {
+        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
+        let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
+        let mut ocean = built?;
+        ocean.spin_up(|_| true);
+        Ok(SpunUp::new(origin, ocean.state()))
+    }
+
+    /// Begins a run in a place, in the place of the one there, and returns its first questions. `seed` is that of the
+    /// searcher: noise and decisions.
+    ///
+    /// # Errors
+    /// If it cannot be assembled, or panics; the place is then empty.
+    pub fn begin(
+        &mut self,
+        place: usize,
+        seed: impl Into<Seed>,
+    ) -> Result<Vec<Question>, LaneError> {
+        self.runs[place] = None;
+        let loaded = &self.loaded;
+        let mut world = World::new();
+        world.insert_resource(self.ocean.take().expect("it is back"));
+        let sources = world.resource::<Ocean>().sources();
+        let (registry, scenario) = (&loaded.registry, &loaded.scenario);
+        let seed = seed.into();
+        let tick =
+            caught(|| Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed));
+        self.ocean = world.remove_resource();
+        let tick = tick.map_err(LaneError::Panicked)??;
+        let simulation = Simulation::of(world, tick, self.origin.clone());
+        let mut run = Run {
+            trial: Trial::of(scenario, simulation, sources),
+            at: At::Acted,
+            failed: None,
+        };
+        let step = self.clock.step;
+        let asked = run.with(&mut self.ocean, |trial| {
+            trial.begin_at(step);
+            ask(trial)
+        });
+        run.stands(&asked);
+        if let Some(said) = run.failed {
+            return Err(LaneError::Panicked(said));
+        }
+        self.runs[place] = Some(run);
+        Ok(asked.map_or_else(Vec::new, |(_, questions)| questions))
+    }
+
+    /// Steps the ocean and all runs until some of them ask; returns the questions, by place. Those left open by the
+    /// last call count as put to somebody absent. Without questions no run goes on.
+    pub fn until_asked(&mut self) -> Vec<(usize, Question)> {
+        for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
+            run.at = At::Acted;
+            run.with(&mut self.ocean, |trial| trial.search(&mut Unwatched));
+        }
+        let mut asked = Vec::new();
+        while asked.is_empty() && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
+            self.pass_step();
+            for (place, run) in self.runs.iter_mut().enumerate() {
+                let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
+                    continue;
+                };
+                let step = run.with(&mut self.ocean, |trial| {
+                    trial.simulation.report();
+                    if trial.heed(&mut Unwatched) {
+                        ask(trial)
+                    } else {
+                        (At::Over, Vec::new())
+                    }
+                });
+                run.stands(&step);
+                asked.extend(step.into_iter().flat_map(|(_, q)| q).map(|q| (place, q)));
+            }
+        }
+        asked
+    }
+
+    /// Lets the ocean develop to a step of the mission with nobody in it.
+    ///
+    /// # Panics
+    /// If a run goes on in it.
+    pub fn wait_for(&mut self, step: u64) {
+        let idle = self.runs.iter().flatten().all(|r| r.at == At::Over);
+        assert!(idle, "the ocean waits only while nobody is in it");
+        while self.clock.step < step {
+            self.pass_step();
+        }
+    }
+
+    fn pass_step(&mut self) {
+        drift(&self.clock, self.ocean.as_mut().expect("it is back"));
+        self.clock.advance();
+    }
+
+    /// Steps of the mission so far.
+    #[must_use]
+    pub fn step(&self) -> u64 {
+        self.clock.step
+    }
+
+    /// Answers an open question of a robot in a place; `None` if there is none.
+    pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
+        let run = self.runs.get_mut(place)?.as_mut()?;
+        run.trial.answer(robot, heard, &mut Unwatched)
+    }
+
+    /// Reads a run with its ocean; `None` if there is none in the place, or if it has failed.
+    pub fn look<T>(&mut self, place: usize, look: impl FnOnce(&Trial) -> T) -> Option<T> {
+        let run = self.runs.get_mut(place)?.as_mut()?;
+        run.with(&mut self.ocean, |trial| look(trial))
+    }
+
+    /// What a run that failed said.
+    #[must_use]
+    pub fn failure(&self, place: usize) -> Option<&str> {
+        self.runs.get(place)?.as_ref()?.failed.as_deref()
+    }
+
+    /// How the run in a place stands.
+    #[must_use]
+    pub fn standing(&self, place: usize) -> Standing {
+        match self.runs.get(place).and_then(Option::as_ref) {
+            None => Standing::Empty,
+            Some(run) if run.failed.is_some() => Standing::Failed,
+            Some(run) if run.at == At::Over => Standing::Ended,
+            Some(_) => Standing::Going,
+        }
+    }
+}
+
+/// The beginning of a tick: up to the questions, or, without any, up to the step of the ocean.
+fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
+    trial.observe(&mut Unwatched);
+    let questions = trial.open_questions().to_vec();
+    if questions.is_empty() {
+        trial.search(&mut Unwatched);
+        (At::Acted, questions)
+    } else {
+        (At::Asked, questions)
+    }
+}
+
+impl Run {
+    fn stands(&mut self, step: &Option<(At, Vec<Question>)>) {
+        self.at = step.as_ref().map_or(At::Over, |(at, _)| *at);
+    }
+
+    /// Does something while the ocean is in the world of this run; `None` if it has failed.
+    fn with<T>(
+        &mut self,
+        ocean: &mut Option<Ocean>,
+        work: impl FnOnce(&mut Trial) -> T,
+    ) -> Option<T> {
+        if self.failed.is_some() {
+            return None;
+        }
+        lend(ocean, &mut self.trial);
+        let done = caught(|| work(&mut self.trial));
+        take_back(ocean, &mut self.trial);
+        done.map_err(|said| {
+            self.failed = Some(said);
+            self.at = At::Over;
+        })
+        .ok()
+    }
+}
+
+#[cfg(test)]
+#[path = "shared_tests.rs"]
+mod tests;

@@ -1,0 +1,125 @@
+use super::*;
+use crate::scenario::{load_text, template};
+use robots::handoff::{Answer, Manoeuvre, MoveOrder, Order};
+use robots::strategy::{ExternalSpec, StrategySpec};
+use world::registry::Registry;
+use world::units::Heading;
+
+/// A minute of the channel with a searcher outside that is asked every second.
+fn channel() -> Loaded {
+    let text = template("uniform_channel").expect("in the catalogue").text;
+    let text = text.replace(
+        "spin_up_s: 2000, limit_s: 1800",
+        "spin_up_s: 300, limit_s: 20",
+    );
+    let mut loaded = load_text(&Registry::default(), "short", &text).expect("legal");
+    loaded.scenario.robots[0].strategy = StrategySpec::new(ExternalSpec::default());
+    loaded
+}
+
+/// An answer that follows from the question alone.
+fn answer(question: &Question) -> Heard {
+    let heading = Heading::from_deg(40.0 * question.number as f64);
+    Heard::Answer(Answer {
+        order: Some(Order::Move(MoveOrder {
+            id: None,
+            manoeuvre: Manoeuvre::Steer { heading },
+            vertical: None,
+            speed_m_s: Some(1.5),
+        })),
+        ..Answer::default()
+    })
+}
+
+/// Answers everybody until a run in a place has ended; its digest.
+fn digest(shared: &mut Shared, place: usize, mut open: Vec<(usize, Question)>) -> String {
+    loop {
+        for (place, question) in &open {
+            let told = shared.answer(*place, "auv0", answer(question));
+            assert_eq!(told.expect("it asked").heard.name(), "answered");
+        }
+        open = shared.until_asked();
+        if shared.standing(place) != Standing::Going {
+            let ended = shared
+                .look(place, |trial| trial.ended())
+                .expect("it is there");
+            assert_eq!(
+                (ended.steps, shared.standing(place)),
+                (shared.step(), Standing::Ended)
+            );
+            return ended.digest;
+        }
+    }
+}
+
+fn begin(shared: &mut Shared, place: usize, seed: u64) -> Vec<(usize, Question)> {
+    let asked = shared.begin(place, seed).expect("legal");
+    assert_eq!(asked.len(), 1, "it asks at once");
+    asked.into_iter().map(|q| (place, q)).collect()
+}
+
+#[test]
+fn from_the_first_step_it_is_the_run_alone() {
+    let loaded = channel();
+    let mut alone = Trial::assemble(&loaded, 5).expect("legal");
+    alone
+        .control("auv0", |q: &Question| answer(q))
+        .expect("it asks");
+    let alone = alone.finish_quietly().digest;
+    for kept in [None, Some(Shared::spin_up(&loaded, 5).expect("legal"))] {
+        let mut shared = Shared::new(&loaded, 5, 1, kept.as_ref()).expect("legal");
+        let open = begin(&mut shared, 0, 5);
+        assert_eq!(digest(&mut shared, 0, open), alone);
+    }
+}
+
+#[test]
+fn a_run_is_the_same_whoever_else_is_in_the_ocean() {
+    let loaded = channel();
+    let kept = Shared::spin_up(&loaded, 5).expect("legal");
+    let mut shared = Shared::new(&loaded, 5, 3, Some(&kept)).expect("legal");
+    let mut open = begin(&mut shared, 0, 11);
+    for _ in 0..7 {
+        for (place, question) in &open {
+            shared.answer(*place, "auv0", answer(question));
+        }
+        open = shared.until_asked();
+    }
+    // In the eighth second two others come.
+    open.extend(begin(&mut shared, 2, 12));
+    open.extend(begin(&mut shared, 1, 13));
+    let step = shared.step();
+    assert!(step > 0);
+    let among_others = digest(&mut shared, 2, open);
+
+    let mut alone = Shared::new(&loaded, 5, 1, Some(&kept)).expect("legal");
+    alone.wait_for(step);
+    let open = begin(&mut alone, 0, 12);
+    assert_eq!(digest(&mut alone, 0, open), among_others);
+    let mut other = Shared::new(&loaded, 5, 1, Some(&kept)).expect("legal");
+    other.wait_for(step);
+    let open = begin(&mut other, 0, 13);
+    assert_ne!(
+        digest(&mut other, 0, open),
+        among_others,
+        "noise of its own"
+    );
+}
+
+#[test]
+fn a_place_is_used_again_and_unanswered_questions_count() {
+    let loaded = channel();
+    let mut shared = Shared::new(&loaded, 5, 2, None).expect("legal");
+    assert_eq!(shared.standing(0), Standing::Empty);
+    begin(&mut shared, 0, 1);
+    assert_eq!(shared.until_asked().len(), 1);
+    let absent = |shared: &mut Shared| {
+        let counts = shared.look(0, |t| t.score().searchers[0].consulted);
+        counts.expect("it is there").map(|c| (c.asked, c.absent))
+    };
+    assert_eq!(absent(&mut shared), Some((1, 1)));
+    begin(&mut shared, 0, 1);
+    assert_eq!(absent(&mut shared), None, "another run");
+    while !shared.until_asked().is_empty() {}
+    assert_eq!(shared.standing(0), Standing::Ended);
+}

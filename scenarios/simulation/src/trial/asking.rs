@@ -1,0 +1,128 @@
+//! How a run asks searchers outside this program, and takes their answers.
+
+use super::{RunPhase, Trial, Watch};
+use crate::control::consulting::{put_in, take_questions};
+use crate::control::{Consultation, Controller, Heard, Question};
+use crate::scenario::Scenario;
+
+/// A robot that nobody outside this program can control.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("no robot or gantry {robot:?} has the strategy External; {}", .outside.is_empty().then(|| "none has".to_string())
+    .unwrap_or_else(|| format!("those that have: {}", .outside.join(", "))))]
+pub struct NotControlled {
+    /// Its id.
+    pub robot: String,
+    /// Ids of those that can be controlled.
+    pub outside: Vec<String>,
+}
+
+/// Ids of the robots and gantries of a scenario whose strategy is `External`, in its order.
+#[must_use]
+pub fn controlled(scenario: &Scenario) -> Vec<String> {
+    let robots = scenario.robots.iter();
+    let robots = robots.filter(|r| r.strategy.consulted().is_some());
+    let gantries = scenario.gantries.iter();
+    let gantries = gantries.filter(|g| g.tracker.consulted().is_some());
+    let ids = robots
+        .map(|r| r.id.as_str())
+        .chain(gantries.map(|g| g.id.as_str()));
+    ids.map(str::to_string).collect()
+}
+
+impl Trial {
+    /// The tick up to the step of the ocean, with the answers of searchers outside this program. Questions that nobody
+    /// answers count as put to somebody absent.
+    pub(crate) fn search(&mut self, watch: &mut dyn Watch) {
+        self.observe(watch);
+        for question in self.open.take().unwrap_or_default() {
+            let told = put_in(&mut self.simulation.world, &question, Heard::Absent);
+            watch.consulted(&told);
+        }
+        self.simulation.act();
+    }
+
+    /// The tick up to the answers from outside, unless that is done, and the answers of the controllers.
+    pub(crate) fn observe(&mut self, watch: &mut dyn Watch) {
+        if self.open.is_some() {
+            return;
+        }
+        self.simulation.observe();
+        let mut open = Vec::new();
+        for question in take_questions(&mut self.simulation.world) {
+            let Some(controller) = self.controllers.get_mut(&question.robot) else {
+                open.push(question);
+                continue;
+            };
+            let heard = controller.answer(&question);
+            watch.consulted(&put_in(&mut self.simulation.world, &question, heard));
+        }
+        self.open = Some(open);
+    }
+
+    /// Lets a controller decide for a robot or gantry whose strategy is `External`.
+    ///
+    /// # Errors
+    /// If the scenario has no such robot, or its strategy is another.
+    pub fn control(
+        &mut self,
+        robot: &str,
+        controller: impl Controller + 'static,
+    ) -> Result<(), NotControlled> {
+        let outside = self.controlled();
+        if !outside.iter().any(|name| name == robot) {
+            return Err(NotControlled {
+                robot: robot.to_string(),
+                outside,
+            });
+        }
+        self.controllers
+            .insert(robot.to_string(), Box::new(controller));
+        Ok(())
+    }
+
+    /// Ids of the robots and gantries whose strategy is `External`, in the order of the scenario.
+    #[must_use]
+    pub fn controlled(&self) -> Vec<String> {
+        controlled(&self.scenario)
+    }
+
+    /// Runs to the next questions that no controller answers, with the spin-up before the first. The answers are given
+    /// with [`Self::answer`]; then this, [`Self::step`] or [`Self::run`] goes on. Without questions the run is over.
+    pub fn until_asked(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
+        if self.phase == RunPhase::Assembled {
+            self.develop(watch);
+        }
+        if self.open.is_some() && !self.advance(watch) {
+            return Vec::new();
+        }
+        while self.going() {
+            self.observe(watch);
+            if let Some(open) = self.open.as_ref().filter(|open| !open.is_empty()) {
+                return open.clone();
+            }
+            self.advance(watch);
+        }
+        Vec::new()
+    }
+
+    /// The open questions of this tick.
+    pub(crate) fn open_questions(&self) -> &[Question] {
+        self.open.as_deref().unwrap_or_default()
+    }
+
+    /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
+    /// robot cannot carry out counts as nonsense. `None` if it has no open question.
+    pub fn answer(
+        &mut self,
+        robot: &str,
+        heard: Heard,
+        watch: &mut dyn Watch,
+    ) -> Option<Consultation> {
+        let open = self.open.as_mut()?;
+        let n = open.iter().position(|q| q.robot == robot)?;
+        let question = open.remove(n);
+        let told = put_in(&mut self.simulation.world, &question, heard);
+        watch.consulted(&told);
+        Some(told)
+    }
+}
