@@ -2,6 +2,7 @@
 
 use super::args_cache::{self, CacheArgs, CacheCommandArgs};
 use super::args_campaign::CampaignArgs;
+use super::args_control::{ControlArgs, RerunMcapArgs};
 use super::args_explain::ExplainArgs;
 use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
@@ -84,6 +85,9 @@ pub enum Command {
     /// Run scenarios, one after the other.
     #[command(long_about = RUN_ABOUT)]
     Run(RunArgs),
+    /// Make a recorded run again, with the answers that searchers outside the program gave.
+    #[command(long_about = super::args_control::RERUN_ABOUT)]
+    Rerun(RerunMcapArgs),
     /// Check scenarios without running them, and estimate what a run takes.
     #[command(long_about = CHECK_ABOUT)]
     Check(CheckArgs),
@@ -156,8 +160,10 @@ pub struct RunArgs {
     /// Do not show progress.
     #[arg(long, short)]
     pub quiet: bool,
-    /// Configuration file of zenoh (JSON5), for routers or access control; TLS needs a program built with
-    /// `--features tls`.
+    /// What others may do to the run.
+    #[command(flatten)]
+    pub control: ControlArgs,
+    /// Configuration file of zenoh (JSON5), for routers, TLS, users and access control.
     #[arg(long, value_name = "FILE", conflicts_with = "no_zenoh")]
     pub zenoh_config: Option<PathBuf>,
     /// Endpoint at which zenoh listens [default: tcp/127.0.0.1:7447, or the next free port].

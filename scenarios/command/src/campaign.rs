@@ -1,6 +1,6 @@
 //! `rheotaxis campaign`: plans and runs campaigns, shows their status, merges, reports and repeats runs.
 
-use super::args::{RunArgs, Speed};
+use super::args::RunArgs;
 use super::args_cache::CacheArgs;
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
 use super::campaign_plan::{count, plan};
@@ -250,22 +250,14 @@ fn rerun(args: &RerunArgs) -> Exit {
         .clone()
         .unwrap_or_else(|| args.dir.join(format!("run-{}", args.run)));
     let as_run = RunArgs {
-        files: Vec::new(),
-        seed: seed.number(),
-        key: args.key.clone(),
-        out: Some(out.clone()),
-        speed: Speed::Max,
-        no_zenoh: true,
         no_record: !args.record,
         cache: CacheArgs {
             no_cache: true,
             ..CacheArgs::default()
         },
         quiet: args.quiet,
-        zenoh_config: None,
-        zenoh_listen: None,
-        zenoh_linger: 0.0,
         threads: 1,
+        ..RunArgs::alone(seed.number(), &args.key, Some(&out))
     };
     let again = || -> Result<(RunOutcome, String), RunError> {
         let mut trial = Trial::assemble(&loaded, seed)?;

@@ -9,6 +9,7 @@
 mod args;
 mod args_cache;
 mod args_campaign;
+mod args_control;
 mod args_explain;
 mod args_key;
 mod args_picture;
@@ -23,12 +24,14 @@ mod check;
 mod company;
 mod exit;
 mod explain;
+mod gantry_info;
 mod init;
 mod list;
 mod onlooker;
 mod picture;
 mod progress;
 mod reproduce;
+mod rerun;
 mod run;
 mod say;
 mod score_vision;
@@ -51,6 +54,7 @@ pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
     StatusArgs,
 };
+pub use args_control::{ControlArgs, RerunMcapArgs};
 pub use args_explain::ExplainArgs;
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
@@ -92,6 +96,7 @@ fn guarded(work: impl FnOnce() -> Exit) -> Exit {
 fn dispatch(command: Command) -> Exit {
     match command {
         Command::Run(args) => run::run(&args),
+        Command::Rerun(args) => rerun::rerun(&args),
         Command::Check(args) => check::check(&args),
         Command::Init(args) => init::init(&args),
         Command::List(args) => list::list(&args),

@@ -8,34 +8,32 @@ use super::args::{RunArgs, Speed};
 use super::company::Company;
 use super::progress::Progress;
 use output::files::{ReportError, begin_folder};
-use output::live::{Live, LiveMeta, LiveOptions, run_id};
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, run_id};
 use output::record::Recorder;
 use output::report::write_all;
 use output::results::{
-    BeliefTrack, Echoes, GantryInfo, MassBalance, ObstacleOutline, Pictures, ProbeTables,
-    RobotInfo, RunEnd, RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
+    BeliefTrack, Echoes, MassBalance, ObstacleOutline, Pictures, ProbeTables, RobotInfo, RunEnd,
+    RunInfo, RunReport, SourceTruth, SummaryBuilder, Totals, TrackTable,
 };
-use rheotaxis::error::AssembleError;
+use rheotaxis::control::{Consultation, Heard};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
 use rheotaxis::outcome::RunOutcome;
-use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::sense::FluorometerSpec;
-use robots::vehicles::Gantry;
+use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use world::files::Folder;
-use world::ranges::Finite;
 
+use super::gantry_info::gantries;
 use super::run::RunError;
 use super::say;
 
-/// Longest wait before Ctrl-C is looked for again, while a run waits for its pace.
-const NAP: Duration = Duration::from_millis(50);
-
 /// All that follows one run.
-pub(super) struct Onlooker<'a> {
+pub(super) struct Onlooker {
     out: Folder,
     text: String,
     builder: SummaryBuilder,
@@ -47,8 +45,12 @@ pub(super) struct Onlooker<'a> {
     recorder: Option<Recorder>,
     live: Option<Live>,
     progress: Progress,
-    speed: Speed,
-    stop: &'a AtomicBool,
+    plane: Arc<Plane>,
+    /// It ends after so many steps.
+    last_step: Option<u64>,
+    /// What came of the last question of each robot.
+    heard: BTreeMap<String, &'static str>,
+    stop: &'static AtomicBool,
     failure: Option<ReportError>,
     last_plume: Option<PlumeFrame>,
     begun: Instant,
@@ -59,14 +61,14 @@ pub(super) struct Onlooker<'a> {
     interfaces: Vec<f64>,
 }
 
-impl<'a> Onlooker<'a> {
+impl Onlooker {
     /// Opens folder, files and port, so that an error in them comes before the run starts.
     pub(super) fn new(
         loaded: &Loaded,
         args: &RunArgs,
         out: &Path,
         company: &mut Company,
-        stop: &'a AtomicBool,
+        stop: &'static AtomicBool,
     ) -> Result<Self, RunError> {
         let scenario = &loaded.scenario;
         let run = RunInfo {
@@ -79,7 +81,12 @@ impl<'a> Onlooker<'a> {
         };
         let gantries = gantries(loaded)?;
         let progress = Progress::new(loaded, args, &company.bars);
-        let live = live(args, &run, &progress, company)?;
+        let times = match args.speed {
+            Speed::Max => None,
+            Speed::Times(times) => Some(times),
+        };
+        let plane = Arc::new(Plane::new(args.control.allow_control, times));
+        let live = live(args, &run, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
@@ -115,7 +122,9 @@ impl<'a> Onlooker<'a> {
             recorder,
             live,
             progress,
-            speed: args.speed,
+            plane,
+            last_step: None,
+            heard: BTreeMap::new(),
             stop,
             failure: None,
             last_plume: None,
@@ -129,6 +138,33 @@ impl<'a> Onlooker<'a> {
                 .map(|depth_m| -depth_m)
                 .collect(),
         })
+    }
+
+    /// Ends the run after so many steps, as another has ended.
+    pub(super) fn end_after(&mut self, steps: u64) {
+        self.last_step = Some(steps);
+    }
+
+    /// Whoever controls a robot from another process; `None` without live state.
+    pub(super) fn controller(
+        &self,
+        robot: &str,
+        deadline_s: f64,
+        args: &RunArgs,
+    ) -> Result<Option<LiveController>, RunError> {
+        let Some(live) = &self.live else {
+            return Ok(None);
+        };
+        let stop = self.stop;
+        let times = [deadline_s, args.control.control_wait].map(Duration::from_secs_f64);
+        let going = Arc::new(move || !stop.load(Ordering::Relaxed));
+        let controller = live.controller(robot, times, going)?;
+        let most_s = args.control.control_wait;
+        let key = controller.key();
+        self.progress.say(&format!(
+            "{robot} asks at {key}; it waits up to {most_s} s for a controller"
+        ));
+        Ok(Some(controller))
     }
 
     fn going(&self) -> bool {
@@ -152,10 +188,11 @@ impl<'a> Onlooker<'a> {
         let mission_wall = self.mission_begun.elapsed();
         let spin_up_wall = self.mission_begun - self.begun;
         if let Some(live) = &self.live {
+            self.plane.ended();
             live.end(&ended.digest);
         }
         if let Some(recorder) = self.recorder.take() {
-            let closed = recorder.finish(&ended.digest).map(drop);
+            let closed = recorder.finish(&ended.digest, ended.steps).map(drop);
             self.note(closed);
         }
         let ocean = trial.simulation.ocean();
@@ -248,6 +285,7 @@ fn live(
     run: &RunInfo,
     progress: &Progress,
     company: &mut Company,
+    plane: &Arc<Plane>,
 ) -> Result<Option<Live>, RunError> {
     if args.no_zenoh {
         return Ok(None);
@@ -255,6 +293,7 @@ fn live(
     let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
+    options.plane = Arc::clone(plane);
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),
@@ -273,35 +312,7 @@ fn live(
     Ok(Some(live))
 }
 
-/// What tables and figures need to know about the scenario's gantries.
-fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
-    let scenario = &loaded.scenario;
-    // Of several effluents, the strongest.
-    let effluent = (scenario.sources.iter())
-        .filter_map(|s| Some(1e-3 * s.rate_g_s.get() / s.release.nozzle.as_ref()?.volume_m3_s()))
-        .max_by(f64::total_cmp);
-    let info = |block: &GantryBlock| {
-        let id = block.id.as_str().to_string();
-        let gantry = Gantry::load(&block.gantry, &Beside(&loaded.base_dir)).map_err(|source| {
-            AssembleError::Robot {
-                id: id.clone(),
-                source,
-            }
-        })?;
-        let range_v = block.probes.range_v.map(Finite::get);
-        let layout = gantry.layout(block.probes.rate_hz.get(), range_v);
-        Ok(GantryInfo {
-            id,
-            probes: layout.probes.into_iter().map(|p| p.name).collect(),
-            range_v,
-            full_scale_kg_m3: block.probes.full_scale_kg_m3.get(),
-            effluent_kg_m3: effluent,
-        })
-    };
-    scenario.gantries.iter().map(info).collect()
-}
-
-impl Watch for Onlooker<'_> {
+impl Watch for Onlooker {
     fn spun_up(&mut self, share: f64) -> bool {
         self.progress.spun_up(share);
         self.mission_begun = Instant::now();
@@ -345,6 +356,22 @@ impl Watch for Onlooker<'_> {
         self.last_plume = Some(plume.clone());
     }
 
+    fn consulted(&mut self, told: &Consultation) {
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.consulted(told);
+            self.note(recorded);
+        }
+        let name = told.heard.name();
+        if self.heard.insert(told.robot.clone(), name) != Some(name) {
+            let why = match &told.heard {
+                Heard::Nonsense(why) => format!(": {why}"),
+                _ => String::new(),
+            };
+            let line = format!("  {} asked at {:.1} s: {name}{why}", told.robot, told.t_s);
+            self.progress.say(&line);
+        }
+    }
+
     fn picture(&mut self, picture: &PictureFrame) {
         if let Some(live) = &self.live {
             live.picture(picture);
@@ -370,15 +397,11 @@ impl Watch for Onlooker<'_> {
     }
 
     fn go_on(&mut self, t_s: f64) -> bool {
-        if let Speed::Times(speed) = self.speed {
-            // Ctrl-C must end a wait of any length.
-            let due = Duration::try_from_secs_f64(t_s / speed).unwrap_or(Duration::MAX);
-            while self.going()
-                && let Some(early) = due.checked_sub(self.mission_begun.elapsed())
-            {
-                std::thread::sleep(early.min(NAP));
-            }
-        }
-        self.going()
+        let last = self.last_step.as_mut().is_some_and(|left| {
+            *left = left.saturating_sub(1);
+            *left == 0
+        });
+        // Ctrl-C must end a wait of any length.
+        !last && self.plane.hold(t_s, || self.going())
     }
 }

@@ -12,6 +12,7 @@ use rheotaxis::error::AssembleError;
 use rheotaxis::lanes::{LaneError, Lanes, alike};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, ScenarioError, cost, load};
+use rheotaxis::trial::{NotControlled, consulted, controlled};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
@@ -28,7 +29,14 @@ pub(super) enum RunError {
     #[error(transparent)]
     Live(#[from] LiveError),
     #[error(transparent)]
+    NotControlled(#[from] NotControlled),
+    #[error(transparent)]
     Report(#[from] ReportError),
+    #[error(
+        "{robots} of {scenario} asks a searcher outside the program: start the run with --allow-control, or give it \
+         another strategy"
+    )]
+    NotAllowed { scenario: String, robots: String },
     #[error("{}: another scenario of this command has written its results there", .0.display())]
     Taken(PathBuf),
 }
@@ -58,7 +66,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
     exit
 }
 
-fn refused(error: RunError) -> Exit {
+pub(super) fn refused(error: RunError) -> Exit {
     match error {
         RunError::Scenario(error) => say::scenario_error(error),
         error => say::error(error, None),
@@ -83,6 +91,13 @@ fn prepared(
 ) -> Result<(Loaded, PathBuf), RunError> {
     let loaded = load(file)?;
     say::warnings(loaded.check()?);
+    let asking = controlled(&loaded.scenario);
+    if !asking.is_empty() && !args.control.allow_control {
+        return Err(RunError::NotAllowed {
+            scenario: loaded.name.clone(),
+            robots: asking.join(", "),
+        });
+    }
     let folder = folder(&loaded, args);
     if before.iter().any(|(_, taken)| *taken == folder) {
         return Err(RunError::Taken(folder));
@@ -95,7 +110,7 @@ fn together(
     group: &[&(Loaded, PathBuf)],
     args: &RunArgs,
     kept: Option<&SpinUps>,
-    stop: &AtomicBool,
+    stop: &'static AtomicBool,
 ) -> Exit {
     let mut exit = Exit::Success;
     let mut company = Company::default();
@@ -106,7 +121,9 @@ fn together(
             eprintln!("{}: takes at most {estimate}", loaded.name);
         }
         let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
-        if let Err(error) = lanes.add(loaded, args.key.seed(args.seed), onlooker) {
+        let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);
+        let added = added.and_then(|()| controllers(&mut lanes, loaded, args));
+        if let Err(error) = added {
             exit = exit.worse(refused(error));
         }
     }
@@ -126,6 +143,23 @@ fn together(
     let linger = Duration::try_from_secs_f64(args.zenoh_linger).unwrap_or(Duration::ZERO);
     company.part(linger, stop);
     exit
+}
+
+/// Connects the robots of the run that was added last with their controllers.
+fn controllers(
+    lanes: &mut Lanes<Onlooker>,
+    loaded: &Loaded,
+    args: &RunArgs,
+) -> Result<(), RunError> {
+    let Some((trial, onlooker)) = lanes.newest() else {
+        return Ok(());
+    };
+    for (robot, consulted) in consulted(&loaded.scenario) {
+        if let Some(controller) = onlooker.controller(&robot, consulted.deadline_s, args)? {
+            trial.control(&robot, controller)?;
+        }
+    }
+    Ok(())
 }
 
 /// The folder of the results: `--out`, or `runs/<scenario>-<seed>`.

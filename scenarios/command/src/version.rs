@@ -11,10 +11,9 @@ pub(super) fn long() -> &'static str {
 }
 
 fn text() -> String {
-    let features = match (cfg!(feature = "live"), cfg!(feature = "tls")) {
-        (true, true) => "live (state over zenoh, TLS included)",
-        (true, false) => "live (state over zenoh)",
-        (false, _) => "none (without live: no state over zenoh)",
+    let features = match cfg!(feature = "live") {
+        true => "live (state over zenoh, TLS included)",
+        false => "none (without live: no state over zenoh)",
     };
     format!(
         "{}\nscenarios: versions {OLDEST} to {VERSION}\nfeatures:  {features}\nprocessor: {} ({} for filaments)\n\

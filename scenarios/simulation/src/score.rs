@@ -50,7 +50,7 @@ impl Energy {
 }
 
 /// How often a machine asked a searcher outside this program, by what came back.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize)]
 pub struct Consultations {
     /// Questions.
     pub asked: u64,

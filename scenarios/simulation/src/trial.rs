@@ -5,7 +5,7 @@
 
 mod asking;
 
-pub use asking::{NotControlled, controlled};
+pub use asking::{NotControlled, consulted, controlled};
 
 use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;

@@ -6,10 +6,13 @@
 
 mod error;
 mod options;
+mod plane;
 mod topics;
 
 #[cfg(feature = "live")]
 mod config;
+#[cfg(feature = "live")]
+mod controller;
 #[cfg(feature = "live")]
 mod look_message;
 #[cfg(feature = "live")]
@@ -30,9 +33,12 @@ mod off;
 
 pub use error::LiveError;
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
+pub use plane::Plane;
 pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
+#[cfg(feature = "live")]
+pub use controller::{Going, LiveController};
 #[cfg(not(feature = "live"))]
-pub use off::{Live, LiveSession};
+pub use off::{Going, Live, LiveController, LiveSession};
 #[cfg(feature = "live")]
 pub use session::{Live, LiveSession};

@@ -1,12 +1,34 @@
 //! Replacement for live state if it is not built in: the same functions, which do nothing.
 
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
+use rheotaxis::control::{Controller, Heard, Question};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use std::sync::Arc;
 use std::time::Duration;
 
 /// The session of a run, not built in (feature `live`).
 #[derive(Clone, Debug, Default)]
 pub struct LiveSession;
+
+/// Whether the run goes on.
+pub type Going = Arc<dyn Fn() -> bool + Send + Sync>;
+
+/// The controllers of a robot: nobody, because live state is not built in (feature `live`).
+pub struct LiveController;
+
+impl LiveController {
+    /// No key.
+    #[must_use]
+    pub fn key(&self) -> &str {
+        "none (built without the feature `live`)"
+    }
+}
+
+impl Controller for LiveController {
+    fn answer(&mut self, _question: &Question) -> Heard {
+        Heard::Absent
+    }
+}
 
 /// Live state, not built in (feature `live`).
 #[derive(Debug)]
@@ -38,6 +60,19 @@ impl Live {
     #[must_use]
     pub fn session(&self) -> LiveSession {
         LiveSession
+    }
+
+    /// Nobody.
+    ///
+    /// # Errors
+    /// None.
+    pub fn controller(
+        &self,
+        _robot: &str,
+        _times: [Duration; 2],
+        _going: Going,
+    ) -> Result<LiveController, LiveError> {
+        Ok(LiveController)
     }
 
     /// Where clients connect: nowhere.

@@ -1,15 +1,16 @@
 //! Options of live state.
 
-use super::LiveError;
+use super::{LiveError, Plane};
 use rheotaxis::topic::chunk;
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Duration;
 
 /// zenoh's own port, the default for listening.
 pub const DEFAULT_PORT: u16 = 7447;
 
 /// How to publish.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug)]
 pub struct LiveOptions {
     /// Second chunk of every key, `[a-z0-9_]+`; see [`run_id`].
     pub run_id: String,
@@ -23,6 +24,8 @@ pub struct LiveOptions {
     pub state_period: Duration,
     /// Shortest wall time between two publications of the plume, of maps, and of camera pictures.
     pub plume_period: Duration,
+    /// What others may ask of the run.
+    pub plane: Arc<Plane>,
 }
 
 impl LiveOptions {
@@ -36,6 +39,7 @@ impl LiveOptions {
             config_file: None,
             state_period: Duration::from_millis(50),
             plume_period: Duration::from_millis(500),
+            plane: Arc::new(Plane::new(false, None)),
         }
     }
 

@@ -1,6 +1,7 @@
 //! The thread that owns the zenoh session, and the handle that the run has.
 
 use super::config::{configured, plain};
+use super::controller::{Going, LiveController};
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
@@ -8,6 +9,7 @@ use super::message::Message;
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::topic::chunk;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::sync::{Arc, Weak};
@@ -26,6 +28,7 @@ pub struct Live {
     endpoint: String,
     notice: Option<String>,
     session: LiveSession,
+    run_id: String,
 }
 
 /// The session of a run, which other runs may use as long as it publishes.
@@ -34,7 +37,13 @@ pub struct LiveSession(Weak<Open>);
 
 /// An open session. The last run that uses it closes it.
 #[derive(Debug)]
-struct Open(Session);
+pub(super) struct Open(Session);
+
+impl Open {
+    pub(super) fn session(&self) -> &Session {
+        &self.0
+    }
+}
 
 impl Drop for Open {
     fn drop(&mut self) {
@@ -117,7 +126,26 @@ impl Live {
             endpoint,
             notice,
             session,
+            run_id: options.run_id.clone(),
         })
+    }
+
+    /// Whoever controls a robot or gantry from another process. It waits for each answer as long as `deadline`, and for
+    /// the first controller as long as `patience`, while `going` says that the run goes on.
+    ///
+    /// # Errors
+    /// If the session is closed, or zenoh refuses.
+    pub fn controller(
+        &self,
+        robot: &str,
+        [deadline, patience]: [Duration; 2],
+        going: Going,
+    ) -> Result<LiveController, LiveError> {
+        let open = self.session.0.upgrade().ok_or_else(|| LiveError::Open {
+            why: "it is closed".to_owned(),
+        })?;
+        let key = format!("rheotaxis/{}/ask/{}", self.run_id, chunk(robot));
+        LiveController::new(open, key, [deadline, patience], going)
     }
 
     /// Where clients connect, as a zenoh endpoint.

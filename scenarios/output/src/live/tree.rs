@@ -1,7 +1,7 @@
 //! The keys of one run in zenoh: they publish messages, keep them for late subscribers, and show that the run is alive.
 
 use super::message::Message;
-use super::{LiveOptions, Payload};
+use super::{LiveOptions, Payload, Plane};
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use zenoh::bytes::Encoding;
@@ -39,8 +39,12 @@ impl<'a> Tree<'a> {
             .declare_queryable(format!("{base}/**"))
             .complete(true)
             .callback({
-                let kept = Arc::clone(&kept);
-                move |query| answer(&kept, &query)
+                let (kept, plane) = (Arc::clone(&kept), Arc::clone(&options.plane));
+                let rpc = format!("{base}/rpc/");
+                move |query| match query.key_expr().as_str().strip_prefix(&rpc) {
+                    Some(command) => obey(&plane, command, &query),
+                    None => answer(&kept, &query),
+                }
             })
             .wait()?;
         let mut publishers = Vec::new();
@@ -132,6 +136,21 @@ fn answer(kept: &Kept, query: &Query) {
             .attachment(message.attachment)
             .wait();
     }
+}
+
+/// Answers a command of the control plane.
+fn obey(plane: &Plane, command: &str, query: &Query) {
+    let parameter = ["s", "times"]
+        .iter()
+        .find_map(|name| query.parameters().get(*name));
+    // It is no failure if the one who asked has gone away.
+    let _gone = match plane.command(command, parameter) {
+        Ok(told) => query
+            .reply(query.key_expr(), told.to_string())
+            .encoding(Encoding::APPLICATION_JSON)
+            .wait(),
+        Err(why) => query.reply_err(why).wait(),
+    };
 }
 
 fn encoding(message: &Message) -> Encoding {

@@ -4,11 +4,12 @@ use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::files::ReportError;
 use crate::mcap::{
-    McapFile, MessageKind, Odometry, RecordError, clock, compressed_image, float64, nanoseconds,
-    point_cloud, pose_stamped, text, transforms, vector3_stamped,
+    CONTROL, McapFile, MessageKind, Odometry, RecordError, clock, compressed_image, float64,
+    nanoseconds, point_cloud, pose_stamped, text, transforms, vector3_stamped,
 };
 use crate::results::{Echoes, RunInfo};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
+use rheotaxis::control::{Consultation, consultation_json};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
 use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
 use robots::survey::Row;
@@ -98,6 +99,18 @@ impl Recorder {
     pub fn with_map_period(mut self, period_s: f64) -> Self {
         self.map_period_s = period_s;
         self
+    }
+
+    /// Records what a searcher outside the program was asked and answered, from which the run can be made again.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn consulted(&mut self, told: &Consultation) -> Result<(), ReportError> {
+        let (t, said) = (nanoseconds(told.t_s), consultation_json(told).to_string());
+        let topic = format!("/{}/{CONTROL}", told.robot);
+        self.file
+            .write(&topic, MessageKind::Text, t, &text(&said))?;
+        Ok(())
     }
 
     /// Records one frame. Behaviours, layers and declarations are written when they change.
@@ -335,17 +348,19 @@ impl Recorder {
         Ok(())
     }
 
-    /// Closes the recording with the run's digest and gives it its name.
+    /// Closes the recording with the run's digest and its ticks, and gives it its name.
     ///
     /// # Errors
     /// If the file cannot be written or renamed.
-    pub fn finish(mut self, digest: &str) -> Result<PathBuf, ReportError> {
+    pub fn finish(mut self, digest: &str, steps: u64) -> Result<PathBuf, ReportError> {
         for (id, mut times) in std::mem::take(&mut self.maps) {
             if let Some(last) = times.last() {
                 self.write_map(&id, &last)?;
             }
         }
-        self.file.metadata("result", &[("digest", digest)])?;
+        let steps = steps.to_string();
+        let result = [("digest", digest), ("steps", steps.as_str())];
+        self.file.metadata("result", &result)?;
         Ok(self.file.finish()?)
     }
 }

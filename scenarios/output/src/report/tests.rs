@@ -192,7 +192,7 @@ fn recording_holds_every_topic() {
         estimate: robot.estimate,
     };
     rec.picture(&taken, b"a file").unwrap();
-    rec.finish("00ff").unwrap();
+    rec.finish("00ff", 1).unwrap();
     let bytes = fs::read(&path).unwrap();
     for part in [
         "run",

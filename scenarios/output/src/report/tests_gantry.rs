@@ -183,7 +183,7 @@ fn recording_holds_joints_probes_and_decisions() {
     for f in &frames() {
         recorder.frame(f).unwrap();
     }
-    recorder.finish("00ff").unwrap();
+    recorder.finish("00ff", 1).unwrap();
     let bytes = fs::read(&path).unwrap();
     for part in [
         "/crab0/joint_states",

@@ -5,6 +5,7 @@ use crate::results::GantrySummary;
 use rheotaxis::abnormal::{Abnormal, Abnormality};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::VERSION;
+use rheotaxis::score::Consultations;
 use robots::handoff::{Evidence, PictureEvidence, RegionState, Verdict};
 use serde::Serialize;
 use serde_json::Value;
@@ -165,6 +166,9 @@ pub struct RobotSummary {
     pub greatest_position_error_m: f64,
     /// What it took from its battery; `None` if the scenario gives it none.
     pub energy: Option<EnergySummary>,
+    /// How often it asked a searcher outside the program; `None` if it never did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub consulted: Option<Consultations>,
     /// Behaviour at the end.
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.

@@ -119,6 +119,12 @@ impl<W: Watch> Lanes<W> {
         Ok(())
     }
 
+    /// The run that was added last, with its observer.
+    pub fn newest(&mut self) -> Option<(&mut Trial, &mut W)> {
+        let lane = self.lanes.last_mut()?;
+        Some((&mut lane.trial, &mut lane.watch))
+    }
+
     /// The run of a scenario in the ocean of these lanes, which the first lane builds.
     fn assembled(&mut self, loaded: &Loaded, course: &Course) -> Result<Trial, LaneError> {
         let panicked = LaneError::Panicked;

@@ -107,10 +107,21 @@ pub fn load(path: &Path) -> Result<Loaded, ScenarioError> {
 /// # Errors
 /// As [`load`].
 pub fn load_text(registry: &Registry, name: &str, text: &str) -> Result<Loaded, ScenarioError> {
-    registry.scope(|| {
-        let (path, base_dir) = (Path::new(name), PathBuf::new());
-        loaded(path, name.to_string(), base_dir, text.to_string())
-    })
+    load_text_in(registry, name, text, Path::new(""))
+}
+
+/// The same with paths relative to `base_dir`.
+///
+/// # Errors
+/// As [`load`].
+pub fn load_text_in(
+    registry: &Registry,
+    name: &str,
+    text: &str,
+    base_dir: &Path,
+) -> Result<Loaded, ScenarioError> {
+    let (name, text, base_dir) = (name.to_string(), text.to_string(), base_dir.to_path_buf());
+    registry.scope(|| loaded(Path::new(&name), name.clone(), base_dir, text))
 }
 
 fn loaded(

@@ -31,7 +31,7 @@ pub use catalog::{CATALOG, Template, template};
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
-pub use load::{Loaded, load, load_text, load_with, parse, parse_with};
+pub use load::{Loaded, load, load_text, load_text_in, load_with, parse, parse_with};
 pub use outline::{Node, Outline};
 pub(crate) use reader::distance;
 pub use reader::read;

@@ -4,6 +4,7 @@ use super::{RunPhase, Trial, Watch};
 use crate::control::consulting::{put_in, take_questions};
 use crate::control::{Consultation, Controller, Heard, Question};
 use crate::scenario::Scenario;
+use robots::handoff::Consulted;
 
 /// A robot that nobody outside this program can control.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,17 +17,22 @@ pub struct NotControlled {
     pub outside: Vec<String>,
 }
 
-/// Ids of the robots and gantries of a scenario whose strategy is `External`, in its order.
+/// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
+#[must_use]
+pub fn consulted(scenario: &Scenario) -> Vec<(String, Consulted)> {
+    let robots = scenario.robots.iter();
+    let robots = robots.filter_map(|r| Some((r.id.as_str(), r.strategy.consulted()?)));
+    let gantries = scenario.gantries.iter();
+    let gantries = gantries.filter_map(|g| Some((g.id.as_str(), g.tracker.consulted()?)));
+    let all = robots.chain(gantries);
+    all.map(|(id, consulted)| (id.to_string(), consulted))
+        .collect()
+}
+
+/// Their ids.
 #[must_use]
 pub fn controlled(scenario: &Scenario) -> Vec<String> {
-    let robots = scenario.robots.iter();
-    let robots = robots.filter(|r| r.strategy.consulted().is_some());
-    let gantries = scenario.gantries.iter();
-    let gantries = gantries.filter(|g| g.tracker.consulted().is_some());
-    let ids = robots
-        .map(|r| r.id.as_str())
-        .chain(gantries.map(|g| g.id.as_str()));
-    ids.map(str::to_string).collect()
+    consulted(scenario).into_iter().map(|(id, _)| id).collect()
 }
 
 impl Trial {

@@ -20,6 +20,17 @@ pub enum CampaignError {
         /// What is wrong.
         problem: String,
     },
+    /// An arm asks searchers outside the program, of which a campaign has none.
+    #[error(
+        "{arm}: {robots} asks a searcher outside the program, and a campaign has none: give it a strategy of the \
+         program, or make the runs with `rheotaxis run --allow-control` or from Python"
+    )]
+    Outside {
+        /// The scenario of the arm.
+        arm: String,
+        /// The robots.
+        robots: String,
+    },
     /// The folder holds another campaign.
     #[error("{} holds runs of another campaign: {}", dir.display(), what.join("; "))]
     Differs {

@@ -4,7 +4,8 @@ use super::error::CampaignError;
 use super::overrides::put;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use rayon::prelude::*;
-use rheotaxis::scenario::{Fault, Loaded, Outline, ScenarioError, parse_with};
+use rheotaxis::scenario::{Fault, Loaded, Outline, parse_with};
+use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 use world::digest::Digest;
@@ -232,7 +233,14 @@ impl Campaign {
         let new: Vec<_> = hashes.into_iter().filter(new).collect();
         let one = |i: u64| -> Result<(), CampaignError> {
             let loaded = self.loaded(place(i).0, place(i).1)?;
-            loaded.check().map(drop).map_err(ScenarioError::into)
+            loaded.check()?;
+            match controlled(&loaded.scenario) {
+                asking if asking.is_empty() => Ok(()),
+                asking => Err(CampaignError::Outside {
+                    arm: loaded.name.clone(),
+                    robots: asking.join(", "),
+                }),
+            }
         };
         let first = (new.into_par_iter())
             .filter_map(|(i, hash)| {

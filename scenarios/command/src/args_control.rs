@@ -1,0 +1,82 @@
+//! Arguments of `run` for searchers outside the program, and of `rerun`.
+
+use super::args::{RunArgs, Speed};
+use super::args_cache::CacheArgs;
+use super::args_key::KeyArgs;
+use std::path::{Path, PathBuf};
+
+/// What others may do to a run.
+#[derive(Clone, Debug, Default, PartialEq, clap::Args)]
+pub struct ControlArgs {
+    /// Let others control the run over zenoh: decide for robots and gantries whose strategy is `External`, pause, step,
+    /// speed up and stop the run. Whoever reaches the endpoint can: it is on the loopback interface unless you say
+    /// otherwise.
+    #[arg(long, conflicts_with = "no_zenoh")]
+    pub allow_control: bool,
+    /// How long the first question of each robot waits for a controller, s of real time.
+    #[arg(long, value_name = "SECONDS", default_value_t = 60.0, value_parser = seconds)]
+    pub control_wait: f64,
+}
+
+fn seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(s) if (0.0..=1e6).contains(&s) => Ok(s),
+        _ => Err("must be a number of seconds from 0 to 1e6".to_string()),
+    }
+}
+
+/// Arguments of `rerun`.
+#[derive(Clone, Debug, PartialEq, clap::Args)]
+#[command(after_help = RERUN_AFTER)]
+pub struct RerunMcapArgs {
+    /// The recording: `run.mcap`, or the folder it is in.
+    #[arg(value_name = "RUN.MCAP")]
+    pub recording: PathBuf,
+    /// Folder for the results of the new run; without it nothing is written.
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Folder to which file names in the scenario are relative [default: this folder].
+    #[arg(long, value_name = "DIR")]
+    pub base: Option<PathBuf>,
+    /// The key of the run.
+    #[command(flatten)]
+    pub key: KeyArgs,
+    /// The cache of spin-ups.
+    #[command(flatten)]
+    pub cache: CacheArgs,
+    /// Do not show progress.
+    #[arg(long, short)]
+    pub quiet: bool,
+}
+
+impl RunArgs {
+    /// Those of a run that nobody outside sees, for a seed under a key.
+    pub(super) fn alone(seed: u64, key: &KeyArgs, out: Option<&Path>) -> Self {
+        Self {
+            files: Vec::new(),
+            seed,
+            key: key.clone(),
+            cache: CacheArgs::default(),
+            out: out.map(Path::to_path_buf),
+            speed: Speed::Max,
+            no_zenoh: true,
+            no_record: false,
+            quiet: false,
+            control: ControlArgs::default(),
+            zenoh_config: None,
+            zenoh_listen: None,
+            zenoh_linger: 0.0,
+            threads: 0,
+        }
+    }
+}
+
+pub(super) const RERUN_ABOUT: &str = "Makes a recorded run again: its scenario and seed stand in the recording, and so does all that searchers outside \
+     the program answered. These answers are fed back in the place of the searchers, and the digests are compared.";
+
+const RERUN_AFTER: &str = "\
+Examples:
+  rheotaxis rerun runs/duck_external-1/run.mcap
+  rheotaxis rerun runs/duck_external-1 --out again
+
+Exit codes: 0 the same digest; 3 another digest, or none to compare with; 130 interrupted; 1 error; 2 wrong usage.";

@@ -1,0 +1,201 @@
+//! `rheotaxis rerun`: makes a recorded run again and compares the digests.
+
+use super::args::RunArgs;
+use super::args_control::RerunMcapArgs;
+use super::company::Company;
+use super::exit::Exit;
+use super::onlooker::Onlooker;
+use super::progress::Progress;
+use super::run::{RunError, refused};
+use super::{cache, stop};
+use output::mcap::{ReadError, Recorded, read_recording};
+use rheotaxis::control::Replay;
+use rheotaxis::frame::Frame;
+use rheotaxis::lanes::{LaneError, Lanes};
+use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
+use rheotaxis::trial::{Ended, Trial, Watch};
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
+use world::registry::Registry;
+
+/// Why a recording cannot be run again.
+#[derive(Debug, thiserror::Error)]
+enum RerunError {
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    #[error(transparent)]
+    Scenario(#[from] ScenarioError),
+    #[error(transparent)]
+    Run(#[from] RunError),
+}
+
+/// Runs it.
+pub(super) fn rerun(args: &RerunMcapArgs) -> Exit {
+    match again(args) {
+        Ok(exit) => exit,
+        Err(RerunError::Scenario(error)) => refused(error.into()),
+        Err(RerunError::Run(error)) => refused(error),
+        Err(error) => {
+            super::say::error(error, None);
+            Exit::Error
+        }
+    }
+}
+
+fn again(args: &RerunMcapArgs) -> Result<Exit, RerunError> {
+    let stop = stop::listen();
+    let path = match args.recording.is_dir() {
+        true => args.recording.join("run.mcap"),
+        false => args.recording.clone(),
+    };
+    let recorded = read_recording(&path)?;
+    let loaded = scenario(&recorded, args.base.as_deref())?;
+    let ended = made(args, &recorded, &loaded, stop)?;
+    let Some(ended) = ended.filter(|_| !stop.load(Ordering::Relaxed)) else {
+        return Ok(Exit::Interrupted);
+    };
+    Ok(compared(&recorded, &ended))
+}
+
+/// The scenario of a recording: that of the program if it is one of its own, for the files that belong to it.
+fn scenario(recorded: &Recorded, base: Option<&Path>) -> Result<Loaded, ScenarioError> {
+    let (name, text) = (&recorded.scenario_name, &recorded.scenario_text);
+    if base.is_none() && template(name).is_some_and(|t| t.text == text) {
+        return load(Path::new(name));
+    }
+    load_text_in(&Registry::now(), name, text, base.unwrap_or(Path::new("")))
+}
+
+/// Makes the run again; `None` if it did not come to its end.
+fn made(
+    args: &RerunMcapArgs,
+    recorded: &Recorded,
+    loaded: &Loaded,
+    stop: &'static AtomicBool,
+) -> Result<Option<Ended>, RunError> {
+    let run = RunArgs {
+        cache: args.cache.clone(),
+        quiet: args.quiet,
+        ..RunArgs::alone(recorded.seed, &args.key, args.out.as_deref())
+    };
+    let seed = args.key.seed(recorded.seed);
+    let steps = recorded.result.as_ref().map(|(_, steps)| *steps);
+    let mut company = Company::default();
+    let mut result = Ok(None);
+    match &args.out {
+        Some(out) => {
+            let mut lanes = Lanes::default().with_threads(0);
+            lanes.add(loaded, seed, || {
+                Onlooker::new(loaded, &run, out, &mut company, stop)
+            })?;
+            replay(&mut lanes, recorded)?;
+            if let (Some((_, onlooker)), Some(steps)) = (lanes.newest(), steps) {
+                onlooker.end_after(steps);
+            }
+            spun_up(&mut lanes, args);
+            lanes.run(|onlooker, trial| result = finished(onlooker, trial, &mut company));
+        }
+        None => {
+            let watch = || {
+                Ok::<_, RunError>(Again {
+                    progress: Progress::new(loaded, &run, &company.bars),
+                    left: steps,
+                    stop,
+                })
+            };
+            let mut lanes = Lanes::default().with_threads(0);
+            lanes.add(loaded, seed, watch)?;
+            replay(&mut lanes, recorded)?;
+            spun_up(&mut lanes, args);
+            lanes.run(|_, trial| result = trial.map(|t| Some(t.ended())).map_err(RunError::from));
+        }
+    }
+    result
+}
+
+fn finished(
+    onlooker: Onlooker,
+    trial: Result<&Trial, LaneError>,
+    company: &mut Company,
+) -> Result<Option<Ended>, RunError> {
+    let trial = trial?;
+    let ended = trial.ended();
+    onlooker.finish(trial, &ended, company)?;
+    Ok(Some(ended))
+}
+
+fn replay<W: Watch>(lanes: &mut Lanes<W>, recorded: &Recorded) -> Result<(), RunError> {
+    let told = Replay::new(recorded.told.clone());
+    if let Some((trial, _)) = lanes.newest() {
+        for robot in trial.controlled() {
+            trial.control(&robot, told.clone())?;
+        }
+    }
+    Ok(())
+}
+
+fn spun_up<W: Watch>(lanes: &mut Lanes<W>, args: &RerunMcapArgs) {
+    if let Some(kept) = cache::opened(&args.cache) {
+        lanes.spin_up_with(&kept);
+    }
+}
+
+fn compared(recorded: &Recorded, ended: &Ended) -> Exit {
+    let version = env!("CARGO_PKG_VERSION");
+    let other = (recorded.version != version)
+        .then(|| {
+            format!(
+                " (recorded with version {}, this is {version})",
+                recorded.version
+            )
+        })
+        .unwrap_or_default();
+    let asked = recorded.told.len();
+    match &recorded.result {
+        Some((digest, _)) if *digest == ended.digest => {
+            println!("the same run: digest {digest}, {asked} answers from outside{other}");
+            Exit::Success
+        }
+        Some((digest, _)) => {
+            println!(
+                "another run: digest {}, recorded {digest}{other}",
+                ended.digest
+            );
+            Exit::NotFound
+        }
+        None => {
+            println!(
+                "the recording broke off, so there is no digest to compare with: {} after {:.0} s{other}",
+                ended.digest, ended.t_s
+            );
+            Exit::NotFound
+        }
+    }
+}
+
+/// Follows a run of which nothing is written.
+struct Again {
+    progress: Progress,
+    /// Steps left.
+    left: Option<u64>,
+    stop: &'static AtomicBool,
+}
+
+impl Watch for Again {
+    fn spun_up(&mut self, share: f64) -> bool {
+        self.progress.spun_up(share);
+        !self.stop.load(Ordering::Relaxed)
+    }
+
+    fn frame(&mut self, frame: &Frame) {
+        self.progress.frame(frame);
+    }
+
+    fn go_on(&mut self, _t_s: f64) -> bool {
+        let last = self.left.as_mut().is_some_and(|left| {
+            *left = left.saturating_sub(1);
+            *left == 0
+        });
+        !last && !self.stop.load(Ordering::Relaxed)
+    }
+}
