@@ -33,7 +33,6 @@ mod run;
 mod say;
 mod score_vision;
 mod segment;
-mod shown;
 mod statistics;
 mod stop;
 mod time_left;
