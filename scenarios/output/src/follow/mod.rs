@@ -102,6 +102,12 @@ impl Follower {
         Ok(())
     }
 
+    /// What tables and figures know beforehand about the robots, in the scenario's order.
+    #[must_use]
+    pub fn robots(&self) -> &[RobotInfo] {
+        &self.robots
+    }
+
     /// The identity of the run.
     #[must_use]
     pub fn run(&self) -> &RunInfo {
