@@ -2,8 +2,8 @@
 //! this module is its engine.
 //!
 //! [`scenario`] reads, checks and changes scenarios, [`run`] makes a run and [`result`] holds what it left, with the
-//! [`columns`] gathered on the way, as [`arrays`]. [`error`] turns mistakes and panics into exceptions, [`value`] values from one
-//! language into the other, and [`signals`] lets Ctrl-C end a run.
+//! [`columns`] gathered on the way, as [`arrays`]. [`error`] turns mistakes and panics into exceptions, [`value`] values of a
+//! scenario, a [`tree`], from one language into the other, and [`signals`] lets Ctrl-C end a run.
 #![forbid(unsafe_code)]
 
 mod arrays;
@@ -15,6 +15,7 @@ mod result;
 mod run;
 mod scenario;
 mod signals;
+mod tree;
 mod value;
 
 /// The engine of the Python package `rheotaxis`.

@@ -3,7 +3,6 @@
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
 use super::error::{apart, other};
-use super::value::to_python;
 use output::follow::Gathered;
 use output::report::Figure;
 use pyo3::exceptions::PyKeyError;
@@ -11,7 +10,6 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict, PyList};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::{Ended, Trial};
-use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use world::files;
@@ -21,8 +19,6 @@ pub(crate) struct Kept {
     pub(crate) ended: Ended,
     pub(crate) gathered: Gathered,
     pub(crate) ocean: Trial,
-    pub(crate) robots: Vec<RobotColumns>,
-    pub(crate) gantries: Vec<GantryColumns>,
 }
 
 /// The result of a run.
@@ -32,44 +28,45 @@ pub(crate) struct PyRunResult {
     digest: String,
     t_s: f64,
     steps: u64,
-    summary: Value,
+    name: String,
+    seed: u64,
+    summary: String,
     files: Option<PathBuf>,
+    robots: Vec<RobotColumns>,
+    gantries: Vec<GantryColumns>,
+    /// Locked only without the interpreter's lock.
     kept: Mutex<Kept>,
     figures: OnceLock<Vec<Figure>>,
 }
 
 impl PyRunResult {
     /// Of a run that is over.
-    pub(crate) fn new(kept: Kept) -> Self {
+    pub(crate) fn new(kept: Kept, robots: Vec<RobotColumns>, gantries: Vec<GantryColumns>) -> Self {
         let (ended, summary) = (&kept.ended, &kept.gathered.summary);
         Self {
             outcome: summary.outcome,
             digest: ended.digest.clone(),
             t_s: ended.t_s,
             steps: ended.steps,
-            summary: serde_json::from_str(&summary.json()).expect("a summary is JSON"),
+            name: summary.scenario.clone(),
+            seed: summary.seed,
+            summary: summary.json(),
             files: kept.gathered.out().map(|out| out.dir().to_owned()),
+            robots,
+            gantries,
             kept: Mutex::new(kept),
             figures: OnceLock::new(),
         }
-    }
-
-    fn kept(&self) -> std::sync::MutexGuard<'_, Kept> {
-        self.kept.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The figures, drawn when they are first asked for.
     fn drawn(&self, py: Python<'_>) -> PyResult<&[Figure]> {
         apart(py, || {
             Ok(&**self.figures.get_or_init(|| {
-                let kept = self.kept();
+                let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
                 kept.gathered.figures(kept.ocean.simulation.ocean())
             }))
         })
-    }
-
-    fn word(&self, name: &str) -> PyResult<&Value> {
-        (self.summary.get(name)).ok_or_else(|| other(format!("the summary has no `{name}`")))
     }
 }
 
@@ -77,7 +74,7 @@ impl PyRunResult {
 impl PyRunResult {
     #[getter]
     fn outcome<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, self.word("outcome")?)
+        self.summary(py)?.get_item("outcome")
     }
 
     #[getter]
@@ -107,32 +104,31 @@ impl PyRunResult {
 
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.summary)
+        py.import("json")?.call_method1("loads", (&self.summary,))
     }
 
     #[getter]
     fn declarations<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let empty = Vec::new();
-        let all = |name: &str| self.summary.get(name).and_then(Value::as_array);
-        let robots = all("robots").unwrap_or(&empty).iter().flat_map(|robot| {
-            let made = robot.get("declarations").and_then(Value::as_array);
-            made.into_iter().flatten().map(move |one| (robot, one))
-        });
-        let gantries = all("gantries")
-            .unwrap_or(&empty)
-            .iter()
-            .filter_map(|gantry| {
-                let made = gantry.get("declaration").filter(|one| !one.is_null());
-                made.map(|one| (gantry, one))
-            });
+        let summary = self.summary(py)?;
         let list = PyList::empty(py);
-        for (searcher, made) in robots.chain(gantries) {
+        let add = |searcher: &Bound<'py, PyAny>, made: &Bound<'py, PyAny>| {
             let one = PyDict::new(py);
-            one.set_item("searcher", searcher.get("id").and_then(Value::as_str))?;
-            for (name, value) in made.as_object().into_iter().flatten() {
-                one.set_item(name, to_python(py, value)?)?;
+            one.set_item("searcher", searcher.get_item("id")?)?;
+            one.update(made.cast()?)?;
+            list.append(one)
+        };
+        for robot in summary.get_item("robots")?.try_iter()? {
+            let robot = robot?;
+            for made in robot.get_item("declarations")?.try_iter()? {
+                add(&robot, &made?)?;
             }
-            list.append(one)?;
+        }
+        for gantry in summary.get_item("gantries")?.try_iter()? {
+            let gantry = gantry?;
+            let made = gantry.get_item("declaration")?;
+            if !made.is_none() {
+                add(&gantry, &made)?;
+            }
         }
         Ok(list)
     }
@@ -140,7 +136,7 @@ impl PyRunResult {
     #[getter]
     fn track<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
-        for robot in &self.kept().robots {
+        for robot in &self.robots {
             all.set_item(robot.id(), robot.arrays(py)?)?;
         }
         Ok(all)
@@ -149,7 +145,7 @@ impl PyRunResult {
     #[getter]
     fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let all = PyDict::new(py);
-        for gantry in &self.kept().gantries {
+        for gantry in &self.gantries {
             all.set_item(gantry.id(), gantry.arrays(py)?)?;
         }
         Ok(all)
@@ -187,12 +183,10 @@ impl PyRunResult {
     }
 
     fn __repr__(&self) -> String {
-        let name = self.summary.get("scenario").and_then(Value::as_str);
-        let seed = self.summary.get("seed").and_then(Value::as_u64);
         format!(
             "<rheotaxis.Result {} seed {}: {} after {:.1} s, digest {}>",
-            name.unwrap_or_default(),
-            seed.unwrap_or_default(),
+            self.name,
+            self.seed,
             self.outcome.words(),
             self.t_s,
             self.digest

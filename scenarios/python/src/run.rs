@@ -86,13 +86,12 @@ fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRu
         return Err(raised);
     }
     written.map_err(other)?;
-    Ok(PyRunResult::new(Kept {
+    let kept = Kept {
         ended,
         gathered,
         ocean: trial,
-        robots: watcher.robots,
-        gantries: watcher.gantries,
-    }))
+    };
+    Ok(PyRunResult::new(kept, watcher.robots, watcher.gantries))
 }
 
 /// Runs a scenario to its end.

@@ -1,13 +1,13 @@
 //! `Scenario`: read, checked, looked at and changed.
 
-use super::error::{apart, scenario_error};
-use super::value::{to_python, to_ron};
+use super::error::{apart, other, scenario_error};
+use super::tree::Tree;
+use super::value::{of_tree, to_ron};
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rheotaxis::explain as explained;
 use rheotaxis::scenario::{CATALOG, Loaded, ScenarioError, load, load_text, parse, put};
-use serde_json::Value;
 use std::path::PathBuf;
 use std::sync::Arc;
 use world::registry::Registry;
@@ -43,8 +43,8 @@ impl PyScenario {
         Ok(one?.loaded)
     }
 
-    fn value(&self) -> PyResult<Value> {
-        serde_json::to_value(&self.loaded.scenario).map_err(super::error::other)
+    fn tree(&self) -> PyResult<Tree> {
+        Tree::of(&self.loaded.scenario).map_err(other)
     }
 
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Loaded> {
@@ -121,20 +121,20 @@ impl PyScenario {
     }
 
     fn to_dict<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        to_python(py, &self.value()?)
+        of_tree(py, &self.tree()?)
     }
 
     fn __getitem__<'py>(&self, py: Python<'py>, path: &str) -> PyResult<Bound<'py, PyAny>> {
-        let whole = self.value()?;
+        let whole = self.tree()?;
         let (mut here, mut place) = (&whole, String::new());
         for part in parts(path) {
-            here = step(here, &part).ok_or_else(|| {
+            here = here.step(&part).ok_or_else(|| {
                 let there = if place.is_empty() {
                     "the scenario"
                 } else {
                     &place
                 };
-                PyKeyError::new_err(format!("{there} has no `{part}`; it has {}", names(here)))
+                PyKeyError::new_err(format!("{there} has no `{part}`; it has {}", here.has()))
             })?;
             place = if place.is_empty() {
                 part
@@ -142,7 +142,7 @@ impl PyScenario {
                 format!("{place}.{part}")
             };
         }
-        to_python(py, here)
+        of_tree(py, here)
     }
 
     fn with_(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Self> {
@@ -190,38 +190,6 @@ fn bracketed(parts: impl Iterator<Item = String>) -> String {
         }
     }
     written
-}
-
-/// One step into a value. The name of a variant may be left out.
-fn step<'a>(value: &'a Value, part: &str) -> Option<&'a Value> {
-    match value {
-        Value::Array(all) => all.get(part.parse::<usize>().ok()?),
-        Value::Object(fields) => fields.get(part).or_else(|| step(variant(value)?, part)),
-        _ => None,
-    }
-}
-
-/// What is inside a variant.
-fn variant(value: &Value) -> Option<&Value> {
-    let fields = value.as_object().filter(|fields| fields.len() == 1)?;
-    let (name, inner) = fields.iter().next()?;
-    name.starts_with(char::is_uppercase).then_some(inner)
-}
-
-/// What a value has, for a message.
-fn names(value: &Value) -> String {
-    match value {
-        Value::Array(all) => format!("{} elements", all.len()),
-        Value::Object(fields) => {
-            let fields = variant(value).and_then(Value::as_object).unwrap_or(fields);
-            fields
-                .keys()
-                .map(String::as_str)
-                .collect::<Vec<_>>()
-                .join(", ")
-        }
-        _ => "no fields".to_string(),
-    }
 }
 
 /// The scenarios that come with the program, in order, each with its title and citation.

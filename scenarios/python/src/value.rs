@@ -1,41 +1,43 @@
-//! Values from JSON to Python and from Python to RON.
+//! Values of scenarios: to Python, and from Python to RON.
 
+use super::tree::Tree;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict, PyFloat, PyInt, PyList, PyString, PyTuple};
 use pyo3::{BoundObject, IntoPyObjectExt};
-use serde_json::Value;
 use std::fmt::Write as _;
 
-/// A JSON value as Python's own.
-pub(crate) fn to_python<'py>(py: Python<'py>, value: &Value) -> PyResult<Bound<'py, PyAny>> {
+/// A value of a scenario as Python's own: a variant is `{"Name": value}`, a choice without parameters a `rheotaxis.Ron`.
+pub(crate) fn of_tree<'py>(py: Python<'py>, value: &Tree) -> PyResult<Bound<'py, PyAny>> {
+    let all = |items: &[Tree]| -> PyResult<Vec<Bound<'py, PyAny>>> {
+        items.iter().map(|one| of_tree(py, one)).collect()
+    };
     Ok(match value {
-        Value::Null => py.None().into_bound(py),
-        Value::Bool(b) => PyBool::new(py, *b).into_bound().into_any(),
-        Value::Number(n) => match (n.as_i64(), n.as_u64()) {
-            (Some(n), _) => n.into_bound_py_any(py)?,
-            (_, Some(n)) => n.into_bound_py_any(py)?,
-            _ => n.as_f64().into_bound_py_any(py)?,
-        },
-        Value::String(text) => PyString::new(py, text).into_any(),
-        Value::Array(all) => {
-            let list = PyList::empty(py);
-            for one in all {
-                list.append(to_python(py, one)?)?;
-            }
-            list.into_any()
-        }
-        Value::Object(fields) => {
+        Tree::None => py.None().into_bound(py),
+        Tree::Bool(b) => PyBool::new(py, *b).into_bound().into_any(),
+        Tree::Int(n) => n.into_bound_py_any(py)?,
+        Tree::Float(v) => v.into_bound_py_any(py)?,
+        Tree::Text(text) => PyString::new(py, text).into_any(),
+        Tree::Name(name) => ron_type(py)?.call1((name,))?,
+        Tree::List(items) => PyList::new(py, all(items)?)?.into_any(),
+        Tree::Tuple(items) => PyTuple::new(py, all(items)?)?.into_any(),
+        Tree::Fields(fields) => {
             let dict = PyDict::new(py);
             for (name, one) in fields {
-                dict.set_item(name, to_python(py, one)?)?;
+                dict.set_item(name, of_tree(py, one)?)?;
             }
+            dict.into_any()
+        }
+        Tree::Variant(name, inner) => {
+            let dict = PyDict::new(py);
+            dict.set_item(name, of_tree(py, inner)?)?;
             dict.into_any()
         }
     })
 }
 
-/// A Python value as RON: numbers, texts, lists, dicts of fields, `{"Variant": value}`, and [`Ron`](ron_of) as it is.
+/// A Python value as RON: numbers, texts, lists, tuples, dicts of fields, `{"Variant": value}`, and [`Ron`](ron_of) as
+/// it is.
 pub(crate) fn to_ron(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if value.is_none() {
         return Ok("None".to_string());
@@ -58,9 +60,15 @@ pub(crate) fn to_ron(value: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(fields) = value.cast::<PyDict>() {
         return dict(fields);
     }
-    if value.is_instance_of::<PyList>() || value.is_instance_of::<PyTuple>() {
+    let list = value.is_instance_of::<PyList>();
+    if list || value.is_instance_of::<PyTuple>() {
         let all: PyResult<Vec<String>> = value.try_iter()?.map(|one| to_ron(&one?)).collect();
-        return Ok(format!("[{}]", all?.join(", ")));
+        let all = all?.join(", ");
+        return Ok(if list {
+            format!("[{all}]")
+        } else {
+            format!("({all})")
+        });
     }
     // Scalars and arrays of NumPy.
     if value.hasattr("tolist")? {
@@ -72,9 +80,13 @@ pub(crate) fn to_ron(value: &Bound<'_, PyAny>) -> PyResult<String> {
     )))
 }
 
+fn ron_type(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    py.import("rheotaxis")?.getattr("Ron")
+}
+
 /// The text of a `rheotaxis.Ron`.
 fn ron_of(value: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
-    let ron = value.py().import("rheotaxis")?.getattr("Ron")?;
+    let ron = ron_type(value.py())?;
     value
         .is_instance(&ron)?
         .then(|| value.extract())
@@ -110,10 +122,11 @@ fn dict(fields: &Bound<'_, PyDict>) -> PyResult<String> {
     for (name, value) in fields {
         let name: String = name.extract()?;
         if fields.len() == 1 && name.starts_with(char::is_uppercase) {
-            // `{"Depth": 2}` is `Depth(2)`, and `{"Amp": {"speed_m_s": 1}}` is `Amp(speed_m_s: 1)`.
+            // `{"Depth": 2}` is `Depth(2)`, `{"Amp": {"speed_m_s": 1}}` is `Amp(speed_m_s: 1)`, and `{"At": (1, 2)}`
+            // is `At(1, 2)`.
             let inner = to_ron(&value)?;
-            let fields = value.is_instance_of::<PyDict>() && inner.starts_with('(');
-            return Ok(if fields {
+            let several = value.is_instance_of::<PyDict>() || value.is_instance_of::<PyTuple>();
+            return Ok(if several && inner.starts_with('(') {
                 format!("{name}{inner}")
             } else {
                 format!("{name}({inner})")
