@@ -1,14 +1,11 @@
 //! How errors and other messages are printed.
 
-use super::shown::Shown;
 use console::{Term, colors_enabled_stderr};
-use miette::{MietteHandlerOpts, Report};
+use miette::Report;
+use output::shown::{self, Shown};
 use rheotaxis::scenario::{Fault, ScenarioError};
 use std::io::Write;
 use std::path::Path;
-
-/// Width of messages where there is no terminal to ask.
-const WIDTH: usize = 100;
 
 /// Sets how this process prints errors.
 pub(super) fn set_up() {
@@ -18,17 +15,12 @@ pub(super) fn set_up() {
 
 fn look() -> Box<dyn miette::ReportHandler> {
     let terminal = Term::stderr();
-    let look = MietteHandlerOpts::new()
-        .force_graphical(true)
-        .terminal_links(false)
-        .context_lines(1)
-        .unicode(true);
     let look = if terminal.is_term() {
-        look.color(colors_enabled_stderr())
+        shown::look()
+            .color(colors_enabled_stderr())
             .width(terminal.size().1.into())
     } else {
-        // In a log, each message is one line, so that it can be searched for.
-        look.color(false).width(WIDTH).wrap_lines(false)
+        shown::plain()
     };
     Box::new(look.build())
 }

@@ -2,18 +2,20 @@
 //!
 //! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`mcap`] writes MCAP files of ROS 2
 //! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`record`]
-//! records them, [`figures`] draws them, and [`report`] puts them into a folder. [`live`] is the only place that uses
-//! zenoh.
+//! records them, [`figures`] draws them, [`report`] puts them into a folder, and [`follow`] does all of that for a run.
+//! [`shown`] writes mistakes of a scenario for people. [`live`] is the only place that uses zenoh.
 #![forbid(unsafe_code)]
 
 pub mod charts;
 pub mod figures;
 pub mod files;
+pub mod follow;
 pub mod live;
 pub mod mcap;
 pub mod record;
 pub mod report;
 pub mod results;
+pub mod shown;
 
 #[cfg(test)]
 mod sample;

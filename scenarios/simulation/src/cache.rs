@@ -5,7 +5,7 @@
 //! sources, spin-up) and of the running program's own file. No version number is trusted: another build, or the same
 //! library in another program with currents of its own, makes its own states. Vector instructions do not count, because
 //! all give the same bits. Code from a shared library does not count either: if this crate is built into a plug-in,
-//! give each build of it a folder of its own.
+//! [`SpinUps::made_by`] names the plug-in's file.
 //!
 //! The library keeps nothing unless it is asked to:
 //!
@@ -55,6 +55,7 @@ pub const LEAST: Duration = Duration::from_millis(500);
 pub struct SpinUps {
     shelf: Shelf,
     least: Duration,
+    maker: Option<(PathBuf, OnceLock<io::Result<[u8; 32]>>)>,
     fault: Mutex<Option<CacheFault>>,
     /// Set once the folder could not be used: a full disk is not tried again for every run.
     given_up: AtomicBool,
@@ -98,6 +99,7 @@ impl SpinUps {
         Self {
             shelf: Shelf::new(dir, most),
             least: LEAST,
+            maker: None,
             fault: Mutex::new(None),
             given_up: AtomicBool::new(false),
         }
@@ -108,6 +110,21 @@ impl SpinUps {
     pub fn from(mut self, least: Duration) -> Self {
         self.least = least;
         self
+    }
+
+    /// Those that the program in this file makes, instead of the running program's own: for a plug-in.
+    #[must_use]
+    pub fn made_by(mut self, file: PathBuf) -> Self {
+        self.maker = Some((file, OnceLock::new()));
+        self
+    }
+
+    /// Fingerprint of the file with the program that makes the states.
+    fn program(&self) -> Result<&[u8; 32], &io::Error> {
+        let Some((file, print)) = &self.maker else {
+            return program();
+        };
+        print.get_or_init(|| fingerprint(file)).as_ref()
     }
 
     /// The folder with its files.
@@ -139,7 +156,7 @@ impl SpinUps {
         if secret || origin.spin_up_s() <= 0.0 || self.given_up.load(Ordering::Relaxed) {
             return None;
         }
-        match program() {
+        match self.program() {
             Ok(program) => {
                 let mut key = Fingerprint::default();
                 key.part(b"rheotaxis spun-up plume");
@@ -250,9 +267,13 @@ fn program() -> Result<&'static [u8; 32], &'static io::Error> {
         } else {
             std::env::current_exe()?
         };
-        let mut program = Fingerprint::default();
-        program.read(files::open(&path)?)?;
-        Ok(program.finish())
+        fingerprint(&path)
     };
     PROGRAM.get_or_init(read).as_ref()
+}
+
+fn fingerprint(file: &Path) -> io::Result<[u8; 32]> {
+    let mut program = Fingerprint::default();
+    program.read(files::open(file)?)?;
+    Ok(program.finish())
 }

@@ -2,9 +2,10 @@
 
 use super::{ends, folder, rows};
 use crate::common;
+use rheotaxis::scenario::put;
 use std::fs;
 use std::path::Path;
-use studies::campaign::{RunRow, put};
+use studies::campaign::RunRow;
 use world::seeds::key;
 
 fn with_seeds(dir: &Path, file: &str, seeds: &str) {

@@ -4,7 +4,7 @@ mod html;
 mod write;
 
 pub use html::STYLE;
-pub use write::write_all;
+pub use write::{Figure, figures, write_all};
 
 #[cfg(test)]
 mod tests;

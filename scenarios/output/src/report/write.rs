@@ -1,7 +1,7 @@
 //! Writes everything that a run leaves into one folder.
 
 use super::html;
-use crate::figures;
+use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
 use crate::results::{RunReport, belief_track, odour};
@@ -35,7 +35,7 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
         }
     }
     let mut shown = Vec::new();
-    for (name, title, svg) in figures_of(run) {
+    for Figure { name, title, svg } in figures(run) {
         match svg {
             Ok(svg) => {
                 kept.figure(&name, &svg);
@@ -49,55 +49,70 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     kept.done()
 }
 
-/// A figure's name, title, and SVG or the reason why there is none.
-type Drawn = (String, String, Result<String, String>);
+/// A figure of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Its name: that of its files, without their endings.
+    pub name: String,
+    /// Its title.
+    pub title: String,
+    /// The drawing as SVG, or the reason why there is none.
+    pub svg: Result<String, String>,
+}
 
-/// Each figure of the run.
-fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
-    let mut figures: Vec<Drawn> = Vec::new();
+impl Figure {
+    fn new(name: String, title: String, svg: Result<String, String>) -> Self {
+        Self { name, title, svg }
+    }
+}
+
+/// Draws each figure of the run.
+#[must_use]
+pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
+    let mut figures: Vec<Figure> = Vec::new();
     // A gantry's own figures show all of a flume.
     if run.gantries.is_empty() || !run.track.robots.is_empty() {
-        figures.push((
+        figures.push(Figure::new(
             "map".to_owned(),
             "Map".to_owned(),
-            guarded(|| figures::map(run)),
+            guarded(|| draw::map(run)),
         ));
     }
     for robot in &run.track.robots {
         let id = &robot.info.id;
-        figures.push((
+        figures.push(Figure::new(
             format!("series-{}", file_name(id)),
             format!("Time series of {id}"),
-            guarded(|| figures::series(run, robot)),
+            guarded(|| draw::series(run, robot)),
         ));
     }
     for robot in &run.beliefs.robots {
-        figures.push((
+        figures.push(Figure::new(
             format!("belief-{}", file_name(&robot.id)),
             format!("Where {} believed the source", robot.id),
-            guarded(|| figures::belief(run, robot)),
+            guarded(|| draw::belief(run, robot)),
         ));
         if !robot.odour.is_empty() {
-            figures.push((
+            figures.push(Figure::new(
                 format!("odour-{}", file_name(&robot.id)),
                 format!("Where {} believed the odour", robot.id),
-                guarded(|| figures::odour(run, robot)),
+                guarded(|| draw::odour(run, robot)),
             ));
         }
     }
     for robot in &run.echoes.robots {
-        let svg = guarded(|| figures::sidescan(run, robot)).transpose();
+        let svg = guarded(|| draw::sidescan(run, robot)).transpose();
         figures.extend(svg.map(|svg| {
             let name = format!("sidescan-{}", file_name(&robot.id));
-            (name, format!("Sidescan of {}", robot.id), svg)
+            Figure::new(name, format!("Sidescan of {}", robot.id), svg)
         }));
     }
     if !run.beliefs.robots.is_empty() {
         let title = "Convergence of the maps".to_owned();
-        figures.push((
+        figures.push(Figure::new(
             "convergence".to_owned(),
             title,
-            guarded(|| figures::convergence(run)),
+            guarded(|| draw::convergence(run)),
         ));
     }
     for t in run.gantries {
@@ -106,23 +121,23 @@ fn figures_of(run: &RunReport<'_>) -> Vec<Drawn> {
             (
                 "flume",
                 "Track over the plume",
-                guarded(|| figures::flume(run, t)),
+                guarded(|| draw::flume(run, t)),
             ),
             (
                 "probes",
                 "Probes, thresholds and spikes",
-                guarded(|| figures::probe_records(run, t)),
+                guarded(|| draw::probe_records(run, t)),
             ),
             (
                 "approach",
                 "Speed and distance from the centreline",
-                guarded(|| figures::approach(run, t)),
+                guarded(|| draw::approach(run, t)),
             ),
         ];
         for (name, title, svg) in kinds {
             figures.extend(svg.transpose().map(|svg| {
                 let name = format!("{name}-{}", file_name(id));
-                (name, format!("{title}: {id}"), svg)
+                Figure::new(name, format!("{title}: {id}"), svg)
             }));
         }
     }

@@ -28,4 +28,4 @@ pub use summary::{
     RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SummaryBuilder};
-pub use track::{RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
+pub use track::{COLUMNS, RobotInfo, RobotTrack, Track, TrackRow, TrackTable, numbers};

@@ -169,10 +169,35 @@ impl RobotTrack {
     }
 }
 
+/// The columns of numbers in the table, each with its decimals. Their units are in their names; east, north and up are
+/// world axes (ENU).
+pub const COLUMNS: [(&str, usize); 19] = [
+    ("east_m", 3),
+    ("north_m", 3),
+    ("up_m", 3),
+    ("roll_deg", 3),
+    ("pitch_up_deg", 3),
+    ("heading_deg", 3),
+    ("est_east_m", 3),
+    ("est_north_m", 3),
+    ("est_depth_m", 3),
+    ("est_roll_deg", 3),
+    ("est_pitch_up_deg", 3),
+    ("est_heading_deg", 3),
+    ("speed_m_s", 4),
+    ("altitude_m", 3),
+    ("reading_v", 4),
+    ("reading_ug_l", 4),
+    ("detected", 0),
+    ("flow_east_m_s", 4),
+    ("flow_north_m_s", 4),
+];
+
 /// Header of the table.
-const HEADER: &str = "t_s,robot,east_m,north_m,up_m,roll_deg,pitch_up_deg,heading_deg,\
-est_east_m,est_north_m,est_depth_m,est_roll_deg,est_pitch_up_deg,est_heading_deg,\
-speed_m_s,altitude_m,reading_v,reading_ug_l,detected,flow_east_m_s,flow_north_m_s,behaviour";
+fn header() -> String {
+    let names = COLUMNS.map(|(name, _)| name).join(",");
+    format!("t_s,robot,{names},behaviour")
+}
 
 /// An additional column if a robot's mission has subregions: the letter of the one it searches; empty in transits.
 const REGION: &str = ",region";
@@ -205,7 +230,7 @@ impl TrackTable {
         let mut table = Self::in_memory(robots);
         let region = if table.regions { REGION } else { "" };
         let layer = if table.layered { LAYER } else { "" };
-        let header = format!("{HEADER}{region}{layer}\n");
+        let header = format!("{}{region}{layer}\n", header());
         (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
         file.place()?;
         table.file = Some(csv::Writer::from_writer(file));
@@ -268,38 +293,43 @@ impl TrackTable {
     }
 }
 
-/// The fields of a row; the pitch of the true pose is converted to nose-up, as in the estimate.
+/// The fields of a row.
 fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> Vec<String> {
+    let mut fields = vec![format!("{t_s:.3}"), r.id.clone()];
+    let written = numbers(r, info).into_iter().zip(COLUMNS);
+    let field = |(v, (_, d)): (Option<f64>, (_, usize))| v.map(|v| format!("{v:.d$}"));
+    fields.extend(written.map(|one| field(one).unwrap_or_default()));
+    fields.push(r.behaviour.name().to_string());
+    fields
+}
+
+/// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. The pitch of the true pose is
+/// converted to nose-up, as in the estimate.
+#[must_use]
+pub fn numbers(r: &RobotFrame, info: &RobotInfo) -> [Option<f64>; 19] {
     let (p, e) = (&r.truth.pose, &r.estimate);
     let (roll, pitch_down) = p.roll_pitch();
     let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
-    let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
     let flow = e.flow.map(|f| f.velocity);
-    let places = [
-        p.p_WB.x,
-        p.p_WB.y,
-        p.p_WB.z,
-        roll.to_degrees(),
-        -pitch_down.to_degrees(),
-        p.heading().deg(),
-        e.position.x,
-        e.position.y,
-        e.depth_m,
-        e.attitude.roll_rad.to_degrees(),
-        e.attitude.pitch_rad.to_degrees(),
-        e.attitude.heading.deg(),
-    ];
-    let mut fields = vec![format!("{t_s:.3}"), r.id.clone()];
-    fields.extend(places.map(|v| format!("{v:.3}")));
-    fields.extend([
-        format!("{:.4}", r.truth.v_WB_B.norm()),
-        format!("{:.3}", r.altitude_m),
-        opt(chemical.map(|c| c.0)),
-        opt(chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f)),
-        u8::from(r.detected).to_string(),
-        opt(flow.map(|v| v.x)),
-        opt(flow.map(|v| v.y)),
-        r.behaviour.name().to_string(),
-    ]);
-    fields
+    [
+        Some(p.p_WB.x),
+        Some(p.p_WB.y),
+        Some(p.p_WB.z),
+        Some(roll.to_degrees()),
+        Some(-pitch_down.to_degrees()),
+        Some(p.heading().deg()),
+        Some(e.position.x),
+        Some(e.position.y),
+        Some(e.depth_m),
+        Some(e.attitude.roll_rad.to_degrees()),
+        Some(e.attitude.pitch_rad.to_degrees()),
+        Some(e.attitude.heading.deg()),
+        Some(r.truth.v_WB_B.norm()),
+        Some(r.altitude_m),
+        chemical.map(|c| c.0),
+        chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f),
+        Some(f64::from(u8::from(r.detected))),
+        flow.map(|v| v.x),
+        flow.map(|v| v.y),
+    ]
 }

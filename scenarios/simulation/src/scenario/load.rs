@@ -37,6 +37,15 @@ pub struct Loaded {
 }
 
 impl Loaded {
+    /// The same scenario with another text. Paths in it are relative to the same folder.
+    ///
+    /// # Errors
+    /// As [`load`].
+    pub fn with_text(&self, text: String) -> Result<Self, ScenarioError> {
+        let (path, name) = (&self.path, self.name.clone());
+        (self.registry).scope(|| loaded(path, name, self.base_dir.clone(), text))
+    }
+
     /// Checks what the scenario means: see [`check`].
     ///
     /// # Errors

@@ -2,6 +2,7 @@
 
 mod beside;
 mod catalog;
+mod change;
 mod check;
 mod check_able;
 mod check_berth;
@@ -28,6 +29,7 @@ mod version;
 
 pub use beside::Beside;
 pub use catalog::{CATALOG, Template, template};
+pub use change::put;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};

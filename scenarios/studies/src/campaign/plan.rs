@@ -1,10 +1,9 @@
 //! The runs of a campaign: their number, their seeds and their scenarios.
 
 use super::error::CampaignError;
-use super::overrides::put;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use rayon::prelude::*;
-use rheotaxis::scenario::{Fault, Loaded, Outline, parse_with};
+use rheotaxis::scenario::{Fault, Loaded, Outline, parse_with, put};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
 use std::path::PathBuf;

@@ -1,7 +1,6 @@
 //! Values of a row's scenario that are drawn anew for every seed.
 
-use crate::campaign::put;
-use rheotaxis::scenario::{Loaded, parse};
+use rheotaxis::scenario::{Loaded, parse, put};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
 use std::path::PathBuf;

@@ -1,13 +1,16 @@
-//! Draws a fault of a scenario with the lines around it, by miette.
+//! Draws mistakes of a scenario with the lines around them, by miette.
 
-use miette::{Diagnostic, LabeledSpan, NamedSource, SourceCode};
-use rheotaxis::scenario::{Fault, Severity};
-use std::fmt::Display;
+use miette::{
+    Diagnostic, LabeledSpan, MietteDiagnostic, MietteHandler, MietteHandlerOpts, NamedSource,
+    ReportHandler, SourceCode,
+};
+use rheotaxis::scenario::{Fault, ScenarioError, Severity};
+use std::fmt::{self, Debug, Display};
 
 /// A fault that miette can draw.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", headline(fault, text.is_some()))]
-pub(super) struct Shown {
+pub struct Shown {
     fault: Fault,
     text: Option<NamedSource<String>>,
 }
@@ -30,6 +33,56 @@ fn headline(fault: &Fault, drawn: bool) -> String {
         "{fault} ({}, line {line}, column {column})",
         fault.source_name
     )
+}
+
+/// Width of a text that no terminal shows.
+const WIDTH: usize = 100;
+
+/// How mistakes are drawn.
+#[must_use]
+pub fn look() -> MietteHandlerOpts {
+    MietteHandlerOpts::new()
+        .force_graphical(true)
+        .terminal_links(false)
+        .context_lines(1)
+        .unicode(true)
+}
+
+/// How they are drawn where there is no terminal: each message is one line, so that it can be searched for.
+#[must_use]
+pub fn plain() -> MietteHandlerOpts {
+    look().color(false).width(WIDTH).wrap_lines(false)
+}
+
+/// All mistakes of a scenario, as the command prints them into a file.
+#[must_use]
+pub fn text(error: ScenarioError) -> String {
+    match error {
+        ScenarioError::Many { faults, .. } => faults.into_iter().map(fault_text).collect(),
+        ScenarioError::Text(fault) => fault_text(*fault),
+        ScenarioError::File { ref help, .. } => {
+            let mut diagnostic = MietteDiagnostic::new(error.to_string());
+            diagnostic.help = help.clone();
+            drawn(&diagnostic)
+        }
+    }
+}
+
+/// A mistake or a warning, as the command prints it into a file.
+#[must_use]
+pub fn fault_text(fault: Fault) -> String {
+    drawn(&Shown::from(fault))
+}
+
+fn drawn(diagnostic: &dyn Diagnostic) -> String {
+    /// What is formatted by the handler.
+    struct Report<'a>(&'a dyn Diagnostic, MietteHandler);
+    impl Debug for Report<'_> {
+        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            self.1.debug(self.0, f)
+        }
+    }
+    format!("{:?}\n", Report(diagnostic, plain().build()))
 }
 
 impl Diagnostic for Shown {

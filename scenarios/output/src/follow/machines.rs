@@ -1,14 +1,32 @@
-//! What tables and figures need to know about the gantries of a scenario.
+//! What tables and figures need to know beforehand about a scenario's robots and gantries.
 
-use super::run::RunError;
-use output::results::GantryInfo;
+use crate::results::{GantryInfo, RobotInfo};
 use rheotaxis::error::AssembleError;
 use rheotaxis::scenario::{Beside, GantryBlock, Loaded};
+use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
 use world::ranges::Finite;
 
-/// That of each gantry, in the order of the scenario.
-pub(super) fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, RunError> {
+/// Its robots.
+pub(super) fn robots(loaded: &Loaded) -> Vec<RobotInfo> {
+    let robots = loaded.scenario.robots.iter().map(|spec| {
+        let dye = spec.sensors.get::<FluorometerSpec>();
+        RobotInfo {
+            id: spec.id.as_str().to_string(),
+            full_scale_ug_l: dye.map(|f| f.full_scale_ug_l.get()),
+            threshold: dye.map(|f| f.threshold.get()),
+            regions: spec.strategy.has_regions(),
+            layered: spec.strategy.has_layers(),
+        }
+    });
+    robots.collect()
+}
+
+/// Its gantries.
+///
+/// # Errors
+/// If the files of one cannot be read.
+pub(super) fn gantries(loaded: &Loaded) -> Result<Vec<GantryInfo>, AssembleError> {
     let scenario = &loaded.scenario;
     // Of several effluents, the strongest.
     let effluent = (scenario.sources.iter())

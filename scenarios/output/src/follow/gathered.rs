@@ -1,0 +1,155 @@
+//! All that a run has left, when it is over.
+
+use super::Follower;
+use crate::files::ReportError;
+use crate::report::{Figure, figures, write_all};
+use crate::results::{
+    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, RunEnd, RunReport,
+    SourceTruth, Summary, Totals, Track,
+};
+use rheotaxis::frame::PlumeFrame;
+use rheotaxis::ocean::Ocean;
+use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::{Ended, Trial};
+use std::time::Duration;
+use world::files::Folder;
+
+/// The results of a run that is over. Figures need its ocean as well, at the end of the run.
+pub struct Gathered {
+    /// The summary, as in `summary.json`.
+    pub summary: Summary,
+    /// The true sources.
+    pub sources: Vec<SourceTruth>,
+    out: Option<Folder>,
+    scenario_text: String,
+    track: Track,
+    gantries: Vec<GantryTrack>,
+    beliefs: BeliefTrack,
+    pictures: Option<Pictures>,
+    echoes: Echoes,
+    plume: Option<PlumeFrame>,
+    interfaces: Vec<f64>,
+    obstacles: Vec<ObstacleOutline>,
+    failure: Option<ReportError>,
+}
+
+impl Gathered {
+    /// From what a follower has gathered; `walls` are the times that spin-up and mission took.
+    pub(super) fn of(
+        mut gathered: Follower,
+        trial: &Trial,
+        ended: &Ended,
+        walls: [Duration; 2],
+    ) -> Self {
+        let scenario = &gathered.scenario;
+        let sources = SourceTruth::of(trial, ended);
+        let end = RunEnd {
+            outcome: match gathered.failure {
+                Some(_) => RunOutcome::Failed,
+                None => ended.outcome,
+            },
+            error: gathered.failure.as_ref().map(ToString::to_string),
+            digest: ended.digest.clone(),
+            score: trial.score().clone(),
+            totals: Totals {
+                spin_up_s: scenario.time.spin_up_s.get(),
+                spin_up_kept: gathered.spin_up_kept,
+                ..totals(trial, ended, walls)
+            },
+        };
+        gathered.builder.added(trial);
+        Self {
+            summary: gathered.builder.finish(&end, &sources),
+            sources,
+            interfaces: (scenario.water.currents.iter())
+                .flat_map(|c| c.interfaces_m())
+                .map(|depth_m| -depth_m)
+                .collect(),
+            obstacles: outlines(trial.simulation.ocean(), &scenario.permeable),
+            out: gathered.out,
+            scenario_text: gathered.run.scenario_text,
+            track: gathered.track.finish(),
+            gantries: gathered.probes.finish(),
+            beliefs: gathered.beliefs,
+            pictures: gathered.pictures,
+            echoes: gathered.echoes,
+            plume: gathered.last_plume,
+            failure: gathered.failure,
+        }
+    }
+
+    /// The figures of the run. Nothing is written.
+    #[must_use]
+    pub fn figures(&self, ocean: &Ocean) -> Vec<Figure> {
+        figures(&self.report(ocean))
+    }
+
+    /// Writes summary, plume, figures and page into the folder, if there is one.
+    ///
+    /// # Errors
+    /// If something could not be written, in the run or here; all other files are.
+    pub fn write(&mut self, ocean: &Ocean) -> Result<(), ReportError> {
+        let report = self.report(ocean);
+        let written = (self.out.as_ref()).map_or(Ok(Vec::new()), |out| write_all(out, &report));
+        let failures = self.failure.take().into_iter().chain(written.err());
+        ReportError::of(failures.collect()).map_or(Ok(()), Err)
+    }
+
+    /// The folder of the results, if they are written.
+    #[must_use]
+    pub fn out(&self) -> Option<&Folder> {
+        self.out.as_ref()
+    }
+
+    fn report<'a>(&'a self, ocean: &'a Ocean) -> RunReport<'a> {
+        RunReport {
+            pictures: self.pictures.as_ref().map_or(&[], Pictures::shown),
+            echoes: &self.echoes,
+            summary: &self.summary,
+            track: &self.track,
+            gantries: &self.gantries,
+            beliefs: &self.beliefs,
+            plume: self.plume.as_ref(),
+            dye: (!self.sources.is_empty()).then_some(ocean.plume()),
+            area: &ocean.area,
+            terrain: &ocean.terrain,
+            sources: &self.sources,
+            interfaces: &self.interfaces,
+            obstacles: &self.obstacles,
+            solids: Some(&ocean.obstacles),
+            scenario_text: &self.scenario_text,
+        }
+    }
+}
+
+fn totals(trial: &Trial, ended: &Ended, [spin_up, mission]: [Duration; 2]) -> Totals {
+    let plume = trial.simulation.ocean().plume();
+    Totals {
+        mission_s: ended.t_s,
+        mission_wall_s: mission.as_secs_f64(),
+        spin_up_wall_s: spin_up.as_secs_f64(),
+        steps: ended.steps,
+        filaments: plume.len(),
+        mass: (!plume.sources().is_empty()).then(|| {
+            MassBalance::new(
+                plume.mass_released_kg(),
+                plume.mass_in_kg(),
+                plume.mass_left_kg(),
+            )
+        }),
+        ..Totals::default()
+    }
+}
+
+fn outlines(ocean: &Ocean, permeable: &[String]) -> Vec<ObstacleOutline> {
+    let outline = |o: &world::obstacles::Obstacle| {
+        let (low, high) = o.bounds();
+        ObstacleOutline {
+            id: o.id.clone(),
+            corners: o.outline(),
+            z: [low.z, high.z],
+            permeable: permeable.contains(&o.id),
+        }
+    };
+    ocean.obstacles.0.iter().map(outline).collect()
+}

@@ -1,0 +1,190 @@
+"""The engine of the package. World axes are ENU, z = 0 at the still surface; headings are compass degrees."""
+
+from os import PathLike
+from pathlib import Path
+from typing import Any, Literal, final
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+Outcome = Literal["found", "not_found", "completed", "aborted", "time_out", "interrupted", "failed"]
+
+class ScenarioError(ValueError):
+    """A scenario cannot be used.
+
+    The text shows each mistake with file, line, column, field, legal range and, where known, the cure.
+    """
+
+    faults: list[dict[str, Any]]
+    """Each mistake: ``path``, ``message``, ``help`` (or None), ``line`` and ``column``, both from 1."""
+
+class ScenarioWarning(UserWarning):
+    """Something in a scenario is legal and probably not meant."""
+
+@final
+class Scenario:
+    """A scenario that has been read and checked. It does not change: ``with_`` makes another."""
+
+    @staticmethod
+    def load(path: str | PathLike[str]) -> Scenario:
+        """Reads a file or, if there is none, the scenario of that name in the catalogue.
+
+        Raises ScenarioError with every mistake of form and meaning.
+        """
+
+    @staticmethod
+    def parse(text: str, name: str = "scenario") -> Scenario:
+        """Reads a text. Paths in it are relative to the working folder; errors call it ``name``."""
+
+    @property
+    def text(self) -> str:
+        """The text it was read from."""
+
+    @property
+    def name(self) -> str:
+        """Name of its file, without the ending."""
+
+    @property
+    def title(self) -> str: ...
+    def check(self) -> list[str]:
+        """What is legal and probably not meant: a line ``file:line:column: field: what`` each."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """All fields, with the defaults that the text leaves out. A variant is ``{"Name": {...}}``."""
+
+    def __getitem__(self, path: str, /) -> Any:
+        """The value at a path such as ``robots.0.start.heading_deg`` or ``robots[0].strategy.vertical``.
+
+        Names of variants may be left out. Units are in the names of fields; ``rheotaxis.explain(path)`` says more.
+        Raises KeyError, with what there is, if the scenario has no such place.
+        """
+
+    def with_(self, changes: dict[str, Any], /) -> Scenario:
+        """Another scenario, with the values at some paths changed, checked as by ``load``.
+
+        A value is a number, a bool, a text, a list, a dict of fields, ``{"Variant": value}``, or
+        ``rheotaxis.Ron("...")`` in the notation of scenario files.
+
+        >>> s.with_({"time.limit_s": 600, "robots.0.strategy": rheotaxis.Ron("Amp(speed_m_s: 1.5)")})
+        """
+
+    def __eq__(self, other: object, /) -> bool: ...
+    def __hash__(self) -> int: ...
+
+@final
+class Figure:
+    """A figure of a run."""
+
+    @property
+    def name(self) -> str: ...
+    @property
+    def title(self) -> str: ...
+    @property
+    def svg(self) -> str: ...
+    @property
+    def png(self) -> bytes: ...
+    def save(self, path: str | PathLike[str]) -> None:
+        """Writes a file; its ending, .svg or .png, says which."""
+
+    def _repr_png_(self) -> bytes: ...
+
+@final
+class Result:
+    """What a run has left."""
+
+    @property
+    def outcome(self) -> Outcome:
+        """How the run ended, as in ``summary.json``."""
+
+    @property
+    def success(self) -> bool:
+        """Whether it ended as the scenario defines success."""
+
+    @property
+    def digest(self) -> str:
+        """Hash of all states of the run: the same scenario and seed give the same."""
+
+    @property
+    def t_s(self) -> float:
+        """Time of the mission, s."""
+
+    @property
+    def steps(self) -> int:
+        """Steps of the mission."""
+
+    @property
+    def files(self) -> Path | None:
+        """The folder with the files of the run, if they were asked for."""
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """The content of ``summary.json``."""
+
+    @property
+    def declarations(self) -> list[dict[str, Any]]:
+        """Every declaration: ``searcher``, ``t_s`` (s), ``position`` (``east_m``, ``north_m``, as the searcher
+        believes), ``rule``, ``verdict``, ``error`` against the nearest true source (m), and more, as in
+        ``summary.json``."""
+
+    @property
+    def track(self) -> dict[str, dict[str, npt.NDArray[Any]]]:
+        """Columns by robot, a row for each ``record.frame_period_s`` of the scenario.
+
+        ``t_s``; the truth: ``east_m``, ``north_m``, ``up_m``, ``roll_deg``, ``pitch_up_deg``, ``heading_deg``,
+        ``speed_m_s``, ``altitude_m``; the vehicle's estimate: ``est_east_m``, ``est_north_m``, ``est_depth_m``,
+        ``est_roll_deg``, ``est_pitch_up_deg``, ``est_heading_deg``, ``flow_east_m_s``, ``flow_north_m_s``; the
+        chemical sensor: ``reading_v``, ``reading_ug_l``, ``detected`` (bool); ``behaviour`` (str). NaN where there is
+        no value.
+        """
+
+    @property
+    def probes(self) -> dict[str, dict[str, npt.NDArray[Any]]]:
+        """Columns by gantry; k probes in the order of a scan.
+
+        ``t_s``, ``scan_s`` (time of the newest scan), ``head_m`` (n, 3) and ``tip_m`` (n, k, 3) in ENU,
+        ``joint_m`` and ``joint_m_s`` (n, 2), ``volts`` and ``threshold_v`` (n, k), ``spike`` (n, k, bool),
+        ``spike_hz``, ``blocked`` (bool), ``behaviour`` (str).
+        """
+
+    @property
+    def figures(self) -> list[str]:
+        """Names of the figures that ``plot`` draws."""
+
+    def plot(self, name: str | None = None) -> Figure:
+        """A figure of the run, by default the first: the map, or a gantry's track over the plume."""
+
+    def _repr_png_(self) -> bytes: ...
+
+def run(
+    scenario: str | PathLike[str] | Scenario,
+    seed: int = 1,
+    *,
+    files: str | PathLike[str] | None = None,
+    recording: bool = True,
+    cache: bool | str | PathLike[str] | None = None,
+    threads: int = 0,
+) -> Result:
+    """Runs a scenario to its end: the spin-up of the plume, then the mission.
+
+    ``scenario`` is a Scenario, the name of one in the catalogue, the path of a file, or a text. The run is that of
+    ``rheotaxis run --seed``, bit by bit. Other threads of Python go on meanwhile; Ctrl-C ends the run and raises
+    KeyboardInterrupt.
+
+    ``files`` names a folder for the files that the command would write, ``run.mcap`` among them if ``recording``.
+    ``cache`` is about spin-ups kept on the disk: by default those of the command (``RHEOTAXIS_CACHE``,
+    ``RHEOTAXIS_NO_CACHE``), False for none, or a folder. ``threads`` step the plume; 0 means one for each core. The
+    result is the same with any number.
+
+    Raises ScenarioError, or RuntimeError if the run could not be made.
+    """
+
+def catalogue() -> dict[str, dict[str, Any]]:
+    """The scenarios that come with the program, by name: ``title``, ``citation``, ``searchers`` (ids)."""
+
+def explain(path: str = "") -> str:
+    """What a place of a scenario may hold: unit, range, default, meaning and source of each field.
+
+    Raises KeyError, with the nearest paths, if there is no such place.
+    """

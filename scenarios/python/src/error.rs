@@ -1,0 +1,86 @@
+//! Mistakes and panics as Python's exceptions.
+
+use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::{PyDict, PyList};
+use rheotaxis::lanes::caught;
+use rheotaxis::scenario::{self, Fault};
+use std::ffi::CString;
+
+pyo3::create_exception!(
+    rheotaxis,
+    ScenarioError,
+    PyValueError,
+    "A scenario cannot be used. The text shows each mistake with file, line, column, field, legal range and, where \
+     known, the cure. `faults` lists them as dicts: path, message, help, line, column."
+);
+
+pyo3::create_exception!(
+    rheotaxis,
+    ScenarioWarning,
+    PyUserWarning,
+    "Something in a scenario is legal and probably not meant."
+);
+
+/// The exception for a scenario that cannot be used.
+pub(crate) fn scenario_error(py: Python<'_>, error: scenario::ScenarioError) -> PyErr {
+    let faults = match &error {
+        scenario::ScenarioError::File { .. } => Ok(PyList::empty(py)),
+        scenario::ScenarioError::Text(fault) => listed(py, std::slice::from_ref(&**fault)),
+        scenario::ScenarioError::Many { faults, .. } => listed(py, faults),
+    };
+    let raised = ScenarioError::new_err(format!("\n{}", output::shown::text(error).trim_end()));
+    match faults.and_then(|faults| raised.value(py).setattr("faults", faults)) {
+        Ok(()) => raised,
+        Err(error) => error,
+    }
+}
+
+fn listed<'py>(py: Python<'py>, faults: &[Fault]) -> PyResult<Bound<'py, PyList>> {
+    let list = PyList::empty(py);
+    for fault in faults {
+        let one = PyDict::new(py);
+        one.set_item("path", &fault.path)?;
+        one.set_item("message", &fault.message)?;
+        one.set_item("help", &fault.help)?;
+        one.set_item("line", fault.line)?;
+        one.set_item("column", fault.column)?;
+        list.append(one)?;
+    }
+    Ok(list)
+}
+
+/// Warns of what is probably not meant in a scenario.
+pub(crate) fn warn_of(py: Python<'_>, faults: Vec<Fault>) -> PyResult<()> {
+    let category = py.get_type::<ScenarioWarning>();
+    for fault in faults {
+        warn(py, &category, output::shown::fault_text(fault).trim_end())?;
+    }
+    Ok(())
+}
+
+/// Warns of something by Python's own means.
+pub(crate) fn warn(py: Python<'_>, category: &Bound<'_, PyAny>, text: &str) -> PyResult<()> {
+    let text = CString::new(text.replace('\0', " "))?;
+    PyErr::warn(py, category, &text, 1)
+}
+
+/// Does something without the interpreter's lock. A panic becomes a `RuntimeError`.
+pub(crate) fn apart<T, F>(py: Python<'_>, work: F) -> PyResult<T>
+where
+    T: Send,
+    F: Send + FnOnce() -> PyResult<T>,
+{
+    py.detach(|| caught(work))
+        .unwrap_or_else(|said| Err(panicked(&said)))
+}
+
+/// The exception for a panic.
+pub(crate) fn panicked(said: &str) -> PyErr {
+    PyRuntimeError::new_err(format!("rheotaxis: {said}"))
+}
+
+/// Any other error of the simulator, told by its own text.
+pub(crate) fn other(error: impl std::fmt::Display) -> PyErr {
+    PyRuntimeError::new_err(error.to_string())
+}

@@ -1,0 +1,122 @@
+//! `run`: a whole run of a scenario.
+
+use super::cache::{Cache, opened, tell_fault};
+use super::columns::RobotColumns;
+use super::columns_gantry::GantryColumns;
+use super::error::{apart, other, scenario_error, warn_of};
+use super::result::{Kept, PyRunResult};
+use super::scenario::PyScenario;
+use super::signals::Signals;
+use output::files::begin_folder;
+use output::follow::Follower;
+use pyo3::prelude::*;
+use rheotaxis::cache::SpinUps;
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::scenario::Loaded;
+use rheotaxis::trial::{Trial, Watch};
+use std::path::PathBuf;
+
+/// Follows a run: its results, its columns, and Ctrl-C.
+struct Watcher {
+    results: Follower,
+    robots: Vec<RobotColumns>,
+    gantries: Vec<GantryColumns>,
+    signals: Signals,
+}
+
+impl Watch for Watcher {
+    fn spun_up(&mut self, share: f64) -> bool {
+        self.results.spun_up(share) && self.signals.quiet()
+    }
+    fn developed(&mut self, kept: bool) {
+        self.results.developed(kept);
+    }
+    fn frame(&mut self, frame: &Frame) {
+        self.results.frame(frame);
+        RobotColumns::push(&mut self.robots, frame);
+        GantryColumns::push(&mut self.gantries, frame);
+    }
+    fn plume(&mut self, plume: &PlumeFrame) {
+        self.results.plume(plume);
+    }
+    fn picture(&mut self, picture: &PictureFrame) {
+        self.results.picture(picture);
+    }
+    fn ping(&mut self, ping: &PingFrame) {
+        self.results.ping(ping);
+    }
+    fn go_on(&mut self, _t_s: f64) -> bool {
+        self.results.well() && self.signals.quiet()
+    }
+}
+
+/// What a run is asked for.
+struct Asked {
+    seed: u64,
+    files: Option<PathBuf>,
+    recording: bool,
+    threads: usize,
+}
+
+/// Makes the run; an exception that a signal has raised comes with it.
+fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRunResult> {
+    let mut trial = Trial::assemble(loaded, asked.seed).map_err(other)?;
+    if asked.threads != 1 {
+        trial.simulation.ocean_mut().use_threads(asked.threads);
+    }
+    let mut results = Follower::new(loaded, asked.seed.into()).map_err(other)?;
+    // The folder comes last: a run that cannot start must not remove the files of an earlier run.
+    if let Some(files) = &asked.files {
+        let out = begin_folder(files, "run").map_err(other)?;
+        results.write_into(&out, asked.recording).map_err(other)?;
+    }
+    let mut watcher = Watcher {
+        robots: results.robots().iter().map(RobotColumns::new).collect(),
+        gantries: Vec::new(),
+        results,
+        signals: Signals::default(),
+    };
+    if let Some(kept) = kept {
+        trial.spin_up_with(kept, &mut watcher);
+    }
+    let ended = trial.run(&mut watcher);
+    let mut gathered = watcher.results.finish(&trial, &ended);
+    let written = gathered.write(trial.simulation.ocean());
+    if let Some(raised) = watcher.signals.raised() {
+        return Err(raised);
+    }
+    written.map_err(other)?;
+    let kept = Kept {
+        ended,
+        gathered,
+        ocean: trial,
+    };
+    Ok(PyRunResult::new(kept, watcher.robots, watcher.gantries))
+}
+
+/// Runs a scenario to its end.
+#[pyfunction]
+#[pyo3(signature = (scenario, seed = 1, *, files = None, recording = true, cache = None, threads = 0))]
+pub(crate) fn run(
+    scenario: &Bound<'_, PyAny>,
+    seed: u64,
+    files: Option<PathBuf>,
+    recording: bool,
+    cache: Option<Cache>,
+    threads: usize,
+) -> PyResult<PyRunResult> {
+    let py = scenario.py();
+    let loaded = PyScenario::meant(scenario)?;
+    let odd = loaded.check().map_err(|error| scenario_error(py, error))?;
+    warn_of(py, odd)?;
+    let kept = opened(py, cache)?;
+    let asked = Asked {
+        seed,
+        files,
+        recording,
+        threads,
+    };
+    let result = apart(py, || made(&loaded, &asked, kept.as_ref()))?;
+    tell_fault(py, kept.as_ref())?;
+    Ok(result)
+}
