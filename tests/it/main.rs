@@ -20,6 +20,7 @@ mod live;
 mod memory;
 mod ocean;
 mod outputs;
+mod outside;
 mod planning;
 mod readme;
 mod rejection;

@@ -111,7 +111,7 @@ impl StrategyParams for ExternalSpec {
     }
 
     fn flies_for(&self) -> [bool; 2] {
-        self.fallback().map_or([true; 2], |spec| spec.flies_for())
+        self.fallback().map_or([false; 2], |spec| spec.flies_for())
     }
 
     fn wishes(&self) -> Wishes {

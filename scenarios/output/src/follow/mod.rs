@@ -121,12 +121,6 @@ impl Follower {
         self.failure.is_none()
     }
 
-    /// When the mission began, by the wall clock.
-    #[must_use]
-    pub fn mission_begun(&self) -> Instant {
-        self.mission_begun
-    }
-
     /// Keeps the first error of writing.
     fn note(&mut self, result: Result<(), ReportError>) {
         if let Err(error) = result {

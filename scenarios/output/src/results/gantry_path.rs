@@ -9,7 +9,7 @@
 use super::{DeclarationSummary, SourceTruth};
 use nalgebra::Vector2;
 use rheotaxis::gantry::GantryFrame;
-use rheotaxis::score::SearcherScore;
+use rheotaxis::score::{Consultations, SearcherScore};
 use robots::handoff::GantryBehaviour;
 use serde::Serialize;
 
@@ -42,6 +42,9 @@ pub struct GantrySummary {
     pub id: String,
     /// How it ended: true if it declared a source, false if it gave up, `None` if it did neither.
     pub stopped: Option<bool>,
+    /// How often it asked a searcher outside the program; `None` if it never did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub consulted: Option<Consultations>,
     /// Its declaration.
     pub declaration: Option<DeclarationSummary>,
     /// End of its first sweep, s.
@@ -140,6 +143,7 @@ impl GantryPath {
         GantrySummary {
             id: self.id.clone(),
             stopped: self.stopped,
+            consulted: score.consulted,
             declaration: (score.declarations.first()).map(|d| DeclarationSummary::of(d, sources)),
             sweep_s: self.sweep_s,
             first_spike_s: score.first_detection_s,

@@ -1,0 +1,122 @@
+//! The same decisions give the same run, whoever makes them.
+
+use super::kit::{Run, channel, client, controller};
+use rheotaxis::control::{Heard, Question, Seen, consultation_json};
+use rheotaxis::scenario::load_text;
+use rheotaxis::trial::{Trial, Watch};
+use robots::handoff::Answer;
+use serde_json::{Value, json};
+use world::registry::Registry;
+use world::seeds::{Seed, Stream};
+use zenoh::Wait;
+
+const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+const EACH_STEP: &str = "External(period_s: 0.02, deadline_s: 20, on_late: Abort)";
+
+#[derive(Default)]
+struct Answers(Vec<Value>);
+
+impl Watch for Answers {
+    fn consulted(&mut self, told: &rheotaxis::control::Consultation) {
+        self.0.push(consultation_json(told)["answer"].clone());
+    }
+}
+
+/// What the planner of the paper answers in each step, and the digest of its run.
+fn recorded(limit_s: f64) -> (Vec<Value>, String) {
+    let registry = Registry::default();
+    let plain = load_text(&registry, "asks", &channel(AMP, limit_s)).expect("legal");
+    let inside = Trial::assemble(&plain, 1).expect("legal").finish_quietly();
+    let outside = load_text(&registry, "asks", &channel(EACH_STEP, limit_s)).expect("legal");
+    let mut trial = Trial::assemble(&outside, 1).expect("legal");
+    let ocean = trial.simulation.ocean();
+    let robot = &plain.scenario.robots[0];
+    let setting = robot.setting(&ocean.area, &ocean.terrain, &ocean.obstacles);
+    let mut planner = robot.strategy.build(&setting).expect("legal");
+    let mut rng = Stream::new(Seed::from(1), "auv0", "strategy");
+    let decide = move |question: &Question| match &question.seen {
+        Seen::Robot(seen, _) => Heard::Answer(Answer::from(&planner.step(seen, &mut rng))),
+        Seen::Gantry(..) => Heard::Absent,
+    };
+    trial.control("auv0", decide).expect("it asks");
+    let mut answers = Answers::default();
+    assert_eq!(trial.run(&mut answers).digest, inside.digest);
+    (answers.0, inside.digest)
+}
+
+#[test]
+fn a_stream_of_decisions_over_zenoh_gives_the_digest_of_the_planner_itself() {
+    let (answers, digest) = recorded(40.0);
+    let run = Run::controlled(&channel(EACH_STEP, 40.0));
+    let session = client(&run.endpoint);
+    let decided = answers.clone();
+    let _controller = controller(&session, "auv0", move |question| {
+        let number = question["number"].as_u64().expect("a number") as usize;
+        decided[number].to_string()
+    });
+    let end = run.end();
+    assert_eq!(end.digest(), digest, "{}", end.said);
+    assert_eq!(end.count(0, "answered"), answers.len() as u64);
+    end.run_again();
+    session.close().wait().unwrap();
+}
+
+#[test]
+fn each_robot_has_a_controller_of_its_own() {
+    let strategy = "External(period_s: 1, deadline_s: 20)";
+    let text = channel(strategy, 5.0);
+    let robot = &text[text
+        .find("        (\n            id: \"auv0\"")
+        .expect("a robot")..];
+    let robot = &robot[..robot.find("        ),\n    ],").expect("its end")];
+    let second = robot
+        .replace("auv0", "auv1")
+        .replace("north_m: -30", "north_m: 30");
+    let both = text.replace(robot, &format!("{robot}        ),\n{second}"));
+    let run = Run::controlled(&both);
+    let session = client(&run.endpoint);
+    let to = |robot: &'static str, rad: f64| {
+        controller(&session, robot, move |question| {
+            assert_eq!(question["robot"], robot);
+            json!({"number": question["number"], "steer": {"heading_rad": rad}, "behaviour": robot})
+                .to_string()
+        })
+    };
+    let controllers = [to("auv0", 1.0), to("auv1", 2.0)];
+    let end = run.end();
+    for robot in [0, 1] {
+        assert_eq!(end.count(robot, "answered"), 5, "{}", end.summary);
+        let name = format!("auv{robot}");
+        assert_eq!(end.summary["robots"][robot]["last_behaviour"], name);
+    }
+    end.run_again();
+    drop(controllers);
+    session.close().wait().unwrap();
+}
+
+#[test]
+fn a_gantry_goes_where_it_is_told() {
+    let text =
+        std::fs::read_to_string(crate::common::root().join("scenarios/catalog/flume_external.ron"));
+    let text = text.expect("it is there");
+    let text = text
+        .replace("limit_s: 180", "limit_s: 6")
+        .replace("spin_up_s: 60", "spin_up_s: 2");
+    let run = Run::controlled(&text.replace("deadline_s: 2", "deadline_s: 20"));
+    let session = client(&run.endpoint);
+    let _controller = controller(&session, "crab0", |question| {
+        let scans = question["scans"].as_array().expect("scans").len();
+        let end = (question["number"] == 20).then_some("completed");
+        let mut answer = json!({"head": {"target_m": [0.1, 0.3], "behaviour": "step_up"}});
+        if let Some(end) = end {
+            answer["end"] = json!(end);
+        }
+        assert!(scans > 0 || question["number"] == 0);
+        answer.to_string()
+    });
+    let end = run.end();
+    let gantry = &end.summary["gantries"][0];
+    assert_eq!(gantry["consulted"]["answered"], 21, "{gantry}");
+    end.run_again();
+    session.close().wait().unwrap();
+}

@@ -1,0 +1,153 @@
+//! A run that asks, a controller that answers, and what the run says at its end.
+
+use crate::common;
+use serde_json::Value;
+use std::net::TcpListener;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Output, Stdio};
+use std::time::Duration;
+use tempfile::TempDir;
+use zenoh::query::{Query, Queryable};
+use zenoh::{Config, Session, Wait};
+
+/// A minute of a channel in which `auv0` asks; the plume is a few minutes old.
+pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
+    let text =
+        std::fs::read_to_string(common::root().join("scenarios/catalog/uniform_channel.ron"));
+    let text = text.expect("it is there");
+    let amp = "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+    assert!(text.contains(amp));
+    text.replace(amp, &format!("strategy: {strategy}")).replace(
+        "spin_up_s: 2000, limit_s: 1800",
+        &format!("spin_up_s: 300, limit_s: {limit_s}"),
+    )
+}
+
+/// A run in a process of its own.
+pub(super) struct Run {
+    child: Child,
+    dir: TempDir,
+    pub(super) endpoint: String,
+}
+
+impl Run {
+    /// Starts it, with these arguments beside its own.
+    pub(super) fn start(text: &str, more: &[&str]) -> Self {
+        let dir = tempfile::tempdir().expect("a folder");
+        std::fs::write(dir.path().join("asks.ron"), text).expect("the folder is ours");
+        let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
+        let endpoint = format!("tcp/127.0.0.1:{}", port.expect("a free port").port());
+        let mut command = common::command(dir.path(), &["run", "asks.ron", "--out", "out"]);
+        let child = (command
+            .args(["--quiet", "--zenoh-listen", &endpoint])
+            .args(more))
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("rheotaxis starts");
+        Self {
+            child,
+            dir,
+            endpoint,
+        }
+    }
+
+    /// One that may be controlled.
+    pub(super) fn controlled(text: &str) -> Self {
+        Self::start(text, &["--allow-control"])
+    }
+
+    pub(super) fn folder(&self) -> PathBuf {
+        self.dir.path().join("out")
+    }
+
+    /// Waits for its end: exit code, summary, and what it said on standard error.
+    pub(super) fn end(self) -> End {
+        let out = self.child.wait_with_output().expect("it ends");
+        let summary = std::fs::read(self.dir.path().join("out/summary.json"));
+        End {
+            code: out.status.code().expect("it was not killed"),
+            said: String::from_utf8_lossy(&out.stderr).into_owned(),
+            summary: summary.map_or(Value::Null, |s| serde_json::from_slice(&s).expect("JSON")),
+            dir: self.dir,
+        }
+    }
+}
+
+/// The end of a run.
+pub(super) struct End {
+    pub(super) code: i32,
+    pub(super) said: String,
+    pub(super) summary: Value,
+    dir: TempDir,
+}
+
+impl End {
+    /// How often a robot was told so.
+    pub(super) fn count(&self, robot: usize, what: &str) -> u64 {
+        let counts = &self.summary["robots"][robot]["consulted"];
+        counts[what]
+            .as_u64()
+            .unwrap_or_else(|| panic!("{what} in {}", self.summary))
+    }
+
+    pub(super) fn digest(&self) -> &str {
+        self.summary["digest"].as_str().expect("a digest")
+    }
+
+    /// Makes the run again from its recording, which must come to the same digest.
+    pub(super) fn run_again(&self) {
+        let again = rerun(self.dir.path(), "out");
+        let said = String::from_utf8_lossy(&again.stdout);
+        let wrong = String::from_utf8_lossy(&again.stderr);
+        assert_eq!(again.status.code(), Some(0), "{said}{wrong}");
+        assert!(
+            said.starts_with(&format!("the same run: digest {}", self.digest())),
+            "{said}"
+        );
+    }
+}
+
+pub(super) fn rerun(dir: &Path, recording: &str) -> Output {
+    common::rheotaxis_in(dir, &["rerun", recording, "--quiet"])
+}
+
+/// A client that waits for the run.
+pub(super) fn client(endpoint: &str) -> Session {
+    let config = format!(
+        r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ timeout_ms: 20000,
+             endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
+    );
+    let config = Config::from_json5(&config).expect("legal");
+    let session = zenoh::open(config).wait().expect("the run listens");
+    let runs = (session
+        .liveliness()
+        .declare_subscriber("rheotaxis/*/@live/sim"))
+    .history(true)
+    .wait()
+    .expect("a subscriber");
+    let there = runs.recv_timeout(Duration::from_secs(20));
+    assert!(
+        matches!(there, Ok(Some(_))),
+        "the run shows that it is there"
+    );
+    session
+}
+
+/// Answers the questions of a robot with JSON.
+pub(super) fn controller(
+    session: &Session,
+    robot: &str,
+    answer: impl Fn(&Value) -> String + Send + Sync + 'static,
+) -> Queryable<()> {
+    let reply = move |query: Query| {
+        let asked = query.payload().expect("a question").to_bytes();
+        let question: Value = serde_json::from_slice(&asked).expect("a question is JSON");
+        let text = answer(&question);
+        let _gone = query.reply(query.key_expr(), text).wait();
+    };
+    (session.declare_queryable(format!("rheotaxis/*/ask/{robot}")))
+        .callback(reply)
+        .wait()
+        .expect("a queryable")
+}
