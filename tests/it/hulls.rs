@@ -2,6 +2,7 @@
 
 mod aboard;
 mod energy;
+mod inspect;
 mod kit;
 mod page;
 mod physics;
