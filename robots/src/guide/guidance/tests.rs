@@ -105,6 +105,36 @@ fn a_line_is_entered_with_its_heading_and_left_at_its_end() {
     assert!((b.est.position - to).norm() < 10.0);
 }
 
+/// The greatest rate at which a way round is steered, rad/s.
+fn turns(guidance: Guidance) -> f64 {
+    let mut boat = Boat::new(Vector2::new(0.0, 0.0), 0.0, Vector2::zeros());
+    boat.guidance = guidance;
+    let round = Manoeuvre::GoToPointWithHeading {
+        point: Vector2::new(-10.0, -150.0),
+        heading: Heading::from_deg(180.0),
+    };
+    let (goal, mut most) = (goal(1, round), 0.0f64);
+    for _ in 0..4000 {
+        let before = boat.est.attitude.heading;
+        if boat.step(&goal).done {
+            return most;
+        }
+        most = most.max(before.turn_to(boat.est.attitude.heading).abs() / DT_S);
+    }
+    panic!("it did not arrive");
+}
+
+#[test]
+fn no_path_is_planned_tighter_than_the_vehicle_turns() {
+    let guidance = || Guidance::new(&GuidanceSpec::default());
+    let usual = turns(guidance());
+    // 1.5 m/s on a circle of 15 m.
+    assert!(usual > 0.09, "{usual}");
+    assert_eq!(turns(guidance().turning(8.0)), usual, "it can turn tighter");
+    let wide = turns(guidance().turning(40.0));
+    assert!(wide < 1.3 * 1.5 / 40.0, "{wide}");
+}
+
 #[test]
 fn a_new_id_starts_afresh_and_an_old_one_stays_done() {
     let mut b = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());

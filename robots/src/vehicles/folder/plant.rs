@@ -151,8 +151,7 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
             }
         }
         PilotSpec::Torpedo(spec) => Capabilities {
-            // Fins have a quarter of their force at half the design speed.
-            least_speed_m_s: 0.5 * spec.design_speed_m_s.get(),
+            least_speed_m_s: spec.least_speed_m_s(),
             top_speed_m_s,
             turning_radius_m: spec.design_speed_m_s.get()
                 / spec.heading_rate_deg_s.get().to_radians(),
