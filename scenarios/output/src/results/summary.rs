@@ -165,6 +165,9 @@ pub struct RobotSummary {
     pub greatest_position_error_m: f64,
     /// What it took from its battery; `None` if the scenario gives it none.
     pub energy: Option<EnergySummary>,
+    /// Share of the time with a thruster at its limit; `None` of a vehicle whose autopilot shares out no forces among
+    /// thrusters.
+    pub saturated: Option<f64>,
     /// Behaviour at the end.
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.

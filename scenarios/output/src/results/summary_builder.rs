@@ -183,6 +183,7 @@ impl Robot {
                 endurance_s: Some(e.endurance_s()).filter(|s| s.is_finite()),
                 emptied_s: e.emptied_s,
             }),
+            saturated: score.saturation.map(|s| s.share()),
             last_behaviour: self.behaviour.name().to_owned(),
             behaviour_s: self
                 .behaviour_s
