@@ -344,6 +344,7 @@ pub(crate) fn keep_log(
 
 type Pictured<'a> = (
     &'a SearcherId,
+    &'a Briefing,
     &'a Truth,
     &'a Estimate,
     &'a Decision,
@@ -365,7 +366,7 @@ pub(crate) fn picture(
     };
     let mut each = robots.iter_many_mut(&roster.0);
     while let Some(parts) = each.fetch_next().map(whole) {
-        let (id, truth, estimate, decision, command, set, belief, mut log) = parts;
+        let (id, briefing, truth, estimate, decision, command, set, belief, mut log) = parts;
         let p = truth.pose.p_WB;
         frame.robots.push(RobotFrame {
             id: id.name.clone(),
@@ -374,6 +375,7 @@ pub(crate) fn picture(
             estimate: *estimate,
             goal: Some(decision.goal),
             command: Some(*command),
+            keeps_height: briefing.able.dives && briefing.able.holds_depth,
             actuators: *set,
             chemical: log.chemical,
             detected: std::mem::take(&mut log.detected),
