@@ -45,7 +45,9 @@ fn inspected(changes: &[(&str, &str)]) -> (Vec<Taken>, Vec<Declaration>) {
     loaded.check().expect("it can be flown");
     let mut trial = Trial::assemble(&loaded, 1).expect("a run");
     let (mut taken, mut believed) = (Vec::new(), Vector2::zeros());
-    while trial.step() {
+    let mut goes_on = true;
+    while goes_on {
+        goes_on = trial.step();
         let world = &mut trial.simulation.world;
         let t_s = world.resource::<world::clock::Clock>().t_s();
         let mut robots = world.query::<(&Truth, &Estimate, &Readings)>();
