@@ -254,13 +254,13 @@ mod tests {
     #[test]
     fn thrusters_count_as_saturated_only_if_they_stay_so() {
         let strained = Abnormality::ThrustersSaturated;
-        assert_eq!(events(strained, |t| Some(t % 4 != 0), 100), []);
+        assert_eq!(events(strained, |t| Some(!t.is_multiple_of(4)), 100), []);
         assert_eq!(
             events(strained, |t| Some((3..=20).contains(&t)), 100),
             [(3.0, 17.0, true)]
         );
         // Once it counts, what comes and goes is still the same event.
-        let first = |t: u32| Some(t < 12 || t < 40 && t % 3 == 0);
+        let first = |t: u32| Some(t < 12 || (t < 40 && t.is_multiple_of(3)));
         assert_eq!(events(strained, first, 100), [(0.0, 39.0, true)]);
     }
 
