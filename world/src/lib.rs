@@ -21,6 +21,7 @@ pub mod physics;
 pub mod ranges;
 pub mod registry;
 pub mod seeds;
+pub mod spelling;
 pub mod stage;
 pub mod terrain;
 pub mod units;

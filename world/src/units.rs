@@ -8,6 +8,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 /// Standard gravity used throughout, m/s².
 pub const GRAVITY_M_S2: f64 = 9.81;
 
+/// Density of sea water where none is given, kg/m³.
+pub const SEA_WATER_KG_M3: f64 = 1025.0;
+
 /// kg/m³ in one µg/L.
 pub const KG_M3_PER_UG_L: f64 = 1e-6;
 

@@ -29,6 +29,15 @@ impl Pilot {
         }
     }
 
+    /// Whether a thruster was at its limit in the last step; `None` without an allocation among thrusters.
+    #[must_use]
+    pub fn saturated(&self) -> Option<bool> {
+        match self {
+            Self::Drives(pilot, _) => pilot.saturated(),
+            Self::Fins(_) | Self::Rates(_) => None,
+        }
+    }
+
     /// Set-points of the drives for the coming `dt_s`.
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> Actuation {
         match self {

@@ -15,7 +15,8 @@
 //! vehicle's side, and leads into the down-flow leaf. A last line back to the point closes the last leaf. Each
 //! repetition takes the present centre and flow. Corners are held 10 m inside the area. At the end the behaviour
 //! empties the list of lost points, as the bowties do, so that the next search begins at a new point; the queue of
-//! last detection points stays.
+//! last detection points stays. If the vehicle turns wider than `turn_radius_m`, leaves that are too short for its
+//! turns are lengthened to the bound.
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};
@@ -84,6 +85,7 @@ pub struct Cloverleaf {
     repetitions: u32,
     leaves: u32,
     leaf_m: f64,
+    turn_radius_m: f64,
     arrive_m: f64,
     /// Corners started since it was entered.
     begun: u32,
@@ -120,6 +122,7 @@ impl Cloverleaf {
             repetitions: params.repetitions.get(),
             leaves,
             leaf_m: params.leaf_m.get(),
+            turn_radius_m: params.turn_radius_m.get(),
             arrive_m: params.arrive_m.get(),
             begun: 0,
             first: Heading::from_deg(0.0),
@@ -135,13 +138,23 @@ impl Cloverleaf {
         }
         let way = (number / 2) % self.leaves;
         let round = TAU * f64::from(way) / f64::from(self.leaves);
-        let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m;
+        let along = self.first.turned(self.turn.sign() * round).unit() * self.leaf_m(seen);
         let from_centre = if number.is_multiple_of(2) {
             -along
         } else {
             along
         };
         inside(&seen.area, self.centre + from_centre, MARGIN_M)
+    }
+
+    /// Length of a leaf's sides, m: with room for the vehicle's own turns.
+    fn leaf_m(&self, seen: &Observation) -> f64 {
+        let own_m = seen.able.turning_radius_m;
+        if own_m > self.turn_radius_m {
+            self.leaf_m.max(own_m / math::tan(half_leaf(self.leaves)))
+        } else {
+            self.leaf_m
+        }
     }
 
     /// Number of corners in all repetitions, with the one that leads back along the last leaf's second side.
@@ -269,6 +282,31 @@ mod tests {
         let found = corners(&params, &mut memory(v(10.0, 20.0), 0.0), v(8.0, 40.0));
         assert!((found[1] - v(10.0 + d, 20.0 - d)).norm() < 1e-9);
         assert!((found[3] - v(10.0 + d, 20.0 + d)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn leaves_have_room_for_the_vehicle_s_own_turns() {
+        let length = |leaves: u32, able_m: f64| {
+            let params = Params {
+                leaves: NonZeroU32::new(leaves).expect("not zero"),
+                leaf_m: Positive::new(30.0),
+                ..Params::default()
+            };
+            let mut b = Cloverleaf::new(&params).expect("legal");
+            let mut o = seen(0.0, v(0.0, 5.0), 0.0, None);
+            o.able.turning_radius_m = able_m;
+            let mut m = memory(v(0.0, 0.0), 0.0);
+            match b.step(&o, false, &mut m, &mut Stream::new(1, "t", "t")) {
+                Stride::Start(Manoeuvre::GoToPoint { point, .. }) => point.norm(),
+                other => panic!("{other:?}"),
+            }
+        };
+        for able_m in [0.0, 15.0, 29.0] {
+            assert!((length(4, able_m) - 30.0).abs() < 1e-9, "{able_m}");
+        }
+        assert!((length(4, 40.0) - 40.0).abs() < 1e-9);
+        // Wider leaves need less.
+        assert!((length(6, 60.0) - 60.0 / 3f64.sqrt()).abs() < 1e-9);
     }
 
     #[test]

@@ -7,6 +7,7 @@ use crate::handoff::{DriveUnit, NamedDrive};
 use crate::sense::SensorsSpec;
 use world::limits::{Limited, range};
 use world::ranges::Finite;
+use world::spelling::choose;
 
 /// A mistake in the faults of a robot.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -112,8 +113,7 @@ fn misfit(
         }
         let names: Vec<&str> = all.iter().map(|d| d.name.as_str()).collect();
         let problem = format!("the vehicle has no drive \"{name}\"");
-        let help = format!("its drives: {}", names.join(", "));
-        return Some((Some("link"), problem, help));
+        return Some((Some("link"), problem, choose(name, &names, "drives")));
     };
     let DriveFault::StuckAt(at) = how else {
         return None;

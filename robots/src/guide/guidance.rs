@@ -21,6 +21,7 @@ use crate::handoff::{
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
 use world::area::Area;
+use world::ranges::Positive;
 use world::units::Heading;
 
 /// A line shorter than this has no direction, m.
@@ -80,6 +81,15 @@ impl Guidance {
     #[must_use]
     pub fn hovering(mut self, hovers: bool) -> Self {
         self.hovers = hovers;
+        self
+    }
+
+    /// The same for a vehicle whose tightest turn has this radius, m: paths are not planned tighter.
+    #[must_use]
+    pub fn turning(mut self, radius_m: f64) -> Self {
+        if radius_m > self.spec.turn_radius_m.get() {
+            self.spec.turn_radius_m = Positive::new(radius_m);
+        }
         self
     }
 

@@ -169,9 +169,9 @@ pub struct PictureEvidence {
     pub pictures: u32,
     /// How many more said nothing: empty, black, white or flat.
     pub useless: u32,
-    /// Lines flown for them.
+    /// Lines flown for them, or points held.
     pub lines: u32,
-    /// Altitude of the lowest line, m.
+    /// Altitude of the lowest line or point, m.
     pub lowest_m: f64,
     /// Visibility that they show, m; `None` without a picture.
     pub visibility_m: Option<f64>,

@@ -5,8 +5,10 @@
 //!
 //! *Parameters*: see [`InspectSpec`].
 //!
-//! *Deviations*: each place is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and
-//! declared again with the survey's verdict. The mission is completed after the last place, on the spot.
+//! *Deviations*: a vehicle that hovers holds over the place for its pictures (`survey/holds.rs`): over the middle of
+//! each line that others fly, or, if pictures are added up, over the points that show what is still unseen. Each place
+//! is declared when the vehicle has come within [`NEAR_M`] of it, by the rule `told`, and declared again with the
+//! survey's verdict. The mission is completed after the last place, on the spot.
 
 use super::spec::{Strategy, StrategyParams, VerticalSpec};
 use super::survey::{AfterDeclaration, PostDeclaration, Progress, SurveySpec};
@@ -26,6 +28,8 @@ use world::seeds::Stream;
 
 /// The survey begins within this distance of a place, m: room for a turn before the first line.
 const NEAR_M: f64 = 40.0;
+/// Most pictures over a point.
+const MOST_HELD: u32 = 50;
 /// Rule name of the declarations.
 const TOLD: &str = "told";
 
@@ -37,12 +41,19 @@ pub struct InspectSpec {
     pub places: Vec<ToldSpec>,
     /// How each is surveyed.
     pub survey: SurveySpec,
+    /// Pictures that a vehicle that hovers takes over each point that it holds, from 1 to 50. Others fly lines.
+    #[serde(default = "held_pictures")]
+    pub held_pictures: u32,
     /// Speed over ground, m/s.
     #[serde(default = "speed")]
     pub speed_m_s: Positive,
     /// Altitude or depth between the places.
     #[serde(default = "vertical")]
     pub vertical: VerticalSpec,
+}
+
+fn held_pictures() -> u32 {
+    10
 }
 
 fn speed() -> Positive {
@@ -117,13 +128,19 @@ impl Inspect {
             });
         }
         spec.survey.check("strategy.survey")?;
+        if !(1..=MOST_HELD).contains(&spec.held_pictures) {
+            return Err(RobotError::Invalid {
+                field: "strategy.held_pictures".into(),
+                problem: format!("must be from 1 to {MOST_HELD}, got {}", spec.held_pictures),
+            });
+        }
         let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
         let vertical = spec.vertical.into();
         let after = AfterDeclaration::Survey(Box::new(spec.survey.clone()));
         Ok(Self {
             places: spec.places.iter().map(place).collect(),
             vertical,
-            post: PostDeclaration::new(&after)?,
+            post: PostDeclaration::new(&after)?.held(spec.held_pictures),
             now: 0,
             surveying: false,
             goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
@@ -242,6 +259,7 @@ mod tests {
                 verify: Verify::Camera,
                 ..SurveySpec::default()
             },
+            held_pictures: held_pictures(),
             speed_m_s: speed(),
             vertical: vertical(),
         }
@@ -291,6 +309,10 @@ mod tests {
     fn without_places_or_with_parts_that_contradict_each_other_it_is_refused() {
         let none = Inspect::new(&spec(&[])).unwrap_err().to_string();
         assert_eq!(none, "strategy.places: must have at least 1 place, got 0");
+        let mut none = spec(&[[0.0, 0.0]]);
+        none.held_pictures = 0;
+        let said = Inspect::new(&none).unwrap_err().to_string();
+        assert_eq!(said, "strategy.held_pictures: must be from 1 to 50, got 0");
         let mut blind = spec(&[[0.0, 0.0]]);
         blind.survey.camera = None;
         let said = Inspect::new(&blind).unwrap_err().to_string();

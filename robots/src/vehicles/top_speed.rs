@@ -5,14 +5,12 @@ use crate::handoff::ActuatorCommand;
 use nalgebra::{Matrix3, Vector3};
 use world::fields::WaterSample;
 use world::frames::{Pose, Truth};
-use world::units::Heading;
+use world::units::{Heading, SEA_WATER_KG_M3};
 
 /// Time from rest to a steady speed, s: some ten times a hull's time constant.
 const RUN_UP_S: f64 = 60.0;
 /// Step, s.
 const STEP_S: f64 = 0.02;
-/// Density of sea water, kg/m³.
-const WATER_KG_M3: f64 = 1025.0;
 
 impl Vehicle {
     /// Greatest speed through still water with the propeller at `rpm`, or at its own limit, m/s: where thrust and
@@ -24,7 +22,7 @@ impl Vehicle {
             velocity: Vector3::zeros(),
             gradient: Matrix3::zeros(),
             rate: Vector3::zeros(),
-            density_kg_m3: WATER_KG_M3,
+            density_kg_m3: SEA_WATER_KG_M3,
         };
         let ahead = ActuatorCommand {
             rpm,

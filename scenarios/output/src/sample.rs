@@ -198,6 +198,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                     water_speed_m_s: 2.0,
                     vertical: Vertical::Altitude(2.0),
                 })),
+                keeps_height: true,
                 actuators: Actuation::default(),
                 chemical: Some(ChemicalReading {
                     volts: 5.0 * of_full_scale,

@@ -66,6 +66,23 @@ pub struct Consultations {
     pub nonsense: u64,
 }
 
+/// How long a searcher's thrusters were at their limits.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Saturation {
+    /// Time with a thruster at its limit, s.
+    pub saturated_s: f64,
+    /// Time for which it was counted, s.
+    pub counted_s: f64,
+}
+
+impl Saturation {
+    /// Share of the time.
+    #[must_use]
+    pub fn share(&self) -> f64 {
+        self.saturated_s / self.counted_s
+    }
+}
+
 /// The score of one searcher.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearcherScore {
@@ -93,6 +110,8 @@ pub struct SearcherScore {
     pub energy: Option<Energy>,
     /// How often it asked a searcher outside this program; `None` if it never did.
     pub consulted: Option<Consultations>,
+    /// Its thrusters; `None` of a vehicle whose autopilot shares out no forces among thrusters.
+    pub saturation: Option<Saturation>,
     /// Where it was last.
     last: Option<Vector3<f64>>,
 }
@@ -112,6 +131,7 @@ impl SearcherScore {
             greatest_position_error_m: 0.0,
             energy: None,
             consulted: None,
+            saturation: None,
             last: None,
         }
     }
@@ -154,6 +174,15 @@ impl SearcherScore {
             counted_s: t_s,
             emptied_s: emptied_s.or(battery.is_empty().then_some(t_s)),
         });
+    }
+
+    /// For a step of `dt_s` a thruster was at its limit, or none.
+    pub fn allotted(&mut self, saturated: bool, dt_s: f64) {
+        let sum = self.saturation.get_or_insert_default();
+        sum.counted_s += dt_s;
+        if saturated {
+            sum.saturated_s += dt_s;
+        }
     }
 
     /// It declares. A declaration of the same number takes the place of the earlier one.
@@ -224,6 +253,11 @@ mod tests {
         assert_eq!(score.searchers[near].travelled_m, 9.0);
         assert_eq!(score.searchers[idle].closest_m, f64::INFINITY);
         let one = &mut score.searchers[near];
+        assert_eq!(one.saturation, None);
+        for saturated in [true, false, false, true] {
+            one.allotted(saturated, 0.5);
+        }
+        assert_eq!(one.saturation.map(|s| s.share()), Some(0.5));
         one.detected(1.0, Vector2::new(3.0, 0.0));
         one.detected(2.0, Vector2::new(6.0, 0.0));
         assert_eq!((one.detections, one.traced_m()), (2, None));

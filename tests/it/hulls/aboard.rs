@@ -2,13 +2,12 @@
 
 use super::kit::shipped;
 use rheotaxis::registry::Registry;
-use rheotaxis::scenario::{Beside, CATALOG, load_text, template};
+use rheotaxis::scenario::{Beside, load_text, template};
 use rheotaxis::trial::Trial;
 use robots::handoff::Readings;
 use robots::sense::Sensors;
 use robots::vehicles::{Craft, SHIPPED, VehicleSpec};
 use std::path::Path;
-use world::ranges::{NonNegative, Positive};
 
 #[test]
 fn every_shipped_vehicle_has_a_mount_for_every_instrument() {
@@ -77,43 +76,4 @@ fn an_instrument_reads_from_where_its_link_is() {
     let difference = reads(&other) - reads(&urdf);
     // The reading has noise, the same in both runs but for its rounding.
     assert!((difference - 0.25).abs() < 0.02, "{difference}");
-}
-
-/// Every scenario of the catalogue with a REMUS runs with a BlueROV2 Heavy and with a LAUV in its place, or `check`
-/// says why not.
-#[test]
-fn the_catalogue_runs_with_other_hulls() {
-    let mut ran = 0;
-    for template in CATALOG.iter().filter(|t| t.text.contains("Remus100(")) {
-        for hull in ["bluerov2_heavy", "lauv"] {
-            let mut text = template.text.to_string();
-            while let Some(at) = text.find("Remus100(") {
-                let end = at + text[at..].find(')').expect("its end") + 1;
-                text.replace_range(at..end, &format!("Shipped(\"{hull}\")"));
-            }
-            let folder = template.unpack().expect("its files");
-            let loaded = load_text(&Registry::default(), template.name, &text);
-            let mut loaded = match loaded {
-                Ok(loaded) => loaded,
-                Err(why) => panic!("{} with {hull}: {:?}", template.name, why.lines()),
-            };
-            loaded.base_dir = folder;
-            if let Err(why) = loaded.check() {
-                let lines = why.lines().join("; ");
-                assert!(
-                    lines.contains("robots["),
-                    "{} with {hull}: {lines}",
-                    template.name
-                );
-                continue;
-            }
-            let time = &mut loaded.scenario.time;
-            time.spin_up_s = NonNegative::new(time.spin_up_s.get().min(10.0));
-            time.limit_s = Positive::new(10.0);
-            let ended = Trial::assemble(&loaded, 1).expect("a run").finish_quietly();
-            assert!(ended.steps > 0, "{} with {hull}", template.name);
-            ran += 1;
-        }
-    }
-    assert!(ran > 30, "{ran}");
 }

@@ -53,6 +53,18 @@ fn an_empty_battery_stops_the_drives() {
     let energy = &empty["robots"][0]["energy"];
     let emptied_s = energy["emptied_s"].as_f64().expect("it was emptied");
     assert!((5.0..60.0).contains(&emptied_s), "{energy}");
+    let told = |run: &serde_json::Value| {
+        let events = run["abnormal"].as_array().expect("a list").clone();
+        let empty = |e: &serde_json::Value| e["what"] == "battery_empty";
+        events.into_iter().filter(empty).collect::<Vec<_>>()
+    };
+    assert!(told(&full).is_empty());
+    let [event] = &told(&empty)[..] else {
+        panic!("{}", empty["abnormal"]);
+    };
+    let began_s = event["t_s"].as_f64().expect("a time");
+    assert!((began_s - emptied_s).abs() < 1.0, "{event}");
+    assert_eq!(event["over"], false);
     let way = |s: &serde_json::Value| s["robots"][0]["travelled_m"].as_f64().expect("a way");
     // It coasts to rest in the water and drifts with 0.2 m/s.
     assert!(

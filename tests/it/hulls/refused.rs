@@ -151,6 +151,12 @@ fn drives_on_links_that_are_not_there_are_refused() {
         ],
     );
     says(
+        &refused(&[("link: \"propeller\"", "link: \"propelar\"")], &[]),
+        &[
+            "drives[0].link: no link \"propelar\" in the URDF; did you mean `propeller`? links here: ",
+        ],
+    );
+    says(
         &refused(&[("Newtons(-50, 50)", "Newtons(5, 50)")], &[]),
         &["drives[0].curve", "thrust <= 0"],
     );

@@ -113,6 +113,7 @@ pub(super) fn frame(step: u64) -> Frame {
             water_speed_m_s: 2.0,
             vertical,
         })),
+        keeps_height: true,
         actuators: Actuation::default(),
         chemical: Some(ChemicalReading {
             volts: 1.0,

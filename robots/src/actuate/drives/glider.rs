@@ -16,6 +16,7 @@
 use crate::handoff::{Command, Does, DriveCommand, Estimate, GliderSpec, Plant};
 use nalgebra::Vector3;
 use world::math;
+use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 
 /// Commanded turn rate for each rad of heading error, 1/s.
 const HEADING_1_S: f64 = 0.05;
@@ -23,9 +24,6 @@ const HEADING_1_S: f64 = 0.05;
 const RUDDER_S: f64 = 4.0;
 /// Time in which the pitch's integral would move the mass as far as the pitch itself, s.
 const TRIM_S: f64 = 40.0;
-/// Sea water, kg/m³, and standard gravity, m/s².
-const WATER_KG_M3: f64 = 1025.0;
-const GRAVITY_M_S2: f64 = 9.81;
 
 /// The autopilot.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +84,7 @@ impl GliderPilot {
                     let weight = kg * GRAVITY_M_S2;
                     let (sin, cos) = math::sin_cos(pitch);
                     let righting = self.plant.righting_n_m;
-                    let lift = WATER_KG_M3 * GRAVITY_M_S2 * engine.x;
+                    let lift = SEA_WATER_KG_M3 * GRAVITY_M_S2 * engine.x;
                     // A mass ahead puts the nose down.
                     let x = (lift - righting * sin / cos) / weight
                         - righting / weight / TRIM_S * self.sum;

@@ -35,6 +35,15 @@ impl DrivePilot {
         }
     }
 
+    /// Whether a thruster was at its limit in the last step; `None` without an allocation among thrusters.
+    #[must_use]
+    pub fn saturated(&self) -> Option<bool> {
+        match self {
+            Self::Thrusters(pilot) => Some(pilot.saturated()),
+            Self::Torpedo(_) | Self::Glider(_) => None,
+        }
+    }
+
     /// Set-points of the drives for the coming `dt_s`.
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> DriveCommand {
         match self {

@@ -6,11 +6,13 @@
 //!
 //! *Deviations:* a fin turns for the rudder and for the stern plane in proportion to what it does in yaw and in pitch,
 //! so crosses and X tails are steered alike. The propeller's number is a share of full thrust: 1000 is full thrust
-//! ahead, and thrust goes with its square.
+//! ahead, and thrust goes with its square. It is never steered slower than the fins can steer it.
 
 use super::super::autopilot::Autopilot;
 use super::torpedo_gains::{FULL_RPM, gains};
-use crate::handoff::{Command, Does, DriveCommand, Estimate, Plant, ThrustTable, TorpedoSpec};
+use crate::handoff::{
+    Command, Does, DriveCommand, Estimate, Plant, Setpoint, ThrustTable, TorpedoSpec,
+};
 
 /// A fin's part of the mix.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +28,7 @@ struct Mixed {
 #[derive(Clone, Debug, PartialEq)]
 pub struct TorpedoPilot {
     autopilot: Autopilot,
+    least_m_s: f64,
     idle: Vec<f64>,
     fins: Vec<Mixed>,
     propellers: Vec<(usize, f64, ThrustTable)>,
@@ -61,6 +64,7 @@ impl TorpedoPilot {
         }
         Self {
             autopilot: Autopilot::new(&gains(plant, spec)),
+            least_m_s: spec.least_speed_m_s(),
             idle: plant.drives.iter().map(|d| d.idle).collect(),
             fins,
             propellers,
@@ -69,7 +73,14 @@ impl TorpedoPilot {
 
     /// Set-points of all drives for the coming `dt_s`.
     pub fn step(&mut self, command: &Command, estimate: &Estimate, dt_s: f64) -> DriveCommand {
-        let asked = self.autopilot.step(command, estimate, dt_s);
+        let command = match *command {
+            Command::Steer(set) => Command::Steer(Setpoint {
+                water_speed_m_s: set.water_speed_m_s.max(self.least_m_s),
+                ..set
+            }),
+            other => other,
+        };
+        let asked = self.autopilot.step(&command, estimate, dt_s);
         let mut set = self.idle.clone();
         for fin in &self.fins {
             let angle = fin.rudder * asked.rudder_rad + fin.stern * asked.stern_rad;

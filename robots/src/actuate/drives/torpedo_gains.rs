@@ -17,11 +17,10 @@ use super::super::spec::AutopilotSpec;
 use crate::handoff::{Does, Plant, TorpedoSpec};
 use nalgebra::{Matrix2, Vector2, Vector3, Vector6};
 use world::ranges::{NonNegative, Positive};
+use world::units::SEA_WATER_KG_M3;
 
 /// The propeller's number at full thrust.
 pub(super) const FULL_RPM: f64 = 1000.0;
-/// Density for which gains are computed, kg/m³.
-const WATER_KG_M3: f64 = 1025.0;
 /// Turn rate of the steady turn, rad/s.
 const TURN_RAD_S: f64 = 0.05;
 /// Loop of depth at the design speed, 1/s, and time of its integral, s: those of the REMUS.
@@ -75,7 +74,7 @@ fn wrench(plant: &Plant, axis: usize, u: f64) -> Vector6<f64> {
         })
     };
     let most = arms().map(|a| a[axis].abs()).fold(1e-12, f64::max);
-    arms().map(|a| a * (a[axis] / most)).sum::<Vector6<f64>>() * (WATER_KG_M3 * u * u)
+    arms().map(|a| a * (a[axis] / most)).sum::<Vector6<f64>>() * (SEA_WATER_KG_M3 * u * u)
 }
 
 /// Rudder, rad, for each rad/s of a steady turn.
@@ -117,7 +116,7 @@ fn free(plant: &Plant, nu: &Vector6<f64>) -> Vector6<f64> {
         if let Does::Lifts(arm) = &drive.does {
             // The power of its force at 1 rad is that force times the water's speed across it.
             let size = part(arm, 0).norm().max(1e-12);
-            all -= arm * (WATER_KG_M3 * speed * arm.dot(nu) / size);
+            all -= arm * (SEA_WATER_KG_M3 * speed * arm.dot(nu) / size);
         }
     }
     all

@@ -105,6 +105,35 @@ fn a_line_is_entered_with_its_heading_and_left_at_its_end() {
     assert!((b.est.position - to).norm() < 10.0);
 }
 
+/// How far to the side a way round leads, m.
+fn aside(guidance: Guidance) -> f64 {
+    let mut boat = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());
+    boat.guidance = guidance;
+    let round = Manoeuvre::GoToPointWithHeading {
+        point: Vector2::new(0.0, -150.0),
+        heading: Heading::from_deg(180.0),
+    };
+    let (goal, mut most) = (goal(1, round), 0.0f64);
+    for _ in 0..4000 {
+        if boat.step(&goal).done {
+            return most;
+        }
+        most = most.max(boat.est.position.x.abs());
+    }
+    panic!("it did not arrive");
+}
+
+#[test]
+fn no_path_is_planned_tighter_than_the_vehicle_turns() {
+    let guidance = || Guidance::new(&GuidanceSpec::default());
+    // Twice the radius, from which it turns back to the line: 15 m of the guidance's own, and 40 m.
+    let usual = aside(guidance());
+    assert!((25.0..35.0).contains(&usual), "{usual}");
+    assert_eq!(aside(guidance().turning(8.0)), usual, "it can turn tighter");
+    let wide = aside(guidance().turning(40.0));
+    assert!((70.0..85.0).contains(&wide), "{wide}");
+}
+
 #[test]
 fn a_new_id_starts_afresh_and_an_old_one_stays_done() {
     let mut b = Boat::new(Vector2::zeros(), 0.0, Vector2::zeros());

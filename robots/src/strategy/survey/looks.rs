@@ -14,9 +14,11 @@
 //! so far, within the limits; the first is flown at `altitude_m`. The bed's depth is the middle one of the last
 //! seconds, so that a body under the vehicle does not count as bed.
 
+use super::holds::best_point;
 use super::spec::CameraPasses;
 use crate::behave::Passes;
 use crate::handoff::{Observation, PictureEvidence};
+use crate::places::{MARGIN_M, inside};
 use crate::vision::Verifier;
 use crate::vision::place::{AddUpSpec, Answer, Place, SeenClarity, Stand, Weighed};
 use nalgebra::Vector2;
@@ -88,6 +90,9 @@ pub(super) struct Added {
     jumped: Vector2<f64>,
     fixes: (f64, Vector2<f64>),
     bed_m: VecDeque<f64>,
+    /// Whether points are held; otherwise lines are flown.
+    held: bool,
+    /// Lines or points begun.
     lines: u32,
     altitude_m: f64,
     lowest_m: f64,
@@ -108,6 +113,7 @@ impl Added {
             jumped: Vector2::zeros(),
             fixes: (0.0, Vector2::zeros()),
             bed_m: VecDeque::new(),
+            held: false,
             lines: 0,
             altitude_m: highest_m,
             lowest_m: highest_m,
@@ -116,12 +122,18 @@ impl Added {
         }
     }
 
-    /// Begins with a told place; lines lie along `along`, against the flow.
-    pub(super) fn begin(&mut self, told: Vector2<f64>, along: Heading, seen: &Observation) {
+    /// Begins with a told place; lines lie along `along`, against the flow. Points are `held` instead of lines.
+    pub(super) fn begin(
+        &mut self,
+        told: Vector2<f64>,
+        along: Heading,
+        seen: &Observation,
+        held: bool,
+    ) {
         let flow = seen.estimate.flow.map(|f| f.heading());
         let down_flow = flow.unwrap_or_else(|| along.opposite());
         *self = Self::new(&self.spec, self.highest_m);
-        (self.told, self.along) = (told, along);
+        (self.told, self.along, self.held) = (told, along, held);
         self.place = Some(Place::new(&self.spec, told, down_flow));
     }
 
@@ -145,10 +157,14 @@ impl Added {
         let Some(altitude_m) = e.altitude_m else {
             return;
         };
-        if self.bed_m.len() == BED {
-            self.bed_m.pop_front();
+        // Over a held place the body would become the bed.
+        let full = self.bed_m.len() == BED;
+        if !(self.held && full && self.near(seen)) {
+            if full {
+                self.bed_m.pop_front();
+            }
+            self.bed_m.push_back(e.depth_m + altitude_m);
         }
-        self.bed_m.push_back(e.depth_m + altitude_m);
         if on_line {
             let short = self.spec.clearance_m.get() - altitude_m;
             self.raised_m = self.raised_m.max(short);
@@ -207,6 +223,26 @@ impl Added {
         Some(Passes::over(place, along, &[0.0], half_m, &seen.area))
     }
 
+    /// The next point to hold: that from which a picture shows the most of what has not been seen where a source may
+    /// still be; `None` if no more are to be held.
+    pub(super) fn next_point(&mut self, seen: &Observation) -> Option<Vector2<f64>> {
+        if self.lines >= self.spec.most_lines {
+            return None;
+        }
+        self.choose(self.place.as_ref().and_then(Place::clarity));
+        self.lines += 1;
+        let unseen = self.place.as_ref().map_or_else(Vec::new, Place::unseen);
+        let within_m = self.spec.within_m.get() + FARTHER_M;
+        let best = best_point(&unseen, self.middle(), within_m, self.shown_m());
+        Some(inside(&seen.area, best + self.jumped, MARGIN_M))
+    }
+
+    /// How far to the side a picture from the present altitude shows the bed well, m.
+    fn shown_m(&self) -> f64 {
+        let half_view = (0.5 * self.view_rad).min(0.25 * std::f64::consts::PI);
+        STRIP * self.altitude_m * math::tan(half_view)
+    }
+
     /// Chooses the altitude of the next line for the water that the pictures show.
     fn choose(&mut self, water: Option<SeenClarity>) {
         if let Some(water) = water {
@@ -227,9 +263,7 @@ impl Added {
             return 0.0;
         };
         let right = self.along.turned(FRAC_PI_2).unit();
-        let half_view = (0.5 * self.view_rad).min(0.25 * std::f64::consts::PI);
-        let half = STRIP * self.altitude_m * math::tan(half_view);
-        let middle = self.middle();
+        let (half, middle) = (self.shown_m(), self.middle());
         let mass = |offset: f64| -> f64 {
             (weighed.places.iter())
                 .filter(|(p, _)| ((p - middle).dot(&right) - offset).abs() <= half)
@@ -282,7 +316,7 @@ mod tests {
     fn begun(highest_m: f64) -> (Added, Observation) {
         let o = seen(0.0, Vector2::zeros(), 0.0, Some(Vector2::new(0.0, -0.2)));
         let mut added = Added::new(&AddUpSpec::default(), highest_m);
-        added.begin(Vector2::new(10.0, 20.0), Heading::from_deg(0.0), &o);
+        added.begin(Vector2::new(10.0, 20.0), Heading::from_deg(0.0), &o, false);
         (added, o)
     }
 

@@ -10,19 +10,22 @@
 //! are towed at 10 to 20 %).
 //!
 //! *Deviations*: what is not printed is ours: the order, the rule; that pictures may be added up (`looks.rs`), which
-//! may leave it open whether there is a source. Detections are ignored during a survey. A picture
+//! may leave it open whether there is a source; that a vehicle that hovers may hold over told places (`holds.rs`). Detections are ignored during a survey. A picture
 //! that verifies the source ends the camera's passes. If the declared place and the sidescan's differ, the
 //! declaration keeps its own and carries the other.
 
+use super::holds::{Flown, Holding, Holds};
 use super::looks::Looks;
 use super::spec::{AfterDeclaration, SurveySpec, Verify};
 use crate::behave::Passes;
 use crate::behave::Stride;
 use crate::error::RobotError;
 use crate::handoff::{Behaviour, Declaration, Observation, Verdict, Vertical};
+use crate::places::{MARGIN_M, inside};
 use crate::survey::{Object, Waterfall, detect, merge};
 use crate::vision::place::Answer;
 use nalgebra::Vector2;
+use std::f64::consts::FRAC_PI_2;
 use world::units::Heading;
 
 /// Cell of the sidescan's picture, m.
@@ -56,7 +59,9 @@ pub struct PostDeclaration {
     phase: SurveyPhase,
     declaration: Option<Declaration>,
     along: Heading,
-    passes: Passes,
+    flown: Flown,
+    /// Pictures over each point, if a vehicle that hovers holds over points; otherwise it flies lines.
+    held: Option<u32>,
     /// The line being imaged and its picture.
     line: Option<(usize, Waterfall)>,
     objects: Vec<Object>,
@@ -83,13 +88,22 @@ impl PostDeclaration {
             phase: SurveyPhase::None,
             declaration: None,
             along: Heading::from_deg(0.0),
-            passes: Passes::default(),
+            flown: Flown::nothing(),
+            held: None,
             line: None,
             objects: Vec::new(),
             by_sidescan: None,
             picture: false,
             asked_s: None,
         })
+    }
+
+    /// The same for told places: a vehicle that hovers takes `pictures` over each point instead of flying lines for the
+    /// camera.
+    #[must_use]
+    pub(crate) fn held(mut self, pictures: u32) -> Self {
+        self.held = Some(pictures);
+        self
     }
 
     /// Takes in a declared source; `along` is the direction of the lines, up-flow. Returns the declaration with its
@@ -133,31 +147,60 @@ impl PostDeclaration {
             SurveyPhase::Camera => s.camera.as_ref().map(|p| (&p.offsets_m, p.half_length_m)),
             SurveyPhase::None => None,
         });
-        self.passes = flown.map_or_else(Passes::default, |(offsets, half)| {
+        let offsets = flown.map(|(offsets, half)| {
             let offsets: Vec<f64> = offsets.iter().map(|o| o.get()).collect();
-            Passes::over(place, self.along, &offsets, half.get(), &seen.area)
+            (offsets, half.get())
         });
         self.phase = phase;
+        let holding = self.holding(seen).filter(|_| phase == SurveyPhase::Camera);
+        self.flown = match (offsets, holding) {
+            (None, _) => Flown::nothing(),
+            (Some((offsets, half_m)), None) => {
+                let area = &seen.area;
+                Flown::Lines(Passes::over(place, self.along, &offsets, half_m, area))
+            }
+            (Some((offsets, _)), Some(holding)) => {
+                let right = self.along.turned(FRAC_PI_2).unit();
+                let points = offsets.iter().map(|o| place + right * *o);
+                let points = points.map(|p| inside(&seen.area, p, MARGIN_M)).collect();
+                Flown::Points(Holds::new(points, holding))
+            }
+        };
         if phase == SurveyPhase::Camera
             && let Some(Looks::Added(added)) = &mut self.looks
         {
-            added.begin(place, self.along, seen);
-            self.passes = Passes::default();
+            added.begin(place, self.along, seen, holding.is_some());
+            self.flown = Flown::nothing();
             self.fly_on(seen);
         }
     }
 
-    /// Begins the next line that added-up pictures ask for; false if there is none.
+    /// How points are held; `None` if lines are flown for the camera.
+    fn holding(&self, seen: &Observation) -> Option<Holding> {
+        let pictures = self.held.filter(|_| seen.able.hovers)?;
+        Some(Holding {
+            pictures,
+            period_s: self.spec()?.camera.as_ref()?.period_s.get(),
+            heading: self.along,
+        })
+    }
+
+    /// Begins the next line or point that added-up pictures ask for; false if there is none.
     fn fly_on(&mut self, seen: &Observation) -> bool {
+        let holding = self.holding(seen);
         let half = self.spec().and_then(|s| s.camera.as_ref());
         let (Some(half_m), Some(Looks::Added(added))) =
             (half.map(|c| c.half_length_m.get()), &mut self.looks)
         else {
             return false;
         };
-        let line = added.next_line(half_m, seen);
-        let some = line.is_some();
-        self.passes = line.unwrap_or_default();
+        let next = match holding {
+            None => added.next_line(half_m, seen).map(Flown::Lines),
+            Some(holding) => (added.next_point(seen))
+                .map(|point| Flown::Points(Holds::new(vec![point], holding))),
+        };
+        let some = next.is_some();
+        self.flown = next.unwrap_or_else(Flown::nothing);
         some
     }
 
@@ -167,8 +210,7 @@ impl PostDeclaration {
             return Progress::Go(Stride::Over);
         };
         self.picture = false;
-        let course = Heading::of(seen.estimate.v_ground());
-        let on = self.passes.on_line(seen.estimate.position, course);
+        let on = self.flown.on(seen, self.vertical());
         match self.phase {
             SurveyPhase::Sidescan => self.image(seen, on),
             SurveyPhase::Camera => self.look(seen, on),
@@ -182,7 +224,7 @@ impl PostDeclaration {
             let stride = if enough {
                 Stride::Over
             } else {
-                self.passes.step(arrived)
+                self.flown.step(seen, arrived)
             };
             if stride != Stride::Over {
                 return Progress::Go(stride);
@@ -299,6 +341,9 @@ impl PostDeclaration {
         else {
             return;
         };
+        if seen.picture.is_some() {
+            self.flown.took();
+        }
         let near = match &mut self.looks {
             Some(Looks::Single(verifier, saw)) => {
                 if let Some(picture) = &seen.picture {

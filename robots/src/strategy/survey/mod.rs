@@ -1,5 +1,6 @@
 //! What follows a declaration: going home, a stop, or a survey of the declared place. Every strategy can include it.
 
+mod holds;
 mod looks;
 mod machine;
 mod spec;

@@ -12,6 +12,7 @@ use crate::vehicles::dynamics::flip;
 use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use world::frames::Pose;
+use world::spelling::choose;
 
 /// The drives on their links.
 pub(super) fn drives(
@@ -35,10 +36,8 @@ fn drive(spec: &DriveSpec, links: &BTreeMap<String, Pose>) -> Result<Drive, Stri
     let at = |link: &str| {
         links.get(link).copied().ok_or_else(|| {
             let near: Vec<&str> = links.keys().map(String::as_str).collect();
-            format!(
-                "link: no link \"{link}\" in the URDF; it has {}",
-                near.join(", ")
-            )
+            let hint = choose(link, &near, "links");
+            format!("link: no link \"{link}\" in the URDF; {hint}")
         })
     };
     let axis = |pose: &Pose, axis: Vector3<f64>| flip(pose.R_WB * axis);

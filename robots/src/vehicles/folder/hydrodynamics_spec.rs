@@ -74,7 +74,7 @@ pub type Rows = (Row, Row, Row, Row, Row, Row);
 pub type Row = (Finite, Finite, Finite, Finite, Finite, Finite);
 
 fn sea() -> Positive {
-    Positive::new(1025.0)
+    Positive::new(world::units::SEA_WATER_KG_M3)
 }
 
 fn gravity() -> Positive {

@@ -14,6 +14,7 @@ use crate::handoff::{Capabilities, Does, PilotSpec, Plant, PlantDrive};
 use crate::vehicles::drives::{Drive, Fin, Kind};
 use crate::vehicles::dynamics::{Equation, turned};
 use nalgebra::{DMatrix, Vector3, Vector6};
+use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 
 /// Least share of the thrusters' summed force that counts as a push in a direction.
 const WORTH: f64 = 0.05;
@@ -150,8 +151,7 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
             }
         }
         PilotSpec::Torpedo(spec) => Capabilities {
-            // Fins have a quarter of their force at half the design speed.
-            least_speed_m_s: 0.5 * spec.design_speed_m_s.get(),
+            least_speed_m_s: spec.least_speed_m_s(),
             top_speed_m_s,
             turning_radius_m: spec.design_speed_m_s.get()
                 / spec.heading_rate_deg_s.get().to_radians(),
@@ -181,8 +181,7 @@ fn glide_m_s(plant: &Plant, pitch_deg: f64, share: f64) -> f64 {
         Does::Swells(_) => d.limits[1],
         _ => 0.0,
     });
-    // Sea water and standard gravity: an estimate for tables.
-    let force = 1025.0 * 9.81 * volume.sum::<f64>() * share;
+    let force = SEA_WATER_KG_M3 * GRAVITY_M_S2 * volume.sum::<f64>() * share;
     let (sin, cos) = world::math::sin_cos(pitch_deg.to_radians());
     let d = &plant.damping;
     let (linear, quadratic) = (d[0][(0, 0)], d[1][(0, 0)] + d[2][(0, 0)]);

@@ -107,11 +107,7 @@ pub(super) fn weigh(
     };
     let boxes = mosaic.boxes();
     let spread = spread(&boxes);
-    let box_at = |p: Vector2<f64>| {
-        let [x, y] =
-            [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
-        boxes.at(x, y)
-    };
+    let box_at = |p: Vector2<f64>| box_about(mosaic, &boxes, p);
     let ways = TURNS_DEG.map(|t| down_flow.turned(t.to_radians()).unit());
     for (p, log) in &mut places {
         let body = box_at(*p).map_or(0.0, |b| {
@@ -148,6 +144,31 @@ pub(super) fn weigh(
         best: best.filter(|(_, log)| *log > 0.0).map(|(p, _)| p),
         places,
     }
+}
+
+/// What of the template no picture shows, for a source at each of `places`: where it is, and the likelihood ratio of
+/// the source's place.
+pub(super) fn unseen(
+    mosaic: &Mosaic,
+    places: &[(Vector2<f64>, f64)],
+    down_flow: Heading,
+) -> Vec<(Vector2<f64>, f64)> {
+    let boxes = mosaic.boxes();
+    let metres = [0.0].into_iter().chain(DYED_M.into_iter().flatten());
+    let metres: Vec<f64> = metres.chain(CLEAN_M.into_iter().flatten()).collect();
+    let parts = places.iter().flat_map(|(p, log)| {
+        let weight = math::exp(*log);
+        (metres.iter()).map(move |m| (*p + down_flow.unit() * *m, weight))
+    });
+    parts
+        .filter(|(at, _)| box_about(mosaic, &boxes, *at).is_none())
+        .collect()
+}
+
+/// The box about a place; `None` if too little of it has been seen.
+fn box_about(mosaic: &Mosaic, boxes: &Boxes, p: Vector2<f64>) -> Option<Boxed> {
+    let [x, y] = [0, 1].map(|k| (p[k] / mosaic.cell_m).floor() as i64 - i64::from(mosaic.low[k]));
+    boxes.at(x, y)
 }
 
 /// Places on a square grid within a circle, with nothing known of them.

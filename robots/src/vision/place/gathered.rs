@@ -8,7 +8,7 @@
 //! `shift_m` against the navigation.
 
 use super::clarity::SeenClarity;
-use super::evidence::{Limits, REACH_M, Weighed, weigh};
+use super::evidence::{Limits, REACH_M, Weighed, unseen, weigh};
 use super::ground::{Patch, Stand};
 use super::mosaic::Mosaic;
 use super::photometry::Useless;
@@ -104,6 +104,15 @@ impl Place {
         let all = self.patches.iter().map(|(p, shift)| (p, *shift));
         let water = self.clarity?;
         Some(Mosaic::of(all, &water, cell_m, middle, reach_m))
+    }
+
+    /// What no picture shows of sources that may be here: where it is (east, north, m), weighted by how likely the
+    /// pictures make each source. Empty without any picture.
+    #[must_use]
+    pub fn unseen(&self) -> Vec<(Vector2<f64>, f64)> {
+        self.mosaic().map_or_else(Vec::new, |mosaic| {
+            unseen(&mosaic, &self.weigh().places, self.down_flow)
+        })
     }
 
     /// What the pictures say.

@@ -135,6 +135,7 @@ pub(super) mod tests {
             estimate,
             goal: None,
             command: None,
+            keeps_height: true,
             actuators: Actuation::default(),
             chemical: None,
             detected: false,

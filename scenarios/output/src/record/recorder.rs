@@ -201,18 +201,14 @@ impl Recorder {
             )?;
         }
         let asked = match r.command {
-            Some(Command::Steer(s)) => Some((s.heading, s.water_speed_m_s, s.vertical, None)),
+            Some(Command::Steer(s)) => Some((s.heading, s.water_speed_m_s, None)),
             Some(Command::Move(s)) => {
                 let v = s.over_ground_m_s;
-                Some((s.heading, v.norm(), s.vertical, Some(v)))
+                Some((s.heading, v.norm(), Some(v)))
             }
             Some(Command::Direct(_) | Command::Drives(_)) | None => None,
         };
-        if let Some((heading, speed_m_s, vertical, over_ground)) = asked {
-            let (name, height) = match vertical {
-                Vertical::Altitude(m) => ("command/altitude_m", m),
-                Vertical::Depth(m) => ("command/depth_m", m),
-            };
+        if let Some((heading, speed_m_s, over_ground)) = asked {
             put(
                 "command/heading_rad",
                 MessageKind::Float64,
@@ -229,6 +225,12 @@ impl Recorder {
                     put("command/north_m_s", MessageKind::Float64, &float64(v.y))?;
                 }
             }
+        }
+        if let Some(vertical) = r.asked_height() {
+            let (name, height) = match vertical {
+                Vertical::Altitude(m) => ("command/altitude_m", m),
+                Vertical::Depth(m) => ("command/depth_m", m),
+            };
             put(name, MessageKind::Float64, &float64(height))?;
         }
         if self.behaviours[k] != r.behaviour.name() {

@@ -169,6 +169,9 @@ pub struct RobotSummary {
     /// How often it asked a searcher outside the program; `None` if it never did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub consulted: Option<Consultations>,
+    /// Share of the time with a thruster at its limit; `None` of a vehicle whose autopilot shares out no forces among
+    /// thrusters.
+    pub saturated: Option<f64>,
     /// Behaviour at the end.
     pub last_behaviour: String,
     /// Time spent in each behaviour, s, in the order of first use.

@@ -184,6 +184,7 @@ impl Robot {
                 emptied_s: e.emptied_s,
             }),
             consulted: score.consulted,
+            saturated: score.saturation.map(|s| s.share()),
             last_behaviour: self.behaviour.name().to_owned(),
             behaviour_s: self
                 .behaviour_s

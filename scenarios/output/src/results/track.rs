@@ -2,7 +2,7 @@
 
 use crate::files::ReportError;
 use rheotaxis::frame::{Frame, RobotFrame};
-use robots::handoff::{Behaviour, Command, Declaration, Layer, Region, Vertical, region_name};
+use robots::handoff::{Behaviour, Declaration, Layer, Region, Vertical, region_name};
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::Arc;
@@ -136,11 +136,7 @@ impl RobotTrack {
             return;
         }
         self.skip = self.stride - 1;
-        let asked = match r.command {
-            Some(Command::Steer(s)) => Some(s.vertical),
-            Some(Command::Move(s)) => Some(s.vertical),
-            _ => None,
-        };
+        let asked = r.asked_height();
         self.rows.push(TrackRow {
             t_s,
             p: [p.x, p.y, p.z],

@@ -19,6 +19,10 @@ use serde::Serialize;
 pub(crate) const OUTSIDE_M: f64 = 10.0;
 /// An instrument without an echo for longer than this is blind, s. In turns and dives it misses a few readings.
 const BLIND_S: f64 = 10.0;
+/// A pause in what must last that does not interrupt it, s.
+const BRIEF_S: f64 = 1.0;
+/// Thrusters at their limits for longer than this no longer hold what is asked for, s; a turn or a gust takes less.
+const STRAINED_S: f64 = 10.0;
 /// Two episodes with a shorter pause between them are one event, s.
 const CALM_S: f64 = 5.0;
 /// Most events of one kind for one robot; later ones prolong the last.
@@ -38,18 +42,24 @@ pub enum Abnormality {
     NoFlow,
     /// It touched the bed or an obstacle.
     Touched,
+    /// A thruster was at its limit: it could not give the force that was asked for.
+    ThrustersSaturated,
+    /// Its battery was empty.
+    BatteryEmpty,
     /// A fault of the scenario began.
     Fault,
 }
 
 impl Abnormality {
     /// Those that are watched for; faults are known beforehand.
-    pub const WATCHED: [Self; 5] = [
+    pub const WATCHED: [Self; 7] = [
         Self::LeftArea,
         Self::NoBottomLock,
         Self::NoAltitude,
         Self::NoFlow,
         Self::Touched,
+        Self::ThrustersSaturated,
+        Self::BatteryEmpty,
     ];
 
     /// In words, for people.
@@ -61,6 +71,8 @@ impl Abnormality {
             Self::NoAltitude => "no altitude",
             Self::NoFlow => "no flow",
             Self::Touched => "touched the bed or an obstacle",
+            Self::ThrustersSaturated => "thrusters saturated",
+            Self::BatteryEmpty => "battery empty",
             Self::Fault => "fault",
         }
     }
@@ -68,8 +80,17 @@ impl Abnormality {
     /// How long it must last to count, s.
     fn patience_s(self) -> f64 {
         match self {
-            Self::LeftArea | Self::Touched | Self::Fault => 0.0,
+            Self::LeftArea | Self::Touched | Self::BatteryEmpty | Self::Fault => 0.0,
+            Self::ThrustersSaturated => STRAINED_S,
             Self::NoBottomLock | Self::NoAltitude | Self::NoFlow => BLIND_S,
+        }
+    }
+
+    /// How long a pause must be that ends an episode, s; of one that counts as an event, or not yet.
+    fn calm_s(self, counts: bool) -> f64 {
+        match self {
+            Self::ThrustersSaturated if !counts => BRIEF_S,
+            _ => CALM_S,
         }
     }
 }
@@ -172,7 +193,10 @@ impl Lookout {
                     });
                 }
             }
-            Some(false) if episode.began.is_some() && t_s - episode.last_s >= CALM_S => {
+            Some(false)
+                if episode.began.is_some()
+                    && t_s - episode.last_s >= what.calm_s(episode.event.is_some()) =>
+            {
                 episode.began = None;
                 if let Some(event) = episode.event {
                     events[event].over = true;
@@ -225,6 +249,19 @@ mod tests {
         // Readings that are not due say nothing.
         let seldom = |t: u32| t.is_multiple_of(4).then_some(t >= 8);
         assert_eq!(events(lost, seldom, 41), [(8.0, 32.0, false)]);
+    }
+
+    #[test]
+    fn thrusters_count_as_saturated_only_if_they_stay_so() {
+        let strained = Abnormality::ThrustersSaturated;
+        assert_eq!(events(strained, |t| Some(!t.is_multiple_of(4)), 100), []);
+        assert_eq!(
+            events(strained, |t| Some((3..=20).contains(&t)), 100),
+            [(3.0, 17.0, true)]
+        );
+        // Once it counts, what comes and goes is still the same event.
+        let first = |t: u32| Some(t < 12 || (t < 40 && t.is_multiple_of(3)));
+        assert_eq!(events(strained, first, 100), [(0.0, 39.0, true)]);
     }
 
     #[test]

@@ -168,7 +168,8 @@ fn spawn(
             Decision::new(Behaviour::Idle, goal),
             Guidance::new(&spec.guidance)
                 .carried(carried)
-                .hovering(able.hovers),
+                .hovering(able.hovers)
+                .turning(able.turning_radius_m),
             Command::Direct(ActuatorCommand::default()),
             GuidanceStatus::default(),
             pilot,

@@ -172,24 +172,21 @@ fn goal(t_s: f64, g: &Goal) -> Value {
 
 fn command(t_s: f64, c: &Command, r: &RobotFrame) -> Value {
     let asked = match c {
-        Command::Steer(s) => {
-            let (vertical, vertical_m) = vertical(s.vertical);
-            json!({
-                "kind": "steer", "heading_rad": s.heading.rad(), "water_speed_m_s": s.water_speed_m_s,
-                "vertical": vertical, "vertical_m": vertical_m,
-            })
-        }
-        Command::Move(s) => {
-            let (vertical, vertical_m) = vertical(s.vertical);
-            json!({
-                "kind": "move", "heading_rad": s.heading.rad(),
-                "east_m_s": s.over_ground_m_s.x, "north_m_s": s.over_ground_m_s.y,
-                "vertical": vertical, "vertical_m": vertical_m,
-            })
-        }
+        Command::Steer(s) => json!({
+            "kind": "steer", "heading_rad": s.heading.rad(), "water_speed_m_s": s.water_speed_m_s,
+        }),
+        Command::Move(s) => json!({
+            "kind": "move", "heading_rad": s.heading.rad(),
+            "east_m_s": s.over_ground_m_s.x, "north_m_s": s.over_ground_m_s.y,
+        }),
         Command::Direct(_) | Command::Drives(_) => json!({"kind": "direct"}),
     };
     let mut said = merged(asked, json!({ "t_s": t_s }));
+    if let Some(height) = r.asked_height() {
+        let (vertical, vertical_m) = vertical(height);
+        said["vertical"] = vertical.into();
+        said["vertical_m"] = vertical_m.into();
+    }
     if let Actuation::Drives(set) = &r.actuators {
         said["drives"] = set.all().into();
         return said;

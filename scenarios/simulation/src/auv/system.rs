@@ -247,7 +247,15 @@ pub(crate) fn digest_robots(
     }
 }
 
+/// Whether a thruster is at its limit; `None` without thrusters to share out among, and with an empty battery.
+fn saturated(pilot: &Pilot, battery: Option<&Battery>) -> Option<bool> {
+    pilot
+        .saturated()
+        .filter(|_| !battery.is_some_and(Battery::is_empty))
+}
+
 type Scored<'a> = (
+    &'a Pilot,
     Option<&'a Battery>,
     &'a SearcherId,
     &'a Truth,
@@ -262,8 +270,8 @@ pub(crate) fn keep_score(
     mut score: ResMut<Score>,
     robots: Query<Scored>,
 ) {
-    for (battery, id, truth, estimate, readings, decision) in robots.iter_many(&roster.0).map(whole)
-    {
+    for parts in robots.iter_many(&roster.0).map(whole) {
+        let (pilot, battery, id, truth, estimate, readings, decision) = parts;
         let p_W = truth.pose.p_WB;
         score.at(id.place, &p_W);
         score.outcome(id.place, decision.outcome);
@@ -274,6 +282,9 @@ pub(crate) fn keep_score(
         if let Some(battery) = battery {
             own.powered(clock.t_next_s(), battery);
         }
+        if let Some(saturated) = saturated(pilot, battery) {
+            own.allotted(saturated, clock.dt_s);
+        }
         own.misplaced((estimate.position - p_W.xy()).norm());
         if readings.chemical.is_some_and(|c| c.detected) {
             own.detected(clock.t_next_s(), p_W.xy());
@@ -281,15 +292,25 @@ pub(crate) fn keep_score(
     }
 }
 
+type Watched<'a> = (
+    &'a SearcherId,
+    &'a Truth,
+    &'a Readings,
+    &'a Hull,
+    &'a Pilot,
+    Option<&'a Battery>,
+    &'a mut Lookout,
+);
+
 pub(crate) fn watch(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
     physics: Res<Physics>,
     mut score: ResMut<Score>,
-    mut robots: Query<(&SearcherId, &Truth, &Readings, &Hull, &mut Lookout)>,
+    mut robots: Query<Watched>,
 ) {
     let events = &mut score.abnormal;
-    for (id, truth, readings, hull, mut lookout) in &mut robots {
+    for (id, truth, readings, hull, pilot, battery, mut lookout) in &mut robots {
         let p = truth.pose.p_WB;
         let outside_m = -ocean.area.edge_distance(p.xy()).0;
         let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
@@ -308,6 +329,11 @@ pub(crate) fn watch(
                 Abnormality::Touched,
                 Some(physics.contacts(hull.body).touching),
             ),
+            (
+                Abnormality::ThrustersSaturated,
+                saturated(pilot, battery).or(pilot.saturated().map(|_| false)),
+            ),
+            (Abnormality::BatteryEmpty, battery.map(Battery::is_empty)),
         ] {
             lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
         }
@@ -352,6 +378,7 @@ pub(crate) fn keep_log(
 
 type Pictured<'a> = (
     &'a SearcherId,
+    &'a Briefing,
     &'a Truth,
     &'a Estimate,
     &'a Decision,
@@ -373,7 +400,7 @@ pub(crate) fn picture(
     };
     let mut each = robots.iter_many_mut(&roster.0);
     while let Some(parts) = each.fetch_next().map(whole) {
-        let (id, truth, estimate, decision, command, set, belief, mut log) = parts;
+        let (id, briefing, truth, estimate, decision, command, set, belief, mut log) = parts;
         let p = truth.pose.p_WB;
         frame.robots.push(RobotFrame {
             id: id.name.clone(),
@@ -382,6 +409,7 @@ pub(crate) fn picture(
             estimate: *estimate,
             goal: Some(decision.goal),
             command: Some(*command),
+            keeps_height: briefing.able.dives && briefing.able.holds_depth,
             actuators: *set,
             chemical: log.chemical,
             detected: std::mem::take(&mut log.detected),

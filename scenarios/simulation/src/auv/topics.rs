@@ -46,7 +46,7 @@ pub const TOPICS: &[Topic] = &[
         Field::sometimes("water_speed_m_s", FieldKind::Number, "Speed through the water, m/s; over ground for a vehicle that the water does not carry."),
         Field::sometimes("east_m_s", FieldKind::Number, "Velocity over ground of a vehicle that hovers, eastwards, m/s."),
         Field::sometimes("north_m_s", FieldKind::Number, "The same northwards, m/s."),
-        Field::sometimes("vertical", FieldKind::Word(&["altitude", "depth"]), "What the vertical part keeps."),
+        Field::sometimes("vertical", FieldKind::Word(&["altitude", "depth"]), "What the vertical part keeps, if the vehicle keeps a height."),
         Field::sometimes("vertical_m", FieldKind::Number, "Height above the bed or depth to keep, m."),
         Field::sometimes("rudder_rad", FieldKind::Number, "Rudder asked for, positive turns to starboard, rad; of a vehicle with fins, as the next two."),
         Field::sometimes("stern_rad", FieldKind::Number, "Stern plane asked for, positive pitches the nose down, rad."),

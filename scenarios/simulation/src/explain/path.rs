@@ -4,7 +4,7 @@
 //! found. Numbers of elements may be left out, too.
 
 use super::read::{Field, Reference, Shape, Variant};
-use crate::scenario::distance;
+use world::spelling::distance;
 
 /// What a path leads to.
 #[derive(Clone, Debug)]

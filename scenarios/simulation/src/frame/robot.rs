@@ -3,7 +3,7 @@
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer,
-    LayerState, Picture, Regions, SidescanPing,
+    LayerState, Picture, Regions, SidescanPing, Vertical,
 };
 use std::sync::Arc;
 use world::frames::{Pose, Truth};
@@ -23,6 +23,8 @@ pub struct RobotFrame {
     pub goal: Option<Goal>,
     /// What its guidance asks for.
     pub command: Option<Command>,
+    /// Whether it keeps the height that is asked for: not a glider, nor a craft on the surface.
+    pub keeps_height: bool,
     /// What the vehicle's drives are set to.
     pub actuators: Actuation,
     /// Newest chemical reading.
@@ -48,6 +50,17 @@ pub struct RobotFrame {
 }
 
 impl RobotFrame {
+    /// Depth or altitude that its guidance asks for, of a vehicle that keeps one.
+    #[must_use]
+    pub fn asked_height(&self) -> Option<Vertical> {
+        let asked = match self.command? {
+            Command::Steer(s) => s.vertical,
+            Command::Move(s) => s.vertical,
+            Command::Direct(_) => return None,
+        };
+        self.keeps_height.then_some(asked)
+    }
+
     /// Name of the layer that controls the vehicle.
     #[must_use]
     pub fn holding_layer(&self) -> Option<&'static str> {

@@ -35,7 +35,6 @@ pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
 pub use load::{Loaded, load, load_text, load_text_in, load_with, parse, parse_with};
 pub use outline::{Node, Outline};
-pub(crate) use reader::distance;
 pub use reader::read;
 pub use schema::{
     AreaSpec, Id, LevelSpec, RecordSpec, RobotSpec, Scenario, SlopeSpec, StartSpec, TerrainSpec,

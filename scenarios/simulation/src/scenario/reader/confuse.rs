@@ -1,10 +1,11 @@
 //! Fields, tuples and lists that are used in place of each other: reported, and read as what was meant.
 
 use super::fail::Misfit;
-use super::hint::{Form, choose};
+use super::hint::Form;
 use super::mend::{Mender, SHORT};
 use super::tree::{Group, Item, Kind, Node, Wanted};
 use crate::scenario::fault::Found;
+use world::spelling::choose;
 
 impl Mender<'_> {
     /// Values without names where fields belong.

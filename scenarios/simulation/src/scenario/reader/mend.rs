@@ -1,7 +1,7 @@
 //! Reads a value completely: reports what cannot be read and replaces it, until there is nothing more to report.
 
 use super::fail::{Fail, Misfit, What};
-use super::hint::{Form, Told, choose, nearest};
+use super::hint::{Form, Told};
 use super::names::Renamed;
 use super::tree::{Group, Hole, Item, Kind, Node, Placed, Tree, Wanted};
 use super::value::{Reading, Value};
@@ -10,6 +10,7 @@ use crate::scenario::outline::{Outline, joined};
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::ops::Range;
+use world::spelling::{choose, nearest};
 
 /// Most rounds of one reading. Each reports a mistake or gives a stand-in another value.
 const ROUNDS: usize = 4000;

@@ -22,7 +22,6 @@ mod value;
 use super::fault::Severity;
 use super::fault::{Fault, Found, ScenarioError};
 use super::unread::unread;
-pub(crate) use hint::distance;
 use mend::Mender;
 pub(super) use names::Renamed;
 use ron::extensions::Extensions;
