@@ -56,7 +56,7 @@ impl RobotFrame {
         let asked = match self.command? {
             Command::Steer(s) => s.vertical,
             Command::Move(s) => s.vertical,
-            Command::Direct(_) => return None,
+            Command::Direct(_) | Command::Drives(_) => return None,
         };
         self.keeps_height.then_some(asked)
     }
