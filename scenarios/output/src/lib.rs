@@ -1,9 +1,9 @@
 //! What runs leave behind: charts, figures, tables, reports, recordings, live state.
 //!
-//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`mcap`] writes MCAP files of ROS 2
-//! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`record`]
-//! records them, [`figures`] draws them, and [`report`] puts them into a folder. [`live`] is the only place that uses
-//! zenoh.
+//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`ros`] encodes ROS 2 messages, [`mcap`]
+//! writes MCAP files of them, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames,
+//! [`record`] records them, [`figures`] draws them, and [`report`] puts them into a folder. [`live`] is the only place
+//! that uses zenoh.
 #![forbid(unsafe_code)]
 
 pub mod charts;
@@ -14,6 +14,7 @@ pub mod mcap;
 pub mod record;
 pub mod report;
 pub mod results;
+pub mod ros;
 
 #[cfg(test)]
 mod sample;

@@ -1,11 +1,5 @@
 //! MCAP files of ROS 2 messages.
 
 mod file;
-mod ros_messages;
-mod ros_schemas;
 
-pub use file::{FLUSH_NS, McapFile, RecordError, nanoseconds};
-pub use ros_messages::{
-    Joint, MessageKind, Odometry, clock, compressed_image, float64, joint_state, point_cloud,
-    pose_stamped, text, transforms, vector3_stamped,
-};
+pub use file::{FLUSH_NS, McapFile, RecordError};
