@@ -199,6 +199,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                     vertical: Vertical::Altitude(2.0),
                 })),
                 actuators: Actuation::default(),
+                heard: Default::default(),
                 chemical: Some(ChemicalReading {
                     volts: 5.0 * of_full_scale,
                     of_full_scale,

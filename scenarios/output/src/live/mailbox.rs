@@ -126,9 +126,10 @@ impl Mailbox {
         let mut slots = self.slots();
         slots.counts.offered += 1;
         if let Some(old) = &slots.frame {
-            // Detections and spikes are events: they must survive when their state is replaced.
+            // Detections, spikes and readings are events: they must survive when their state is replaced.
             for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
                 robot.detected |= before.detected;
+                robot.heard.fill(&before.heard);
             }
             for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
                 let spikes = &mut gantry.decision.working.spike;

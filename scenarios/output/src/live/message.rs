@@ -136,6 +136,7 @@ pub(super) mod tests {
             goal: None,
             command: None,
             actuators: Actuation::default(),
+            heard: Default::default(),
             chemical: None,
             detected: false,
             behaviour: Behaviour::Find,

@@ -305,6 +305,7 @@ pub(crate) fn keep_log(
         (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));
         let ping = readings.sidescan.as_ref();
         (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, name, p, estimate)));
+        log.heard.hear(t_s, readings);
         if let Some(reading) = readings.chemical {
             log.chemical = Some(reading);
             log.detected |= reading.detected;
@@ -349,6 +350,7 @@ pub(crate) fn picture(
             goal: Some(decision.goal),
             command: Some(*command),
             actuators: *set,
+            heard: std::mem::take(&mut log.heard),
             chemical: log.chemical,
             detected: std::mem::take(&mut log.detected),
             behaviour: decision.behaviour,
