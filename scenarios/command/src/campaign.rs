@@ -3,6 +3,7 @@
 use super::args::{RunArgs, Speed};
 use super::args_cache::CacheArgs;
 use super::args_campaign::{CampaignCommand, CampaignRunArgs, MergeArgs, RerunArgs, StatusArgs};
+use super::args_ros2::Ros2Args;
 use super::campaign_plan::{count, plan};
 use super::campaign_report;
 use super::company::Company;
@@ -265,6 +266,7 @@ fn rerun(args: &RerunArgs) -> Exit {
         zenoh_config: None,
         zenoh_listen: None,
         zenoh_linger: 0.0,
+        ros2: Ros2Args::default(),
         threads: 1,
     };
     let again = || -> Result<(RunOutcome, String), RunError> {

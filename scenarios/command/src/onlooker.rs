@@ -8,7 +8,7 @@ use super::args::{RunArgs, Speed};
 use super::company::Company;
 use super::progress::Progress;
 use output::files::{ReportError, begin_folder};
-use output::live::{Live, LiveMeta, LiveOptions, run_id};
+use output::live::{Live, LiveMeta, LiveOptions, Ros2, Scene, run_id};
 use output::record::Recorder;
 use output::report::write_all;
 use output::results::{
@@ -23,6 +23,7 @@ use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::sense::FluorometerSpec;
 use robots::vehicles::Gantry;
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 use world::files::Folder;
@@ -79,7 +80,7 @@ impl<'a> Onlooker<'a> {
         };
         let gantries = gantries(loaded)?;
         let progress = Progress::new(loaded, args, &company.bars);
-        let live = live(args, &run, &progress, company)?;
+        let live = live(args, loaded, &run, &progress, company)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
@@ -245,6 +246,7 @@ fn recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
+    loaded: &Loaded,
     run: &RunInfo,
     progress: &Progress,
     company: &mut Company,
@@ -255,6 +257,12 @@ fn live(
     let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
+    if args.ros2.ros2 {
+        options.ros2 = Some(Ros2 {
+            domain: args.ros2.domain,
+            scene: Arc::new(Scene::of(loaded)?),
+        });
+    }
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),

@@ -1,6 +1,6 @@
 //! Options of live state.
 
-use super::LiveError;
+use super::{LiveError, Ros2};
 use rheotaxis::topic::chunk;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use std::time::Duration;
 pub const DEFAULT_PORT: u16 = 7447;
 
 /// How to publish.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct LiveOptions {
     /// Second chunk of every key, `[a-z0-9_]+`; see [`run_id`].
     pub run_id: String,
@@ -23,6 +23,8 @@ pub struct LiveOptions {
     pub state_period: Duration,
     /// Shortest wall time between two publications of the plume, of maps, and of camera pictures.
     pub plume_period: Duration,
+    /// Publish for ROS 2 as well.
+    pub ros2: Option<Ros2>,
 }
 
 impl LiveOptions {
@@ -36,6 +38,7 @@ impl LiveOptions {
             config_file: None,
             state_period: Duration::from_millis(50),
             plume_period: Duration::from_millis(500),
+            ros2: None,
         }
     }
 
