@@ -128,13 +128,13 @@ impl Recorder {
         let of_robots = frame.robots.iter().flat_map(|r| {
             let e = &r.estimate;
             [
-                in_world(r.id.clone(), r.truth.pose.p_WB, r.truth.pose.R_WB),
-                in_world(believed_frame(&r.id), e.p_WB(), e.attitude.R_WB()),
+                in_world(t, r.id.clone(), r.truth.pose.p_WB, r.truth.pose.R_WB),
+                in_world(t, believed_frame(&r.id), e.p_WB(), e.attitude.R_WB()),
             ]
         });
-        let of_gantries = frame.gantries.iter().flat_map(frames_of);
+        let of_gantries = frame.gantries.iter().flat_map(|g| frames_of(t, g));
         let tf: Vec<Transform> = of_robots.chain(of_gantries).collect();
-        let tf = transforms(t, &tf);
+        let tf = transforms(&tf);
         self.file.write("/tf", MessageKind::TfMessage, t, &tf)?;
         Ok(())
     }
@@ -312,12 +312,13 @@ impl Recorder {
         let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
         let camera = format!("{id}/camera");
         let mount = Transform {
+            t_ns: t,
             parent: id.clone(),
             child: camera.clone(),
             position: p.p_BC,
             attitude: p.R_BC,
         };
-        let mount = transforms(t, &[mount]);
+        let mount = transforms(&[mount]);
         self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
         let image = compressed_image(t, &camera, "png", png);
         let topic = format!("/{camera}/compressed");
@@ -343,11 +344,13 @@ impl Recorder {
 
 /// A frame's pose in the world.
 pub(super) fn in_world(
+    t_ns: u64,
     child: String,
     position: Vector3<f64>,
     attitude: UnitQuaternion<f64>,
 ) -> Transform {
     Transform {
+        t_ns,
         parent: WORLD.to_owned(),
         child,
         position,

@@ -78,9 +78,9 @@ impl GantryRecorder {
 }
 
 /// Frames of its head and of its probes' tips, all in the direction of the gantry.
-pub(super) fn frames_of(g: &GantryFrame) -> impl Iterator<Item = Transform> {
+pub(super) fn frames_of(t: u64, g: &GantryFrame) -> impl Iterator<Item = Transform> {
     let facing = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
     let tips = (g.tips_W.iter().enumerate())
-        .map(move |(n, p)| in_world(format!("{}/probe_{n}", g.id), *p, facing));
-    std::iter::once(in_world(format!("{}/head", g.id), g.head_W, facing)).chain(tips)
+        .map(move |(n, p)| in_world(t, format!("{}/probe_{n}", g.id), *p, facing));
+    std::iter::once(in_world(t, format!("{}/head", g.id), g.head_W, facing)).chain(tips)
 }

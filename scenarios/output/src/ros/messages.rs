@@ -69,6 +69,8 @@ pub fn pose_stamped(t_ns: u64, frame: &str, p: &Vector3<f64>, q: &UnitQuaternion
 /// Pose of a frame in another, for a `TFMessage`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Transform {
+    /// Time, ns.
+    pub t_ns: u64,
     /// The other frame.
     pub parent: String,
     /// The frame.
@@ -81,10 +83,10 @@ pub struct Transform {
 
 /// A `TFMessage`.
 #[must_use]
-pub fn transforms(t_ns: u64, all: &[Transform]) -> Vec<u8> {
+pub fn transforms(all: &[Transform]) -> Vec<u8> {
     let stamped = all.iter().map(|t| {
         let pose = pose(&t.position, &t.attitude);
-        (Header::new(t_ns, &t.parent), t.child.as_str(), pose)
+        (Header::new(t.t_ns, &t.parent), t.child.as_str(), pose)
     });
     cdr(&stamped.collect::<Vec<_>>())
 }
@@ -261,6 +263,7 @@ pub(super) mod tests {
     #[test]
     fn transforms_keep_their_bytes() {
         let children = ["a", "bcd"].map(|child| Transform {
+            t_ns: T_NS,
             parent: "world".into(),
             child: child.into(),
             position: p(),
@@ -269,7 +272,7 @@ pub(super) mod tests {
         let first = format!("{HEADER} 020000006100 0000 {POSE}");
         let second = format!("{HEADER} 0400000062636400 00000000 {POSE}");
         is(
-            &transforms(T_NS, &children),
+            &transforms(&children),
             &format!("02000000 {first} {second}"),
         );
     }

@@ -32,7 +32,7 @@ impl<'a> Door<'a> {
         let scene = Arc::clone(&ros2.scene);
         let still: Vec<_> = scene.machines.iter().flat_map(fixed).collect();
         let fixed = [
-            (&topics::TF_STATIC, transforms(0, &still)),
+            (&topics::TF_STATIC, transforms(&still)),
             (&topics::SCENE, marker_array(0, MAP, &scene.solids)),
         ];
         for (topic, cdr) in fixed {
@@ -72,7 +72,7 @@ impl<'a> Door<'a> {
             p_WB: p.p_BC,
             R_WB: p.R_BC,
         };
-        let mount = transforms(t, &[transform(&body, camera.clone(), &pose)]);
+        let mount = transforms(&[transform(t, &body, camera.clone(), &pose)]);
         self.world(&topics::TF, mount);
         self.say(Message {
             topic: &topics::CAMERA,

@@ -13,8 +13,9 @@ pub(super) const MAP: &str = "map";
 pub(super) const BODY: &str = "base_link";
 
 /// A pose as a transform.
-pub(super) fn transform(parent: &str, child: String, pose: &Pose) -> Transform {
+pub(super) fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> Transform {
     Transform {
+        t_ns,
         parent: parent.to_owned(),
         child,
         position: pose.p_WB,
@@ -32,15 +33,16 @@ pub(super) fn fixed(machine: &Machine) -> Vec<Transform> {
         R_WB: UnitQuaternion::identity(),
     };
     match &machine.base {
-        Some(base) => all.push(transform(MAP, root, base)),
+        Some(base) => all.push(transform(0, MAP, root, base)),
         None if machine.description.root != BODY => {
-            all.push(transform(&name(BODY), root, &here));
+            all.push(transform(0, &name(BODY), root, &here));
         }
         None => {}
     }
     for joint in &machine.description.joints {
         if !machine.slides.contains(&joint.joint) {
             all.push(transform(
+                0,
                 &name(&joint.parent),
                 name(&joint.child),
                 &joint.pose,
@@ -51,18 +53,23 @@ pub(super) fn fixed(machine: &Machine) -> Vec<Transform> {
         // A range is along x, and the altimeter looks along the body's down axis.
         let down = UnitQuaternion::from_euler_angles(0.0, FRAC_PI_2, 0.0);
         let beam = Pose { R_WB: down, ..here };
-        all.push(transform(&name("altimeter"), name("altimeter_beam"), &beam));
+        all.push(transform(
+            0,
+            &name("altimeter"),
+            name("altimeter_beam"),
+            &beam,
+        ));
     }
     all
 }
 
 /// A gantry's slides at their positions, m.
-pub(super) fn slid(machine: &Machine, positions_m: &[f64]) -> Vec<Transform> {
+pub(super) fn slid(t_ns: u64, machine: &Machine, positions_m: &[f64]) -> Vec<Transform> {
     let all = machine.slides.iter().zip(positions_m);
     all.filter_map(|(slide, position_m)| {
         let joint = (machine.description.joints.iter()).find(|j| j.joint == *slide)?;
         let (parent, child) = (machine.frame(&joint.parent), machine.frame(&joint.child));
-        Some(transform(&parent, child, &joint.slid(*position_m)))
+        Some(transform(t_ns, &parent, child, &joint.slid(*position_m)))
     })
     .collect()
 }

@@ -55,10 +55,6 @@ impl<'a> Of<'a> {
             .replace("<probe>", probe);
         self.out.push(Message { topic, name, cdr });
     }
-
-    fn body(&self) -> String {
-        self.machine.frame(BODY)
-    }
 }
 
 impl Spoken {
@@ -82,50 +78,59 @@ impl Spoken {
             }
         }
         let (topic, name) = (&topics::TF, topics::TF.name.to_owned());
-        let cdr = transforms(t_ns, &tf);
+        let cdr = transforms(&tf);
         // First, so that a node that has a message also has the frame that it is in.
         out.insert(0, Message { topic, name, cdr });
         out
     }
 
     fn robot(&mut self, of: &mut Of, r: &RobotFrame, tf: &mut Vec<Transform>) {
-        let (t_ns, e) = (of.t_ns, &r.estimate);
-        let (body, truth) = (of.body(), of.machine.frame("ground_truth"));
+        let (t_ns, e, truth) = (of.t_ns, &r.estimate, &r.truth);
+        // The estimate is older than the truth: it holds for the time of the readings in it.
+        let believed_ns = nanoseconds(e.t_s);
         let believed = Pose {
             p_WB: e.p_WB(),
             R_WB: e.attitude.R_WB(),
         };
-        tf.push(transform(MAP, body.clone(), &believed));
-        tf.push(transform(MAP, truth.clone(), &r.truth.pose));
-        let odometry = |child: &str, pose: &Pose, linear: Vector3<f64>, angular: Vector3<f64>| {
-            Odometry {
+        let rates = e.attitude.rates_rad_s;
+        for (topic, t_ns, link, pose, linear, angular) in [
+            (
+                &topics::ODOM,
+                believed_ns,
+                BODY,
+                &believed,
+                e.v_ground_body,
+                rates,
+            ),
+            (
+                &topics::TRUTH,
+                t_ns,
+                "ground_truth",
+                &truth.pose,
+                truth.v_WB_B,
+                truth.w_WB_B,
+            ),
+        ] {
+            let child = of.machine.frame(link);
+            let odometry = Odometry {
                 t_ns,
                 frame: MAP,
-                child,
+                child: &child,
                 position: pose.p_WB,
                 attitude: pose.R_WB,
                 linear,
                 angular,
-            }
-            .cdr()
-        };
-        let rates = e.attitude.rates_rad_s;
-        of.put(
-            &topics::ODOM,
-            odometry(&body, &believed, e.v_ground_body, rates),
-        );
-        let t = &r.truth;
-        of.put(
-            &topics::TRUTH,
-            odometry(&truth, &t.pose, t.v_WB_B, t.w_WB_B),
-        );
+            };
+            of.put(topic, odometry.cdr());
+            tf.push(transform(t_ns, MAP, child, pose));
+        }
         readings::put(of, &r.heard);
         if let Some(c) = r.chemical {
             of.put(&topics::CHEMICAL, float64(c.volts));
         }
         if let Some(flow) = e.flow {
             let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
-            of.put(&topics::FLOW, vector3_stamped(t_ns, MAP, &v));
+            of.put(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
         }
         self.behaviour(of, r.behaviour.name());
         if !r.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
@@ -142,7 +147,7 @@ impl Spoken {
 
     fn gantry(&mut self, of: &mut Of, g: &GantryFrame, tf: &mut Vec<Transform>) {
         let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
-        tf.extend(slid(of.machine, &positions));
+        tf.extend(slid(of.t_ns, of.machine, &positions));
         let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
             .map(|(name, j)| Joint {
                 name,
