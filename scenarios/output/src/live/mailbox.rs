@@ -244,6 +244,8 @@ impl Mailbox {
 mod tests {
     use super::super::message::tests::{frame, published};
     use super::*;
+    use rheotaxis::frame::At;
+    use robots::handoff::DepthReading;
 
     fn hour_between_states() -> Mailbox {
         Mailbox::new(Duration::from_secs(3600), Duration::from_secs(3600))
@@ -268,11 +270,15 @@ mod tests {
     }
 
     #[test]
-    fn a_detection_outlives_the_state_that_carried_it() {
+    fn detections_and_readings_outlive_the_state_that_carried_them() {
         let mailbox = hour_between_states();
         let mut detected = frame(0);
         detected.robots[0].detected = true;
         detected.gantries[0].decision.working.spike[0] = true;
+        detected.robots[0].heard.depth = Some(At {
+            t_s: 0.5,
+            value: DepthReading { depth_m: 3.0 },
+        });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else {
@@ -280,6 +286,8 @@ mod tests {
         };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].decision.working.spike[0]);
+        let depth = sent.robots[0].heard.depth.as_ref();
+        assert_eq!(depth.map(|d| (d.t_s, d.value.depth_m)), Some((0.5, 3.0)));
     }
 
     #[test]
