@@ -29,6 +29,7 @@ pub(crate) fn apart(command: &mut Command) -> &mut Command {
         "FORCE_COLOR",
         "CLICOLOR_FORCE",
         "ZENOH_CONFIG",
+        "ROS_DOMAIN_ID",
         "RHEOTAXIS_CACHE",
         "RHEOTAXIS_CACHE_SIZE",
         "RHEOTAXIS_CACHE_FROM",

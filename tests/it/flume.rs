@@ -31,6 +31,8 @@ fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
     };
     let bare = run("bare", &["--no-zenoh", "--no-record"]);
     assert_eq!(bare, run("live", &["--zenoh-listen", "tcp/127.0.0.1:0"]));
+    let ros2 = ["--ros2", "--zenoh-listen", "tcp/127.0.0.1:0"];
+    assert_eq!(bare, run("ros2", &ros2));
     let out = dir.path().join("live");
     for name in [
         "run.mcap",

@@ -6,6 +6,7 @@
 
 mod hostile;
 mod kit;
+mod ros2;
 mod setup;
 
 use image::Rgb;

@@ -1,6 +1,7 @@
 //! Bodies that move; the only place that touches urdf-rs.
 
 mod craft;
+mod description;
 mod drives;
 mod dynamics;
 mod energy;
@@ -22,6 +23,7 @@ mod urdf_tests;
 mod vehicle;
 
 pub use craft::Craft;
+pub use description::{Description, Mount};
 pub use drives::{BuoyancyEngineSpec, CurveSpec, DriveSpec, FinSpec, MovingMassSpec, ThrusterSpec};
 pub use energy::{Battery, EnergySpec};
 pub use files::{Files, InMemory};

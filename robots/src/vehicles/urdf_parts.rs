@@ -71,6 +71,14 @@ impl<'a> UrdfText<'a> {
         }
     }
 
+    /// A mesh file beside the URDF as a URL, with its whole path.
+    pub(super) fn mesh_url(&self, name: &str) -> String {
+        let name = name.strip_prefix("file://").unwrap_or(name);
+        let path = self.files.path(&self.folder.join(name));
+        let whole = std::path::absolute(&path).unwrap_or(path);
+        format!("file://{}", whole.display())
+    }
+
     /// Corners of a mesh file beside the URDF.
     fn mesh(&self, name: &str) -> Result<Vec<Vector3<f64>>, String> {
         mesh::points(&self.folder.join(name), self.files)

@@ -7,6 +7,7 @@ use super::args_explain::ExplainArgs;
 use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
+use super::args_ros2::Ros2Args;
 use super::args_vehicle::VehicleArgs;
 use super::args_vision::{ScoreVisionArgs, SegmentArgs};
 use super::version;
@@ -177,6 +178,9 @@ pub struct RunArgs {
         conflicts_with = "no_zenoh"
     )]
     pub zenoh_linger: f64,
+    /// ROS 2.
+    #[command(flatten)]
+    pub ros2: Ros2Args,
     /// Threads for the plume; 0 means one for each core. The results are the same with any number.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: usize,
@@ -187,6 +191,7 @@ Examples:
   rheotaxis run duck_st
   rheotaxis run mine.ron --seed 7 --out results/mine --no-zenoh
   rheotaxis run duck_st --speed realtime --zenoh-listen tcp/127.0.0.1:7500
+  rheotaxis run duck_st --speed realtime --ros2
 
 Exit codes: 0 success as the scenario defines it; 3 no success; 130 interrupted; 1 error; 2 wrong usage.
 With several scenarios the worst one counts: 130, then 1, then 3.";
@@ -293,11 +298,16 @@ fn seconds(s: &str) -> Result<f64, String> {
 
 /// Arguments of `topics`.
 #[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json")]
+#[command(
+    after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json\n  rheotaxis topics --ros2"
+)]
 pub struct TopicsArgs {
-    /// Print the JSON Schemas of all messages instead, as one object.
+    /// Print the JSON Schemas of all messages instead, as one object. With --ros2: definition and hash of each type.
     #[arg(long)]
     pub schema: bool,
+    /// List the topics that `rheotaxis run --ros2` publishes, with type and QoS.
+    #[arg(long)]
+    pub ros2: bool,
 }
 
 /// What the help of this command begins with.
@@ -334,7 +344,7 @@ pub(super) const STATISTICS_ABOUT: &str = "Lets a scenario's plume develop witho
 
 /// What the help of this command begins with.
 pub(super) const TOPICS_ABOUT: &str = "Lists the keys under which a run publishes its state over zenoh: each with its rate, its meaning and \
-        its fields. A `?` marks a field that may be missing.";
+        its fields. A `?` marks a field that may be missing. With --ros2 it lists the topics of ROS 2 instead.";
 
 #[cfg(test)]
 mod tests {

@@ -3,6 +3,7 @@
 use super::args::{RunArgs, Speed};
 use super::args_cache::CacheArgs;
 use super::args_key::KeyArgs;
+use super::args_ros2::Ros2Args;
 use std::path::{Path, PathBuf};
 
 /// What others may do to a run.
@@ -66,6 +67,7 @@ impl RunArgs {
             zenoh_config: None,
             zenoh_listen: None,
             zenoh_linger: 0.0,
+            ros2: Ros2Args::default(),
             threads: 0,
         }
     }

@@ -14,6 +14,7 @@ mod args_explain;
 mod args_key;
 mod args_picture;
 mod args_reproduce;
+mod args_ros2;
 mod args_vehicle;
 mod args_vision;
 mod cache;

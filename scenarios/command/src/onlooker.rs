@@ -9,7 +9,7 @@ use super::company::Company;
 use super::progress::Progress;
 use output::files::{ReportError, begin_folder};
 use output::follow::Follower;
-use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, run_id};
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, Scene, run_id};
 use output::results::RunInfo;
 use rheotaxis::control::{Consultation, Heard};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -54,7 +54,7 @@ impl Onlooker {
             Speed::Times(times) => Some(times),
         };
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
-        let live = live(args, results.run(), &progress, company, &plane)?;
+        let live = live(args, loaded, results.run(), &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
@@ -129,6 +129,7 @@ impl Onlooker {
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
+    loaded: &Loaded,
     run: &RunInfo,
     progress: &Progress,
     company: &mut Company,
@@ -141,6 +142,12 @@ fn live(
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
     options.plane = Arc::clone(plane);
+    if args.ros2.ros2 {
+        options.ros2 = Some(Ros2 {
+            domain: args.ros2.domain,
+            scene: Arc::new(Scene::of(loaded)?),
+        });
+    }
     let meta = LiveMeta {
         scenario_text: run.scenario_text.clone(),
         scenario_name: run.scenario_name.clone(),

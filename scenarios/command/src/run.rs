@@ -39,10 +39,15 @@ pub(super) enum RunError {
     NotAllowed { scenario: String, robots: String },
     #[error("{}: another scenario of this command has written its results there", .0.display())]
     Taken(PathBuf),
+    #[error("--ros2 shows one run, because topics of ROS 2 do not name a run: give one scenario")]
+    OneForRos2,
 }
 
 /// Runs every file, those with the same ocean in lanes. An error is reported, and the other files are run all the same.
 pub(super) fn run(args: &RunArgs) -> Exit {
+    if args.ros2.ros2 && args.files.len() > 1 {
+        return refused(RunError::OneForRos2);
+    }
     let stop = stop::listen();
     let kept = cache::opened(&args.cache);
     let mut exit = Exit::Success;

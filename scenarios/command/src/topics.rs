@@ -4,10 +4,14 @@ use super::args::TopicsArgs;
 use super::exit::Exit;
 use super::say;
 use output::live;
-use serde_json::{Map, Value};
+use output::ros::MessageKind;
+use serde_json::{Map, Value, json};
 
-/// Prints every key; with `--schema`, one JSON object with all schemas.
+/// Prints every key; with `--schema`, one JSON object with all schemas; with `--ros2`, those of ROS 2.
 pub(super) fn topics(args: &TopicsArgs) -> Exit {
+    if args.ros2 {
+        return ros2_topics(args.schema);
+    }
     if args.schema {
         let schemas: Map<String, Value> = live::topics()
             .iter()
@@ -31,6 +35,29 @@ pub(super) fn topics(args: &TopicsArgs) -> Exit {
             ));
         }
         say::line("");
+    }
+    Exit::Success
+}
+
+fn ros2_topics(schema: bool) -> Exit {
+    if schema {
+        let one = |kind: MessageKind| {
+            let (hash, definition) = (kind.hash(), kind.schema());
+            let value = json!({"hash": hash, "definition": definition});
+            (kind.name().to_owned(), value)
+        };
+        let all: Map<String, Value> = MessageKind::all().map(one).collect();
+        say::line(format_args!("{:#}", Value::Object(all)));
+        return Exit::Success;
+    }
+    say::line(format_args!(
+        "Topics of the node `rheotaxis` with `rheotaxis run SCENARIO --ros2`. SI units, ENU axes. <robot> and <gantry> \
+         are ids of the scenario.\n"
+    ));
+    for topic in live::ros_topics() {
+        let (kind, qos) = (topic.kind.name(), topic.qos.words());
+        say::line(format_args!("{}  {kind}  ({qos})", topic.name));
+        say::line(format_args!("    {}\n", topic.what));
     }
     Exit::Success
 }

@@ -1,9 +1,9 @@
 //! What runs leave behind: charts, figures, tables, reports, recordings, live state.
 //!
-//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`mcap`] writes MCAP files of ROS 2
-//! messages, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames, [`record`]
-//! records them, [`figures`] draws them, [`report`] puts them into a folder, and [`follow`] does all of that for a run.
-//! [`shown`] writes mistakes of a scenario for people. [`live`] is the only place that uses zenoh.
+//! Each module uses only the ones before it: [`charts`] draws axes and shapes, [`ros`] encodes ROS 2 messages, [`mcap`]
+//! writes MCAP files of them, [`files`] writes files and reports failures, [`results`] gathers data from a run's frames,
+//! [`record`] records them, [`figures`] draws them, [`report`] puts them into a folder, and [`follow`] does all of that
+//! for a run. [`shown`] writes mistakes of a scenario for people. [`live`] is the only place that uses zenoh.
 #![forbid(unsafe_code)]
 
 pub mod charts;
@@ -15,6 +15,7 @@ pub mod mcap;
 pub mod record;
 pub mod report;
 pub mod results;
+pub mod ros;
 pub mod shown;
 
 #[cfg(test)]

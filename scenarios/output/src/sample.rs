@@ -200,6 +200,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 })),
                 keeps_height: true,
                 actuators: Actuation::default(),
+                heard: Default::default(),
                 chemical: Some(ChemicalReading {
                     volts: 5.0 * of_full_scale,
                     of_full_scale,

@@ -5,9 +5,11 @@
 //! [topics](crate::topic), which are in [`Frame::published`].
 
 mod gantry;
+mod heard;
 mod robot;
 
 pub use gantry::GantryFrame;
+pub use heard::{At, Heard};
 pub use robot::{PictureFrame, PingFrame, RobotFrame};
 
 use crate::abnormal::Abnormal;

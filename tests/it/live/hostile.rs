@@ -11,10 +11,11 @@ use zenoh::Wait;
 #[test]
 #[ignore = "started by the tests below as a process of its own"]
 fn subscriber_process() {
-    let endpoint = std::env::var("LIVE_ENDPOINT").expect("started by another test");
+    let [endpoint, key] = ["LIVE_ENDPOINT", "LIVE_KEY"]
+        .map(|name| std::env::var(name).expect("started by another test"));
     let session = client(&endpoint);
     let _samples = session
-        .declare_subscriber("rheotaxis/**")
+        .declare_subscriber(key)
         .callback(|_| {
             say("STALLED");
             loop {
@@ -44,10 +45,11 @@ fn say(word: &str) {
         .expect("the parent listens");
 }
 
-struct Process(Child, BufReader<ChildStdout>);
+pub(super) struct Process(Child, BufReader<ChildStdout>);
 
 impl Process {
-    fn start(endpoint: &str) -> Self {
+    /// A subscriber to `key` that stalls with the first message.
+    pub(super) fn start(endpoint: &str, key: &str) -> Self {
         let mut child = std::process::Command::new(std::env::current_exe().unwrap())
             .args([
                 "--exact",
@@ -56,6 +58,7 @@ impl Process {
                 "live::hostile::subscriber_process",
             ])
             .env("LIVE_ENDPOINT", endpoint)
+            .env("LIVE_KEY", key)
             .stdout(Stdio::piped())
             .spawn()
             .unwrap();
@@ -65,7 +68,7 @@ impl Process {
         process
     }
 
-    fn wait_for(&mut self, word: &str) {
+    pub(super) fn wait_for(&mut self, word: &str) {
         let said = self
             .1
             .by_ref()
@@ -91,7 +94,7 @@ fn a_killed_subscriber_changes_nothing_for_the_others() {
     let session = client(live.endpoint());
     let samples = listen(&session, "killed_1");
     kept(&session, "killed_1");
-    let mut victim = Process::start(live.endpoint());
+    let mut victim = Process::start(live.endpoint(), "rheotaxis/**");
     live.publish(&frame(1));
     victim.wait_for("STALLED");
     drop(victim);
@@ -109,7 +112,7 @@ fn a_stalled_subscriber_holds_neither_the_run_nor_its_end() {
     let live = start("stalled_1");
     live.publish(&frame(0));
     sent(&live);
-    let mut stalled = Process::start(live.endpoint());
+    let mut stalled = Process::start(live.endpoint(), "rheotaxis/**");
     live.publish(&frame(1));
     stalled.wait_for("STALLED");
     // 12 MB, more than what sockets and queues between the two can take.

@@ -115,6 +115,7 @@ pub(super) fn frame(step: u64) -> Frame {
         })),
         keeps_height: true,
         actuators: Actuation::default(),
+        heard: Default::default(),
         chemical: Some(ChemicalReading {
             volts: 1.0,
             of_full_scale: 0.2,

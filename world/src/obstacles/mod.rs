@@ -13,6 +13,7 @@ mod surface;
 mod tests;
 #[cfg(test)]
 mod tests_placing;
+mod triangles;
 mod way_out;
 
 pub use cast::Hit;

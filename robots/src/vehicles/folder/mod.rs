@@ -14,5 +14,5 @@ mod spec;
 pub use described::Described;
 pub use hydrodynamics_spec::{Axes, Block, HydrodynamicsSpec, Row, Rows};
 pub use shipped::{SHIPPED, Shipped};
-pub(super) use shipped::{of_folder, shipped};
+pub(super) use shipped::{of_folder, shipped, urdf_of};
 pub use spec::VehicleFile;

@@ -1,8 +1,10 @@
 //! Opens the folder of a vehicle: a user's own, or one of those that are in the program itself.
 
+use super::VehicleFile;
 use super::described::Described;
 use crate::error::RobotError;
 use crate::vehicles::files::Files;
+use crate::vehicles::urdf_parts::UrdfText;
 use std::path::{Path, PathBuf};
 
 /// A vehicle that comes with the program.
@@ -71,11 +73,7 @@ impl Files for BuiltIn<'_> {
         String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text: {e}"))
     }
 
-    fn vehicle(
-        &self,
-        path: &str,
-        text: &str,
-    ) -> Result<super::VehicleFile, crate::error::RobotError> {
+    fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {
         self.reader.vehicle(path, text)
     }
 }
@@ -83,23 +81,33 @@ impl Files for BuiltIn<'_> {
 /// Longest `vehicle.ron`, bytes.
 const LONGEST: u64 = 1 << 20;
 
-/// The vehicle of a folder.
-pub(in crate::vehicles) fn of_folder(
-    folder: &str,
-    files: &dyn Files,
-) -> Result<Described, RobotError> {
-    let folder = Path::new(folder);
+/// What a folder's `vehicle.ron` says.
+fn file_of(folder: &Path, files: &dyn Files) -> Result<VehicleFile, RobotError> {
     let name = folder.join("vehicle.ron");
     let path = files.path(&name).display().to_string();
     let text = (files.text(&name, LONGEST)).map_err(|problem| RobotError::File {
         path: path.clone(),
         problem,
     })?;
-    Described::load(folder, &files.vehicle(&path, &text)?, files)
+    files.vehicle(&path, &text)
+}
+
+/// The vehicle of a folder.
+pub(in crate::vehicles) fn of_folder(
+    folder: &str,
+    files: &dyn Files,
+) -> Result<Described, RobotError> {
+    let folder = Path::new(folder);
+    Described::load(folder, &file_of(folder, files)?, files)
 }
 
 /// One that comes with the program.
 pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Described, RobotError> {
+    of_folder(name, &built_in(name, files)?)
+}
+
+/// The files of one that comes with the program.
+fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotError> {
     let Some(shipped) = Shipped::named(name) else {
         let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
         return Err(RobotError::Invalid {
@@ -110,11 +118,19 @@ pub(in crate::vehicles) fn shipped(name: &str, files: &dyn Files) -> Result<Desc
             ),
         });
     };
-    of_folder(
-        name,
-        &BuiltIn {
-            shipped,
-            reader: files,
-        },
-    )
+    Ok(BuiltIn { shipped, reader })
+}
+
+/// What `read` makes of the URDF of a vehicle of a folder: one that comes with the program, or a user's own.
+pub(in crate::vehicles) fn urdf_of<T>(
+    folder: &str,
+    comes_with: bool,
+    files: &dyn Files,
+    read: impl FnOnce(&UrdfText) -> Result<T, RobotError>,
+) -> Result<T, RobotError> {
+    let own = comes_with.then(|| built_in(folder, files)).transpose()?;
+    let files = own.as_ref().map_or(files, |own| own as &dyn Files);
+    let folder = Path::new(folder);
+    let urdf = folder.join(file_of(folder, files)?.urdf);
+    read(&UrdfText::open_at(&urdf, files)?)
 }

@@ -20,7 +20,11 @@ use world::frames::Pose;
 use world::physics::{AxisDrive, AxisSpec, GantryBodySpec, JointState};
 use world::seeds::Stream;
 
-const CRAB_GANTRY: &str = include_str!("../../../urdf/crab_gantry.urdf");
+/// Name and text of the built-in URDF.
+pub(in crate::vehicles) const CRAB_GANTRY: (&str, &str) = (
+    "crab_gantry.urdf",
+    include_str!("../../../urdf/crab_gantry.urdf"),
+);
 /// Greatest product of position gain and step: beyond it the loop begins to oscillate.
 const MAX_GAIN_STEP: f64 = 0.5;
 
@@ -43,8 +47,7 @@ impl Gantry {
     /// If the URDF cannot be read or lacks something, or if a drive cannot do what is asked of it.
     pub fn load(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
-        let built_in = ("crab_gantry.urdf", CRAB_GANTRY);
-        let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, built_in)?)?;
+        let frame = frame::read(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)?;
         let invalid = |field: &str, problem: String| RobotError::Invalid {
             field: field.into(),
             problem,

@@ -9,5 +9,6 @@ mod test_drive;
 #[cfg(test)]
 mod test_frame;
 
+pub(super) use machine::CRAB_GANTRY;
 pub use machine::Gantry;
 pub use spec::{CrabGantrySpec, GantrySpec};

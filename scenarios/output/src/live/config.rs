@@ -39,6 +39,15 @@ pub(super) fn configured(
         }
         None => default_endpoint()?,
     };
+    // Nodes of ROS expect a router at the default port: if it is not this session, then this session joins it.
+    let (joined, notice) = match notice {
+        Some(notice) if options.ros2.is_some() => {
+            let router = format!("tcp/127.0.0.1:{DEFAULT_PORT}");
+            let notice = format!("{notice}, and connects to {router} for ROS 2");
+            (Some(router), Some(notice))
+        }
+        notice => (None, notice),
+    };
     let mut config = Config::default();
     set(&mut config, "mode", &"router".into())?;
     set(
@@ -46,6 +55,13 @@ pub(super) fn configured(
         "listen/endpoints",
         &serde_json::json!([endpoint]),
     )?;
+    if let Some(router) = joined {
+        set(
+            &mut config,
+            "connect/endpoints",
+            &serde_json::json!([router]),
+        )?;
+    }
     // Multicast is slow or refused on many machines; clients are told the endpoint instead.
     set(&mut config, "scouting/multicast/enabled", &false.into())?;
     Ok((config, notice))

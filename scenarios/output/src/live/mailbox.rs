@@ -126,9 +126,10 @@ impl Mailbox {
         let mut slots = self.slots();
         slots.counts.offered += 1;
         if let Some(old) = &slots.frame {
-            // Detections and spikes are events: they must survive when their state is replaced.
+            // Detections, spikes and readings are events: they must survive when their state is replaced.
             for (robot, before) in new.robots.iter_mut().zip(&old.robots) {
                 robot.detected |= before.detected;
+                robot.heard.fill(&before.heard);
             }
             for (gantry, before) in new.gantries.iter_mut().zip(&old.gantries) {
                 let spikes = &mut gantry.decision.working.spike;
@@ -243,6 +244,8 @@ impl Mailbox {
 mod tests {
     use super::super::message::tests::{frame, published};
     use super::*;
+    use rheotaxis::frame::At;
+    use robots::handoff::DepthReading;
 
     fn hour_between_states() -> Mailbox {
         Mailbox::new(Duration::from_secs(3600), Duration::from_secs(3600))
@@ -267,11 +270,15 @@ mod tests {
     }
 
     #[test]
-    fn a_detection_outlives_the_state_that_carried_it() {
+    fn detections_and_readings_outlive_the_state_that_carried_them() {
         let mailbox = hour_between_states();
         let mut detected = frame(0);
         detected.robots[0].detected = true;
         detected.gantries[0].decision.working.spike[0] = true;
+        detected.robots[0].heard.depth = Some(At {
+            t_s: 0.5,
+            value: DepthReading { depth_m: 3.0 },
+        });
         mailbox.put_frame(&detected);
         mailbox.put_frame(&frame(1));
         let Work::Frame(sent) = mailbox.next() else {
@@ -279,6 +286,8 @@ mod tests {
         };
         assert_eq!((sent.step, sent.robots[0].detected), (1, true));
         assert!(sent.gantries[0].decision.working.spike[0]);
+        let depth = sent.robots[0].heard.depth.as_ref();
+        assert_eq!(depth.map(|d| (d.t_s, d.value.depth_m)), Some((0.5, 3.0)));
     }
 
     #[test]

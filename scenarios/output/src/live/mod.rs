@@ -2,11 +2,12 @@
 //!
 //! A run publishes its state under `rheotaxis/<run>/`: JSON (UTF-8), SI units, ENU axes. [`topics`] has every key with
 //! its JSON Schema. zenoh runs in its own thread behind a mailbox that keeps only the newest state, so no subscriber
-//! can delay or change a run. Without the feature `live`, the same types exist and do nothing.
+//! can delay or change a run. Nodes of ROS 2 see the same run as topics if [`LiveOptions::ros2`] says so. Without the feature `live`, the same types exist and do nothing.
 
 mod error;
 mod options;
 mod plane;
+mod ros2;
 mod topics;
 
 #[cfg(feature = "live")]
@@ -34,6 +35,7 @@ mod off;
 pub use error::LiveError;
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
 pub use plane::Plane;
+pub use ros2::{Machine, Qos, Ros2, RosTopic, Scene, ros_topics};
 pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(feature = "live")]

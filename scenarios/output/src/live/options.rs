@@ -1,6 +1,6 @@
 //! Options of live state.
 
-use super::{LiveError, Plane};
+use super::{LiveError, Plane, Ros2};
 use rheotaxis::topic::chunk;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -26,6 +26,8 @@ pub struct LiveOptions {
     pub plume_period: Duration,
     /// What others may ask of the run.
     pub plane: Arc<Plane>,
+    /// Publish for ROS 2 as well.
+    pub ros2: Option<Ros2>,
 }
 
 impl LiveOptions {
@@ -40,6 +42,7 @@ impl LiveOptions {
             state_period: Duration::from_millis(50),
             plume_period: Duration::from_millis(500),
             plane: Arc::new(Plane::new(false, None)),
+            ros2: None,
         }
     }
 

@@ -6,6 +6,7 @@ use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
 use super::message::Message;
+use super::ros2::Door;
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -234,21 +235,25 @@ fn publish(
             return;
         }
     };
-    match Tree::grow(&session.0, options, meta) {
+    let opened = Tree::grow(&session.0, options, meta).and_then(|tree| {
+        let door = options.ros2.as_ref().map(|r| Door::open(&session.0, r));
+        Ok((tree, door.transpose()?))
+    });
+    match opened {
         Err(e) => {
             let _nobody_waits = up.send(Err(LiveError::Open { why: plain(&e) }));
         }
-        Ok(mut tree) => {
+        Ok((mut tree, mut ros)) => {
             let _nobody_waits = up.send(Ok((
                 endpoint(&session.0),
                 LiveSession(Arc::downgrade(&session)),
             )));
-            serve(&mut tree, mailbox, options.plume_period);
+            serve(&mut tree, &mut ros, mailbox, options.plume_period);
         }
     }
 }
 
-fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
+fn serve(tree: &mut Tree<'_>, ros: &mut Option<Door<'_>>, mailbox: &Mailbox, map_period: Duration) {
     let mut maps = MapGate::new(map_period);
     // A message that cannot be sent is lost, like one that did not fit into a queue; the run continues.
     let mut last = (0.0, 0);
@@ -260,10 +265,10 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
                 for message in maps.due(&frame, false) {
                     drop(tree.say(message));
                 }
-                say_state(tree, &frame, mailbox.counts());
+                say_state(tree, ros, &frame, mailbox.counts());
                 newest = Some(frame);
             }
-            Work::Rest(rest) => say_rest(tree, &rest),
+            Work::Rest(rest) => say_rest(tree, ros, &rest),
             Work::End {
                 frame,
                 rest,
@@ -277,9 +282,9 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
                 }
                 if let Some(frame) = frame {
                     last = (frame.t_s, frame.step);
-                    say_state(tree, &frame, mailbox.counts());
+                    say_state(tree, ros, &frame, mailbox.counts());
                 }
-                say_rest(tree, &rest);
+                say_rest(tree, ros, &rest);
                 drop(tree.say_for_good(message::digest(&digest)));
                 drop(tree.say(message::clock(last.0, last.1, true, mailbox.counts())));
             }
@@ -288,7 +293,10 @@ fn serve(tree: &mut Tree<'_>, mailbox: &Mailbox, map_period: Duration) {
     }
 }
 
-fn say_state(tree: &Tree<'_>, frame: &Frame, counts: LiveCounts) {
+fn say_state(tree: &Tree<'_>, ros: &mut Option<Door<'_>>, frame: &Frame, counts: LiveCounts) {
+    if let Some(ros) = ros {
+        ros.state(frame);
+    }
     for message in message::state(frame) {
         drop(tree.say(message));
     }
@@ -296,12 +304,23 @@ fn say_state(tree: &Tree<'_>, frame: &Frame, counts: LiveCounts) {
     drop(tree.say(message::clock(frame.t_s, frame.step, false, counts)));
 }
 
-fn say_rest(tree: &Tree<'_>, rest: &Rest) {
-    let pictures = rest.pictures.iter().flat_map(look_message::picture);
-    let pings = rest.pings.iter().map(look_message::ping);
-    let plume = rest.plume.iter().map(message::plume);
-    for message in pictures.chain(pings).chain(plume) {
-        drop(tree.say(message));
+fn say_rest(tree: &Tree<'_>, ros: &mut Option<Door<'_>>, rest: &Rest) {
+    for newest in &rest.pictures {
+        if let Some(picture) = look_message::picture(newest) {
+            if let Some(ros) = ros {
+                ros.picture(newest, &picture.payload);
+            }
+            drop(tree.say(picture));
+        }
+    }
+    for ping in &rest.pings {
+        drop(tree.say(look_message::ping(ping)));
+    }
+    if let Some(plume) = &rest.plume {
+        if let Some(ros) = ros {
+            ros.plume(plume);
+        }
+        drop(tree.say(message::plume(plume)));
     }
 }
 

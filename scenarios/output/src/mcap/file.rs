@@ -5,7 +5,7 @@
 //! *Parameters*: [`FLUSH_NS`]: chunks are closed at least this often in simulated time.
 //! *Deviations*: none. A crash leaves the temporary file with every closed chunk; `mcap recover` restores its index.
 
-use super::ros_messages::MessageKind;
+use crate::ros::MessageKind;
 use ::mcap::records::{MessageHeader, Metadata};
 use ::mcap::{Attachment, McapError, WriteOptions, Writer};
 use serde_json::Value;
@@ -47,12 +47,6 @@ pub enum RecordError {
         /// The system's message.
         source: io::Error,
     },
-}
-
-/// A simulated time in seconds as nanoseconds, never negative.
-#[must_use]
-pub fn nanoseconds(t_s: f64) -> u64 {
-    (t_s.max(0.0) * 1e9).round() as u64
 }
 
 struct Channel {
@@ -251,7 +245,7 @@ impl McapFile {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mcap::{clock, float64};
+    use crate::ros::{clock, float64};
     use std::fs;
 
     fn messages(bytes: &[u8]) -> Vec<(String, u64)> {

@@ -3,17 +3,17 @@
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
 use crate::files::ReportError;
-use crate::mcap::{
-    CONTROL, McapFile, MessageKind, Odometry, RecordError, clock, compressed_image, float64,
-    nanoseconds, point_cloud, pose_stamped, text, transforms, vector3_stamped,
-};
+use crate::mcap::{CONTROL, McapFile, RecordError};
 use crate::results::{Echoes, RunInfo};
+use crate::ros::{
+    MessageKind, Odometry, Transform, clock, compressed_image, float64, nanoseconds, plume_cloud,
+    point_cloud, pose_stamped, text, transforms, vector3_stamped,
+};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::control::{Consultation, consultation_json};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
 use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
 use robots::survey::Row;
-use std::f64::consts::TAU;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -138,18 +138,16 @@ impl Recorder {
             let (topic, at) = (format!("/{}", p.key), nanoseconds(p.t_s));
             (self.file).write_json(&topic, p.topic.name, || p.topic.schema(), at, &p.value)?;
         }
-        let believed: Vec<String> = frame.robots.iter().map(|r| believed_frame(&r.id)).collect();
-        let heads: Vec<_> = frame.gantries.iter().flat_map(frames_of).collect();
-        let of_robots = frame.robots.iter().zip(&believed).flat_map(|(r, b)| {
+        let of_robots = frame.robots.iter().flat_map(|r| {
             let e = &r.estimate;
             [
-                (r.id.as_str(), r.truth.pose.p_WB, r.truth.pose.R_WB),
-                (b.as_str(), e.p_WB(), e.attitude.R_WB()),
+                in_world(t, r.id.clone(), r.truth.pose.p_WB, r.truth.pose.R_WB),
+                in_world(t, believed_frame(&r.id), e.p_WB(), e.attitude.R_WB()),
             ]
         });
-        let of_gantries = heads.iter().map(|(name, p, q)| (name.as_str(), *p, *q));
-        let children: Vec<_> = of_robots.chain(of_gantries).collect();
-        let tf = transforms(t, WORLD, &children);
+        let of_gantries = frame.gantries.iter().flat_map(|g| frames_of(t, g));
+        let tf: Vec<Transform> = of_robots.chain(of_gantries).collect();
+        let tf = transforms(&tf);
         self.file.write("/tf", MessageKind::TfMessage, t, &tf)?;
         Ok(())
     }
@@ -287,25 +285,12 @@ impl Recorder {
         self.file.write(&topic, MessageKind::PointCloud2, t, &cloud)
     }
 
-    /// Records filaments as a cloud. `mass` is that of all filaments for which one stands (kg); `concentration` is that
-    /// at the centre of one filament, kg/m³: `mass` / `stands_for` / ((2π)^(3/2) `size`³).
+    /// Records filaments as a cloud: see [`plume_cloud`].
     ///
     /// # Errors
     /// If the file cannot be written.
     pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
-        let t = nanoseconds(plume.t_s);
-        let shape = (TAU * TAU.sqrt()) as f32;
-        let rows: Vec<[f32; 7]> = plume
-            .points
-            .iter()
-            .map(|&[x, y, z, size, mass, n]| {
-                let volume = shape * size * size * size;
-                let c = if volume > 0.0 { mass / n / volume } else { 0.0 };
-                [x, y, z, size, mass, c, n]
-            })
-            .collect();
-        let names = ["x", "y", "z", "size", "mass", "concentration", "stands_for"];
-        let cloud = point_cloud(t, WORLD, names, &rows);
+        let (t, cloud) = (nanoseconds(plume.t_s), plume_cloud(plume, WORLD));
         self.file
             .write("/plume", MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
@@ -341,7 +326,14 @@ impl Recorder {
     pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
         let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
         let camera = format!("{id}/camera");
-        let mount = transforms(t, id, &[(camera.as_str(), p.p_BC, p.R_BC)]);
+        let mount = Transform {
+            t_ns: t,
+            parent: id.clone(),
+            child: camera.clone(),
+            position: p.p_BC,
+            attitude: p.R_BC,
+        };
+        let mount = transforms(&[mount]);
         self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
         let image = compressed_image(t, &camera, "png", png);
         let topic = format!("/{camera}/compressed");
@@ -364,6 +356,22 @@ impl Recorder {
         let result = [("digest", digest), ("steps", steps.as_str())];
         self.file.metadata("result", &result)?;
         Ok(self.file.finish()?)
+    }
+}
+
+/// A frame's pose in the world.
+pub(super) fn in_world(
+    t_ns: u64,
+    child: String,
+    position: Vector3<f64>,
+    attitude: UnitQuaternion<f64>,
+) -> Transform {
+    Transform {
+        t_ns,
+        parent: WORLD.to_owned(),
+        child,
+        position,
+        attitude,
     }
 }
 

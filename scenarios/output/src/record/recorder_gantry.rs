@@ -1,11 +1,11 @@
 //! A gantry's part of a recording: joints, probes, and the data and decisions of its searcher.
 
-use super::recorder::{WORLD, on_plane};
-use crate::mcap::{
-    Joint, McapFile, MessageKind, RecordError, float64, joint_state, nanoseconds, pose_stamped,
-    text,
+use super::recorder::{WORLD, in_world, on_plane};
+use crate::mcap::{McapFile, RecordError};
+use crate::ros::{
+    Joint, MessageKind, Transform, float64, joint_state, nanoseconds, pose_stamped, text,
 };
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::UnitQuaternion;
 use rheotaxis::gantry::GantryFrame;
 use world::math;
 
@@ -78,11 +78,9 @@ impl GantryRecorder {
 }
 
 /// Frames of its head and of its probes' tips, all in the direction of the gantry.
-pub(super) fn frames_of(
-    g: &GantryFrame,
-) -> impl Iterator<Item = (String, Vector3<f64>, UnitQuaternion<f64>)> {
+pub(super) fn frames_of(t: u64, g: &GantryFrame) -> impl Iterator<Item = Transform> {
     let facing = UnitQuaternion::from_euler_angles(0.0, 0.0, math::atan2(g.forward.y, g.forward.x));
     let tips = (g.tips_W.iter().enumerate())
-        .map(move |(n, p)| (format!("{}/probe_{n}", g.id), *p, facing));
-    std::iter::once((format!("{}/head", g.id), g.head_W, facing)).chain(tips)
+        .map(move |(n, p)| in_world(t, format!("{}/probe_{n}", g.id), *p, facing));
+    std::iter::once(in_world(t, format!("{}/head", g.id), g.head_W, facing)).chain(tips)
 }

@@ -1,5 +1,6 @@
 //! Brings robots into a run.
 
+use super::shown::system as shown;
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
 use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
@@ -76,11 +77,11 @@ impl Apparatus for RobotSpec {
                     system::keep_score,
                     system::watch,
                     system::tell_faults,
-                    system::keep_log,
+                    shown::keep_log,
                 )
                     .chain(),
             )
-            .add_to_frame(system::picture);
+            .add_to_frame(shown::picture);
     }
 }
 

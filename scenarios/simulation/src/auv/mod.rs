@@ -2,11 +2,13 @@
 
 mod assemble;
 pub(crate) mod message;
+mod shown;
 pub(crate) mod system;
 pub mod topics;
 
 pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 
+use crate::frame::Heard;
 use bevy_ecs::prelude::{Component, Entity, Resource};
 use nalgebra::Vector2;
 use robots::handoff::{Capabilities, ChemicalReading};
@@ -60,6 +62,8 @@ pub struct Mapping {
 /// What happened to a robot between two frames.
 #[derive(Component, Clone, Debug, Default)]
 pub(crate) struct Log {
+    /// What the other instruments reported.
+    heard: Heard,
     /// Newest chemical reading; it stays until there is another.
     chemical: Option<ChemicalReading>,
     /// Whether there was a detection.

@@ -1,5 +1,6 @@
 //! A robot at one instant, the pictures of its camera and the pings of its sidescan.
 
+use super::Heard;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer,
@@ -27,6 +28,8 @@ pub struct RobotFrame {
     pub keeps_height: bool,
     /// What the vehicle's drives are set to.
     pub actuators: Actuation,
+    /// What its other instruments reported since the previous frame.
+    pub heard: Heard,
     /// Newest chemical reading.
     pub chemical: Option<ChemicalReading>,
     /// Whether there was a detection since the previous frame.

@@ -1,108 +1,12 @@
-//! The ROS 2 messages that we record, encoded in CDR.
+//! Messages of states, texts, joints, pictures and clouds of points.
 //!
-//! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames). Encoding: OMG DDSI-RTPS 2.5,
-//! section 10, by the crate `cdr-encoding`.
+//! *Source*: ROS 2 common_interfaces (Jazzy); REP 103 (units and axes), REP 105 (frames).
 //! *Parameters*: none.
-//! *Deviations*: covariances are zero, which means "unknown" in ROS. Fields that only group others are written without
-//! a type of their own, because CDR has no mark for them.
+//! *Deviations*: covariances are zero, which means "unknown" in ROS.
 
-use byteorder::LittleEndian;
+use super::cdr::{Header, Time, bytes, cdr, pose, xyz};
 use nalgebra::{UnitQuaternion, Vector3};
-use serde::{Serialize, Serializer};
-
-/// A kind of message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum MessageKind {
-    /// `nav_msgs/msg/Odometry`.
-    Odometry,
-    /// `std_msgs/msg/Float64`.
-    Float64,
-    /// `std_msgs/msg/String`.
-    Text,
-    /// `geometry_msgs/msg/Vector3Stamped`.
-    Vector3Stamped,
-    /// `geometry_msgs/msg/PoseStamped`.
-    PoseStamped,
-    /// `tf2_msgs/msg/TFMessage`.
-    TfMessage,
-    /// `rosgraph_msgs/msg/Clock`.
-    Clock,
-    /// `sensor_msgs/msg/PointCloud2`.
-    PointCloud2,
-    /// `sensor_msgs/msg/JointState`.
-    JointState,
-    /// `sensor_msgs/msg/CompressedImage`.
-    CompressedImage,
-}
-
-impl MessageKind {
-    /// All kinds.
-    pub const ALL: [MessageKind; 10] = [
-        MessageKind::Odometry,
-        MessageKind::Float64,
-        MessageKind::Text,
-        MessageKind::Vector3Stamped,
-        MessageKind::PoseStamped,
-        MessageKind::TfMessage,
-        MessageKind::Clock,
-        MessageKind::PointCloud2,
-        MessageKind::JointState,
-        MessageKind::CompressedImage,
-    ];
-}
-
-/// A message as CDR. Four bytes before it say: plain CDR, little-endian.
-fn cdr(message: &impl Serialize) -> Vec<u8> {
-    let mut bytes = vec![0, 1, 0, 0];
-    cdr_encoding::to_writer::<_, LittleEndian, _>(&mut bytes, message)
-        .expect("a message of numbers, texts and sequences becomes CDR");
-    bytes
-}
-
-/// `builtin_interfaces/Time`.
-#[derive(Serialize)]
-struct Time {
-    sec: i32,
-    nanosec: u32,
-}
-
-impl Time {
-    fn new(t_ns: u64) -> Self {
-        const NS: u64 = 1_000_000_000;
-        Self {
-            sec: i32::try_from(t_ns / NS).expect("simulated time stays below 68 years"),
-            nanosec: (t_ns % NS) as u32,
-        }
-    }
-}
-
-/// `std_msgs/Header`.
-#[derive(Serialize)]
-struct Header<'a> {
-    stamp: Time,
-    frame_id: &'a str,
-}
-
-impl<'a> Header<'a> {
-    fn new(t_ns: u64, frame_id: &'a str) -> Self {
-        let stamp = Time::new(t_ns);
-        Self { stamp, frame_id }
-    }
-}
-
-fn xyz(v: &Vector3<f64>) -> [f64; 3] {
-    (*v).into()
-}
-
-/// `geometry_msgs/Pose` and `geometry_msgs/Transform`: the place, and the quaternion in the order x, y, z, w.
-fn pose(p: &Vector3<f64>, q: &UnitQuaternion<f64>) -> ([f64; 3], [f64; 4]) {
-    (xyz(p), q.coords.into())
-}
-
-/// `uint8[]`.
-fn bytes<S: Serializer>(of: &[u8], to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_bytes(of)
-}
+use serde::Serialize;
 
 /// Position and attitude of `child` in `frame`; velocities in the child's axes.
 #[derive(Clone, Debug)]
@@ -162,15 +66,28 @@ pub fn pose_stamped(t_ns: u64, frame: &str, p: &Vector3<f64>, q: &UnitQuaternion
     cdr(&(Header::new(t_ns, frame), pose(p, q)))
 }
 
-/// A `TFMessage`: each child's pose in `parent`.
+/// Pose of a frame in another, for a `TFMessage`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transform {
+    /// Time, ns.
+    pub t_ns: u64,
+    /// The other frame.
+    pub parent: String,
+    /// The frame.
+    pub child: String,
+    /// Position, m.
+    pub position: Vector3<f64>,
+    /// Attitude.
+    pub attitude: UnitQuaternion<f64>,
+}
+
+/// A `TFMessage`.
 #[must_use]
-pub fn transforms(
-    t_ns: u64,
-    parent: &str,
-    children: &[(&str, Vector3<f64>, UnitQuaternion<f64>)],
-) -> Vec<u8> {
-    let stamped =
-        (children.iter()).map(|(child, p, q)| (Header::new(t_ns, parent), *child, pose(p, q)));
+pub fn transforms(all: &[Transform]) -> Vec<u8> {
+    let stamped = all.iter().map(|t| {
+        let pose = pose(&t.position, &t.attitude);
+        (Header::new(t.t_ns, &t.parent), t.child.as_str(), pose)
+    });
     cdr(&stamped.collect::<Vec<_>>())
 }
 
@@ -275,27 +192,27 @@ pub fn point_cloud<const N: usize>(
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use nalgebra::Quaternion;
 
-    const T_NS: u64 = 1_000_000_005;
+    pub(in super::super) const T_NS: u64 = 1_000_000_005;
     /// That time, the frame `world`, and the padding after it.
-    const HEADER: &str = "0100000005000000 06000000776f726c64000000";
+    pub(in super::super) const HEADER: &str = "0100000005000000 06000000776f726c64000000";
     /// The pose below: places at multiples of 8.
     const POSE: &str = "000000000000f03f 0000000000000440 00000000000008c0 \
                         0000000000000000 0000000000000000 333333333333e33f 9a9999999999e93f";
 
-    fn p() -> Vector3<f64> {
+    pub(in super::super) fn p() -> Vector3<f64> {
         Vector3::new(1.0, 2.5, -3.0)
     }
 
-    fn q() -> UnitQuaternion<f64> {
+    pub(in super::super) fn q() -> UnitQuaternion<f64> {
         UnitQuaternion::new_unchecked(Quaternion::new(0.8, 0.0, 0.0, 0.6))
     }
 
     /// The bytes after the four that name the encoding.
-    fn is(message: &[u8], body: &str) {
+    pub(in super::super) fn is(message: &[u8], body: &str) {
         let hex: String = message.iter().map(|b| format!("{b:02x}")).collect();
         let body: String = body.split_whitespace().collect();
         assert_eq!(hex, format!("00010000{body}"));
@@ -345,11 +262,17 @@ mod tests {
 
     #[test]
     fn transforms_keep_their_bytes() {
-        let children = [("a", p(), q()), ("bcd", p(), q())];
+        let children = ["a", "bcd"].map(|child| Transform {
+            t_ns: T_NS,
+            parent: "world".into(),
+            child: child.into(),
+            position: p(),
+            attitude: q(),
+        });
         let first = format!("{HEADER} 020000006100 0000 {POSE}");
         let second = format!("{HEADER} 0400000062636400 00000000 {POSE}");
         is(
-            &transforms(T_NS, "world", &children),
+            &transforms(&children),
             &format!("02000000 {first} {second}"),
         );
     }

@@ -5,7 +5,7 @@
 //! *Deviations*: comments of the originals are omitted; fields, order and types are the same.
 //! *Written here*: crates of message definitions need a ROS installation or bring hundreds of types.
 
-use super::ros_messages::MessageKind;
+use super::MessageKind;
 
 const TIME: (&str, &str) = ("builtin_interfaces/Time", "int32 sec\nuint32 nanosec\n");
 const HEADER: (&str, &str) = (
@@ -39,6 +39,36 @@ const TRANSFORM_STAMPED: (&str, &str) = (
     "geometry_msgs/TransformStamped",
     "std_msgs/Header header\nstring child_frame_id\nTransform transform\n",
 );
+const POSE_STAMPED: (&str, &str) = (
+    "geometry_msgs/PoseStamped",
+    "std_msgs/Header header\nPose pose\n",
+);
+const COMPRESSED_IMAGE: (&str, &str) = (
+    "sensor_msgs/CompressedImage",
+    "std_msgs/Header header\nstring format\nuint8[] data\n",
+);
+const COLOR: (&str, &str) = (
+    "std_msgs/ColorRGBA",
+    "float32 r\nfloat32 g\nfloat32 b\nfloat32 a\n",
+);
+const DURATION: (&str, &str) = ("builtin_interfaces/Duration", "int32 sec\nuint32 nanosec\n");
+const UV_COORDINATE: (&str, &str) = ("visualization_msgs/UVCoordinate", "float32 u\nfloat32 v\n");
+const MESH_FILE: (&str, &str) = (
+    "visualization_msgs/MeshFile",
+    "string filename\nuint8[] data\n",
+);
+const MARKER: (&str, &str) = (
+    "visualization_msgs/Marker",
+    "int32 ARROW=0\nint32 CUBE=1\nint32 SPHERE=2\nint32 CYLINDER=3\nint32 LINE_STRIP=4\n\
+     int32 LINE_LIST=5\nint32 CUBE_LIST=6\nint32 SPHERE_LIST=7\nint32 POINTS=8\n\
+     int32 TEXT_VIEW_FACING=9\nint32 MESH_RESOURCE=10\nint32 TRIANGLE_LIST=11\nint32 ARROW_STRIP=12\n\
+     int32 ADD=0\nint32 MODIFY=0\nint32 DELETE=2\nint32 DELETEALL=3\nstd_msgs/Header header\nstring ns\n\
+     int32 id\nint32 type\nint32 action\ngeometry_msgs/Pose pose\ngeometry_msgs/Vector3 scale\n\
+     std_msgs/ColorRGBA color\nbuiltin_interfaces/Duration lifetime\nbool frame_locked\n\
+     geometry_msgs/Point[] points\nstd_msgs/ColorRGBA[] colors\nstring texture_resource\n\
+     sensor_msgs/CompressedImage texture\nUVCoordinate[] uv_coordinates\nstring text\n\
+     string mesh_resource\nMeshFile mesh_file\nbool mesh_use_embedded_materials\n",
+);
 const POINT_FIELD: (&str, &str) = (
     "sensor_msgs/PointField",
     "uint8 INT8=1\nuint8 UINT8=2\nuint8 INT16=3\nuint8 UINT16=4\nuint8 INT32=5\nuint8 UINT32=6\n\
@@ -46,23 +76,6 @@ const POINT_FIELD: (&str, &str) = (
 );
 
 impl MessageKind {
-    /// Full name of the type.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            MessageKind::Odometry => "nav_msgs/msg/Odometry",
-            MessageKind::Float64 => "std_msgs/msg/Float64",
-            MessageKind::Text => "std_msgs/msg/String",
-            MessageKind::Vector3Stamped => "geometry_msgs/msg/Vector3Stamped",
-            MessageKind::PoseStamped => "geometry_msgs/msg/PoseStamped",
-            MessageKind::TfMessage => "tf2_msgs/msg/TFMessage",
-            MessageKind::Clock => "rosgraph_msgs/msg/Clock",
-            MessageKind::PointCloud2 => "sensor_msgs/msg/PointCloud2",
-            MessageKind::JointState => "sensor_msgs/msg/JointState",
-            MessageKind::CompressedImage => "sensor_msgs/msg/CompressedImage",
-        }
-    }
-
     /// Definition followed by those of all types in it, in the form that `ros2msg` readers expect.
     #[must_use]
     pub fn schema(self) -> String {
@@ -83,6 +96,14 @@ impl MessageKind {
             MessageKind::PoseStamped => (
                 "std_msgs/Header header\nPose pose\n",
                 &[HEADER, TIME, POSE, POINT, QUATERNION],
+            ),
+            MessageKind::TwistStamped => (
+                "std_msgs/Header header\nTwist twist\n",
+                &[HEADER, TIME, TWIST, VECTOR3],
+            ),
+            MessageKind::Path => (
+                "std_msgs/Header header\ngeometry_msgs/PoseStamped[] poses\n",
+                &[HEADER, TIME, POSE_STAMPED, POSE, POINT, QUATERNION],
             ),
             MessageKind::TfMessage => (
                 "geometry_msgs/TransformStamped[] transforms\n",
@@ -106,9 +127,39 @@ impl MessageKind {
                  float64[] effort\n",
                 &[HEADER, TIME],
             ),
-            MessageKind::CompressedImage => (
-                "std_msgs/Header header\nstring format\nuint8[] data\n",
+            MessageKind::CompressedImage => (COMPRESSED_IMAGE.1, &[HEADER, TIME]),
+            MessageKind::Imu => (
+                "std_msgs/Header header\ngeometry_msgs/Quaternion orientation\n\
+                 float64[9] orientation_covariance\ngeometry_msgs/Vector3 angular_velocity\n\
+                 float64[9] angular_velocity_covariance\ngeometry_msgs/Vector3 linear_acceleration\n\
+                 float64[9] linear_acceleration_covariance\n",
+                &[HEADER, TIME, QUATERNION, VECTOR3],
+            ),
+            MessageKind::FluidPressure => (
+                "std_msgs/Header header\nfloat64 fluid_pressure\nfloat64 variance\n",
                 &[HEADER, TIME],
+            ),
+            MessageKind::Range => (
+                "uint8 ULTRASOUND=0\nuint8 INFRARED=1\nstd_msgs/Header header\nuint8 radiation_type\n\
+                 float32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\nfloat32 variance\n",
+                &[HEADER, TIME],
+            ),
+            MessageKind::MarkerArray => (
+                "Marker[] markers\n",
+                &[
+                    MARKER,
+                    HEADER,
+                    TIME,
+                    POSE,
+                    POINT,
+                    QUATERNION,
+                    VECTOR3,
+                    COLOR,
+                    DURATION,
+                    COMPRESSED_IMAGE,
+                    UV_COORDINATE,
+                    MESH_FILE,
+                ],
             ),
         };
         let mut text = own.to_owned();
@@ -133,7 +184,7 @@ mod tests {
         const PLAIN: [&str; 7] = [
             "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
         ];
-        for kind in MessageKind::ALL {
+        for kind in MessageKind::all() {
             let schema = kind.schema();
             let defined: Vec<&str> = schema
                 .lines()

@@ -1,0 +1,175 @@
+//! What others need to draw a vehicle or a gantry: its URDF as one text, and the frames of its links.
+//!
+//! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint`.
+//!
+//! *Parameters:* none.
+//!
+//! *Deviations:* the text is written anew, for readers that know URDF 1.0 only: a capsule becomes the cylinder of the
+//! same length, a link without `<visual>` shows what it collides with, and a mesh file gets its whole path.
+
+use super::files::Files;
+use super::folder::urdf_of;
+use super::gantry::{CRAB_GANTRY, GantrySpec};
+use super::remus100::REMUS100;
+use super::spec::VehicleSpec;
+use super::urdf_parts::{UrdfText, check_tree, parse, pose_of, root};
+use crate::error::RobotError;
+use nalgebra::Vector3;
+use urdf_rs::{Collision, Geometry, Visual};
+use world::frames::Pose;
+
+/// A URDF to draw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Description {
+    /// The text.
+    pub urdf: String,
+    /// Name of the link that is the body or the base.
+    pub root: String,
+    /// All joints.
+    pub joints: Vec<Mount>,
+}
+
+/// A joint: how a link is fitted to another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mount {
+    /// Name of the joint.
+    pub joint: String,
+    /// The link that carries the other.
+    pub parent: String,
+    /// The other.
+    pub child: String,
+    /// Pose of the other in the first one's axes, with the joint at zero.
+    pub pose: Pose,
+    /// Direction in which it slides, in its own axes; unit vector.
+    pub axis: Vector3<f64>,
+}
+
+impl Mount {
+    /// The pose with the joint slid to a position, m.
+    #[must_use]
+    pub fn slid(&self, position_m: f64) -> Pose {
+        Pose {
+            p_WB: self.pose.point(self.axis * position_m),
+            ..self.pose
+        }
+    }
+}
+
+impl Description {
+    /// Of a vehicle that can be built.
+    ///
+    /// # Errors
+    /// If its URDF cannot be read.
+    pub fn of_vehicle(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
+        let named =
+            |urdf: &Option<String>| Self::of(&UrdfText::open(urdf.as_deref(), files, REMUS100)?);
+        match spec {
+            VehicleSpec::Remus100(remus) => named(&remus.urdf),
+            VehicleSpec::Kinematic(spec) => named(&spec.urdf),
+            VehicleSpec::Shipped(name) => urdf_of(name, true, files, Self::of),
+            VehicleSpec::File(folder) => urdf_of(folder, false, files, Self::of),
+        }
+    }
+
+    /// Of a gantry that can be built.
+    ///
+    /// # Errors
+    /// If its URDF cannot be read.
+    pub fn of_gantry(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
+        let GantrySpec::CrabGantry(spec) = spec;
+        Self::of(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)
+    }
+
+    fn of(text: &UrdfText) -> Result<Self, RobotError> {
+        let fail = |problem: String| text.fault(problem);
+        let mut robot = parse(&text.text).map_err(fail)?;
+        check_tree(&robot).map_err(fail)?;
+        for link in &mut robot.links {
+            let collisions = link.collision.iter_mut().map(|c| &mut c.geometry);
+            let visuals = link.visual.iter_mut().map(|v| &mut v.geometry);
+            for geometry in collisions.chain(visuals) {
+                simplify(geometry, text);
+            }
+            if link.visual.is_empty() {
+                link.visual = link.collision.iter().map(seen).collect();
+            }
+        }
+        let mount = |joint: &urdf_rs::Joint| Mount {
+            joint: joint.name.clone(),
+            parent: joint.parent.link.clone(),
+            child: joint.child.link.clone(),
+            pose: pose_of(&joint.origin),
+            axis: (Vector3::from(joint.axis.xyz.0).try_normalize(0.0)).unwrap_or_else(Vector3::x),
+        };
+        Ok(Self {
+            root: root(&robot).map_err(fail)?.name.clone(),
+            joints: robot.joints.iter().map(mount).collect(),
+            urdf: urdf_rs::write_to_string(&robot).map_err(|e| fail(e.to_string()))?,
+        })
+    }
+}
+
+/// Replaces what readers of URDF 1.0 do not know, and names of files that they cannot find.
+fn simplify(geometry: &mut Geometry, text: &UrdfText) {
+    match geometry {
+        Geometry::Capsule { radius, length } => {
+            *geometry = Geometry::Cylinder {
+                radius: *radius,
+                length: *length + 2.0 * *radius,
+            };
+        }
+        Geometry::Mesh { filename, .. } => *filename = text.mesh_url(filename),
+        _ => {}
+    }
+}
+
+/// A collision shape to look at.
+fn seen(collision: &Collision) -> Visual {
+    Visual {
+        name: None,
+        origin: collision.origin.clone(),
+        geometry: collision.geometry.clone(),
+        material: None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::files::InMemory;
+    use super::*;
+    use crate::vehicles::SHIPPED;
+
+    #[test]
+    fn every_vehicle_and_gantry_is_described_as_it_is_built() {
+        let files = InMemory::default();
+        let remus = Description::of_vehicle(&VehicleSpec::default(), &files).unwrap();
+        assert_eq!(remus.root, "base_link");
+        let camera = remus.joints.iter().find(|j| j.child == "camera").unwrap();
+        assert_eq!(camera.parent, "base_link");
+        assert_eq!(camera.pose.p_WB, Vector3::new(0.6, 0.0, -0.1));
+        // The text can be read again, and a reader of URDF 1.0 finds what it knows.
+        assert!(!remus.urdf.contains("capsule"), "{}", remus.urdf);
+        assert_eq!(parse(&remus.urdf).unwrap().joints.len(), remus.joints.len());
+
+        let crab = Description::of_gantry(&GantrySpec::default(), &files).unwrap();
+        assert_eq!(crab.root, "base");
+        assert_eq!(crab.urdf.matches("<visual").count(), 6);
+        let across = (crab.joints.iter().find(|j| j.joint == "across_stream")).unwrap();
+        let at = across.slid(0.25).p_WB;
+        assert!((at - Vector3::new(0.0, 0.25, -0.475)).norm() < 1e-12);
+        assert!(!SHIPPED.is_empty());
+    }
+
+    #[test]
+    fn a_mesh_is_found_from_anywhere() {
+        let text = r#"<robot name="a"><link name="b"><collision><geometry>
+            <mesh filename="hull.stl"/></geometry></collision></link></robot>"#;
+        let files = InMemory::default().with("hulls/a.urdf", text.as_bytes());
+        let text = UrdfText::open(Some("hulls/a.urdf"), &files, REMUS100).unwrap();
+        let urdf = Description::of(&text).unwrap().urdf;
+        let here = std::env::current_dir().unwrap();
+        let path = here.join("hulls/hull.stl");
+        let url = format!("filename=\"file://{}\"", path.display());
+        assert_eq!(urdf.matches(&url).count(), 2, "{urdf}");
+    }
+}

@@ -1,0 +1,87 @@
+//! Messages of a robot's instruments, each with the time of its reading.
+
+use super::frames::BODY;
+use super::state::Of;
+use super::topics;
+use crate::ros::{
+    Imu, Range, fluid_pressure, nanoseconds, point_cloud, twist_stamped, vector3_stamped,
+};
+use nalgebra::Vector3;
+use rheotaxis::frame::{At, Heard};
+use robots::handoff::{Attitude, RangeScan};
+
+/// Pressure of the air at the surface, Pa: standard atmosphere.
+const SURFACE_PA: f64 = 101_325.0;
+/// Weight of sea water, N/m³: 1025 kg/m³ at standard gravity.
+const WEIGHT_N_M3: f64 = 1025.0 * 9.806_65;
+
+/// Adds the messages of all readings.
+pub(super) fn put(of: &mut Of, heard: &Heard) {
+    let body = of.machine.frame(BODY);
+    if let Some(At { t_s, value }) = &heard.attitude {
+        let attitude = Attitude {
+            heading: value.heading,
+            roll_rad: value.roll_rad,
+            pitch_rad: value.pitch_rad,
+            rates_rad_s: value.rates_rad_s,
+        };
+        let imu = Imu {
+            t_ns: nanoseconds(*t_s),
+            frame: &body,
+            attitude: attitude.R_WB(),
+            rates: value.rates_rad_s,
+        };
+        of.put(&topics::IMU, imu.cdr());
+    }
+    if let Some(At { t_s, value }) = &heard.depth {
+        let pressure_Pa = SURFACE_PA + WEIGHT_N_M3 * value.depth_m;
+        let cdr = fluid_pressure(nanoseconds(*t_s), &body, pressure_Pa);
+        of.put(&topics::PRESSURE, cdr);
+    }
+    if let (Some(At { t_s, value }), Some(limits_m)) = (&heard.altimeter, of.machine.altimeter_m) {
+        let range = Range {
+            t_ns: nanoseconds(*t_s),
+            frame: &of.machine.frame("altimeter_beam"),
+            view_rad: 0.0,
+            limits_m,
+            range_m: value.valid.then_some(value.altitude_m),
+        };
+        of.put(&topics::ALTIMETER, range.cdr());
+    }
+    if let Some(scan) = &heard.ranging {
+        ranging(of, scan, &body);
+    }
+    if let Some(At { t_s, value }) = heard.dvl.as_ref().filter(|r| r.value.valid) {
+        let cdr = twist_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
+        of.put(&topics::DVL, cdr);
+    }
+    if let Some(At { t_s, value }) = heard.adcp.as_ref().filter(|r| r.value.valid) {
+        let cdr = vector3_stamped(nanoseconds(*t_s), &body, &value.v_body_m_s);
+        of.put(&topics::ADCP, cdr);
+    }
+}
+
+/// The echoes of the forward ranging as points, and the nearest.
+fn ranging(of: &mut Of, At { t_s, value: scan }: &At<RangeScan>, body: &str) {
+    let t_ns = nanoseconds(*t_s);
+    let at = |dir_B: &Vector3<f64>, echo_m: f64| {
+        let p = scan.p_BS + dir_B * echo_m;
+        [p.x as f32, p.y as f32, p.z as f32]
+    };
+    let echoes = || (scan.beams.iter()).filter_map(|b| Some((b, b.echo_m?)));
+    let points: Vec<[f32; 3]> = echoes().map(|(b, m)| at(&b.dir_B, m)).collect();
+    of.put(
+        &topics::RANGING,
+        point_cloud(t_ns, body, ["x", "y", "z"], &points),
+    );
+    if let Some((limits_m, view_rad)) = of.machine.ranging {
+        let nearest = Range {
+            t_ns,
+            frame: &of.machine.frame("ranging"),
+            view_rad,
+            limits_m,
+            range_m: echoes().map(|(_, m)| m).min_by(f64::total_cmp),
+        };
+        of.put(&topics::NEAREST, nearest.cdr());
+    }
+}

@@ -1,0 +1,197 @@
+//! Messages of a frame. What is latched is said when it changes.
+
+use super::Scene;
+use super::frames::{BODY, MAP, slid, transform};
+use super::readings;
+use super::scene::Machine;
+use super::topics::{self, RosTopic};
+use crate::ros::{
+    Joint, Odometry, Transform, float64, joint_state, nanoseconds, path, pose_stamped, text,
+    transforms, vector3_stamped,
+};
+use nalgebra::{UnitQuaternion, Vector3};
+use rheotaxis::frame::{Frame, GantryFrame, RobotFrame};
+use robots::handoff::Declaration;
+use std::collections::BTreeMap;
+use world::frames::Pose;
+
+/// A message for a topic of a name.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Message {
+    pub(super) topic: &'static RosTopic,
+    pub(super) name: String,
+    pub(super) cdr: Vec<u8>,
+}
+
+/// What was said last on each latched topic, so that it is said again only when it is new.
+#[derive(Debug, Default)]
+pub(super) struct Spoken {
+    latched: BTreeMap<String, Vec<u8>>,
+}
+
+/// The messages of one machine.
+pub(super) struct Of<'a> {
+    pub(super) machine: &'a Machine,
+    pub(super) t_ns: u64,
+    out: Vec<Message>,
+}
+
+impl<'a> Of<'a> {
+    fn new(machine: &'a Machine, t_ns: u64) -> Self {
+        let out = Vec::new();
+        Self { machine, t_ns, out }
+    }
+
+    /// Adds a message on a topic of this machine.
+    pub(super) fn put(&mut self, topic: &'static RosTopic, cdr: Vec<u8>) {
+        self.put_named(topic, "", cdr);
+    }
+
+    /// The same with the name of one of its probes.
+    fn put_named(&mut self, topic: &'static RosTopic, probe: &str, cdr: Vec<u8>) {
+        let own = self.machine.name.as_str();
+        let name = (topic.name.replace("<robot>", own))
+            .replace("<gantry>", own)
+            .replace("<probe>", probe);
+        self.out.push(Message { topic, name, cdr });
+    }
+}
+
+impl Spoken {
+    /// All messages of a frame except the time.
+    pub(super) fn messages(&mut self, scene: &Scene, frame: &Frame) -> Vec<Message> {
+        let t_ns = nanoseconds(frame.t_s);
+        let mut out = Vec::new();
+        let mut tf = Vec::new();
+        for robot in &frame.robots {
+            if let Some(machine) = scene.machine(&robot.id) {
+                let mut of = Of::new(machine, t_ns);
+                self.robot(&mut of, robot, &mut tf);
+                out.append(&mut of.out);
+            }
+        }
+        for gantry in &frame.gantries {
+            if let Some(machine) = scene.machine(&gantry.id) {
+                let mut of = Of::new(machine, t_ns);
+                self.gantry(&mut of, gantry, &mut tf);
+                out.append(&mut of.out);
+            }
+        }
+        let (topic, name) = (&topics::TF, topics::TF.name.to_owned());
+        let cdr = transforms(&tf);
+        // First, so that a node that has a message also has the frame that it is in.
+        out.insert(0, Message { topic, name, cdr });
+        out
+    }
+
+    fn robot(&mut self, of: &mut Of, r: &RobotFrame, tf: &mut Vec<Transform>) {
+        let (t_ns, e, truth) = (of.t_ns, &r.estimate, &r.truth);
+        // The estimate is older than the truth: it holds for the time of the readings in it.
+        let believed_ns = nanoseconds(e.t_s);
+        let believed = Pose {
+            p_WB: e.p_WB(),
+            R_WB: e.attitude.R_WB(),
+        };
+        let rates = e.attitude.rates_rad_s;
+        for (topic, t_ns, link, pose, linear, angular) in [
+            (
+                &topics::ODOM,
+                believed_ns,
+                BODY,
+                &believed,
+                e.v_ground_body,
+                rates,
+            ),
+            (
+                &topics::TRUTH,
+                t_ns,
+                "ground_truth",
+                &truth.pose,
+                truth.v_WB_B,
+                truth.w_WB_B,
+            ),
+        ] {
+            let child = of.machine.frame(link);
+            let odometry = Odometry {
+                t_ns,
+                frame: MAP,
+                child: &child,
+                position: pose.p_WB,
+                attitude: pose.R_WB,
+                linear,
+                angular,
+            };
+            of.put(topic, odometry.cdr());
+            tf.push(transform(t_ns, MAP, child, pose));
+        }
+        readings::put(of, &r.heard);
+        if let Some(c) = r.chemical {
+            of.put(&topics::CHEMICAL, float64(c.volts));
+        }
+        if let Some(flow) = e.flow {
+            let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);
+            of.put(&topics::FLOW, vector3_stamped(believed_ns, MAP, &v));
+        }
+        self.behaviour(of, r.behaviour.name());
+        if !r.planned.is_empty() || self.latched.contains_key(&plan_of(of)) {
+            // The stamp is that of the start, so that the same path is the same message.
+            let same = path(0, MAP, &r.planned);
+            if self.is_new(plan_of(of), same) {
+                of.put(&topics::PLAN, path(t_ns, MAP, &r.planned));
+            }
+        }
+        for d in &r.declarations {
+            self.declaration(of, d, 0.0);
+        }
+    }
+
+    fn gantry(&mut self, of: &mut Of, g: &GantryFrame, tf: &mut Vec<Transform>) {
+        let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
+        tf.extend(slid(of.t_ns, of.machine, &positions));
+        let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
+            .map(|(name, j)| Joint {
+                name,
+                position: j.position_m,
+                velocity: j.speed_m_s,
+                effort: j.force_N,
+            })
+            .collect();
+        of.put(&topics::JOINTS, joint_state(of.t_ns, "", &joints));
+        if let Some(scan) = &g.scan {
+            let probes = of.machine.probes.iter().zip(&scan.volts[..scan.count]);
+            for (probe, volts) in probes {
+                of.put_named(&topics::PROBE, probe, float64(*volts));
+            }
+        }
+        self.behaviour(of, g.decision.behaviour.name());
+        if let Some(d) = &g.declaration {
+            self.declaration(of, d, g.head_W.z);
+        }
+    }
+
+    fn behaviour(&mut self, of: &mut Of, name: &str) {
+        let cdr = text(name);
+        if self.is_new(format!("{}/behaviour", of.machine.name), cdr.clone()) {
+            of.put(&topics::BEHAVIOUR, cdr);
+        }
+    }
+
+    /// A declaration that was not said before: of its region, if the area is divided.
+    fn declaration(&mut self, of: &mut Of, d: &Declaration, z: f64) {
+        let p = Vector3::new(d.position.x, d.position.y, z);
+        let cdr = pose_stamped(nanoseconds(d.t_s), MAP, &p, &UnitQuaternion::identity());
+        let which = format!("{}/declaration/{:?}", of.machine.name, d.region);
+        if self.is_new(which, cdr.clone()) {
+            of.put(&topics::DECLARATION, cdr);
+        }
+    }
+
+    fn is_new(&mut self, which: String, cdr: Vec<u8>) -> bool {
+        let before = self.latched.insert(which, cdr.clone());
+        before != Some(cdr)
+    }
+}
+
+fn plan_of(of: &Of) -> String {
+    format!("{}/plan", of.machine.name)
+}

@@ -1,0 +1,24 @@
+//! ROS 2 messages: their types, their definitions, and their bytes. Recordings and live state share them.
+
+mod cdr;
+mod drawings;
+mod messages;
+mod plume;
+mod schemas;
+mod sensors;
+mod types;
+
+pub use drawings::{Marker, marker_array, path};
+pub use messages::{
+    Joint, Odometry, Transform, clock, compressed_image, float64, joint_state, point_cloud,
+    pose_stamped, text, transforms, vector3_stamped,
+};
+pub use plume::plume_cloud;
+pub use sensors::{Imu, Range, fluid_pressure, twist_stamped};
+pub use types::MessageKind;
+
+/// A simulated time in seconds as nanoseconds, never negative.
+#[must_use]
+pub fn nanoseconds(t_s: f64) -> u64 {
+    (t_s.max(0.0) * 1e9).round() as u64
+}

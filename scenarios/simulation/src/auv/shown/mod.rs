@@ -1,0 +1,3 @@
+//! What of robots is shown.
+
+pub(crate) mod system;
