@@ -116,7 +116,7 @@ impl StrategyParams for ExternalSpec {
 
     fn wishes(&self) -> Wishes {
         self.fallback()
-            .map(|spec| spec.wishes())
+            .map(|spec| spec.wishes().within("on_late"))
             .unwrap_or_default()
     }
 

@@ -1,0 +1,65 @@
+//! A controller of your own: the run asks it once a second, and it steers up-stream until something is smelt.
+//!
+//! A strategy is built into the scenario's names (`own_strategy.rs`); a controller is called from outside, so it can be a
+//! closure of your program, or what another process says.
+//!
+//! `cargo run --release -p rheotaxis --example own_controller`
+
+use rheotaxis::control::{Heard, Question, Seen};
+use rheotaxis::scenario::{load_text, template};
+use rheotaxis::trial::Trial;
+use robots::handoff::{
+    Answer, Behaviour, Declaration, Manoeuvre, MoveOrder, Order, Outcome, Vertical,
+};
+use world::registry::Registry;
+use world::units::Heading;
+
+/// What to do, from what the robot sees and has gathered since the last question.
+fn decide(question: &Question) -> Heard {
+    let Seen::Robot(seen, gathered) = &question.seen else {
+        return Heard::Nonsense("it steers robots only".to_string());
+    };
+    let up_stream = (seen.estimate.flow).map_or(Heading::from_deg(270.0), |f| f.up_flow());
+    let smelt = gathered.detections > 0;
+    Heard::Answer(Answer {
+        order: Some(Order::Move(MoveOrder {
+            id: None,
+            manoeuvre: Manoeuvre::Steer { heading: up_stream },
+            vertical: Some(Vertical::Altitude(2.0)),
+            speed_m_s: Some(1.5),
+        })),
+        behaviour: Some(Behaviour::Other("up_stream")),
+        declared: smelt
+            .then(|| Declaration::first(seen.t_s, seen.estimate.position, "first smell")),
+        outcome: smelt.then_some(Outcome::Completed),
+        picture: false,
+    })
+}
+
+#[allow(clippy::print_stdout, reason = "an example shows its result")]
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    // A scenario of the catalogue whose robot asks somebody outside, once a second.
+    let text = template("uniform_channel").ok_or("no such scenario")?.text;
+    let text = text
+        .replace(
+            "Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+            "External(period_s: 1)",
+        )
+        .replace("north_m: -30", "north_m: 5")
+        .replace(
+            "spin_up_s: 2000, limit_s: 1800",
+            "spin_up_s: 2000, limit_s: 300",
+        );
+    let scenario = load_text(&Registry::default(), "up_stream", &text)?;
+    let mut trial = Trial::assemble(&scenario, 1)?;
+    trial.control("auv0", decide)?;
+    let ended = trial.finish_quietly();
+    println!("{} after {:.0} s", ended.outcome.words(), ended.t_s);
+    for declared in ended.declarations.values().flatten() {
+        println!("declared at {:.0} m east", declared.position.x);
+    }
+    if ended.declarations.is_empty() {
+        return Err("nothing was smelt".into());
+    }
+    Ok(())
+}
