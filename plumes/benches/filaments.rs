@@ -1,4 +1,4 @@
-//! Speed of the plume in water like that of Duck: `cargo bench -p plumes --bench filaments`.
+//! Speed of the plume in water like that of Duck: `cargo bench -p rheotaxis-plumes --bench filaments`.
 //!
 //! Goals: 5·10⁷ filament updates a second and 10⁶ point queries a second at 10⁴ filaments on one core.
 

@@ -1,4 +1,4 @@
-//! What the flume costs: `cargo bench -p plumes --bench flume`. Goal: a minute of spin-up and 75 s of mission in 0.25 s.
+//! What the flume costs: `cargo bench -p rheotaxis-plumes --bench flume`. Goal: a minute of spin-up and 75 s of mission in 0.25 s.
 
 use divan::{Bencher, black_box};
 use nalgebra::{Vector2, Vector3};

@@ -1,6 +1,6 @@
 //! How long a picture takes: 640 × 480 pixels, a dark block and a meandering plume of 1500 puffs.
 //!
-//! `cargo bench -p robots --bench camera`
+//! `cargo bench -p rheotaxis-robots --bench camera`
 
 use divan::Bencher;
 use nalgebra::Vector3;

@@ -1,4 +1,4 @@
-//! An update of each source map, 600 s of look-back. `cargo bench -p robots --bench map`
+//! An update of each source map, 600 s of look-back. `cargo bench -p rheotaxis-robots --bench map`
 //!
 //! The flow crosses the area in the look-back, so that every release counts: 0.17 m/s over 100 m.
 

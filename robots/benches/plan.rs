@@ -1,6 +1,6 @@
 //! How long a plan takes: A* over a million voxels, and over the paper's cells.
 //!
-//! `cargo bench -p robots --bench plan`
+//! `cargo bench -p rheotaxis-robots --bench plan`
 
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::BeliefGrid;

@@ -1,4 +1,4 @@
-//! Steps of a vehicle alone, with and without a look for contacts, and of a gantry. `cargo bench -p robots --bench
+//! Steps of a vehicle alone, with and without a look for contacts, and of a gantry. `cargo bench -p rheotaxis-robots --bench
 //! vehicle`
 
 use divan::Bencher;

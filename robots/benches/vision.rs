@@ -1,6 +1,6 @@
 //! How long it takes to take a picture apart: one pass, all passes, and the verdict.
 //!
-//! `cargo bench -p robots --bench vision`
+//! `cargo bench -p rheotaxis-robots --bench vision`
 
 use image::{Rgb, RgbImage};
 use robots::vision::{ColourSpec, Verifier, VerifierSpec, segment, stretched};

@@ -1,4 +1,4 @@
-//! How fast a hull alone is computed: `cargo run --release -p studies --example hull_speed`.
+//! How fast a hull alone is computed: `cargo run --release -p rheotaxis-studies --example hull_speed`.
 //!
 //! Each vehicle turns and dives in moving water for half an hour, in steps of 0.02 s, without instruments, plume or
 //! contacts. Prints real time over computing time of one thread. Run it on an idle machine.

@@ -1,4 +1,4 @@
-//! What a mission of a kinematic vehicle costs beside its plume: `cargo run --release -p studies --example
+//! What a mission of a kinematic vehicle costs beside its plume: `cargo run --release -p rheotaxis-studies --example
 //! kinematic_cost`.
 //!
 //! For a few seeds of `duck_st`: core time of the mission less that of its plume, and of the questions that the

@@ -1,7 +1,7 @@
 //! The pictures of a source added up: a line over it in murky water, the ground that its pictures make together, and
 //! what they say after the first picture and after the last.
 //!
-//! `cargo run --release -p studies --example mosaic -- mosaic.png`
+//! `cargo run --release -p rheotaxis-studies --example mosaic -- mosaic.png`
 
 use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};

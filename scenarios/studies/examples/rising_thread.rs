@@ -1,4 +1,4 @@
-//! The crab's plume from the side, beside a neutral one: `cargo run --release -p studies --example rising_thread`.
+//! The crab's plume from the side, beside a neutral one: `cargo run --release -p rheotaxis-studies --example rising_thread`.
 //!
 //! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made
 //! neutral with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that

@@ -1,4 +1,4 @@
-//! How cost grows with filaments, robots and lanes: `cargo run --release -p studies --example scale`.
+//! How cost grows with filaments, robots and lanes: `cargo run --release -p rheotaxis-studies --example scale`.
 //!
 //! Each point is the steady channel of the catalogue in its second minute of mission, on one thread: wall time for a
 //! second of mission, and the memory of a process of its own. Run it on an idle machine. It prints a table and writes

@@ -71,8 +71,8 @@ macro_rules! catalog {
     ($($name:literal $(with $file:literal)*),* $(,)?) => {
         &[$(Template {
             name: $name,
-            text: include_str!(concat!("../../../catalog/", $name, ".ron")),
-            files: &[$(($file, include_bytes!(concat!("../../../catalog/", $file)))),*],
+            text: include_str!(concat!("../../catalog/", $name, ".ron")),
+            files: &[$(($file, include_bytes!(concat!("../../catalog/", $file)))),*],
         }),*]
     };
 }

@@ -15,7 +15,7 @@ macro_rules! catalog {
     ($($name:literal),* $(,)?) => {
         &[$(Template {
             name: $name,
-            text: include_str!(concat!("../../../catalog/campaigns/", $name, ".ron")),
+            text: include_str!(concat!("../../campaigns/", $name, ".ron")),
             files: &[],
         }),*]
     };

@@ -185,7 +185,7 @@ fn survives(damage: fn(&Path, u64) -> PathBuf, n: u64, seed: u64) -> u64 {
     broken
 }
 
-/// For more: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p studies --lib damaged_blocks`.
+/// For more: `RHEOTAXIS_DAMAGES=100000 cargo test --release -p rheotaxis-studies --lib damaged_blocks`.
 #[test]
 fn damaged_blocks_are_not_whole() {
     let n = std::env::var("RHEOTAXIS_DAMAGES").ok();

@@ -4,11 +4,7 @@ macro_rules! row {
     ($name:literal) => {
         (
             $name,
-            include_str!(concat!(
-                "../../../../../tests/reference/rows/",
-                $name,
-                ".ron"
-            )),
+            include_str!(concat!("../../../rows/", $name, ".ron")),
         )
     };
 }
