@@ -21,6 +21,7 @@ mod memory;
 mod ocean;
 mod outputs;
 mod outside;
+mod packages;
 mod planning;
 mod readme;
 mod rejection;
