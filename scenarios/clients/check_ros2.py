@@ -71,7 +71,9 @@ def main():
         # Its threads would keep this process alive.
         if ZenohSession._instance:
             ZenohSession._instance.close()
-    print(f"ROS 2: {len(heard)} of {len(table)} kinds of topics heard, as zenoh-ros2-sdk, pyzeros and rosbags read them")
+    missing = ", ".join(sorted(set(table) - heard)) or "none"
+    print(f"ROS 2: {len(heard)} of {len(table)} topics heard, as zenoh-ros2-sdk, pyzeros and rosbags read them;"
+          f" not in these scenarios: {missing}")
 
 
 def must(holds, text):

@@ -138,10 +138,11 @@ mod tests {
             limits_m: [0.5, 30.0],
             range_m: Some(2.0),
         };
+        // The kind of sound, zero, is in the padding of the header.
         let limits = "0000003f 0000f041";
         is(
             &heard.cdr(),
-            &format!("{HEADER} 00 000000 00000000 {limits} 00000040 00000000"),
+            &format!("{HEADER} 00000000 {limits} 00000040 00000000"),
         );
         let deaf = Range {
             range_m: None,
@@ -149,7 +150,7 @@ mod tests {
         };
         is(
             &deaf.cdr(),
-            &format!("{HEADER} 00 000000 00000000 {limits} 0000807f 00000000"),
+            &format!("{HEADER} 00000000 {limits} 0000807f 00000000"),
         );
     }
 }
