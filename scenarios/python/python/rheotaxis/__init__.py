@@ -58,6 +58,10 @@ def __getattr__(name: str) -> Any:
     return module if name == _LATER[name] else getattr(module, name)
 
 
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LATER})
+
+
 if _find_spec("gymnasium") is not None:
     from . import gym as _gym
 

@@ -26,6 +26,8 @@ pub(crate) struct Agent {
     pub(crate) id: String,
     /// What it is.
     pub(crate) machine: Machine,
+    /// The numbers of its observation.
+    pub(crate) features: Vec<Feature>,
 }
 
 /// What a searcher is.
@@ -68,26 +70,11 @@ const GANTRY: [(&str, f32, f32); 5] = [
 ];
 
 impl Agent {
-    /// The numbers of its observation.
-    pub(crate) fn features(&self) -> Vec<Feature> {
-        let fixed = |(name, low, high): &(&str, f32, f32)| Feature {
-            name: (*name).to_string(),
-            low: *low,
-            high: *high,
-        };
-        match &self.machine {
-            Machine::Robot { .. } => ROBOT.iter().map(fixed).collect(),
-            Machine::Gantry { layout, .. } => {
-                let kinds = ["newest", "highest"];
-                let probes = kinds.iter().flat_map(|kind| {
-                    layout.probes.iter().map(move |probe| Feature {
-                        name: format!("{}_{kind}", probe.name),
-                        low: 0.0,
-                        high: 1.0,
-                    })
-                });
-                GANTRY.iter().map(fixed).chain(probes).collect()
-            }
+    fn new(id: String, machine: Machine) -> Self {
+        Self {
+            features: machine.features(),
+            id,
+            machine,
         }
     }
 
@@ -102,6 +89,31 @@ impl Agent {
     /// True place of a gantry's head (ENU), m, from its joints (forward, left), m.
     pub(crate) fn head_W(base: &Pose, joints: [f64; 2]) -> Vector3<f64> {
         base.point(Vector3::new(joints[0], joints[1], 0.0))
+    }
+}
+
+impl Machine {
+    /// The numbers of its observation.
+    fn features(&self) -> Vec<Feature> {
+        let fixed = |(name, low, high): &(&str, f32, f32)| Feature {
+            name: (*name).to_string(),
+            low: *low,
+            high: *high,
+        };
+        match self {
+            Machine::Robot { .. } => ROBOT.iter().map(fixed).collect(),
+            Machine::Gantry { layout, .. } => {
+                let kinds = ["newest", "highest"];
+                let probes = kinds.iter().flat_map(|kind| {
+                    layout.probes.iter().map(move |probe| Feature {
+                        name: format!("{}_{kind}", probe.name),
+                        low: 0.0,
+                        high: 1.0,
+                    })
+                });
+                GANTRY.iter().map(fixed).chain(probes).collect()
+            }
+        }
     }
 }
 
@@ -121,12 +133,9 @@ pub(crate) fn take_over(
             period_s,
             ..Default::default()
         });
-        agents.push(Agent {
-            id: robot.id.as_str().to_string(),
-            machine: Machine::Robot {
-                altitude: robot.start.altitude_m.is_some(),
-            },
-        });
+        let altitude = robot.start.altitude_m.is_some();
+        let id = robot.id.as_str().to_string();
+        agents.push(Agent::new(id, Machine::Robot { altitude }));
     }
     for block in &mut loaded.scenario.gantries {
         block.tracker = GantryStrategySpec::new(track::ExternalSpec {
@@ -139,13 +148,11 @@ pub(crate) fn take_over(
             id: id.clone(),
             source,
         })?;
-        agents.push(Agent {
-            id,
-            machine: Machine::Gantry {
-                layout: block.layout(&gantry),
-                base: block.base(&ocean.terrain),
-            },
-        });
+        let machine = Machine::Gantry {
+            layout: block.layout(&gantry),
+            base: block.base(&ocean.terrain),
+        };
+        agents.push(Agent::new(id, machine));
     }
     Ok(agents)
 }

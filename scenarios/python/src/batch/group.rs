@@ -162,9 +162,9 @@ impl Group {
 impl Env {
     fn ask(&mut self, rules: &Rules, question: Question) {
         self.t_s = question.t_s - self.began_s;
-        let all = rules.agents.iter().zip(&mut self.minds);
-        for (agent, mind) in all.filter(|(agent, _)| agent.id == question.robot) {
-            mind.see(rules, agent, question.clone(), self.began_s);
+        let mut all = rules.agents.iter().zip(&mut self.minds);
+        if let Some((agent, mind)) = all.find(|(agent, _)| agent.id == question.robot) {
+            mind.see(rules, agent, question, self.began_s);
         }
     }
 

@@ -47,7 +47,7 @@ impl Mind {
     /// Before its first question.
     pub(crate) fn new(agent: &Agent) -> Self {
         Self {
-            features: vec![0.0; agent.features().len()],
+            features: vec![0.0; agent.features.len()],
             truth: TruthOf {
                 closest_m: f64::INFINITY,
                 distance_m: f64::INFINITY,
@@ -72,8 +72,7 @@ impl Mind {
             }
             _ => unreachable!("a robot asks as a robot"),
         }
-        let bounds = agent.features();
-        for (value, bound) in self.features.iter_mut().zip(&bounds) {
+        for (value, bound) in self.features.iter_mut().zip(&agent.features) {
             *value = value.clamp(bound.low, bound.high);
         }
         self.seen = Some(question.seen);

@@ -171,8 +171,8 @@ impl Batch {
     fn spaces(&self) -> Vec<(bool, usize, Vec<(String, f32, f32)>)> {
         let space = |agent: &Agent| {
             let gantry = matches!(agent.machine, agent::Machine::Gantry { .. });
-            let features = agent.features().into_iter();
-            let features = features.map(|f| (f.name, f.low, f.high)).collect();
+            let features = agent.features.iter();
+            let features = features.map(|f| (f.name.clone(), f.low, f.high)).collect();
             (gantry, self.rules.width(agent), features)
         };
         self.rules.agents.iter().map(space).collect()
