@@ -114,6 +114,8 @@ def test_what_is_no_action_is_refused(channel):
         env.reset(options={"reset_mask": np.zeros(2, bool)})
     with pytest.raises(ValueError, match="fill their plumes"):
         rheotaxis.VectorEnv(channel, 3, searchers_per_plume=2, **OPTIONS)
+    with pytest.raises(ValueError, match="at most 65536 environments"):
+        rheotaxis.VectorEnv(channel, 10**9, **OPTIONS)
     env.close()
     with pytest.raises(RuntimeError, match="closed"):
         env.step(np.zeros((2, 3)))

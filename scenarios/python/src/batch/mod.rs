@@ -24,6 +24,9 @@ use std::sync::{Mutex, PoisonError};
 use told::Told;
 use world::ranges::Positive;
 
+/// Most environments in a batch.
+const MOST: usize = 65_536;
+
 /// What all environments of a batch have in common.
 pub(crate) struct Rules {
     pub(crate) loaded: Loaded,
@@ -123,9 +126,16 @@ impl Batch {
                 "the environments must fill their plumes: got {n} with {per_plume} in each"
             ));
         }
-        let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 1);
-        let ocean = origin.build(&loaded.base_dir).map_err(other)?;
-        let agents = take_over(&mut loaded, &ocean, period_s).map_err(other)?;
+        if n > MOST {
+            return refused(format!(
+                "there are at most {MOST} environments in a batch, got {n}"
+            ));
+        }
+        let agents = apart(py, || {
+            let origin = Origin::of(&loaded.scenario, &loaded.base_dir, 1);
+            let ocean = origin.build(&loaded.base_dir).map_err(other)?;
+            take_over(&mut loaded, &ocean, period_s).map_err(other)
+        })?;
         if agents.is_empty() {
             return refused(format!("{} has no robot and no gantry", loaded.name));
         }
@@ -176,12 +186,6 @@ impl Batch {
             (gantry, self.rules.width(agent), features)
         };
         self.rules.agents.iter().map(space).collect()
-    }
-
-    /// Greatest distance at which the scenario counts a declaration, m.
-    #[getter]
-    fn within_m(&self) -> Option<f64> {
-        self.rules.loaded.scenario.success.declared_within_m()
     }
 
     /// Longest episode, s.
