@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Lists the licences of everything that the program `rheotaxis` links, and says whether they allow it.
+"""Lists the licences of everything that the program `rheotaxis` and its Python module link, and says whether they allow it.
 
     python3 docs/licences.py            # a table: crate, version, licence
     python3 docs/licences.py --all      # every platform and feature of the lock file, not only this machine's build
@@ -120,16 +120,16 @@ def metadata(everything):
 
 
 def linked(known):
-    """The packages that the program reaches through normal dependencies, without those of the workspace."""
+    """The packages that program and Python module reach through normal dependencies, without those of the workspace."""
     members = set(known["workspace_members"])
     packages = {package["id"]: package for package in known["packages"]}
     nodes = {node["id"]: node for node in known["resolve"]["nodes"]}
 
-    def makes_the_program(package):
-        return any("bin" in t["kind"] and t["name"] == PROGRAM for t in package["targets"])
+    def makes_one(package):
+        targets = package["targets"]
+        return any("bin" in t["kind"] and t["name"] == PROGRAM or "cdylib" in t["kind"] for t in targets)
 
-    start = next(i for i in members if makes_the_program(packages[i]))
-    seen, open_ = set(), [start]
+    seen, open_ = set(), [i for i in members if makes_one(packages[i])]
     while open_:
         here = open_.pop()
         if here in seen:

@@ -61,7 +61,7 @@ pub(crate) fn naming<'a>(text: &'a str, word: &str) -> Vec<&'a str> {
 }
 
 /// All crates with their folders, each after those it may know.
-const CRATES: [(&str, &str, &[&str]); 7] = [
+const CRATES: [(&str, &str, &[&str]); 8] = [
     ("world", "world", &[]),
     ("plumes", "plumes", &["world"]),
     ("robots", "robots", &["world"]),
@@ -92,10 +92,15 @@ const CRATES: [(&str, &str, &[&str]); 7] = [
             "world",
         ],
     ),
+    (
+        "rheotaxis-python",
+        "scenarios/python",
+        &["output", "rheotaxis", "robots", "world"],
+    ),
 ];
 
 /// The `src` folders of all crates.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
     "world/src",
     "plumes/src",
     "robots/src",
@@ -103,6 +108,7 @@ const SOURCES: [&str; 7] = [
     "scenarios/output/src",
     "scenarios/studies/src",
     "scenarios/command/src",
+    "scenarios/python/src",
 ];
 
 #[test]
@@ -182,7 +188,7 @@ fn searchers_do_not_write_to_the_ocean() {
 
 #[test]
 fn each_engine_stays_in_its_room() {
-    let rooms: [(&str, &[&str]); 5] = [
+    let rooms: [(&str, &[&str]); 6] = [
         ("rapier3d", &["world/src/physics"]),
         (
             "parry3d",
@@ -193,6 +199,7 @@ fn each_engine_stays_in_its_room() {
             ],
         ),
         ("urdf_rs", &["robots/src/vehicles"]),
+        ("pyo3", &["scenarios/python/src"]),
         ("zenoh", &["scenarios/output/src/live", "tests/it"]),
         (
             "ron",

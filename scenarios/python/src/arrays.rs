@@ -24,6 +24,14 @@ impl Element for f64 {
     }
 }
 
+impl Element for f32 {
+    const TYPE: &'static str = "float32";
+    const SIZE: usize = 4;
+    fn put(self, to: &mut [u8]) {
+        to.copy_from_slice(&self.to_ne_bytes());
+    }
+}
+
 impl Element for i64 {
     const TYPE: &'static str = "int64";
     const SIZE: usize = 8;

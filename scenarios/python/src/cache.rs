@@ -2,7 +2,7 @@
 
 use pyo3::exceptions::PyRuntimeWarning;
 use pyo3::prelude::*;
-use rheotaxis::cache::{MOST, SpinUps};
+use rheotaxis::cache::{CacheFault, MOST, SpinUps};
 use std::path::PathBuf;
 
 /// What a caller says about kept spin-ups: `None` or `True` for the user's folder, `False` for none, or a folder.
@@ -39,9 +39,9 @@ pub(crate) fn opened(py: Python<'_>, cache: Option<Cache>) -> PyResult<Option<Sp
 }
 
 /// Warns if spin-ups could not be kept; the run went on without.
-pub(crate) fn tell_fault(py: Python<'_>, kept: Option<&SpinUps>) -> PyResult<()> {
+pub(crate) fn tell_fault(py: Python<'_>, fault: Option<CacheFault>) -> PyResult<()> {
     let category = py.get_type::<PyRuntimeWarning>();
-    match kept.and_then(SpinUps::fault) {
+    match fault {
         Some(fault) => super::error::warn(py, &category, &fault.to_string()),
         None => Ok(()),
     }

@@ -3,10 +3,12 @@
 //!
 //! [`scenario`] reads, checks and changes scenarios, [`run`] makes a run and [`result`] holds what it left, with the
 //! [`columns`] gathered on the way, as [`arrays`]. [`error`] turns mistakes and panics into exceptions, [`value`] values of a
-//! scenario, a [`tree`], from one language into the other, and [`signals`] lets Ctrl-C end a run.
+//! scenario, a [`tree`], from one language into the other, and [`signals`] lets Ctrl-C end a run. [`batch`] holds the
+//! environments for learning.
 #![forbid(unsafe_code)]
 
 mod arrays;
+mod batch;
 mod cache;
 mod columns;
 mod columns_gantry;
@@ -23,6 +25,8 @@ mod value;
 mod _rheotaxis {
     use pyo3::prelude::*;
 
+    #[pymodule_export]
+    use crate::batch::Batch;
     #[pymodule_export]
     use crate::error::{ScenarioError, ScenarioWarning};
     #[pymodule_export]

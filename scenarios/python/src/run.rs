@@ -117,6 +117,6 @@ pub(crate) fn run(
         threads,
     };
     let result = apart(py, || made(&loaded, &asked, kept.as_ref()))?;
-    tell_fault(py, kept.as_ref())?;
+    tell_fault(py, kept.and_then(|kept| kept.fault()))?;
     Ok(result)
 }

@@ -112,7 +112,7 @@ def test_figures_are_drawn_in_memory(channel, tmp_path):
 
 def test_kept_spin_ups_change_nothing(tmp_path, channel):
     # Long enough to be worth keeping.
-    scenario = channel.with_({"time.spin_up_s": 60000, "time.limit_s": 5})
+    scenario = channel.with_({"time.spin_up_s": 20000, "time.limit_s": 5})
     digests = {rheotaxis.run(scenario, cache=tmp_path).digest for _ in range(2)}
     assert digests == {rheotaxis.run(scenario, cache=False).digest}
     assert any(p.is_file() for p in tmp_path.rglob("*"))

@@ -129,8 +129,8 @@ def test_a_missing_file_is_told():
         rheotaxis.run("no_such_scenario")
 
 
-def test_a_text_can_be_run():
-    s = Scenario.load("uniform_channel").with_({"time.spin_up_s": 0, "time.limit_s": 1})
+def test_a_text_can_be_run(channel):
+    s = channel.with_({"time.limit_s": 1})
     assert rheotaxis.run(s.text).digest == rheotaxis.run(s).digest
 
 

@@ -9,6 +9,9 @@ World axes are ENU (east, north, up) with z = 0 at the still surface; headings a
 seconds from the start of the mission. The same seed gives the same run, bit by bit.
 """
 
+from importlib.util import find_spec as _find_spec
+from typing import TYPE_CHECKING, Any
+
 from ._rheotaxis import (
     Figure,
     Result,
@@ -22,15 +25,44 @@ from ._rheotaxis import (
 )
 from ._ron import Ron
 
+if TYPE_CHECKING:
+    from .gym import Env, VectorEnv
+    from .parallel import ParallelEnv
+
 __all__ = [
+    "Env",
     "Figure",
+    "ParallelEnv",
     "Result",
     "Ron",
     "Scenario",
     "ScenarioError",
     "ScenarioWarning",
+    "VectorEnv",
     "__version__",
     "catalogue",
     "explain",
     "run",
 ]
+
+#: Names that need packages which are not always there.
+_LATER = {"Env": "gym", "VectorEnv": "gym", "ParallelEnv": "parallel", "gym": "gym", "parallel": "parallel", "sb3": "sb3"}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _LATER:
+        raise AttributeError(f"module 'rheotaxis' has no attribute {name!r}")
+    from importlib import import_module
+
+    module = import_module(f".{_LATER[name]}", __name__)
+    return module if name == _LATER[name] else getattr(module, name)
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *_LATER})
+
+
+if _find_spec("gymnasium") is not None:
+    from . import gym as _gym
+
+    _gym.register()

@@ -9,6 +9,7 @@ use robots::handoff::{
     RangeScan, Readings, SidescanPing, Told, Vertical,
 };
 use world::clock::{Clock, Every};
+use world::frames::Truth;
 
 /// All machines that ask, in the order of the scenario.
 #[derive(Resource, Clone, Debug, Default)]
@@ -265,6 +266,14 @@ fn fault_of_head(order: &HeadOrder) -> Option<String> {
         ))
     });
     speed.or_else(|| fault_of("target_m", order.target_m.as_slice(), FAR_M))
+}
+
+/// The true state of a robot that asks; `None` for a gantry.
+pub(crate) fn truth_of(world: &World, name: &str) -> Option<Truth> {
+    let asking = world.get_resource::<Asking>()?;
+    let named = |e: &&Entity| (world.get::<SearcherId>(**e)).is_some_and(|id| id.name == name);
+    let entity = asking.0.iter().find(named)?;
+    world.get::<Truth>(*entity).copied()
 }
 
 /// The questions of this tick that nobody has taken, in the order of the scenario.

@@ -1,10 +1,11 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
 use super::{RunPhase, Trial, Watch};
-use crate::control::consulting::{put_in, take_questions};
+use crate::control::consulting::{put_in, take_questions, truth_of};
 use crate::control::{Consultation, Controller, Heard, Question};
 use crate::scenario::Scenario;
 use robots::handoff::Consulted;
+use world::frames::Truth;
 
 /// A robot that nobody outside this program can control.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -90,6 +91,12 @@ impl Trial {
     #[must_use]
     pub fn controlled(&self) -> Vec<String> {
         controlled(&self.scenario)
+    }
+
+    /// The true state of a robot whose strategy is `External`: for rewards and scores, never for its searcher.
+    #[must_use]
+    pub fn truth(&self, robot: &str) -> Option<Truth> {
+        truth_of(&self.simulation.world, robot)
     }
 
     /// Runs to the next questions that no controller answers, with the spin-up before the first. The answers are given
