@@ -63,3 +63,25 @@ fn the_algorithm_that_readme_adds_is_the_one_that_is_built() {
         assert!(patch.lines().any(|l| l == line), "the patch has no {line}");
     }
 }
+
+/// `cargo test` runs the example of the first page of the library, and pytest that in Python.
+#[test]
+fn the_controller_that_readme_shows_is_the_one_of_the_first_page() {
+    let (readme, page) = (read("README.md"), read("scenarios/simulation/src/lib.rs"));
+    let from = readme
+        .find("## Bring your own searcher")
+        .expect("the section");
+    let section = &readme[from..];
+    let section = &section[..section
+        .find("\n## What it reaches")
+        .expect("the next section")];
+    let [shown] = blocks(section, "rust")[..] else {
+        panic!("one example in Rust");
+    };
+    let page: String = (page.lines())
+        .filter_map(|l| l.strip_prefix("//!"))
+        .map(|l| format!("{}\n", l.strip_prefix(' ').unwrap_or(l)))
+        .collect();
+    assert!(page.contains(shown), "the first page has no\n{shown}");
+    assert_eq!(blocks(section, "python").len(), 1);
+}

@@ -39,7 +39,26 @@
 //!    [`load_with`](scenario::load_with) or [`load_text`](scenario::load_text), which read scenarios that name them.
 //! 4. `command::main_with(&registry)` in a `main` of your own: the whole command, with campaigns and figures, for them.
 //!
-//! # 4. More of your own
+//! # 4. A controller of your own
+//!
+//! A robot or gantry whose strategy is `External` asks once a period, and a [`Controller`](control::Controller) answers:
+//! a closure, or whatever another process says. [`Trial::until_asked`](trial::Trial::until_asked) stops at the questions
+//! instead, for programs with a loop of their own. `examples/own_controller.rs` steers a robot; this moves a gantry:
+//!
+//! ```
+//! use rheotaxis::control::{Heard, Question, read_answer};
+//! use rheotaxis::{scenario::load, trial::Trial};
+//!
+//! let mut trial = Trial::assemble(&load("flume_external".as_ref())?, 1)?;
+//! trial.control("crab0", |asked: &Question| {
+//!     let ahead = r#"{"head": {"target_m": [1.0, 0.0], "behaviour": "step_up"}}"#;
+//!     read_answer(ahead.as_bytes(), asked.number, asked.t_s).map_or_else(Heard::Nonsense, Heard::Answer)
+//! })?;
+//! println!("{}", trial.finish_quietly().outcome.words());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! # 5. More of your own
 //!
 //! | what | how | example |
 //! | --- | --- | --- |
@@ -60,6 +79,7 @@
 //! - [`scenario`] reads and checks files; [`explain`] describes every field.
 //! - [`ocean`] holds water, plume and obstacles. No searcher changes it, so [`lanes`] lets many runs share one, and
 //!   [`cache`] keeps spun-up ones on the disk.
+//! - [`control`] asks searchers outside the program.
 //! - [`auv`] and [`gantry`] are the searchers; [`apparatus`] is the trait that both implement.
 //! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
 //! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
