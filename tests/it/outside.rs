@@ -5,3 +5,4 @@ mod decisions;
 mod kit;
 mod plane;
 mod processes;
+mod ros;

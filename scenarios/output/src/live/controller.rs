@@ -6,6 +6,7 @@
 
 use super::LiveError;
 use super::config::plain;
+use super::ros2::Commands;
 use super::session::Open;
 use rheotaxis::control::{Controller, Heard, Question, question_json, read_answer};
 use std::sync::Arc;
@@ -31,6 +32,8 @@ pub struct LiveController {
     /// How long it still waits for the first controller.
     patience: Duration,
     going: Going,
+    /// Commands of ROS nodes, heard while no controller is there.
+    ros: Option<Commands>,
     // The session lives as long as somebody may be asked.
     _open: Arc<Open>,
 }
@@ -41,6 +44,7 @@ impl LiveController {
         key: String,
         [deadline, patience]: [Duration; 2],
         going: Going,
+        ros: Option<Commands>,
     ) -> Result<Self, LiveError> {
         let why = |e: zenoh::Error| LiveError::Open { why: plain(&e) };
         let querier = open
@@ -60,6 +64,7 @@ impl LiveController {
             key,
             patience,
             going,
+            ros,
             _open: open,
         })
     }
@@ -79,7 +84,7 @@ impl LiveController {
 
     /// Waits until somebody is there, or for so long.
     fn wait_until_there(&self, mut most: Duration) -> bool {
-        while !self.is_there() {
+        while !self.is_there() && !self.ros.as_ref().is_some_and(Commands::any) {
             if most.is_zero() || !(self.going)() {
                 return false;
             }
@@ -109,6 +114,11 @@ impl Controller for LiveController {
         let patience = std::mem::take(&mut self.patience);
         if !self.wait_until_there(patience) {
             return Heard::Absent;
+        }
+        if !self.is_there()
+            && let Some(ros) = &mut self.ros
+        {
+            return ros.answer(question, &*self.going);
         }
         let asked = question_json(question).to_string();
         let Ok(replies) = self.querier.get().payload(asked).wait() else {

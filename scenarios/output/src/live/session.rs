@@ -6,7 +6,7 @@ use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
 use super::message::Message;
-use super::ros2::Door;
+use super::ros2::{Commands, Door};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -30,6 +30,7 @@ pub struct Live {
     notice: Option<String>,
     session: LiveSession,
     run_id: String,
+    ros_domain: Option<u32>,
 }
 
 /// The session of a run, which other runs may use as long as it publishes.
@@ -128,6 +129,7 @@ impl Live {
             notice,
             session,
             run_id: options.run_id.clone(),
+            ros_domain: options.ros2.as_ref().map(|r| r.domain),
         })
     }
 
@@ -146,7 +148,12 @@ impl Live {
             why: "it is closed".to_owned(),
         })?;
         let key = format!("rheotaxis/{}/ask/{}", self.run_id, chunk(robot));
-        LiveController::new(open, key, [deadline, patience], going)
+        let ros =
+            (self.ros_domain).map(|domain| Commands::listen(open.session(), domain, &chunk(robot)));
+        let ros = ros
+            .transpose()
+            .map_err(|e| LiveError::Open { why: plain(&e) })?;
+        LiveController::new(open, key, [deadline, patience], going, ros)
     }
 
     /// Where clients connect, as a zenoh endpoint.

@@ -35,9 +35,18 @@ impl NodeKey<'_> {
         kind: MessageKind,
         qos: Qos,
     ) -> String {
-        let (entity, topic) = (self.entity(number, "MP"), topic.replace('/', "%"));
-        let (dds, hash) = (kind.dds_name(), kind.hash());
-        format!("{entity}/{topic}/{dds}/{hash}/{}", qos.chunk())
+        end(&self.entity(number, "MP"), topic, kind, qos)
+    }
+
+    /// The same of a subscriber.
+    pub(super) fn subscriber(
+        &self,
+        number: u32,
+        topic: &str,
+        kind: MessageKind,
+        qos: Qos,
+    ) -> String {
+        end(&self.entity(number, "MS"), topic, kind, qos)
     }
 
     fn entity(&self, number: u32, kind: &str) -> String {
@@ -50,6 +59,13 @@ impl NodeKey<'_> {
         // Enclave and namespace are those of the root.
         format!("@ros2_lv/{domain}/{session}/{node}/{number}/{kind}/%/%/{name}")
     }
+}
+
+/// The token of an end of a topic.
+fn end(entity: &str, topic: &str, kind: MessageKind, qos: Qos) -> String {
+    let topic = topic.replace('/', "%");
+    let (dds, hash) = (kind.dds_name(), kind.hash());
+    format!("{entity}/{topic}/{dds}/{hash}/{}", qos.chunk())
 }
 
 /// The key of a topic's messages.

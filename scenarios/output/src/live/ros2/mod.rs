@@ -7,11 +7,13 @@
 //! the estimate at once.
 //!
 //! [`topics`] is the table of what is published; [`scene`] what is known before the run; `state` makes messages of
-//! frames, without zenoh; `node` publishes them with `keys` and `attachment`. A topic that a node of ROS publishes to
-//! us would be a subscription beside the publishers in `node`.
+//! frames, without zenoh; `node` publishes them with `keys` and `attachment`; `commands` hears what nodes of ROS ask a
+//! robot to do, if the run allows it.
 
 #[cfg(feature = "live")]
 mod attachment;
+#[cfg(feature = "live")]
+mod commands;
 #[cfg(feature = "live")]
 mod door;
 #[cfg(feature = "live")]
@@ -27,6 +29,8 @@ mod scene;
 mod state;
 mod topics;
 
+#[cfg(feature = "live")]
+pub(super) use commands::Commands;
 #[cfg(feature = "live")]
 pub(super) use door::Door;
 pub use scene::{Machine, Scene};

@@ -12,7 +12,7 @@ use zenoh::{Result, Session, Wait};
 use zenoh_ext::{AdvancedPublisher, AdvancedPublisherBuilderExt, CacheConfig, MissDetectionConfig};
 
 /// Name of the node.
-const NAME: &str = "rheotaxis";
+pub(super) const NAME: &str = "rheotaxis";
 
 /// Longest time after a message of a latched topic in which its number is told again, as in rmw_zenoh.
 const HEARTBEAT: Duration = Duration::from_millis(500);
