@@ -6,7 +6,7 @@
 
 use super::LiveError;
 use super::config::plain;
-use super::ros2::Commands;
+use super::ros2::RosCommands;
 use super::session::Open;
 use rheotaxis::control::{Controller, Heard, Question, question_json, read_answer};
 use std::sync::Arc;
@@ -33,7 +33,7 @@ pub struct LiveController {
     patience: Duration,
     going: Going,
     /// Commands of ROS nodes, heard while no controller is there.
-    ros: Option<Commands>,
+    ros: Option<RosCommands>,
     // The session lives as long as somebody may be asked.
     _open: Arc<Open>,
 }
@@ -44,7 +44,7 @@ impl LiveController {
         key: String,
         [deadline, patience]: [Duration; 2],
         going: Going,
-        ros: Option<Commands>,
+        ros: Option<RosCommands>,
     ) -> Result<Self, LiveError> {
         let why = |e: zenoh::Error| LiveError::Open { why: plain(&e) };
         let querier = open
@@ -84,7 +84,7 @@ impl LiveController {
 
     /// Waits until somebody is there, or for so long.
     fn wait_until_there(&self, mut most: Duration) -> bool {
-        while !self.is_there() && !self.ros.as_ref().is_some_and(Commands::any) {
+        while !self.is_there() && !self.ros.as_ref().is_some_and(RosCommands::any) {
             if most.is_zero() || !(self.going)() {
                 return false;
             }

@@ -6,7 +6,7 @@ use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
 use super::message::Message;
-use super::ros2::{Commands, Door};
+use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
@@ -148,8 +148,8 @@ impl Live {
             why: "it is closed".to_owned(),
         })?;
         let key = format!("rheotaxis/{}/ask/{}", self.run_id, chunk(robot));
-        let ros =
-            (self.ros_domain).map(|domain| Commands::listen(open.session(), domain, &chunk(robot)));
+        let ros = (self.ros_domain)
+            .map(|domain| RosCommands::listen(open.session(), domain, &chunk(robot)));
         let ros = ros
             .transpose()
             .map_err(|e| LiveError::Open { why: plain(&e) })?;

@@ -37,7 +37,7 @@ struct Inbox {
 }
 
 /// The commands to a robot, as long as it lives.
-pub(in crate::live) struct Commands {
+pub(in crate::live) struct RosCommands {
     inbox: Arc<Inbox>,
     taken: u64,
     last_s: Option<f64>,
@@ -45,7 +45,7 @@ pub(in crate::live) struct Commands {
     _alive: LivelinessToken,
 }
 
-impl Commands {
+impl RosCommands {
     /// Listens for a robot, and shows that in the ROS graph.
     pub(in crate::live) fn listen(session: &Session, domain: u32, robot: &str) -> Result<Self> {
         let (name, kind) = (format!("/{robot}/cmd"), MessageKind::TwistStamped);

@@ -30,7 +30,7 @@ mod state;
 mod topics;
 
 #[cfg(feature = "live")]
-pub(super) use commands::Commands;
+pub(super) use commands::RosCommands;
 #[cfg(feature = "live")]
 pub(super) use door::Door;
 pub use scene::{Machine, Scene};
