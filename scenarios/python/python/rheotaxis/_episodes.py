@@ -192,5 +192,6 @@ class Episodes:
 
     def close(self) -> None:
         """Lets go of everything."""
-        self.closed = True
-        self.batch = None
+        if not self.closed:
+            self.closed = True
+            del self.batch

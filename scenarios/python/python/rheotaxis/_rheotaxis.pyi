@@ -161,7 +161,23 @@ class Result:
 class _Batch:
     """Many environments, stepped together: what Env, VectorEnv and ParallelEnv stand on."""
 
-    def __new__(cls, scenario: str | PathLike[str] | Scenario, **options: Any) -> _Batch: ...
+    def __new__(
+        cls,
+        scenario: str | PathLike[str] | Scenario,
+        *,
+        n: int = 1,
+        per_plume: int = 1,
+        period_s: float = 1.0,
+        limit_s: float | None = None,
+        goal_m: float | None = None,
+        declare: bool = False,
+        turn_deg: float = 180.0,
+        climb_m: float = 1.0,
+        speed_m_s: tuple[float, float] | None = None,
+        kept_plumes: int = 32,
+        threads: int = 1,
+        cache: bool | str | PathLike[str] | None = None,
+    ) -> _Batch: ...
     @property
     def agents(self) -> list[str]: ...
     @property

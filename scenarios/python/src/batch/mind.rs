@@ -139,9 +139,8 @@ impl Mind {
         let kept = self.features.split_off(fixed.len());
         self.features = fixed.map(|v| v as f32).to_vec();
         let newest = gathered.scans.last();
-        for n in 0..probes {
-            self.features
-                .push(newest.map_or(kept[n], |s| of_full(s.volts[n])));
+        for (n, before) in kept.iter().enumerate().take(probes) {
+            (self.features).push(newest.map_or(*before, |s| of_full(s.volts[n])));
         }
         for n in 0..probes {
             let all = gathered.scans.iter().map(|s| of_full(s.volts[n]));

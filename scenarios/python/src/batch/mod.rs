@@ -24,6 +24,9 @@ use std::sync::{Mutex, PoisonError};
 use told::Told;
 use world::ranges::Positive;
 
+/// Whether a searcher is a gantry, the numbers of its action, and names and bounds of its observation.
+type Space = (bool, usize, Vec<(String, f32, f32)>);
+
 /// Most environments in a batch.
 const MOST: usize = 65_536;
 
@@ -178,7 +181,7 @@ impl Batch {
 
     /// Of each searcher: whether it is a gantry, the numbers of its action, and names and bounds of its observation.
     #[getter]
-    fn spaces(&self) -> Vec<(bool, usize, Vec<(String, f32, f32)>)> {
+    fn spaces(&self) -> Vec<Space> {
         let space = |agent: &Agent| {
             let gantry = matches!(agent.machine, agent::Machine::Gantry { .. });
             let features = agent.features.iter();
