@@ -11,22 +11,21 @@ import json, math, sys
 import zenoh
 
 endpoint = (sys.argv[1:] + ["tcp/127.0.0.1:7447"])[0]
-hits, side = [], 1  # times and places of detections; the way of the next cast
+hits = []  # times and places of detections
 
 def decide(seen):
-    global side
     t, here, gathered = seen["t_s"], seen["estimate"]["position_m"], seen["gathered"]
     flow = seen.get("flow", {"velocity_m_s": [0.0, -1.0]})["velocity_m_s"]
     up_flow = math.atan2(-flow[0], -flow[1])  # a compass heading: atan2(east, north)
     if gathered["detections"]:
         hits.append((t, here))
     lost_s = t - hits[-1][0] if hits else t
-    if hits and lost_s > 120:  # the plume has ended: its source is where it was met farthest up-flow
+    if hits and lost_s > 300:  # the plume has ended: its source is where it was met farthest up-flow
         best = max(hits, key=lambda hit: -hit[1][0] * flow[0] - hit[1][1] * flow[1])
         return {"declare": {"position_m": best[1], "rule": "surge_cast"}, "end": "completed"}
-    if lost_s > 5 and int(t) % 30 == 0:
-        side = -side
-    heading = up_flow if lost_s <= 5 else up_flow + side * math.radians(70 if hits else 60)
+    # Each cast to a side lasts twice as long as the one before.
+    side = (-1) ** int(math.log2(max(lost_s, 5) / 5))
+    heading = up_flow if lost_s <= 5 else up_flow + side * math.radians(80)
     steer = {"heading_rad": heading % math.tau, "altitude_m": 2.0, "speed_m_s": 2.0}
     return {"steer": steer, "behaviour": "surge" if lost_s <= 5 else "cast"}
 
@@ -38,6 +37,7 @@ config = zenoh.Config.from_json5(f"""{{ mode: "client", scouting: {{ multicast: 
     timeout_ms: -1, endpoints: ["{endpoint}"], retry: {{ period_init_ms: 200, period_max_ms: 1000 }} }} }}""")
 with zenoh.open(config) as session:
     asked = session.declare_queryable("rheotaxis/*/ask/*", answer)
-    for run in session.liveliness().declare_subscriber("rheotaxis/*/@live/sim", history=True):
+    runs = session.liveliness().declare_subscriber("rheotaxis/*/@live/sim", history=True)
+    for run in runs:
         if run.kind == zenoh.SampleKind.DELETE:
             break
