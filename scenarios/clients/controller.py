@@ -23,11 +23,12 @@ def decide(seen):
     if hits and lost_s > 300:  # the plume has ended: its source is where it was met farthest up-flow
         best = max(hits, key=lambda hit: -hit[1][0] * flow[0] - hit[1][1] * flow[1])
         return {"declare": {"position_m": best[1], "rule": "surge_cast"}, "end": "completed"}
-    # Each cast to a side lasts twice as long as the one before.
-    side = (-1) ** int(math.log2(max(lost_s, 5) / 5))
-    heading = up_flow if lost_s <= 5 else up_flow + side * math.radians(80)
-    steer = {"heading_rad": heading % math.tau, "altitude_m": 2.0, "speed_m_s": 2.0}
-    return {"steer": steer, "behaviour": "surge" if lost_s <= 5 else "cast"}
+    # Casts of 20 s to either side, still somewhat up-flow.
+    side = 1 if lost_s % 40 < 20 else -1
+    heading = up_flow if lost_s <= 5 else up_flow + side * math.radians(70)
+    course = {"course": {"heading_rad": heading % math.tau}}
+    goal = {"manoeuvre": course, "altitude_m": 2.0, "speed_m_s": 2.0}
+    return {"goal": goal, "behaviour": "surge" if lost_s <= 5 else "cast"}
 
 def answer(query):
     seen = json.loads(query.payload.to_string())

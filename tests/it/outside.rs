@@ -1,8 +1,11 @@
 //! Searchers outside the program, over zenoh: they decide in lock-step, and whatever they do the run ends in order and
 //! can be made again from its recording.
 
+mod certificates;
 mod decisions;
 mod kit;
 mod plane;
 mod processes;
+mod rogue;
 mod ros;
+mod security;

@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 pub struct ControlArgs {
     /// Let others control the run over zenoh: decide for robots and gantries whose strategy is `External`, pause, step,
     /// speed up and stop the run. Whoever reaches the endpoint can: it is on the loopback interface unless you say
-    /// otherwise.
+    /// otherwise; docs/wire.md tells how to let in only some.
     #[arg(long, conflicts_with = "no_zenoh")]
     pub allow_control: bool,
     /// How long the first question of each robot waits for a controller, s of real time.

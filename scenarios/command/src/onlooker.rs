@@ -163,6 +163,9 @@ fn live(
     if let Some(notice) = live.notice() {
         progress.say(notice);
     }
+    if let Some(warning) = live.warning() {
+        progress.warn(warning);
+    }
     Ok(Some(live))
 }
 

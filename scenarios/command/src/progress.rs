@@ -70,6 +70,11 @@ impl Progress {
         }
     }
 
+    /// Prints a warning above the bar, also when nothing else is shown.
+    pub(super) fn warn(&self, line: &str) {
+        self.bar.suspend(|| eprintln!("warning: {line}"));
+    }
+
     pub(super) fn spun_up(&mut self, share: f64) {
         self.bar.set_position((share * PARTS as f64) as u64);
     }

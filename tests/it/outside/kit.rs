@@ -33,10 +33,16 @@ pub(super) struct Run {
 impl Run {
     /// Starts it, with these arguments beside its own.
     pub(super) fn start(text: &str, more: &[&str]) -> Self {
+        Self::at("tcp/127.0.0.1", text, more, |_| {})
+    }
+
+    /// One that listens somewhere, after its folder has been prepared.
+    pub(super) fn at(listen: &str, text: &str, more: &[&str], prepare: impl FnOnce(&Path)) -> Self {
         let dir = tempfile::tempdir().expect("a folder");
+        prepare(dir.path());
         std::fs::write(dir.path().join("asks.ron"), text).expect("the folder is ours");
         let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
-        let endpoint = format!("tcp/127.0.0.1:{}", port.expect("a free port").port());
+        let endpoint = format!("{listen}:{}", port.expect("a free port").port());
         let mut command = common::command(dir.path(), &["run", "asks.ron", "--out", "out"]);
         let child = (command
             .args(["--quiet", "--zenoh-listen", &endpoint])
@@ -118,7 +124,11 @@ pub(super) fn client(endpoint: &str) -> Session {
         r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ timeout_ms: 20000,
              endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
     );
-    let config = Config::from_json5(&config).expect("legal");
+    opened(Config::from_json5(&config).expect("legal"))
+}
+
+/// A session that waits for the run.
+pub(super) fn opened(config: Config) -> Session {
     let session = zenoh::open(config).wait().expect("the run listens");
     let runs = (session
         .liveliness()

@@ -7,12 +7,14 @@ use zenoh::{Session, Wait};
 const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 
 /// The answer to a command, or why it was refused.
-fn command(session: &Session, command: &str) -> Result<Value, String> {
+pub(super) fn command(session: &Session, command: &str) -> Result<Value, String> {
     let replies = session
         .get(format!("rheotaxis/asks_1/rpc/{command}"))
         .wait()
         .unwrap();
-    let reply = replies.recv().expect("an answer");
+    let Ok(reply) = replies.recv() else {
+        return Err("nobody answers".to_string());
+    };
     match reply.result() {
         Ok(sample) => Ok(serde_json::from_slice(&sample.payload().to_bytes()).expect("JSON")),
         Err(error) => Err(String::from_utf8_lossy(&error.payload().to_bytes()).into_owned()),

@@ -94,7 +94,7 @@ fn free_port_of(endpoint: &str) -> Result<(), LiveError> {
         endpoint: endpoint.to_owned(),
     };
     let parsed: EndPoint = endpoint.parse().map_err(|_| bad())?;
-    if parsed.protocol().as_str() != "tcp" {
+    if !matches!(parsed.protocol().as_str(), "tcp" | "tls") {
         return Ok(());
     }
     // zenoh itself interprets names, and options after the address.

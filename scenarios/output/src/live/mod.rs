@@ -2,7 +2,8 @@
 //!
 //! A run publishes its state under `rheotaxis/<run>/`: JSON (UTF-8), SI units, ENU axes. [`topics`] has every key with
 //! its JSON Schema. zenoh runs in its own thread behind a mailbox that keeps only the newest state, so no subscriber
-//! can delay or change a run. Nodes of ROS 2 see the same run as topics if [`LiveOptions::ros2`] says so. Without the feature `live`, the same types exist and do nothing.
+//! can delay or change a run. Nodes of ROS 2 see the same run as topics if [`LiveOptions::ros2`] says so. Without the
+//! feature `live`, the same types exist and do nothing.
 
 mod error;
 mod options;
@@ -14,6 +15,8 @@ mod topics;
 mod config;
 #[cfg(feature = "live")]
 mod controller;
+#[cfg(feature = "live")]
+mod exposed;
 #[cfg(feature = "live")]
 mod look_message;
 #[cfg(feature = "live")]

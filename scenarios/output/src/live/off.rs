@@ -87,6 +87,12 @@ impl Live {
         Some("built without the feature `live`: nothing is published")
     }
 
+    /// None.
+    #[must_use]
+    pub fn warning(&self) -> Option<&str> {
+        None
+    }
+
     /// Does nothing.
     pub fn publish(&self, _frame: &Frame) {}
 

@@ -68,6 +68,12 @@ impl Plane {
         }
     }
 
+    /// Whether others may do more than ask how the run stands.
+    #[must_use]
+    pub fn allowed(&self) -> bool {
+        self.allowed
+    }
+
     fn lock(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -2,6 +2,7 @@
 
 use super::config::{configured, plain};
 use super::controller::{Going, LiveController};
+use super::exposed;
 use super::look_message;
 use super::mailbox::{Mailbox, Rest, Work};
 use super::map_message::MapGate;
@@ -28,6 +29,7 @@ pub struct Live {
     gone: Receiver<()>,
     endpoint: String,
     notice: Option<String>,
+    warning: Option<String>,
     session: LiveSession,
     run_id: String,
     ros_domain: Option<u32>,
@@ -66,8 +68,13 @@ impl Live {
         options.check()?;
         let (config, notice) =
             configured(options, std::env::var_os("ZENOH_CONFIG").map(PathBuf::from))?;
+        let warning = (options.plane.allowed())
+            .then(|| exposed::warning(&config))
+            .flatten();
         let open = move || zenoh::open(config).wait().map(|s| Arc::new(Open(s)));
-        Self::publishing(options, meta, notice, open)
+        let mut live = Self::publishing(options, meta, open)?;
+        (live.notice, live.warning) = (notice, warning);
+        Ok(live)
     }
 
     /// The same in the session of another run, at the same port, or in one of its own if that is closed.
@@ -82,7 +89,7 @@ impl Live {
         match session.0.upgrade() {
             Some(open) => {
                 options.check()?;
-                Self::publishing(options, meta, None, move || Ok(open))
+                Self::publishing(options, meta, move || Ok(open))
             }
             None => Self::start(options, meta),
         }
@@ -97,7 +104,6 @@ impl Live {
     fn publishing(
         options: &LiveOptions,
         meta: LiveMeta,
-        notice: Option<String>,
         open: impl FnOnce() -> zenoh::Result<Arc<Open>> + Send + 'static,
     ) -> Result<Self, LiveError> {
         let mailbox = Arc::new(Mailbox::new(options.state_period, options.plume_period));
@@ -126,7 +132,8 @@ impl Live {
             mailbox,
             gone,
             endpoint,
-            notice,
+            notice: None,
+            warning: None,
             session,
             run_id: options.run_id.clone(),
             ros_domain: options.ros2.as_ref().map(|r| r.domain),
@@ -166,6 +173,12 @@ impl Live {
     #[must_use]
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_deref()
+    }
+
+    /// A warning for the user, if necessary: that anybody who comes from another machine can control the run.
+    #[must_use]
+    pub fn warning(&self) -> Option<&str> {
+        self.warning.as_deref()
     }
 
     /// Passes on a state; never waits.

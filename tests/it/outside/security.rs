@@ -1,0 +1,297 @@
+//! Who may do what on the wire: the configurations of `docs/zenoh`, each with a real run and real sessions.
+
+use super::certificates::Authority;
+use super::kit::{Run, channel, client, controller, opened};
+use super::plane::command;
+use super::rogue::{Rogue, Watcher};
+use crate::common::root;
+use serde_json::{Value, json};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+use zenoh::query::Queryable;
+use zenoh::{Config, Session, Wait};
+
+const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+const ASKS: &str = "External(period_s: 1, deadline_s: 20, on_late: Hold)";
+const LOOPBACK: &str = "tcp/127.0.0.1";
+
+fn example(name: &str) -> PathBuf {
+    root().join("docs/zenoh").join(name)
+}
+
+/// A run with a configuration of the docs.
+fn secured(
+    name: &str,
+    listen: &str,
+    text: &str,
+    more: &[&str],
+    prepare: impl FnOnce(&Path),
+) -> Run {
+    let config = example(name);
+    let mut args = vec!["--zenoh-config", config.to_str().expect("a plain path")];
+    args.extend(more);
+    Run::at(listen, text, &args, prepare)
+}
+
+/// A client's configuration of the docs, with some values changed. It tries again until the run listens, or only once.
+fn client_config(name: &str, endpoint: &str, patient: bool, values: &[(&str, Value)]) -> Config {
+    let mut config = Config::from_file(example(name)).expect("legal");
+    let mut set = |key: &str, value: &Value| {
+        let set = config.insert_json5(key, &value.to_string());
+        set.expect("a key of zenoh");
+    };
+    set("connect/endpoints", &json!([endpoint]));
+    set(
+        "connect/timeout_ms",
+        &json!(if patient { 20_000 } else { 0 }),
+    );
+    for (key, value) in values {
+        set(key, value);
+    }
+    config
+}
+
+/// No session comes of it.
+#[track_caller]
+fn refused(config: Config) {
+    assert!(zenoh::open(config).wait().is_err());
+}
+
+/// Answers the questions of `auv0`, and counts them.
+fn counted(session: &Session) -> (Queryable<()>, Arc<AtomicU64>) {
+    let asked = Arc::new(AtomicU64::new(0));
+    let count = Arc::clone(&asked);
+    let queryable = controller(session, "auv0", move |_| {
+        count.fetch_add(1, Ordering::SeqCst);
+        json!({"steer": {"heading_rad": 1.5, "altitude_m": 3, "speed_m_s": 1.5}}).to_string()
+    });
+    (queryable, asked)
+}
+
+#[test]
+fn watchers_see_a_run_that_nobody_can_touch() {
+    let text = channel(ASKS, 10.0);
+    let alone = Run::start(&text, &["--allow-control", "--control-wait", "0"]).end();
+    let wait = ["--allow-control", "--control-wait", "10", "--speed", "10"];
+    let run = secured("watchers.json5", LOOPBACK, &text, &wait, |_| {});
+    let watcher = Watcher::new(client(&run.endpoint));
+    let rogues = ["client", "peer", "router"].map(|mode| Rogue::at(&run.endpoint, mode));
+    let [replies, forged] = watcher.asks();
+    assert!(replies > 0 && forged == 0, "{replies} {forged}");
+    assert_eq!(watcher.tokens(), ["sim"]);
+    let [clock, forged] = watcher.heard();
+    assert!(clock > 0 && forged == 0, "{clock} {forged}");
+    let end = run.end();
+    assert_eq!((end.count(0, "asked"), end.count(0, "absent")), (10, 10));
+    assert_eq!(end.digest(), alone.digest(), "{}", end.said);
+    for rogue in rogues {
+        assert_eq!(rogue.asked(), 0);
+        rogue.leave();
+    }
+}
+
+#[test]
+fn without_a_configuration_a_rogue_is_heard_but_changes_nothing_by_publishing() {
+    let quiet = Run::start(&channel(AMP, 10.0), &[]).end();
+    let run = Run::start(&channel(AMP, 10.0), &["--speed", "2"]);
+    let watcher = Watcher::new(client(&run.endpoint));
+    let rogue = Rogue::at(&run.endpoint, "client");
+    let [replies, forged] = watcher.asks();
+    assert!(replies > 1 && forged == 1, "{replies} {forged}");
+    assert_eq!(watcher.tokens(), ["client", "sim"]);
+    let [clock, forged] = watcher.heard();
+    assert!(clock > 0 && forged == 10, "{clock} {forged}");
+    assert!(rogue.asked() > 0);
+    let end = run.end();
+    assert_eq!(end.digest(), quiet.digest(), "{}", end.said);
+    rogue.leave();
+
+    let run = Run::controlled(&channel(ASKS, 10.0));
+    let session = client(&run.endpoint);
+    let (_answers, asked) = counted(&session);
+    let end = run.end();
+    assert_eq!(end.count(0, "answered"), 10, "whoever comes is asked");
+    assert_eq!(asked.load(Ordering::SeqCst), 10);
+    session.close().wait().unwrap();
+}
+
+/// Pilots command and are asked; watchers see the run, and their commands and answers go nowhere.
+fn pilots_steer_and_watchers_watch(run: Run, pilot: &Session, watcher: Session) {
+    let (_rogue, never) = counted(&watcher);
+    assert!(command(&watcher, "status").is_err());
+    assert_eq!(command(pilot, "status").unwrap()["controllable"], true);
+    let (_answers, asked) = counted(pilot);
+    let watching = Watcher::new(watcher.clone());
+    let asked = || asked.load(Ordering::SeqCst);
+    while asked() < 3 {
+        std::thread::yield_now();
+    }
+    assert!(command(&watcher, "stop").is_err());
+    let after = asked();
+    while asked() < after + 3 {
+        std::thread::yield_now();
+    }
+    assert_eq!(watching.tokens(), ["sim"]);
+    command(pilot, "stop").unwrap();
+    let [clock, forged] = watching.heard();
+    assert!(clock > 0 && forged == 0, "{clock} {forged}");
+    let end = run.end();
+    assert_eq!(end.code, 130, "{}", end.said);
+    assert_eq!(end.count(0, "answered"), end.count(0, "asked"));
+    assert_eq!(never.load(Ordering::SeqCst), 0, "a watcher was asked");
+    assert!(!end.said.contains("warning"), "{}", end.said);
+}
+
+#[test]
+fn users_need_their_password_and_only_the_pilot_steers() {
+    let passwords = "pilot:to steer\nwatcher:to look\nstranger:let in\n";
+    let steered = ["--allow-control", "--speed", "10"];
+    let run = secured(
+        "users.json5",
+        LOOPBACK,
+        &channel(ASKS, 600.0),
+        &steered,
+        |dir| {
+            fs::write(dir.join("users.txt"), passwords).expect("the folder is ours");
+        },
+    );
+    let user = |name: &str, password: &str, patient: bool| {
+        let values = [
+            ("transport/auth/usrpwd/user", json!(name)),
+            ("transport/auth/usrpwd/password", json!(password)),
+        ];
+        client_config("as_user.json5", &run.endpoint, patient, &values)
+    };
+    let pilot = opened(user("pilot", "to steer", true));
+    refused(user("pilot", "to look", false));
+    refused(user("nobody", "to steer", false));
+    let nameless = "{ mode: 'client', scouting: { multicast: { enabled: false } } }";
+    let mut nameless = Config::from_json5(nameless).unwrap();
+    let endpoints = json!([run.endpoint]).to_string();
+    nameless
+        .insert_json5("connect/endpoints", &endpoints)
+        .unwrap();
+    refused(nameless);
+    let stranger = zenoh::open(user("stranger", "let in", false))
+        .wait()
+        .unwrap();
+    let stranger = Watcher::new(stranger);
+    assert_eq!((stranger.asks(), stranger.tokens().len()), ([0, 0], 0));
+    let watcher = opened(user("watcher", "to look", true));
+    pilots_steer_and_watchers_watch(run, &pilot, watcher);
+    assert_eq!(stranger.heard(), [0, 0]);
+    pilot.close().wait().unwrap();
+}
+
+/// A client of a run over TLS that trusts this authority, and shows a certificate if it has one.
+fn over_tls(run: &Run, dir: &Path, authority: &str, name: Option<&str>, patient: bool) -> Config {
+    let mut values = vec![(
+        "transport/link/tls/root_ca_certificate",
+        json!(dir.join(authority)),
+    )];
+    if let Some(name) = name {
+        let own = |end: &str| json!(dir.join(format!("{name}.{end}")));
+        values.push(("transport/link/tls/connect_certificate", own("pem")));
+        values.push(("transport/link/tls/connect_private_key", own("key")));
+        values.push(("transport/link/tls/enable_mtls", json!(true)));
+    }
+    client_config("over_tls.json5", &run.endpoint, patient, &values)
+}
+
+/// An authority whose certificates are in a folder, one for a run and one for each of these clients.
+fn certificates(dir: &Path, clients: &[&str]) -> Authority {
+    let authority = Authority::new("authority");
+    authority.write(dir, "authority.pem");
+    for name in clients.iter().chain(&["run"]) {
+        authority.sign(dir, name);
+    }
+    let other = Authority::new("another");
+    other.write(dir, "another.pem");
+    authority
+}
+
+#[test]
+fn over_tls_only_who_trusts_the_authority_connects() {
+    let dir = tempfile::tempdir().unwrap();
+    certificates(dir.path(), &[]);
+    let steered = ["--allow-control", "--speed", "10"];
+    let run = secured(
+        "tls.json5",
+        "tls/127.0.0.1",
+        &channel(AMP, 600.0),
+        &steered,
+        |to| {
+            for file in ["run.pem", "run.key"] {
+                fs::copy(dir.path().join(file), to.join(file)).unwrap();
+            }
+        },
+    );
+    let session = opened(over_tls(&run, dir.path(), "authority.pem", None, true));
+    refused(over_tls(&run, dir.path(), "another.pem", None, false));
+    let plain = run.endpoint.replace("tls/", "tcp/");
+    let plain = format!("{{ mode: 'client', connect: {{ endpoints: ['{plain}'] }} }}");
+    refused(Config::from_json5(&plain).unwrap());
+    let watcher = Watcher::new(session.clone());
+    assert_eq!(watcher.tokens(), ["sim"]);
+    command(&session, "stop").unwrap();
+    let end = run.end();
+    assert_eq!(end.code, 130, "{}", end.said);
+    session.close().wait().unwrap();
+}
+
+#[test]
+fn certificates_of_clients_say_who_steers() {
+    let dir = tempfile::tempdir().unwrap();
+    certificates(dir.path(), &["pilot", "watcher"]);
+    let other = tempfile::tempdir().unwrap();
+    Authority::new("authority").sign(other.path(), "pilot");
+    fs::copy(
+        dir.path().join("authority.pem"),
+        other.path().join("authority.pem"),
+    )
+    .unwrap();
+    let steered = ["--allow-control", "--speed", "10"];
+    let run = secured(
+        "mutual_tls.json5",
+        "tls/127.0.0.1",
+        &channel(ASKS, 600.0),
+        &steered,
+        |to| {
+            for file in ["run.pem", "run.key", "authority.pem"] {
+                fs::copy(dir.path().join(file), to.join(file)).unwrap();
+            }
+        },
+    );
+    let as_one = |dir: &Path, name: Option<&str>, patient: bool| {
+        over_tls(&run, dir, "authority.pem", name, patient)
+    };
+    let pilot = opened(as_one(dir.path(), Some("pilot"), true));
+    refused(as_one(dir.path(), None, false));
+    refused(as_one(other.path(), Some("pilot"), false));
+    let watcher = opened(as_one(dir.path(), Some("watcher"), true));
+    pilots_steer_and_watchers_watch(run, &pilot, watcher);
+    pilot.close().wait().unwrap();
+}
+
+#[test]
+fn a_run_that_anybody_may_control_from_elsewhere_says_so() {
+    let text = channel(AMP, 1.0);
+    let everywhere = "tcp/0.0.0.0";
+    let control = ["--allow-control"];
+    let warned = |run: Run| {
+        let endpoint = run.endpoint.clone();
+        let said = run.end().said;
+        let line = format!(
+            "warning: --allow-control without users or access control: whoever reaches {endpoint} can"
+        );
+        assert_eq!(said.contains("warning"), said.contains(&line), "{said}");
+        said.contains(&line)
+    };
+    assert!(warned(Run::at(everywhere, &text, &control, |_| {})));
+    assert!(!warned(Run::at(everywhere, &text, &[], |_| {})));
+    assert!(!warned(Run::start(&text, &control)));
+    let run = secured("watchers.json5", everywhere, &text, &control, |_| {});
+    assert!(!warned(run));
+}
