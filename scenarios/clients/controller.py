@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Decide for a robot of a rheotaxis run: surge up-flow in the plume, cast across the flow out of it, then declare.
+"""Decide for a robot of a rheotaxis run: obliquely up-flow in the plume, back across it when it is lost, then declare.
 
     pip install eclipse-zenoh==1.10.2
     rheotaxis run duck_external --allow-control &
@@ -11,7 +11,7 @@ import json, math, sys
 import zenoh
 
 endpoint = (sys.argv[1:] + ["tcp/127.0.0.1:7447"])[0]
-hits = []  # times and places of detections
+hits, state = [], {"side": 1, "in": False}  # times and places of detections; which way it crosses the plume
 
 def decide(seen):
     t, here, gathered = seen["t_s"], seen["estimate"]["position_m"], seen["gathered"]
@@ -23,9 +23,12 @@ def decide(seen):
     if hits and lost_s > 300:  # the plume has ended: its source is where it was met farthest up-flow
         best = max(hits, key=lambda hit: -hit[1][0] * flow[0] - hit[1][1] * flow[1])
         return {"declare": {"position_m": best[1], "rule": "surge_cast"}, "end": "completed"}
-    # Casts of 20 s to either side, still somewhat up-flow.
-    side = 1 if lost_s % 40 < 20 else -1
-    heading = up_flow if lost_s <= 5 else up_flow + side * math.radians(70)
+    if lost_s <= 5:  # in the plume: obliquely up-flow, towards the other edge than last time
+        turn = state["side"] * 20
+    else:  # out of it: back across it, and after 25 s to the other side
+        state["side"] *= -1 if state["in"] else 1
+        turn = state["side"] * (70 if (lost_s - 5) % 75 < 25 else -70)
+    state["in"], heading = lost_s <= 5, up_flow + math.radians(turn)
     course = {"course": {"heading_rad": heading % math.tau}}
     goal = {"manoeuvre": course, "altitude_m": 2.0, "speed_m_s": 2.0}
     return {"goal": goal, "behaviour": "surge" if lost_s <= 5 else "cast"}
