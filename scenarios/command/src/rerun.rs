@@ -142,14 +142,10 @@ fn spun_up<W: Watch>(lanes: &mut Lanes<W>, args: &RerunMcapArgs) {
 
 fn compared(recorded: &Recorded, ended: &Ended) -> Exit {
     let version = env!("CARGO_PKG_VERSION");
-    let other = (recorded.version != version)
-        .then(|| {
-            format!(
-                " (recorded with version {}, this is {version})",
-                recorded.version
-            )
-        })
-        .unwrap_or_default();
+    let other = match recorded.version.as_str() {
+        same if same == version => String::new(),
+        other => format!(" (recorded with version {other}, this is {version})"),
+    };
     let asked = recorded.told.len();
     match &recorded.result {
         Some((digest, _)) if *digest == ended.digest => {

@@ -81,7 +81,7 @@ pub struct HeadGathered {
 /// The gathered of a robot or of a gantry.
 #[derive(Clone, Debug)]
 pub(crate) enum Kept {
-    Robot(Gathered),
+    Robot(Box<Gathered>),
     Gantry(HeadGathered),
 }
 
@@ -116,7 +116,7 @@ impl Consulting {
             drives,
             asked: 0,
             kept: match drives {
-                Some(_) => Kept::Robot(Gathered::default()),
+                Some(_) => Kept::Robot(Box::default()),
                 None => Kept::Gantry(HeadGathered::default()),
             },
             question: None,

@@ -55,6 +55,10 @@ pub enum Seen {
 
 /// What came back.
 #[derive(Clone, Debug, PartialEq)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one at a time, and controllers make them by hand"
+)]
 pub enum Heard {
     /// An answer.
     Answer(Answer),

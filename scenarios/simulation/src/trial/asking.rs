@@ -9,13 +9,20 @@ use world::frames::Truth;
 
 /// A robot that nobody outside this program can control.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("no robot or gantry {robot:?} has the strategy External; {}", .outside.is_empty().then(|| "none has".to_string())
-    .unwrap_or_else(|| format!("those that have: {}", .outside.join(", "))))]
+#[error("no robot or gantry {robot:?} has the strategy External; {}", those(.outside))]
 pub struct NotControlled {
     /// Its id.
     pub robot: String,
     /// Ids of those that can be controlled.
     pub outside: Vec<String>,
+}
+
+fn those(outside: &[String]) -> String {
+    if outside.is_empty() {
+        "none has".to_string()
+    } else {
+        format!("those that have: {}", outside.join(", "))
+    }
 }
 
 /// The robots and gantries of a scenario whose strategy is `External`, in its order, and how they ask.
