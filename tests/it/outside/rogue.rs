@@ -2,11 +2,11 @@
 
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
-use std::time::Duration;
+use zenoh::handlers::FifoChannelHandler;
 use zenoh::liveliness::LivelinessToken;
 use zenoh::pubsub::Subscriber;
 use zenoh::query::{Query, QueryTarget, Queryable};
-use zenoh::sample::{Sample, SampleKind};
+use zenoh::sample::{Locality, Sample, SampleKind};
 use zenoh::{Config, Session, Wait};
 
 /// What the controller of a robot could say.
@@ -33,6 +33,8 @@ impl Rogue {
         let count = Arc::clone(&asked);
         let answers = (session.declare_queryable("rheotaxis/**"))
             .complete(true)
+            // Its own command below is not for itself.
+            .allowed_origin(Locality::Remote)
             .callback(move |query: Query| {
                 count.fetch_add(1, Ordering::SeqCst);
                 let key = match query.key_expr().as_str() {
@@ -81,6 +83,7 @@ impl Rogue {
 pub(super) struct Watcher {
     session: Session,
     heard: Arc<Mutex<Vec<Sample>>>,
+    there: Subscriber<FifoChannelHandler<Sample>>,
     _subscriber: Subscriber<()>,
 }
 
@@ -92,9 +95,12 @@ impl Watcher {
             .callback(move |sample| ear.lock().expect("sound").push(sample))
             .wait()
             .expect("a subscriber");
+        let there = (session.liveliness()).declare_subscriber(format!("{BASE}/@live/sim"));
+        let there = there.history(true).wait().expect("a subscriber");
         Self {
             session,
             heard,
+            there,
             _subscriber: subscriber,
         }
     }
@@ -124,24 +130,21 @@ impl Watcher {
         names
     }
 
-    /// Waits for the end of the run: how often its clock was heard, and how much of all that was heard is forged.
-    pub(super) fn heard(self) -> [usize; 2] {
-        let run = format!("{BASE}/@live/sim");
-        let there = self.session.liveliness().declare_subscriber(run);
-        let there = there.history(true).wait().expect("a subscriber");
-        // A run that is gone already has no token that could disappear.
-        while let Ok(Some(sample)) = there.recv_timeout(Duration::from_secs(5)) {
+    /// Waits until the run has ended.
+    pub(super) fn see_it_end(&self) {
+        while let Ok(sample) = self.there.recv() {
             if sample.kind() == SampleKind::Delete {
-                break;
+                return;
             }
         }
-        self.session.close().wait().expect("it closes");
+    }
+
+    /// How often the clock of the run was heard, and how much of all that was heard is forged.
+    pub(super) fn heard(&self) -> [usize; 2] {
         let heard = self.heard.lock().expect("sound");
-        let clock = heard
-            .iter()
-            .filter(|s| s.key_expr().as_str().ends_with("/clock"));
-        let clock = clock.filter(|s| !forged(s)).count();
-        [clock, heard.iter().filter(|s| forged(s)).count()]
+        let clock = (heard.iter())
+            .filter(|sample| sample.key_expr().as_str().ends_with("/clock") && !forged(sample));
+        [clock.count(), heard.iter().filter(|s| forged(s)).count()]
     }
 }
 

@@ -81,6 +81,7 @@ fn watchers_see_a_run_that_nobody_can_touch() {
     let [replies, forged] = watcher.asks();
     assert!(replies > 0 && forged == 0, "{replies} {forged}");
     assert_eq!(watcher.tokens(), ["sim"]);
+    watcher.see_it_end();
     let [clock, forged] = watcher.heard();
     assert!(clock > 0 && forged == 0, "{clock} {forged}");
     let end = run.end();
@@ -101,6 +102,7 @@ fn without_a_configuration_a_rogue_is_heard_but_changes_nothing_by_publishing() 
     let [replies, forged] = watcher.asks();
     assert!(replies > 1 && forged == 1, "{replies} {forged}");
     assert_eq!(watcher.tokens(), ["client", "sim"]);
+    watcher.see_it_end();
     let [clock, forged] = watcher.heard();
     assert!(clock > 0 && forged == 10, "{clock} {forged}");
     assert!(rogue.asked() > 0);
@@ -135,6 +137,7 @@ fn pilots_steer_and_watchers_watch(run: Run, pilot: &Session, watcher: Session) 
     }
     assert_eq!(watching.tokens(), ["sim"]);
     command(pilot, "stop").unwrap();
+    watching.see_it_end();
     let [clock, forged] = watching.heard();
     assert!(clock > 0 && forged == 0, "{clock} {forged}");
     let end = run.end();
