@@ -23,14 +23,14 @@ mv "$copy/tree/Cargo.lock" "$copy/Cargo.lock"
 rm "$copy/tree/Cargo.toml"
 runs=$(mktemp -d)
 # The program of the copy has the name of the tree's own: put that back in any case.
-restore() { rm -rf "$runs" "$copy"; (cd "$root" && cargo build --release --quiet --package command); }
+restore() { rm -rf "$runs" "$copy"; (cd "$root" && cargo build --release --quiet --package rheotaxis-command); }
 trap restore EXIT
 
 cd "$copy/tree"
 patch --strip=1 --fuzz=2 < docs/add_an_algorithm.patch
 rustfmt --edition 2024 --check robots/src/behave/spiral.rs
 cd "$copy"
-cargo build --release --locked --package command 2>&1 | tee "$runs/build.log"
+cargo build --release --locked --package rheotaxis-command 2>&1 | tee "$runs/build.log"
 ! grep --quiet '^warning' "$runs/build.log" || fail "the example does not compile without warnings"
 
 rheotaxis=$target/release/rheotaxis
