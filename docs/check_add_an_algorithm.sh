@@ -17,7 +17,7 @@ mkdir -p "$copy/tree"
 git ls-files -z --cached --others --exclude-standard |
     while IFS= read -r -d '' file; do if [ -e "$file" ]; then printf '%s\0' "$file"; fi; done |
     tar --null --files-from=- --create --file=- | tar --extract --preserve-permissions --directory "$copy/tree" --file=-
-sed -e '/^members = \[/,/^\]/ s#"\(.*\)"#"tree/\1"#' -e 's#path = "#path = "tree/#' \
+sed -e '/^\(default-\)\{0,1\}members = \[/,/^\]/ s#"\(.*\)"#"tree/\1"#' -e 's#path = "#path = "tree/#' \
     "$copy/tree/Cargo.toml" > "$copy/Cargo.toml"
 mv "$copy/tree/Cargo.lock" "$copy/Cargo.lock"
 rm "$copy/tree/Cargo.toml"
