@@ -217,7 +217,8 @@ mod tests {
         loop {
             let told = plane.command("status", None).unwrap();
             let now = at.load(Ordering::SeqCst);
-            if told["paused"] == true && told["t_s"].as_f64() == Some(now as f64) {
+            // At first it is paused before it has begun.
+            if now > 0 && told["paused"] == true && told["t_s"].as_f64() == Some(now as f64) {
                 return now;
             }
             std::thread::yield_now();
