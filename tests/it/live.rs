@@ -12,7 +12,7 @@ mod setup;
 use image::Rgb;
 use kit::{
     PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, picture, ping, plume,
-    sent, start,
+    scene_document, sent, start, water,
 };
 use output::live::{Live, LiveOptions, Payload, topics};
 use rheotaxis::frame::Frame;
@@ -165,7 +165,8 @@ fn zenoh_s_own_advanced_subscriber_finds_the_cached_meta() {
         .unwrap();
     let mut seen = BTreeMap::new();
     live.end("d1");
-    while seen.len() < 3 {
+    // Scenario, scene, version and digest.
+    while seen.len() < 4 {
         let sample = samples.recv_timeout(PATIENCE).unwrap().expect("cached");
         seen.insert(sample.key_expr().as_str().to_owned(), json(&sample));
     }
@@ -214,6 +215,7 @@ fn every_message_keeps_its_published_schema() {
     let live = start("schema_1");
     live.publish(&frame(3));
     live.plume(&plume(100));
+    live.water(&water());
     live.picture(&picture(1.0));
     live.ping(&ping(1.0));
     live.end("d1");
@@ -253,6 +255,12 @@ fn every_message_keeps_its_published_schema() {
     assert_eq!(packed.len(), 100 * 6 * 4);
     let mass = f32::from_le_bytes(packed[16..20].try_into().unwrap());
     assert_eq!(mass, 1e-5);
+    let flow = seen["water"].payload().to_bytes();
+    assert_eq!(flow.len(), 2 * 6 * 4);
+    assert_eq!(f32::from_le_bytes(flow[12..16].try_into().unwrap()), 0.25);
+    // The bytes are those of the recording's attachment.
+    let scene = seen["meta/scene"].payload().to_bytes();
+    assert_eq!(scene.as_ref(), scene_document().as_bytes());
     let seen_picture = &seen["auv/auv0/picture"];
     assert_eq!(seen_picture.encoding(), &Encoding::IMAGE_JPEG);
     let shown = image::load_from_memory(&seen_picture.payload().to_bytes()).unwrap();

@@ -16,6 +16,7 @@ mod hulls;
 mod interrupt;
 mod kinematic;
 mod lanes;
+mod layouts;
 mod live;
 mod memory;
 mod ocean;

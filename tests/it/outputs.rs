@@ -157,7 +157,15 @@ fn a_full_disk_is_an_error_and_what_was_computed_before_is_there() {
     let dir = tempfile::tempdir().unwrap();
     let text = include_str!("../../scenarios/catalog/uniform_channel.ron");
     fs::write(dir.path().join("s.ron"), text).unwrap();
-    let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out out", 24);
+    // Not even room for the scene: the run does not begin, and says why.
+    let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out no", 24);
+    let said = String::from_utf8(end.stderr).unwrap();
+    assert_eq!(end.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("no/run.mcap") && said.contains("too large"),
+        "{said}"
+    );
+    let end = with_little_room(dir.path(), "run s.ron --no-zenoh --quiet --out out", 256);
     let said = String::from_utf8(end.stderr).unwrap();
     assert_eq!(end.status.code(), Some(1), "{said}");
     assert!(said.contains("too large"), "{said}");

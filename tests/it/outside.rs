@@ -9,3 +9,4 @@ mod processes;
 mod rogue;
 mod ros;
 mod security;
+mod storm;

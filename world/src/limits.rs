@@ -256,6 +256,8 @@ limits! {
     spread_m_rts: 1e-6, 100.0, "m/s^0.5";
     /// How long something lasts, s: from a millisecond to 30 years.
     lasting_s: 1e-3, 1e9, "s";
+    /// How long a run waits for an answer from outside, s of real time: from a millisecond to a day.
+    answer_s: 1e-3, 86_400.0, "s";
     /// Speed of a propeller, rpm.
     rpm: -10_000.0, 10_000.0, "rpm";
     /// Greatest speed of a propeller, rpm.

@@ -107,18 +107,18 @@ impl Actuation {
 
     /// The set-points with their names and units; the drives of a folder's vehicle have numbers.
     pub fn named(&self) -> impl Iterator<Item = (&'static str, f64)> + '_ {
-        let (names, values): (&[&'static str], &[f64]) = match self {
-            Self::Fins(set) => (
-                &["rudder_rad", "stern_rad", "rpm"],
-                &[set.rudder_rad, set.stern_rad, set.rpm],
-            ),
-            Self::Rates(set) => (
-                &["turn_rad_s", "climb_m_s", "speed_m_s"],
-                &[set.turn_rad_s, set.climb_m_s, set.speed_m_s],
-            ),
-            Self::Drives(set) => (&DRIVES, set.all()),
+        let names: &[&'static str] = match self {
+            Self::Fins(_) => &["rudder_rad", "stern_rad", "rpm"],
+            Self::Rates(_) => &["turn_rad_s", "climb_m_s", "speed_m_s"],
+            Self::Drives(_) => &DRIVES,
         };
-        let values: Vec<f64> = values.to_vec();
+        let value = move |place: usize| match self {
+            Self::Rates(set) => [set.turn_rad_s, set.climb_m_s, set.speed_m_s]
+                .get(place)
+                .copied(),
+            _ => self.drive(place),
+        };
+        let values = (0..).map_while(value);
         names.iter().copied().zip(values)
     }
 }

@@ -1,4 +1,5 @@
-//! What others need to draw a vehicle or a gantry: its URDF as one text, and the frames of its links.
+//! What others need to draw a vehicle or a gantry: its URDF as one text, the frames of its links, their shapes, and
+//! what moves them.
 //!
 //! *Source:* ROS URDF, XML specification of `robot`, `link` and `joint`.
 //!
@@ -10,11 +11,12 @@
 use super::files::Files;
 use super::folder::urdf_of;
 use super::gantry::{CRAB_GANTRY, GantrySpec};
+use super::looks::{JointKind, LinkLook, Motion, Moved, looks, of_drives, of_fins};
 use super::remus100::REMUS100;
 use super::spec::VehicleSpec;
-use super::urdf_parts::{UrdfText, check_tree, parse, pose_of, root};
+use super::urdf_parts::{UrdfText, check_tree, parse, place, pose_of, root};
 use crate::error::RobotError;
-use nalgebra::Vector3;
+use nalgebra::{Unit, UnitQuaternion, Vector3};
 use urdf_rs::{Collision, Geometry, Visual};
 use world::frames::Pose;
 
@@ -27,6 +29,11 @@ pub struct Description {
     pub root: String,
     /// All joints.
     pub joints: Vec<Mount>,
+    /// All links, with their shapes as the URDF has them.
+    pub links: Vec<LinkLook>,
+    /// The joints that its drives move; none of a vehicle without drives, or of a gantry, whose slides have the names
+    /// of their joints.
+    pub moved: Vec<Moved>,
 }
 
 /// A joint: how a link is fitted to another.
@@ -40,7 +47,9 @@ pub struct Mount {
     pub child: String,
     /// Pose of the other in the first one's axes, with the joint at zero.
     pub pose: Pose,
-    /// Direction in which it slides, in its own axes; unit vector.
+    /// How it moves.
+    pub kind: JointKind,
+    /// Direction in which it slides, or about which it turns, in its own axes; unit vector.
     pub axis: Vector3<f64>,
 }
 
@@ -53,6 +62,16 @@ impl Mount {
             ..self.pose
         }
     }
+
+    /// The pose with the joint turned by an angle, rad.
+    #[must_use]
+    pub fn turned(&self, angle_rad: f64) -> Pose {
+        let axis = Unit::new_normalize(self.axis);
+        Pose {
+            R_WB: self.pose.R_WB * UnitQuaternion::from_axis_angle(&axis, angle_rad),
+            ..self.pose
+        }
+    }
 }
 
 impl Description {
@@ -61,13 +80,19 @@ impl Description {
     /// # Errors
     /// If its URDF cannot be read.
     pub fn of_vehicle(spec: &VehicleSpec, files: &dyn Files) -> Result<Self, RobotError> {
-        let named =
-            |urdf: &Option<String>| Self::of(&UrdfText::open(urdf.as_deref(), files, REMUS100)?);
+        let named = |urdf: &Option<String>, moves: &[Motion]| {
+            Self::of(&UrdfText::open(urdf.as_deref(), files, REMUS100)?, moves)
+        };
+        let in_folder = |folder: &str, comes_with: bool| {
+            urdf_of(folder, comes_with, files, |text, file| {
+                Self::of(text, &of_drives(&file.drives))
+            })
+        };
         match spec {
-            VehicleSpec::Remus100(remus) => named(&remus.urdf),
-            VehicleSpec::Kinematic(spec) => named(&spec.urdf),
-            VehicleSpec::Shipped(name) => urdf_of(name, true, files, Self::of),
-            VehicleSpec::File(folder) => urdf_of(folder, false, files, Self::of),
+            VehicleSpec::Remus100(remus) => named(&remus.urdf, &of_fins()),
+            VehicleSpec::Kinematic(spec) => named(&spec.urdf, &[]),
+            VehicleSpec::Shipped(name) => in_folder(name, true),
+            VehicleSpec::File(folder) => in_folder(folder, false),
         }
     }
 
@@ -77,13 +102,22 @@ impl Description {
     /// If its URDF cannot be read.
     pub fn of_gantry(spec: &GantrySpec, files: &dyn Files) -> Result<Self, RobotError> {
         let GantrySpec::CrabGantry(spec) = spec;
-        Self::of(&UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?)
+        let text = UrdfText::open(spec.urdf.as_deref(), files, CRAB_GANTRY)?;
+        Self::of(&text, &[])
     }
 
-    fn of(text: &UrdfText) -> Result<Self, RobotError> {
+    fn of(text: &UrdfText, moves: &[Motion]) -> Result<Self, RobotError> {
         let fail = |problem: String| text.fault(problem);
         let mut robot = parse(&text.text).map_err(fail)?;
         check_tree(&robot).map_err(fail)?;
+        let base = root(&robot).map_err(fail)?.name.clone();
+        let poses = place(&robot, &base).map_err(fail)?;
+        let look = |link: &urdf_rs::Link| LinkLook {
+            name: link.name.clone(),
+            pose: poses[&link.name],
+            shapes: looks(&robot, link, text),
+        };
+        let links = robot.links.iter().map(look).collect();
         for link in &mut robot.links {
             let collisions = link.collision.iter_mut().map(|c| &mut c.geometry);
             let visuals = link.visual.iter_mut().map(|v| &mut v.geometry);
@@ -99,11 +133,27 @@ impl Description {
             parent: joint.parent.link.clone(),
             child: joint.child.link.clone(),
             pose: pose_of(&joint.origin),
+            kind: JointKind::of(&joint.joint_type),
             axis: (Vector3::from(joint.axis.xyz.0).try_normalize(0.0)).unwrap_or_else(Vector3::x),
         };
+        let mut joints: Vec<Mount> = robot.joints.iter().map(mount).collect();
+        let mut moved = Vec::new();
+        for motion in moves {
+            // What sits on the body itself moves no joint.
+            if let Some(joint) = joints.iter_mut().find(|j| j.child == motion.link) {
+                (joint.kind, joint.axis) = (motion.kind, motion.axis);
+                moved.push(Moved {
+                    joint: joint.joint.clone(),
+                    actuator: motion.actuator.clone(),
+                    unit: motion.unit,
+                });
+            }
+        }
         Ok(Self {
-            root: root(&robot).map_err(fail)?.name.clone(),
-            joints: robot.joints.iter().map(mount).collect(),
+            root: base,
+            joints,
+            links,
+            moved,
             urdf: urdf_rs::write_to_string(&robot).map_err(|e| fail(e.to_string()))?,
         })
     }
@@ -166,7 +216,7 @@ mod tests {
             <mesh filename="hull.stl"/></geometry></collision></link></robot>"#;
         let files = InMemory::default().with("hulls/a.urdf", text.as_bytes());
         let text = UrdfText::open(Some("hulls/a.urdf"), &files, REMUS100).unwrap();
-        let urdf = Description::of(&text).unwrap().urdf;
+        let urdf = Description::of(&text, &[]).unwrap().urdf;
         let here = std::env::current_dir().unwrap();
         let path = here.join("hulls/hull.stl");
         let url = format!("filename=\"file://{}\"", path.display());

@@ -142,7 +142,14 @@ fn it_stays_under_the_surface() {
 /// along where it comes aslant, and stays level.
 #[test]
 fn no_wall_lets_it_through() {
-    for (dt_s, thick_m) in [(0.001, 0.002), (0.02, 0.01), (0.1, 0.002), (0.1, 1.0)] {
+    for (dt_s, thick_m) in [
+        (0.001, 0.002),
+        (0.02, 0.01),
+        (0.1, 0.002),
+        (0.1, 1.0),
+        (1.0, 0.002),
+        (1.0, 1.0),
+    ] {
         for (heading_deg, turn_deg_s, climb_m_s) in [
             (90.0, 0.0, 0.0),
             (60.0, 0.0, 0.0),
@@ -161,7 +168,7 @@ fn no_wall_lets_it_through() {
             let id = physics.add_body(car.body_spec("car", t));
             let mut touched = 0;
             let begin = t;
-            for _ in 0..(1.5 / dt_s) as u32 {
+            for _ in 0..(1.5_f64.max(3.0 * dt_s) / dt_s) as u32 {
                 let set = rates(turn_deg_s, climb_m_s, 15.0);
                 physics.push(id, car.step(&t, &Vector3::new(1.0, 0.0, 0.0), &set, dt_s));
                 physics.step();
@@ -176,7 +183,8 @@ fn no_wall_lets_it_through() {
                 assert!(roll.abs() < 1e-6 && pitch.abs() < 1e-6);
             }
             assert!(touched > 0, "{dt_s} s, {heading_deg} deg");
-            if heading_deg == 60.0 {
+            // In steps of a second it stops more than it slides.
+            if heading_deg == 60.0 && dt_s < 1.0 {
                 let along = t.pose.p_WB.y - begin.pose.p_WB.y;
                 assert!(along > 2.0, "it must slide: {along} m");
             }

@@ -11,6 +11,7 @@ mod folder;
 mod gantry;
 mod kinematic;
 mod kinematic_spec;
+mod looks;
 mod mesh;
 mod remus100;
 mod spec;
@@ -33,6 +34,7 @@ pub use folder::{
 pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
 pub use kinematic::Kinematic;
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};
+pub use looks::{Form, JointKind, LinkLook, Look, Moved};
 pub use remus100::{Actuators, Coefficients, Inflow, ParameterSet};
 pub use spec::{CATALOGUE, RemusSpec, VehicleSpec};
 pub use vehicle::Vehicle;

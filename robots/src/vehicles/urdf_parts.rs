@@ -79,6 +79,12 @@ impl<'a> UrdfText<'a> {
         format!("file://{}", whole.display())
     }
 
+    /// Triangles of a mesh file beside the URDF.
+    pub(super) fn triangles(&self, name: &str) -> Result<Vec<[Vector3<f64>; 3]>, String> {
+        let name = name.strip_prefix("file://").unwrap_or(name);
+        mesh::triangles(&self.folder.join(name), self.files)
+    }
+
     /// Corners of a mesh file beside the URDF.
     fn mesh(&self, name: &str) -> Result<Vec<Vector3<f64>>, String> {
         mesh::points(&self.folder.join(name), self.files)

@@ -17,6 +17,15 @@ fn parse(text: &str) -> Result<Hull, String> {
     read(&as_file(text, "/no/such/place/auv.urdf", &files), &c).map_err(|e| e.to_string())
 }
 
+/// The text of a link, with its shapes.
+fn link(name: &str) -> &'static str {
+    let start = GOOD
+        .find(&format!("<link name=\"{name}\""))
+        .expect("a link");
+    let end = start + GOOD[start..].find("</link>").expect("with shapes") + "</link>".len();
+    &GOOD[start..end]
+}
+
 fn fails(from: &str, to: &str) -> String {
     assert!(GOOD.contains(from), "{from}");
     parse(&GOOD.replace(from, to)).expect_err("this is wrong")
@@ -68,7 +77,7 @@ fn broken_xml_is_told() {
 #[test]
 fn missing_links_are_named() {
     assert_eq!(
-        fails("<link name=\"propeller\"/>", ""),
+        fails(link("propeller"), ""),
         "/no/such/place/auv.urdf: joint \"propeller_joint\": no link \"propeller\""
     );
     assert_eq!(
@@ -112,12 +121,11 @@ fn what_is_no_tree_is_told() {
         with("<link name=\"loose\"/>"),
         "link \"loose\" is not joined to \"base_link\""
     );
+    let half = &GOOD[..GOOD.len() / 2];
+    let ends = format!("it ends at line {}, before </robot>", half.lines().count());
     for (text, why) in [
         ("hello", "there is no <robot> in it"),
-        (
-            &GOOD[..GOOD.len() / 2],
-            "it ends at line 50, before </robot>",
-        ),
+        (half, ends.as_str()),
     ] {
         assert_eq!(
             parse(text).expect_err("no URDF"),
@@ -204,7 +212,7 @@ fn masses_of_all_links_add_up() {
             "<link name=\"rudder\"><inertial><mass value=\"{kg}\"/>\
              <inertia ixx=\"0\" ixy=\"0\" ixz=\"0\" iyy=\"0\" iyz=\"0\" izz=\"0\"/></inertial></link>"
         );
-        parse(&GOOD.replace("<link name=\"rudder\"/>", &fin))
+        parse(&GOOD.replace(link("rudder"), &fin))
     };
     assert_eq!(
         with("0.5").expect_err("1.6 % more"),

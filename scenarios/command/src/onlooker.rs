@@ -9,10 +9,9 @@ use super::company::Company;
 use super::progress::Progress;
 use output::files::{ReportError, begin_folder};
 use output::follow::Follower;
-use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, Scene, run_id};
-use output::results::RunInfo;
+use output::live::{Live, LiveController, LiveMeta, LiveOptions, Plane, Ros2, run_id};
 use rheotaxis::control::{Consultation, Heard};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial, Watch};
@@ -54,7 +53,7 @@ impl Onlooker {
             Speed::Times(times) => Some(times),
         };
         let plane = Arc::new(Plane::new(args.control.allow_control, times));
-        let live = live(args, loaded, results.run(), &progress, company, &plane)?;
+        let live = live(args, &mut results, &progress, company, &plane)?;
         // The folder comes last: a run that cannot start must not remove the files of an earlier run.
         let out = begin_folder(out, "run")?;
         if let Some(removed) = say::removed(out.dir(), out.removed()) {
@@ -129,8 +128,7 @@ impl Onlooker {
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
-    loaded: &Loaded,
-    run: &RunInfo,
+    results: &mut Follower,
     progress: &Progress,
     company: &mut Company,
     plane: &Arc<Plane>,
@@ -138,6 +136,8 @@ fn live(
     if args.no_zenoh {
         return Ok(None);
     }
+    let scene = results.scene()?;
+    let run = results.run();
     let mut options = LiveOptions::new(run_id(&run.scenario_name, args.seed));
     options.listen = args.zenoh_listen.clone();
     options.config_file = args.zenoh_config.clone();
@@ -145,7 +145,7 @@ fn live(
     if args.ros2.ros2 {
         options.ros2 = Some(Ros2 {
             domain: args.ros2.domain,
-            scene: Arc::new(Scene::of(loaded)?),
+            scene: Arc::clone(&scene),
         });
     }
     let meta = LiveMeta {
@@ -153,6 +153,7 @@ fn live(
         scenario_name: run.scenario_name.clone(),
         seed: run.seed.number(),
         version: run.version.clone(),
+        scene: Some(scene.document(run.seed.number())),
     };
     let live = company.live(&options, meta)?;
     progress.say(&format!(
@@ -195,6 +196,17 @@ impl Watch for Onlooker {
         self.results.plume(plume);
         if let Some(live) = &self.live {
             live.plume(plume);
+        }
+    }
+
+    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
+        match &self.live {
+            None => self.results.water(look),
+            Some(live) => {
+                let water = look();
+                live.water(&water);
+                self.results.water(&|| water.clone());
+            }
         }
     }
 

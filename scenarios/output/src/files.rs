@@ -2,6 +2,7 @@
 
 use crate::charts::png;
 use crate::mcap::RecordError;
+use rheotaxis::error::AssembleError;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
@@ -32,6 +33,9 @@ pub enum ReportError {
     /// The recording failed.
     #[error(transparent)]
     Record(#[from] RecordError),
+    /// The scene of the run cannot be made: a file that the scenario names is missing or wrong.
+    #[error(transparent)]
+    Scene(#[from] Box<AssembleError>),
     /// Several errors; everything else was written.
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]
     Several(Vec<ReportError>),

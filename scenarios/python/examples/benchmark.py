@@ -3,7 +3,8 @@
     python scenarios/python/examples/benchmark.py [THREADS]
 
 Random actions, one decision a second of simulated time, about 1000 filaments. The REMUS has its whole dynamics at 50 Hz;
-the kinematic vehicle moves in steps of 0.1 s, the longest that a scenario allows. Spin-ups are not counted.
+the kinematic vehicle moves in steps of 1 s. Spin-ups are not counted. If plume_nav_sim is there (``pip install
+plume-nav-sim``), its environment is measured beside ours: a point on a grid in a plume that stands still.
 """
 
 import sys
@@ -23,7 +24,8 @@ simple = few.with_(
             "(fluorometer: (rate_hz: 1), dvl: (rate_hz: 1), adcp: (rate_hz: 1), compass: (rate_hz: 1), "
             "depth: (rate_hz: 1), altimeter: (rate_hz: 1), lbl: (noise_m: 1))"
         ),
-        "time.step_s": 0.1,
+        "time.step_s": 1,
+        "record.frame_period_s": 1,
     }
 )
 
@@ -49,3 +51,26 @@ measure("kinematic vehicle, 1", simple, 1, 1, 2000)
 measure("REMUS, 256 in 8 plumes", few, 256, 32, 10)
 measure("REMUS, 32, a plume each", few, 32, 1, 40)
 measure("REMUS, 1", few, 1, 1, 500)
+
+
+def measure_plume_nav_sim(steps: int) -> None:
+    try:
+        import plume_nav_sim
+    except ImportError:
+        print("plume_nav_sim is not installed")
+        return
+    env = plume_nav_sim.make_env()
+    env.reset(seed=1)
+    env.action_space.seed(1)
+    actions = [env.action_space.sample() for _ in range(64)]
+    began = time.perf_counter()
+    for k in range(steps):
+        _, _, terminated, truncated, _ = env.step(actions[k % 64])
+        if terminated or truncated:
+            env.reset()
+    took = time.perf_counter() - began
+    what = f"plume_nav_sim {plume_nav_sim.PACKAGE_VERSION}, PlumeEnv, 1"
+    print(f"{what:58} {steps / took:9.0f} decisions/s")
+
+
+measure_plume_nav_sim(100_000)

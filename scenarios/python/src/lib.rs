@@ -12,6 +12,7 @@ mod batch;
 mod cache;
 mod columns;
 mod columns_gantry;
+mod controllers;
 mod error;
 mod result;
 mod run;

@@ -3,6 +3,7 @@
 use super::cache::{Cache, opened, tell_fault};
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
+use super::controllers::{Raised, given, take_over};
 use super::error::{apart, other, scenario_error, warn_of};
 use super::result::{Kept, PyRunResult};
 use super::scenario::PyScenario;
@@ -11,9 +12,10 @@ use output::files::begin_folder;
 use output::follow::Follower;
 use pyo3::prelude::*;
 use rheotaxis::cache::SpinUps;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::control::Consultation;
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Watch};
+use rheotaxis::trial::{Trial, Watch, controlled};
 use std::path::PathBuf;
 
 /// Follows a run: its results, its columns, and Ctrl-C.
@@ -22,6 +24,7 @@ struct Watcher {
     robots: Vec<RobotColumns>,
     gantries: Vec<GantryColumns>,
     signals: Signals,
+    raised: Raised,
 }
 
 impl Watch for Watcher {
@@ -39,14 +42,21 @@ impl Watch for Watcher {
     fn plume(&mut self, plume: &PlumeFrame) {
         self.results.plume(plume);
     }
+    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
+        self.results.water(look);
+    }
     fn picture(&mut self, picture: &PictureFrame) {
         self.results.picture(picture);
     }
     fn ping(&mut self, ping: &PingFrame) {
         self.results.ping(ping);
     }
+    fn consulted(&mut self, told: &Consultation) {
+        self.results.consulted(told);
+        self.raised.look_at(told);
+    }
     fn go_on(&mut self, _t_s: f64) -> bool {
-        self.results.well() && self.signals.quiet()
+        self.results.well() && self.raised.quiet() && self.signals.quiet()
     }
 }
 
@@ -56,14 +66,18 @@ struct Asked {
     files: Option<PathBuf>,
     recording: bool,
     threads: usize,
+    /// Functions that decide, by machine.
+    controllers: Vec<(String, Py<PyAny>)>,
 }
 
 /// Makes the run; an exception that a signal has raised comes with it.
-fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRunResult> {
+fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<PyRunResult> {
     let mut trial = Trial::assemble(loaded, asked.seed).map_err(other)?;
     if asked.threads != 1 {
         trial.simulation.ocean_mut().use_threads(asked.threads);
     }
+    let raised = Raised::default();
+    take_over(&mut trial, asked.controllers, &raised)?;
     let mut results = Follower::new(loaded, asked.seed.into()).map_err(other)?;
     // The folder comes last: a run that cannot start must not remove the files of an earlier run.
     if let Some(files) = &asked.files {
@@ -75,6 +89,7 @@ fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRu
         gantries: Vec::new(),
         results,
         signals: Signals::default(),
+        raised: raised.clone(),
     };
     if let Some(kept) = kept {
         trial.spin_up_with(kept, &mut watcher);
@@ -82,7 +97,7 @@ fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRu
     let ended = trial.run(&mut watcher);
     let mut gathered = watcher.results.finish(&trial, &ended);
     let written = gathered.write(trial.simulation.ocean());
-    if let Some(raised) = watcher.signals.raised() {
+    if let Some(raised) = watcher.signals.raised().or_else(|| raised.take()) {
         return Err(raised);
     }
     written.map_err(other)?;
@@ -96,10 +111,13 @@ fn made(loaded: &Loaded, asked: &Asked, kept: Option<&SpinUps>) -> PyResult<PyRu
 
 /// Runs a scenario to its end.
 #[pyfunction]
-#[pyo3(signature = (scenario, seed = 1, *, files = None, recording = true, cache = None, threads = 0))]
+#[pyo3(signature = (
+    scenario, seed = 1, *, controllers = None, files = None, recording = true, cache = None, threads = 0
+))]
 pub(crate) fn run(
     scenario: &Bound<'_, PyAny>,
     seed: u64,
+    controllers: Option<&Bound<'_, PyAny>>,
     files: Option<PathBuf>,
     recording: bool,
     cache: Option<Cache>,
@@ -115,8 +133,9 @@ pub(crate) fn run(
         files,
         recording,
         threads,
+        controllers: given(controllers, &controlled(&loaded.scenario))?,
     };
-    let result = apart(py, || made(&loaded, &asked, kept.as_ref()))?;
+    let result = apart(py, || made(&loaded, asked, kept.as_ref()))?;
     tell_fault(py, kept.and_then(|kept| kept.fault()))?;
     Ok(result)
 }

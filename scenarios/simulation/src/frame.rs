@@ -43,3 +43,12 @@ pub struct PlumeFrame {
     /// their number. The masses sum to the mass in the water.
     pub points: Vec<[f32; 6]>,
 }
+
+/// The flow of the water at one instant, on a coarse grid of places and heights.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct WaterFrame {
+    /// Simulated time, s.
+    pub t_s: f64,
+    /// x, y, z (m, ENU) and the velocity there, east, north, up (m/s).
+    pub points: Vec<[f32; 6]>,
+}

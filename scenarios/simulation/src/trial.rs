@@ -4,6 +4,7 @@
 //! read in between. All three give the same run, bit for bit.
 
 mod asking;
+mod water;
 
 pub use asking::{NotControlled, consulted, controlled};
 
@@ -12,7 +13,7 @@ use crate::assemble::Simulation;
 use crate::control::{Consultation, Controller, Question};
 use crate::error::AssembleError;
 use crate::fleet::Fleet;
-use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use crate::ocean::{Mismatch, Ocean, SpunUp};
 use crate::outbox::Outbox;
 use crate::outcome::RunOutcome;
@@ -39,6 +40,8 @@ pub trait Watch {
     fn frame(&mut self, _frame: &Frame) {}
     /// A new picture of the plume.
     fn plume(&mut self, _plume: &PlumeFrame) {}
+    /// The flow may be looked at, as often as the plume; once only if it is steady. It is made when it is asked for.
+    fn water(&mut self, _look: &dyn Fn() -> WaterFrame) {}
     /// A searcher outside this program was asked, and this came of it.
     fn consulted(&mut self, _told: &Consultation) {}
     /// A new picture by a robot's camera.
@@ -94,6 +97,7 @@ pub struct Trial {
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
     frame: Option<Frame>,
+    water_shown: bool,
     /// Time of the ocean at which the mission began, s.
     began_s: f64,
     controllers: BTreeMap<String, Box<dyn Controller>>,
@@ -128,6 +132,7 @@ impl Trial {
             flow_samples: 0,
             sources,
             frame: None,
+            water_shown: false,
             began_s: 0.0,
             controllers: BTreeMap::new(),
             open: None,
@@ -330,6 +335,7 @@ impl Trial {
                 *sum += self.simulation.velocity(p_W);
             }
             watch.plume(&plume);
+            water::show(&self.simulation, plume.t_s, &mut self.water_shown, watch);
         }
     }
 

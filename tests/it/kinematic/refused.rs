@@ -127,3 +127,28 @@ fn what_it_cannot_do_is_warned_of() {
         ]
     );
 }
+
+/// Between two steps nobody sees and decides, so steps end at 1 s.
+#[test]
+fn steps_may_be_long_without_dynamics() {
+    let each = "fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl";
+    let slow = each.replace(": ()", ": (rate_hz: 0.5)");
+    let said = |vehicle: &str, step_s: &str| -> Vec<String> {
+        let text = template("uniform_channel").expect("in the catalogue").text;
+        let times = format!("record: (frame_period_s: 2),\n    time: (step_s: {step_s}, ");
+        let text = text
+            .replace("Remus100()", vehicle)
+            .replace("time: (", &times);
+        assert!(text.contains(each));
+        let text = text.replace(each, &slow);
+        let loaded = load_text(&Registry::default(), "long", &text).expect("it can be read");
+        let found = check(&loaded.scenario, &loaded.base_dir);
+        let lines = found.iter().map(|f| format!("{}: {}", f.path, f.message));
+        lines.collect()
+    };
+    assert_eq!(said("Kinematic()", "1"), Vec::<String>::new());
+    for (vehicle, step_s, longest) in [("Remus100()", "1", "0.1"), ("Kinematic()", "1.5", "1")] {
+        let range = format!("time.step_s: must be from 0.001 to {longest} s, got {step_s}");
+        assert_eq!(said(vehicle, step_s), [range]);
+    }
+}

@@ -1,10 +1,12 @@
 //! A run to listen to, and a client to listen with.
 
+use crate::common::root;
 use image::{Rgb, RgbImage};
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
-use output::live::{Live, LiveMeta, LiveOptions};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame};
+use output::live::{Live, LiveMeta, LiveOptions, Scene};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
+use rheotaxis::scenario::load;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration,
     Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, Layer,
@@ -35,7 +37,14 @@ pub(super) fn meta() -> LiveMeta {
         scenario_name: "Duck".to_owned(),
         seed: 7,
         version: "0.1.0".to_owned(),
+        scene: Some(scene_document()),
     }
+}
+
+/// The document of a scene, as a run publishes it.
+pub(super) fn scene_document() -> String {
+    let path = root().join("scenarios/catalog/uniform_channel.ron");
+    Scene::of(&load(&path).unwrap()).unwrap().document(7)
 }
 
 pub(super) fn options(run: &str) -> LiveOptions {
@@ -217,6 +226,14 @@ pub(super) fn plume(points: usize) -> PlumeFrame {
     }
 }
 
+/// The flow at two places.
+pub(super) fn water() -> WaterFrame {
+    WaterFrame {
+        t_s: 0.5,
+        points: vec![[1.0, 2.0, -3.0, 0.25, 0.0, -0.5]; 2],
+    }
+}
+
 /// A small red picture.
 pub(super) fn picture(t_s: f64) -> PictureFrame {
     let robot = &frame(0).robots[0];
@@ -311,7 +328,12 @@ pub(super) fn sent(live: &Live) {
 
 /// Every way in which a value breaks a schema, of as much of JSON Schema as ours use.
 pub(super) fn broken(schema: &Value, value: &Value, at: &str, out: &mut Vec<String>) {
-    let fits = match schema["type"].as_str() {
+    // A list of types: that one, or null.
+    let kinds = &schema["type"];
+    if kinds[1] == "null" && value.is_null() {
+        return;
+    }
+    let fits = match kinds[0].as_str().or(kinds.as_str()) {
         Some("object") => value.is_object(),
         Some("array") => value.is_array(),
         Some("number") => value.is_number(),

@@ -11,6 +11,8 @@ use world::seeds::{Seed, Stream};
 use zenoh::Wait;
 
 const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
+/// Long enough for a plume to be found, lost and found again, s.
+const LONG_S: f64 = 400.0;
 const EACH_STEP: &str = "External(period_s: 0.02, deadline_s: 20, on_late: Abort)";
 
 #[derive(Default)]
@@ -59,6 +61,31 @@ fn a_stream_of_decisions_over_zenoh_gives_the_digest_of_the_planner_itself() {
     assert_eq!(end.count(0, "answered"), answers.len() as u64);
     end.run_again();
     session.close().wait().unwrap();
+}
+
+/// The same stream for the tests of other doors: each answer with how often it comes in a row.
+#[test]
+fn the_stream_that_other_doors_are_tested_with_is_the_planners() {
+    let (answers, digest) = recorded(LONG_S);
+    let mut runs: Vec<(Value, u64)> = Vec::new();
+    for answer in answers {
+        match runs.last_mut() {
+            Some((known, times)) if *known == answer => *times += 1,
+            _ => runs.push((answer, 1)),
+        }
+    }
+    let scenario = channel(EACH_STEP, LONG_S);
+    let now = json!({"scenario": scenario, "seed": 1, "digest": digest, "answers": runs});
+    let path = crate::common::root().join("tests/golden/planner_answers.json");
+    if std::env::var_os("RHEOTAXIS_BLESS").is_some() {
+        std::fs::write(&path, format!("{now:#}\n")).expect("written");
+    }
+    let kept = std::fs::read_to_string(&path).expect("it is there");
+    let kept: Value = serde_json::from_str(&kept).expect("JSON");
+    assert!(
+        kept == now,
+        "the planner's answers have changed: write them with RHEOTAXIS_BLESS=1"
+    );
 }
 
 #[test]

@@ -23,6 +23,15 @@ pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
     )
 }
 
+/// Keys of a run, below its name, that only the run itself should publish or answer.
+pub(super) const KEYS: [&str; 5] = [
+    "auv/auv0/truth",
+    "auv/auv0/estimate",
+    "clock",
+    "ask/auv0",
+    "rpc/stop",
+];
+
 /// A run in a process of its own.
 pub(super) struct Run {
     child: Child,

@@ -1,6 +1,6 @@
 //! Controllers that are not there, die, stall, talk nonsense or flood: the run goes on as its scenario says.
 
-use super::kit::{Run, channel, client, controller};
+use super::kit::{KEYS, Run, channel, client, controller};
 use crate::common;
 use serde_json::json;
 use std::io::{BufRead, BufReader, Read, Write};
@@ -144,13 +144,7 @@ fn nonsense_floods_and_a_hundred_watchers_change_nothing() {
         .collect();
     let flood = sessions[0].clone();
     let _controller = controller(&sessions[1], "auv0", move |question| {
-        for key in [
-            "auv/auv0/truth",
-            "auv/auv0/estimate",
-            "clock",
-            "ask/auv0",
-            "rpc/stop",
-        ] {
+        for key in KEYS {
             for _ in 0..200 {
                 let put = flood.put(format!("rheotaxis/asks_1/{key}"), "{\"t_s\": 1e9}");
                 drop(put.congestion_control(CongestionControl::Drop).wait());

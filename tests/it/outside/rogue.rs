@@ -1,5 +1,6 @@
 //! Somebody who forges the state of a run, shows tokens in its name and answers in the place of its controllers.
 
+use super::kit::KEYS;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use zenoh::handlers::FifoChannelHandler;
@@ -47,13 +48,7 @@ impl Rogue {
             .expect("a queryable");
         let token = format!("{BASE}/@live/{mode}");
         let token = session.liveliness().declare_token(token).wait();
-        for key in [
-            "auv/auv0/truth",
-            "auv/auv0/estimate",
-            "clock",
-            "ask/auv0",
-            "rpc/stop",
-        ] {
+        for key in KEYS {
             let key = format!("{BASE}/{key}");
             session.put(&key, FORGED).wait().expect("sent");
             session.delete(&key).wait().expect("sent");

@@ -45,6 +45,15 @@ pub fn mesh_corners(bytes: &[u8], name: &Path) -> Result<Vec<[f64; 3]>, Wrong> {
     corners(bytes, &ending(name))
 }
 
+/// The triangles in the content of a file, each with its corners in units of the file. The ending of `name` determines
+/// the format.
+///
+/// # Errors
+/// If the content is broken, empty or too large: the place in the file and the problem.
+pub fn mesh_triangles(bytes: &[u8], name: &Path) -> Result<Vec<[[f64; 3]; 3]>, Wrong> {
+    parse(bytes, &ending(name))
+}
+
 fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
     if ending != "obj" {
         return Ok(parse(bytes, ending)?.into_iter().flatten().collect());

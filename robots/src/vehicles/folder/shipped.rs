@@ -121,16 +121,18 @@ fn built_in<'a>(name: &str, reader: &'a dyn Files) -> Result<BuiltIn<'a>, RobotE
     Ok(BuiltIn { shipped, reader })
 }
 
-/// What `read` makes of the URDF of a vehicle of a folder: one that comes with the program, or a user's own.
+/// What `read` makes of the URDF and the file of a vehicle of a folder: one that comes with the program, or a user's
+/// own.
 pub(in crate::vehicles) fn urdf_of<T>(
     folder: &str,
     comes_with: bool,
     files: &dyn Files,
-    read: impl FnOnce(&UrdfText) -> Result<T, RobotError>,
+    read: impl FnOnce(&UrdfText, &VehicleFile) -> Result<T, RobotError>,
 ) -> Result<T, RobotError> {
     let own = comes_with.then(|| built_in(folder, files)).transpose()?;
     let files = own.as_ref().map_or(files, |own| own as &dyn Files);
     let folder = Path::new(folder);
-    let urdf = folder.join(file_of(folder, files)?.urdf);
-    read(&UrdfText::open_at(&urdf, files)?)
+    let file = file_of(folder, files)?;
+    let urdf = folder.join(&file.urdf);
+    read(&UrdfText::open_at(&urdf, files)?, &file)
 }

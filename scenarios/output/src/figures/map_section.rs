@@ -36,7 +36,7 @@ struct Cut {
 /// Draws the section with its left edge below the map's and its upper edge at `top`. Returns where it ends; `None` if
 /// the map already shows everything.
 pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -> Option<f64> {
-    let source = shown(run)?;
+    let source = run.best_declared()?;
     let cut = Cut::of(run, source, map)?;
     let beds = (0..=60).map(|k| cut.s[0] + f64::from(k) / 60.0 * (cut.s[1] - cut.s[0]));
     let bed = |s: f64| {
@@ -145,21 +145,6 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
         }
     }
     Some(y - 8.0)
-}
-
-/// The source that was declared best; the first one if none was.
-fn shown<'a>(run: &RunReport<'a>) -> Option<&'a SourceTruth> {
-    let declared: Vec<Vector2<f64>> = (run.track.robots.iter())
-        .flat_map(RobotTrack::declared_inside)
-        .map(Vector2::from)
-        .collect();
-    let away = |s: &&SourceTruth| {
-        let all = declared.iter().map(|d| (s.position.xy() - d).norm());
-        all.fold(f64::INFINITY, f64::min)
-    };
-    run.sources
-        .iter()
-        .min_by(|a, b| away(a).total_cmp(&away(b)))
 }
 
 impl Cut {

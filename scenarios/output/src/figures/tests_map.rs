@@ -51,6 +51,7 @@ fn reported<T>(
         gantries: &[],
         beliefs: &BeliefTrack::default(),
         plume: Some(&plume()),
+        plume_film: &crate::results::PlumeFilm::default(),
         dye: Some(&Straight),
         area,
         terrain: &terrain(),

@@ -4,8 +4,8 @@ use super::Follower;
 use crate::files::ReportError;
 use crate::report::{Figure, figures, write_all};
 use crate::results::{
-    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, RunEnd, RunReport,
-    SourceTruth, Summary, Totals, Track,
+    BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd,
+    RunReport, SourceTruth, Summary, Totals, Track,
 };
 use rheotaxis::frame::PlumeFrame;
 use rheotaxis::ocean::Ocean;
@@ -28,6 +28,7 @@ pub struct Gathered {
     pictures: Option<Pictures>,
     echoes: Echoes,
     plume: Option<PlumeFrame>,
+    plume_film: PlumeFilm,
     interfaces: Vec<f64>,
     obstacles: Vec<ObstacleOutline>,
     failure: Option<ReportError>,
@@ -41,7 +42,7 @@ impl Gathered {
         ended: &Ended,
         walls: [Duration; 2],
     ) -> Self {
-        let scenario = &gathered.scenario;
+        let scenario = &gathered.loaded.scenario;
         let sources = SourceTruth::of(trial, ended);
         let end = RunEnd {
             outcome: match gathered.failure {
@@ -74,6 +75,7 @@ impl Gathered {
             pictures: gathered.pictures,
             echoes: gathered.echoes,
             plume: gathered.last_plume,
+            plume_film: gathered.plume_film,
             failure: gathered.failure,
         }
     }
@@ -110,6 +112,7 @@ impl Gathered {
             gantries: &self.gantries,
             beliefs: &self.beliefs,
             plume: self.plume.as_ref(),
+            plume_film: &self.plume_film,
             dye: (!self.sources.is_empty()).then_some(ocean.plume()),
             area: &ocean.area,
             terrain: &ocean.terrain,

@@ -13,14 +13,16 @@ pub use gathered::Gathered;
 use crate::files::ReportError;
 use crate::record::Recorder;
 use crate::results::{
-    BeliefTrack, Echoes, GantryInfo, Pictures, ProbeTables, RobotInfo, RunInfo, SummaryBuilder,
-    TrackTable,
+    BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo,
+    SummaryBuilder, TrackTable,
 };
+use crate::scene::Scene;
 use rheotaxis::control::Consultation;
 use rheotaxis::error::AssembleError;
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
-use rheotaxis::scenario::{Loaded, Scenario};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial, Watch};
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use world::files::Folder;
 use world::seeds::Seed;
@@ -28,7 +30,8 @@ use world::seeds::Seed;
 /// Gathers the results of one run. It is told all that a [`Watch`] is told; [`Follower::finish`] returns them.
 pub struct Follower {
     run: RunInfo,
-    scenario: Scenario,
+    loaded: Loaded,
+    scene: Option<Arc<Scene>>,
     robots: Vec<RobotInfo>,
     gantries: Vec<GantryInfo>,
     out: Option<Folder>,
@@ -41,6 +44,7 @@ pub struct Follower {
     recorder: Option<Recorder>,
     failure: Option<ReportError>,
     last_plume: Option<PlumeFrame>,
+    plume_film: PlumeFilm,
     begun: Instant,
     mission_begun: Instant,
     spin_up_kept: bool,
@@ -73,11 +77,13 @@ impl Follower {
             recorder: None,
             failure: None,
             last_plume: None,
+            plume_film: PlumeFilm::default(),
             begun: now,
             mission_begun: now,
             spin_up_kept: false,
             out: None,
-            scenario: scenario.clone(),
+            loaded: loaded.clone(),
+            scene: None,
             run,
             robots,
             gantries,
@@ -93,11 +99,15 @@ impl Follower {
         let path = out.file("track.csv").map_err(ReportError::from)?;
         self.track = TrackTable::create(&path, self.robots.clone())?;
         self.probes = ProbeTables::create(out, self.gantries.clone())?;
-        let record = &self.scenario.record;
         if recording {
-            let begun = begin_recording(out, &self.run)?;
-            self.recorder = Some(begun.with_map_period(record.map_period_s.get()));
+            // First, so that a scene that cannot be made leaves no file behind.
+            let scene = self.scene().map_err(Box::new)?;
+            let mut begun = begin_recording(out, &self.run)?
+                .with_map_period(self.loaded.scenario.record.map_period_s.get());
+            begun.scene(&scene)?;
+            self.recorder = Some(begun);
         }
+        let record = &self.loaded.scenario.record;
         self.pictures = Some(Pictures::new(out, record.pictures));
         self.out = Some(out.clone());
         Ok(())
@@ -107,6 +117,18 @@ impl Follower {
     #[must_use]
     pub fn robots(&self) -> &[RobotInfo] {
         &self.robots
+    }
+
+    /// What is there before the run. It is made once, when it is first asked for.
+    ///
+    /// # Errors
+    /// If a file that the scenario names is missing or wrong.
+    pub fn scene(&mut self) -> Result<Arc<Scene>, AssembleError> {
+        if let Some(scene) = &self.scene {
+            return Ok(Arc::clone(scene));
+        }
+        let scene = Arc::new(Scene::of(&self.loaded)?);
+        Ok(Arc::clone(self.scene.insert(scene)))
     }
 
     /// The identity of the run.
@@ -182,7 +204,15 @@ impl Watch for Follower {
             self.note(recorded);
         }
         self.beliefs.plume(plume);
+        self.plume_film.push(plume);
         self.last_plume = Some(plume.clone());
+    }
+
+    fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
+        if let Some(recorder) = &mut self.recorder {
+            let recorded = recorder.water(&look());
+            self.note(recorded);
+        }
     }
 
     fn consulted(&mut self, told: &Consultation) {

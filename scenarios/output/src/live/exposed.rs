@@ -76,7 +76,7 @@ mod tests {
             ("tcp/127.0.0.1:7447", false),
             ("tcp/[::1]:7447", false),
             ("tls/localhost:7447", false),
-            ("unixsock-stream//tmp/run", false),
+            ("unixsock-stream/run.sock", false),
             ("tcp/0.0.0.0:7447", true),
             ("tcp/[::]:7447", true),
             ("tcp/192.168.1.5:7447#iface=eth0", true),

@@ -5,7 +5,7 @@
 
 use super::LiveCounts;
 use super::slots::{Gate, Newest, Numbered};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -30,6 +30,7 @@ pub(super) enum Work {
 #[derive(Debug, Default, PartialEq)]
 pub(super) struct Rest {
     pub(super) plume: Option<PlumeFrame>,
+    pub(super) water: Option<WaterFrame>,
     /// The newest picture of each vehicle.
     pub(super) pictures: Vec<Numbered<PictureFrame>>,
     /// The newest ping of each vehicle.
@@ -40,6 +41,7 @@ pub(super) struct Rest {
 struct Slots {
     frame: Option<Frame>,
     plume: Option<PlumeFrame>,
+    water: Option<WaterFrame>,
     pictures: Newest<PictureFrame>,
     pings: Newest<PingFrame>,
     digest: Option<String>,
@@ -56,16 +58,21 @@ impl Slots {
     fn waits(&self, now: Instant) -> [Option<Duration>; 4] {
         [
             self.frame_gate.wait(self.frame.is_some(), now),
-            self.plume_gate.wait(self.plume.is_some(), now),
+            self.plume_gate.wait(self.cloud_waits(), now),
             (self.picture_gate).wait(self.pictures.waits(), now),
             (self.ping_gate).wait(self.pings.waits(), now),
         ]
+    }
+
+    fn cloud_waits(&self) -> bool {
+        self.plume.is_some() || self.water.is_some()
     }
 
     /// Everything that waits, except the state.
     fn rest(&mut self) -> Rest {
         Rest {
             plume: self.plume.take(),
+            water: self.water.take(),
             pictures: self.pictures.take(),
             pings: self.pings.take(),
         }
@@ -75,8 +82,8 @@ impl Slots {
     fn rest_due(&mut self, now: Instant) -> Option<Rest> {
         let mut due = Rest::default();
         let mut any = false;
-        if self.plume_gate.pass(self.plume.is_some(), now) {
-            (due.plume, any) = (self.plume.take(), true);
+        if self.plume_gate.pass(self.cloud_waits(), now) {
+            (due.plume, due.water, any) = (self.plume.take(), self.water.take(), true);
         }
         if (self.picture_gate).pass(self.pictures.waits(), now) {
             (due.pictures, any) = (self.pictures.take(), true);
@@ -101,6 +108,7 @@ impl Mailbox {
             slots: Mutex::new(Slots {
                 frame: None,
                 plume: None,
+                water: None,
                 pictures: Newest::default(),
                 pings: Newest::default(),
                 digest: None,
@@ -153,6 +161,12 @@ impl Mailbox {
     pub(super) fn put_plume(&self, plume: &PlumeFrame) {
         let new = plume.clone();
         let old = self.slots().plume.replace(new);
+        self.wake_if(old.is_none());
+    }
+
+    pub(super) fn put_water(&self, water: &WaterFrame) {
+        let new = water.clone();
+        let old = self.slots().water.replace(new);
         self.wake_if(old.is_none());
     }
 

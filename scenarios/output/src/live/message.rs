@@ -1,7 +1,7 @@
 //! The messages: a state as JSON, a plume as packed numbers.
 
 use super::{LiveCounts, Payload, Topic};
-use rheotaxis::frame::{Frame, PlumeFrame};
+use rheotaxis::frame::{Frame, PlumeFrame, WaterFrame};
 use rheotaxis::registry::messages;
 use serde_json::{Value, json};
 
@@ -73,6 +73,14 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
     Message::numbers("plume", shown.flatten(), &header)
 }
 
+/// The flow of the water.
+pub(super) fn water(w: &WaterFrame) -> Message {
+    let header = json!({
+        "t_s": w.t_s, "shown": w.points.len(), "fields": ["x", "y", "z", "vx", "vy", "vz"], "dtype": "<f4",
+    });
+    Message::numbers("water", w.points.iter().copied().flatten(), &header)
+}
+
 /// Messages known before the run starts: scenario, version and schemas of the topics.
 pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
     let mut out = vec![
@@ -87,6 +95,13 @@ pub(super) fn meta(meta: &super::LiveMeta, topics: &[Topic]) -> Vec<Message> {
             &json!({"program": "rheotaxis", "version": meta.version}),
         ),
     ];
+    // The bytes themselves, so that they are those of the recording's attachment.
+    out.extend(meta.scene.as_ref().map(|document| Message {
+        key: "meta/scene".to_owned(),
+        payload: document.clone().into_bytes(),
+        packed: Payload::Json,
+        attachment: None,
+    }));
     let schema = |t: &Topic| Message::json(format!("meta/schema/{}", t.name), &t.schema());
     out.extend(topics.iter().map(schema));
     out

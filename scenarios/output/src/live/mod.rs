@@ -35,10 +35,11 @@ mod tree;
 #[cfg(not(feature = "live"))]
 mod off;
 
+pub use crate::scene::{Machine, Scene};
 pub use error::LiveError;
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
 pub use plane::Plane;
-pub use ros2::{Machine, Qos, Ros2, RosTopic, Scene, ros_topics};
+pub use ros2::{Qos, Ros2, RosTopic, ros_topics};
 pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(feature = "live")]

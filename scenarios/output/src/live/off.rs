@@ -2,7 +2,7 @@
 
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
 use rheotaxis::control::{Controller, Heard, Question};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -98,6 +98,9 @@ impl Live {
 
     /// Does nothing.
     pub fn plume(&self, _plume: &PlumeFrame) {}
+
+    /// Does nothing.
+    pub fn water(&self, _water: &WaterFrame) {}
 
     /// Does nothing.
     pub fn picture(&self, _picture: &PictureFrame) {}

@@ -72,6 +72,8 @@ pub struct LiveMeta {
     pub seed: u64,
     /// The program's version.
     pub version: String,
+    /// The scene as a JSON text; `None` to publish none.
+    pub scene: Option<String>,
 }
 
 /// What happened to the states that were passed in.

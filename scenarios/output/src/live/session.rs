@@ -10,7 +10,7 @@ use super::message::Message;
 use super::ros2::{Door, RosCommands};
 use super::tree::Tree;
 use super::{LiveCounts, LiveError, LiveMeta, LiveOptions, message, topics};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::topic::chunk;
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
@@ -191,6 +191,11 @@ impl Live {
         self.mailbox.put_plume(plume);
     }
 
+    /// Passes on the flow of the water; never waits.
+    pub fn water(&self, water: &WaterFrame) {
+        self.mailbox.put_water(water);
+    }
+
     /// Passes on a camera's picture; never waits.
     pub fn picture(&self, picture: &PictureFrame) {
         self.mailbox.put_picture(picture);
@@ -341,6 +346,9 @@ fn say_rest(tree: &Tree<'_>, ros: &mut Option<Door<'_>>, rest: &Rest) {
             ros.plume(plume);
         }
         drop(tree.say(message::plume(plume)));
+    }
+    if let Some(water) = &rest.water {
+        drop(tree.say(message::water(water)));
     }
 }
 

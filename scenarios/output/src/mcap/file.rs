@@ -11,6 +11,7 @@ use ::mcap::{Attachment, McapError, WriteOptions, Writer};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
 use world::files::Output;
@@ -30,7 +31,7 @@ pub enum RecordError {
         source: io::Error,
     },
     /// Writing failed, most often a full disk.
-    #[error("cannot write to the recording {}: {source}; what was written so far stays there", path.display())]
+    #[error("cannot write to the recording {}: {}; what was written so far stays there", path.display(), why(source))]
     Write {
         /// The file.
         path: PathBuf,
@@ -47,6 +48,14 @@ pub enum RecordError {
         /// The system's message.
         source: io::Error,
     },
+}
+
+/// What was wrong, with the system's message behind it.
+fn why(error: &McapError) -> String {
+    match error.source() {
+        Some(cause) => format!("{error}: {cause}"),
+        None => error.to_string(),
+    }
 }
 
 struct Channel {

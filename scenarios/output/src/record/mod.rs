@@ -2,6 +2,11 @@
 
 mod map_record;
 mod recorder;
+mod recorder_clouds;
 mod recorder_gantry;
+mod recorder_log;
+mod recorder_scene;
+mod recorder_ways;
+mod ways;
 
 pub use recorder::Recorder;

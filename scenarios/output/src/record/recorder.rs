@@ -2,18 +2,21 @@
 
 use super::map_record::{self, MapTimes};
 use super::recorder_gantry::{GantryRecorder, frames_of};
+use super::recorder_log::LogRecorder;
+use super::recorder_scene::SceneRecorder;
+use super::recorder_ways::WayRecorder;
 use crate::files::ReportError;
 use crate::mcap::{CONTROL, McapFile, RecordError};
-use crate::results::{Echoes, RunInfo};
+use crate::results::RunInfo;
 use crate::ros::{
-    MessageKind, Odometry, Transform, clock, compressed_image, float64, nanoseconds, plume_cloud,
-    point_cloud, pose_stamped, text, transforms, vector3_stamped,
+    MessageKind, Odometry, Transform, clock, float64, nanoseconds, point_cloud, pose_stamped, text,
+    transforms, vector3_stamped,
 };
+use crate::scene::Scene;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::control::{Consultation, consultation_json};
-use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame, RobotFrame};
+use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
-use robots::survey::Row;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -23,7 +26,8 @@ pub(super) const WORLD: &str = "world";
 /// The recording of one run. If it is dropped without [`Recorder::finish`], it stays under its temporary name and is
 /// readable.
 pub struct Recorder {
-    file: McapFile,
+    pub(super) file: McapFile,
+    seed: u64,
     behaviours: Vec<&'static str>,
     declared: Vec<Vec<Declaration>>,
     regions: Vec<Option<u32>>,
@@ -31,6 +35,10 @@ pub struct Recorder {
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
     map_period_s: f64,
+    scene: SceneRecorder,
+    pub(super) ways: WayRecorder,
+    log: LogRecorder,
+    newest_ns: u64,
 }
 
 /// Meaning of the numbers of `/plume`; the schema has only their names.
@@ -78,6 +86,7 @@ impl Recorder {
         file.attach("scenario.ron", "text/plain", run.scenario_text.as_bytes())?;
         Ok(Self {
             file,
+            seed: run.seed.number(),
             behaviours: Vec::new(),
             layers: Vec::new(),
             declared: Vec::new(),
@@ -85,7 +94,22 @@ impl Recorder {
             gantries: Vec::new(),
             maps: Vec::new(),
             map_period_s: MAP_PERIOD_S,
+            scene: SceneRecorder::default(),
+            ways: WayRecorder::default(),
+            log: LogRecorder::default(),
+            newest_ns: 0,
         })
+    }
+
+    /// Records what is there before the run: the attachment `scene.json`, `/scene`, `/tf_static` and the URDFs. Fins,
+    /// propellers and slides then move in `/tf`.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn scene(&mut self, scene: &Arc<Scene>) -> Result<(), ReportError> {
+        self.ways = WayRecorder::of(scene);
+        self.scene = SceneRecorder::begin(scene, &mut self.file, self.seed)?;
+        Ok(())
     }
 
     /// The temporary path, until the recording is complete.
@@ -113,7 +137,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Records one frame. Behaviours, layers and declarations are written when they change.
+    /// Records one frame. Behaviours, layers, plans, marks and declarations are written when they change.
     ///
     /// # Errors
     /// If the file cannot be written.
@@ -146,9 +170,13 @@ impl Recorder {
             ]
         });
         let of_gantries = frame.gantries.iter().flat_map(|g| frames_of(t, g));
-        let tf: Vec<Transform> = of_robots.chain(of_gantries).collect();
+        let mut tf: Vec<Transform> = of_robots.chain(of_gantries).collect();
+        self.scene.moving(t, frame, &mut tf);
         let tf = transforms(&tf);
         self.file.write("/tf", MessageKind::TfMessage, t, &tf)?;
+        self.ways.frame(&mut self.file, t, frame)?;
+        self.log.frame(&mut self.file, t, frame)?;
+        self.newest_ns = t;
         Ok(())
     }
 
@@ -285,63 +313,6 @@ impl Recorder {
         self.file.write(&topic, MessageKind::PointCloud2, t, &cloud)
     }
 
-    /// Records filaments as a cloud: see [`plume_cloud`].
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
-        let (t, cloud) = (nanoseconds(plume.t_s), plume_cloud(plume, WORLD));
-        self.file
-            .write("/plume", MessageKind::PointCloud2, t, &cloud)?;
-        Ok(())
-    }
-
-    /// Records a line of a sidescan's picture as a cloud on the believed bed; `level` is in dB, without Lambert's
-    /// decrease.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn echo(&mut self, robot: &str, line: &Row) -> Result<(), ReportError> {
-        let t = nanoseconds(line.t_s);
-        let mut rows: Vec<[f32; 4]> = Vec::new();
-        for port in [true, false] {
-            for (k, level) in line.side(port).iter().enumerate() {
-                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M);
-                if level.is_finite() {
-                    rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
-                }
-            }
-        }
-        let cloud = point_cloud(t, WORLD, ["x", "y", "z", "level"], &rows);
-        let topic = format!("/{robot}/sidescan");
-        self.file
-            .write(&topic, MessageKind::PointCloud2, t, &cloud)?;
-        Ok(())
-    }
-
-    /// Records a picture without loss, and the camera's place on the robot.
-    ///
-    /// # Errors
-    /// If the file cannot be written.
-    pub fn picture(&mut self, taken: &PictureFrame, png: &[u8]) -> Result<(), ReportError> {
-        let (t, id, p) = (nanoseconds(taken.t_s), &taken.robot, &taken.picture);
-        let camera = format!("{id}/camera");
-        let mount = Transform {
-            t_ns: t,
-            parent: id.clone(),
-            child: camera.clone(),
-            position: p.p_BC,
-            attitude: p.R_BC,
-        };
-        let mount = transforms(&[mount]);
-        self.file.write("/tf", MessageKind::TfMessage, t, &mount)?;
-        let image = compressed_image(t, &camera, "png", png);
-        let topic = format!("/{camera}/compressed");
-        self.file
-            .write(&topic, MessageKind::CompressedImage, t, &image)?;
-        Ok(())
-    }
-
     /// Closes the recording with the run's digest and its ticks, and gives it its name.
     ///
     /// # Errors
@@ -352,6 +323,7 @@ impl Recorder {
                 self.write_map(&id, &last)?;
             }
         }
+        self.ways.whole(&mut self.file, self.newest_ns)?;
         let steps = steps.to_string();
         let result = [("digest", digest), ("steps", steps.as_str())];
         self.file.metadata("result", &result)?;

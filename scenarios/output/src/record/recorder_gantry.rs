@@ -3,7 +3,7 @@
 use super::recorder::{WORLD, in_world, on_plane};
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{
-    Joint, MessageKind, Transform, float64, joint_state, nanoseconds, pose_stamped, text,
+    MessageKind, Transform, float64, joint_state, joints, nanoseconds, pose_stamped, text,
 };
 use nalgebra::UnitQuaternion;
 use rheotaxis::gantry::GantryFrame;
@@ -30,15 +30,7 @@ impl GantryRecorder {
         let mut put = |name: &str, kind: MessageKind, t: u64, cdr: &[u8]| {
             file.write(&format!("/{id}/{name}"), kind, t, cdr)
         };
-        let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
-            .map(|(name, j)| Joint {
-                name,
-                position: j.position_m,
-                velocity: j.speed_m_s,
-                effort: j.force_N,
-            })
-            .collect();
-        let joints = joint_state(t, WORLD, &joints);
+        let joints = joint_state(t, WORLD, &joints(g));
         put("joint_states", MessageKind::JointState, t, &joints)?;
         let w = &g.decision.working;
         if let Some(scan) = g.scan.filter(|s| self.scanned_s != Some(s.t_s)) {

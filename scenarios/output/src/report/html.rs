@@ -1,5 +1,6 @@
 //! `report.html`: one self-contained file.
 
+use super::film::{FILM_STYLE, film_script, film_section};
 use crate::charts::escaped;
 use crate::results::GantrySummary;
 use crate::results::ShownPicture;
@@ -19,13 +20,16 @@ figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{brea
 table:not(.facts){display:block;overflow-x:auto}pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
 @media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
 h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
-pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}";
+pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}\
+@media screen and (prefers-color-scheme:dark){:root{color-scheme:dark}body{color:#e2e4e7;background:#14171a}h2{border-color:#3a3f45}\
+th,figcaption{color:#a8adb3}pre{background:#1d2126}svg{background:#fff;border-radius:4px}}";
 
 const TEXT: &str = "writing to a String succeeds";
 
-/// The page: summary, figures (title and SVG), a camera's pictures, scenario.
+/// The page: summary, animation (its data), figures (title and SVG), a camera's pictures, scenario.
 pub(super) fn page(
     summary: &Summary,
+    film: Option<&str>,
     figures: &[(String, String)],
     pictures: &[ShownPicture],
     scenario_text: &str,
@@ -34,9 +38,10 @@ pub(super) fn page(
     let mut out = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-         <title>{name}, seed {}</title><style>{STYLE}</style></head>\n<body>\n\
+         <title>{name}, seed {}</title><style>{STYLE}{}</style></head>\n<body>\n\
          <h1>{}</h1>\n<p>{name}, seed {}. Success: {}.<br>Outcome: <span class=\"outcome\">{}</span>.</p>\n",
         summary.seed,
+        film.map_or("", |_| FILM_STYLE),
         escaped(&summary.title),
         summary.seed,
         escaped(&summary.success_rule),
@@ -58,6 +63,9 @@ pub(super) fn page(
         table(&mut out, &format!("Gantry {}", g.id), &gantry_rows(g));
     }
     table(&mut out, "Run", &run_rows(summary));
+    if let Some(film) = film {
+        out.push_str(&film_section("Mission in motion", film));
+    }
     for (title, svg) in figures {
         writeln!(out, "<figure><h2>{}</h2>\n{svg}</figure>", escaped(title)).expect(TEXT);
     }
@@ -75,8 +83,9 @@ pub(super) fn page(
     }
     writeln!(
         out,
-        "<h2>Scenario</h2>\n<pre>{}</pre>\n</body>\n</html>",
-        escaped(scenario_text)
+        "<h2>Scenario</h2>\n<pre>{}</pre>\n{}</body>\n</html>",
+        escaped(scenario_text),
+        film.map_or_else(String::new, |_| film_script())
     )
     .expect(TEXT);
     out

@@ -1,8 +1,10 @@
 //! A run's folder: tables, figures, one-page report.
 
+mod film;
 mod html;
 mod write;
 
+pub use film::{FILM_STYLE, film, film_script, film_section};
 pub use html::STYLE;
 pub use write::{Figure, figures, write_all};
 

@@ -239,6 +239,7 @@ fn report_of(
         gantries: &[],
         beliefs: &beliefs,
         plume,
+        plume_film: &crate::results::PlumeFilm::default(),
         dye: None,
         area,
         terrain,

@@ -218,6 +218,7 @@ fn write_into(
             beliefs: &crate::results::BeliefTrack::default(),
             gantries: &tables.finish(),
             plume: None,
+            plume_film: &crate::results::PlumeFilm::default(),
             dye,
             area: &flume(),
             terrain: &Terrain::Level { depth_m: 0.2 },

@@ -56,7 +56,7 @@ fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
     );
     assert_eq!(robot["regions"][1]["name"], "B");
     assert_eq!(robot["regions"][1]["state"], "timed_out");
-    let page = super::html::page(&summary, &[], &[], "()");
+    let page = super::html::page(&summary, None, &[], &[], "()");
     for words in [
         "<th>Declared source</th><td>none",
         "<th>Up-flow edge of subregion A</th>",
@@ -72,7 +72,7 @@ fn an_edge_is_no_declared_source_and_a_time_out_no_freedom_from_sources() {
 #[test]
 fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
     let (summary, _) = told(&frames(400));
-    let page = super::html::page(&summary, &[], &[], "()");
+    let page = super::html::page(&summary, None, &[], &[], "()");
     let top = &page[page.find("<h1>").unwrap()..page.find("<table").unwrap()];
     assert!(top.contains("<h1>A sample &lt;&amp;&gt;</h1>"), "{top}");
     assert!(

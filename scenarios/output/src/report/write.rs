@@ -1,6 +1,6 @@
 //! Writes everything that a run leaves into one folder.
 
-use super::html;
+use super::{film, html};
 use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
@@ -44,7 +44,23 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
             Err(cause) => kept.draw(&format!("{name}.png"), Err(cause)),
         }
     }
-    let page = html::page(run.summary, &shown, run.pictures, run.scenario_text);
+    // A broken animation is no reason to lose the page.
+    let film = guarded(|| film::film(run));
+    let film = match film.transpose() {
+        Some(Ok(film)) => Some(film),
+        Some(Err(cause)) => {
+            kept.draw("report.html (animation)", Err(cause));
+            None
+        }
+        None => None,
+    };
+    let page = html::page(
+        run.summary,
+        film.as_deref(),
+        &shown,
+        run.pictures,
+        run.scenario_text,
+    );
     kept.write("report.html", page.as_bytes());
     kept.done()
 }

@@ -7,6 +7,7 @@ mod map_end;
 mod map_stated;
 pub mod odour;
 mod pictures;
+mod plume_film;
 pub mod probes;
 mod run;
 mod sources;
@@ -20,6 +21,7 @@ pub use gantry_path::{GantryPath, GantrySummary};
 pub use map_end::MapEnd;
 pub use map_stated::{MapStated, NEAR_M};
 pub use pictures::{Pictures, ShownPicture};
+pub use plume_film::{PlumeFilm, Wisp};
 pub use probes::{GantryInfo, GantryRow, GantryTrack, ProbeTables};
 pub use run::{ObstacleOutline, RunInfo, RunReport};
 pub use sources::SourceTruth;
@@ -28,4 +30,4 @@ pub use summary::{
     RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SummaryBuilder};
-pub use track::{COLUMNS, RobotInfo, RobotTrack, Track, TrackRow, TrackTable, numbers};
+pub use track::{COLUMNS, LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable, numbers};

@@ -1,6 +1,10 @@
 //! The identity of a run, and all data for its figures and report.
 
-use super::{BeliefTrack, Echoes, GantryTrack, ShownPicture, SourceTruth, Summary, Track};
+use super::{
+    BeliefTrack, Echoes, GantryTrack, PlumeFilm, RobotTrack, ShownPicture, SourceTruth, Summary,
+    Track,
+};
+use nalgebra::Vector2;
 use rheotaxis::frame::PlumeFrame;
 use world::area::Area;
 use world::fields::Concentration;
@@ -55,6 +59,8 @@ pub struct RunReport<'a> {
     pub echoes: &'a Echoes,
     /// Some of the plume's filaments at the end; `None` in a run without a plume.
     pub plume: Option<&'a PlumeFrame>,
+    /// Some of its filaments over the run, for the animation.
+    pub plume_film: &'a PlumeFilm,
     /// The chemical in the water at the end, for sections through it.
     pub dye: Option<&'a dyn Concentration>,
     /// The operating area.
@@ -71,4 +77,20 @@ pub struct RunReport<'a> {
     pub solids: Option<&'a Obstacles>,
     /// Text of the scenario's file.
     pub scenario_text: &'a str,
+}
+
+impl<'a> RunReport<'a> {
+    /// The source that was declared best; the first one if none was.
+    pub(crate) fn best_declared(&self) -> Option<&'a SourceTruth> {
+        let robots = (self.track.robots.iter()).flat_map(RobotTrack::declared_inside);
+        let gantries = self.gantries.iter().filter_map(|g| g.declared);
+        let declared: Vec<Vector2<f64>> = robots.chain(gantries).map(Vector2::from).collect();
+        let away = |s: &SourceTruth| {
+            let all = declared.iter().map(|d| (s.position.xy() - d).norm());
+            all.fold(f64::INFINITY, f64::min)
+        };
+        self.sources
+            .iter()
+            .min_by(|a, b| away(a).total_cmp(&away(b)))
+    }
 }

@@ -44,6 +44,17 @@ pub struct TrackRow {
     pub behaviour: Behaviour,
 }
 
+/// A point where a robot lost the plume, while it stood in its list.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LostPoint {
+    /// Where, as it believed (east, north), m.
+    pub p: [f64; 2],
+    /// Since when, s.
+    pub from_s: f64,
+    /// When it left the list or was moved, s; `None` if it stands at the end.
+    pub until_s: Option<f64>,
+}
+
 /// A robot's whole track.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotTrack {
@@ -55,6 +66,9 @@ pub struct RobotTrack {
     pub detections: Vec<[f64; 2]>,
     /// Points where it lost the plume, in its final belief, in a subregion or the run (east, north), m.
     pub lost_points: Vec<[f64; 2]>,
+    /// All such points over time, up to a limit.
+    pub lost_over_time: Vec<LostPoint>,
+    lost_now: Vec<[f64; 2]>,
     /// Its declarations so far.
     pub declarations: Vec<Declaration>,
     /// The present state of the subregions of its mission.
@@ -78,6 +92,9 @@ pub struct Track {
 /// show.
 const KEPT: usize = 40_000;
 
+/// Most lost points kept over time.
+const LOST: usize = 400;
+
 impl RobotTrack {
     fn new(info: RobotInfo) -> Self {
         Self {
@@ -85,6 +102,8 @@ impl RobotTrack {
             rows: Vec::new(),
             detections: Vec::new(),
             lost_points: Vec::new(),
+            lost_over_time: Vec::new(),
+            lost_now: Vec::new(),
             declarations: Vec::new(),
             regions: Arc::default(),
             region: None,
@@ -108,6 +127,30 @@ impl RobotTrack {
         inside.map(|d| [d.position.x, d.position.y])
     }
 
+    /// Notes which lost points are new, and which have gone.
+    fn lost(&mut self, t_s: f64, r: &RobotFrame) {
+        let new = r.lost_points.iter().map(|q| [q.x, q.y]);
+        if self.lost_now.iter().copied().eq(new.clone()) {
+            return;
+        }
+        let new: Vec<[f64; 2]> = new.collect();
+        for old in &mut self.lost_over_time {
+            if old.until_s.is_none() && !new.contains(&old.p) {
+                old.until_s = Some(t_s);
+            }
+        }
+        for &p in new.iter().filter(|p| !self.lost_now.contains(p)) {
+            if self.lost_over_time.len() < LOST {
+                self.lost_over_time.push(LostPoint {
+                    p,
+                    from_s: t_s,
+                    until_s: None,
+                });
+            }
+        }
+        self.lost_now = new;
+    }
+
     fn push(&mut self, t_s: f64, r: &RobotFrame) {
         let p = r.truth.pose.p_WB;
         if r.detected && self.detections.len() < KEPT {
@@ -123,6 +166,7 @@ impl RobotTrack {
             self.lost_points
                 .extend(r.lost_points.iter().map(|q| [q.x, q.y]));
         }
+        self.lost(t_s, r);
         if self.declarations != r.declarations {
             self.declarations.clone_from(&r.declarations);
         }

@@ -5,83 +5,97 @@
 //! *Deviations*: none.
 
 use super::cdr::{Header, bytes, cdr, pose, xyz};
+use super::messages::CompressedImage;
 use nalgebra::{UnitQuaternion, Vector3};
 use serde::Serialize;
 
-/// A surface of triangles of one colour.
+/// A surface of triangles.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Marker {
     /// Its name, unique in a message.
     pub name: String,
-    /// Red, green, blue, opacity, 0 to 1.
+    /// Red, green, blue, opacity, 0 to 1, where `colours` says nothing.
     pub colour: [f32; 4],
+    /// Colour of each corner, in the order of the triangles; empty for one colour.
+    pub colours: Vec<[f32; 4]>,
     /// Corners in the frame of the message, m; anticlockwise seen from outside.
     pub triangles: Vec<[Vector3<f64>; 3]>,
 }
 
-/// A `MarkerArray` of surfaces.
-#[must_use]
-pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
-    #[derive(Serialize)]
-    struct Message<'a> {
+/// Balls of one colour.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Balls<'a> {
+    /// Their name, unique in a message.
+    pub name: &'a str,
+    /// Red, green, blue, opacity, 0 to 1.
+    pub colour: [f32; 4],
+    /// Their size, m.
+    pub diameter_m: f64,
+    /// Their middles in the frame of the message, m.
+    pub places: &'a [Vector3<f64>],
+}
+
+/// A `visualization_msgs/Marker`.
+#[derive(Serialize)]
+struct Message<'a> {
+    header: Header<'a>,
+    ns: &'a str,
+    id: i32,
+    kind: i32,
+    action: i32,
+    pose: ([f64; 3], [f64; 4]),
+    scale: [f64; 3],
+    color: [f32; 4],
+    lifetime: (i32, u32),
+    frame_locked: bool,
+    points: Vec<[f64; 3]>,
+    colors: &'a [[f32; 4]],
+    texture_resource: &'a str,
+    texture: CompressedImage<'a>,
+    uv_coordinates: [u32; 1],
+    text: &'a str,
+    mesh_resource: &'a str,
+    mesh_file: File<'a>,
+    mesh_use_embedded_materials: bool,
+}
+
+#[derive(Serialize)]
+struct File<'a> {
+    filename: &'a str,
+    #[serde(serialize_with = "bytes")]
+    data: &'a [u8],
+}
+
+const SPHERE_LIST: i32 = 7;
+const TRIANGLE_LIST: i32 = 11;
+
+impl<'a> Message<'a> {
+    /// A marker that stays until another of its name comes.
+    fn new(
         header: Header<'a>,
-        ns: &'a str,
-        id: i32,
-        kind: i32,
-        action: i32,
-        pose: ([f64; 3], [f64; 4]),
-        scale: [f64; 3],
+        (ns, kind): (&'a str, i32),
+        scale_m: f64,
         color: [f32; 4],
-        lifetime: (i32, u32),
-        frame_locked: bool,
-        points: Vec<[f64; 3]>,
-        colors: [u32; 1],
-        texture_resource: &'a str,
-        texture: Picture<'a>,
-        uv_coordinates: [u32; 1],
-        text: &'a str,
-        mesh_resource: &'a str,
-        mesh_file: File<'a>,
-        mesh_use_embedded_materials: bool,
-    }
-    #[derive(Serialize)]
-    struct Picture<'a> {
-        header: Header<'a>,
-        format: &'a str,
-        #[serde(serialize_with = "bytes")]
-        data: &'a [u8],
-    }
-    #[derive(Serialize)]
-    struct File<'a> {
-        filename: &'a str,
-        #[serde(serialize_with = "bytes")]
-        data: &'a [u8],
-    }
-    const TRIANGLE_LIST: i32 = 11;
-    const ADD: i32 = 0;
-    /// The length of a sequence without elements.
-    const EMPTY: [u32; 1] = [0];
-    let messages = markers.iter().map(|marker| {
-        let Marker {
-            name,
-            colour,
-            triangles,
-        } = marker;
-        Message {
-            header: Header::new(t_ns, frame),
-            ns: name,
+        points: &[Vector3<f64>],
+    ) -> Self {
+        const ADD: i32 = 0;
+        /// The length of a sequence without elements.
+        const EMPTY: [u32; 1] = [0];
+        Self {
+            header,
+            ns,
             id: 0,
-            kind: TRIANGLE_LIST,
+            kind,
             action: ADD,
             pose: pose(&Vector3::zeros(), &UnitQuaternion::identity()),
-            scale: [1.0; 3],
-            color: *colour,
+            scale: [scale_m; 3],
+            color,
             lifetime: (0, 0),
             frame_locked: false,
-            points: triangles.as_flattened().iter().map(xyz).collect(),
-            colors: EMPTY,
+            points: points.iter().map(xyz).collect(),
+            colors: &[],
             texture_resource: "",
-            texture: Picture {
+            texture: CompressedImage {
                 header: Header::new(0, ""),
                 format: "",
                 data: &[],
@@ -95,6 +109,35 @@ pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
             },
             mesh_use_embedded_materials: false,
         }
+    }
+}
+
+/// A `MarkerArray` of surfaces.
+#[must_use]
+pub fn marker_array(t_ns: u64, frame: &str, markers: &[Marker]) -> Vec<u8> {
+    let messages = markers.iter().map(|m| {
+        let (header, corners) = (Header::new(t_ns, frame), m.triangles.as_flattened());
+        let colors = m.colours.as_slice();
+        Message {
+            colors,
+            ..Message::new(header, (&m.name, TRIANGLE_LIST), 1.0, m.colour, corners)
+        }
+    });
+    cdr(&messages.collect::<Vec<_>>())
+}
+
+/// A `MarkerArray` of balls.
+#[must_use]
+pub fn balls(t_ns: u64, frame: &str, all: &[Balls]) -> Vec<u8> {
+    let messages = all.iter().map(|b| {
+        let header = Header::new(t_ns, frame);
+        Message::new(
+            header,
+            (b.name, SPHERE_LIST),
+            b.diameter_m,
+            b.colour,
+            b.places,
+        )
     });
     cdr(&messages.collect::<Vec<_>>())
 }
@@ -123,6 +166,7 @@ mod tests {
         let bed = Marker {
             name: "bed".into(),
             colour: [1.0, 0.5, 0.0, 1.0],
+            colours: Vec::new(),
             triangles: vec![[p(); 3]],
         };
         is(

@@ -97,17 +97,19 @@ pub fn clock(t_ns: u64) -> Vec<u8> {
     cdr(&Time::new(t_ns))
 }
 
+/// `sensor_msgs/CompressedImage`.
+#[derive(Serialize)]
+pub(super) struct CompressedImage<'a> {
+    pub(super) header: Header<'a>,
+    pub(super) format: &'a str,
+    #[serde(serialize_with = "bytes")]
+    pub(super) data: &'a [u8],
+}
+
 /// A `CompressedImage`: a picture of an optical frame (x right in the picture, y down, z into the scene) as the bytes
 /// of a `png` or `jpeg` file.
 #[must_use]
 pub fn compressed_image(t_ns: u64, frame: &str, format: &str, file: &[u8]) -> Vec<u8> {
-    #[derive(Serialize)]
-    struct CompressedImage<'a> {
-        header: Header<'a>,
-        format: &'a str,
-        #[serde(serialize_with = "bytes")]
-        data: &'a [u8],
-    }
     cdr(&CompressedImage {
         header: Header::new(t_ns, frame),
         format,

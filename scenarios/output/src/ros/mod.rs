@@ -2,18 +2,22 @@
 
 mod cdr;
 mod drawings;
+mod joints;
+mod log;
 mod messages;
 mod plume;
 mod schemas;
 mod sensors;
 mod types;
 
-pub use drawings::{Marker, marker_array, path};
+pub use drawings::{Balls, Marker, balls, marker_array, path};
+pub use joints::joints;
+pub use log::{LogLevel, log_line};
 pub use messages::{
     Joint, Odometry, Transform, clock, compressed_image, float64, joint_state, point_cloud,
     pose_stamped, text, transforms, vector3_stamped,
 };
-pub use plume::plume_cloud;
+pub use plume::{plume_cloud, water_cloud};
 pub use sensors::{Imu, Range, fluid_pressure, twist_stamped};
 pub use types::MessageKind;
 

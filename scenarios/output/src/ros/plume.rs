@@ -1,7 +1,7 @@
-//! A plume as a cloud of points.
+//! A plume and the flow of the water as clouds of points.
 
 use super::{nanoseconds, point_cloud};
-use rheotaxis::frame::PlumeFrame;
+use rheotaxis::frame::{PlumeFrame, WaterFrame};
 use std::f64::consts::TAU;
 
 /// Filaments as a `PointCloud2`. `mass` is that of all filaments for which one stands (kg); `concentration` is that at
@@ -20,4 +20,11 @@ pub fn plume_cloud(plume: &PlumeFrame, frame: &str) -> Vec<u8> {
         .collect();
     let names = ["x", "y", "z", "size", "mass", "concentration", "stands_for"];
     point_cloud(nanoseconds(plume.t_s), frame, names, &rows)
+}
+
+/// The flow as a `PointCloud2`: a place (m) and the velocity there (m/s), both in `frame`.
+#[must_use]
+pub fn water_cloud(water: &WaterFrame, frame: &str) -> Vec<u8> {
+    let names = ["x", "y", "z", "vx", "vy", "vz"];
+    point_cloud(nanoseconds(water.t_s), frame, names, &water.points)
 }

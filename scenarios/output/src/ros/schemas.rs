@@ -144,6 +144,12 @@ impl MessageKind {
                  float32 field_of_view\nfloat32 min_range\nfloat32 max_range\nfloat32 range\nfloat32 variance\n",
                 &[HEADER, TIME],
             ),
+            MessageKind::Log => (
+                "byte DEBUG=10\nbyte INFO=20\nbyte WARN=30\nbyte ERROR=40\nbyte FATAL=50\n\
+                 builtin_interfaces/Time stamp\nuint8 level\nstring name\nstring msg\nstring file\n\
+                 string function\nuint32 line\n",
+                &[TIME],
+            ),
             MessageKind::MarkerArray => (
                 "Marker[] markers\n",
                 &[
@@ -181,8 +187,8 @@ mod tests {
     /// Every type that a definition mentions is defined below it; otherwise readers refuse the channel.
     #[test]
     fn schemas_are_closed() {
-        const PLAIN: [&str; 7] = [
-            "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
+        const PLAIN: [&str; 8] = [
+            "byte", "int32", "uint32", "uint8", "float64", "string", "bool", "float32",
         ];
         for kind in MessageKind::all() {
             let schema = kind.schema();

@@ -41,13 +41,15 @@ pub enum MessageKind {
     Range,
     /// `visualization_msgs/msg/MarkerArray`.
     MarkerArray,
+    /// `rcl_interfaces/msg/Log`.
+    Log,
 }
 
 /// A row of the table: type, name, hash.
 type Row = (MessageKind, &'static str, &'static str);
 
 /// All types, in the order of [`MessageKind`].
-const TABLE: [Row; 16] = [
+const TABLE: [Row; 17] = [
     (
         MessageKind::Odometry,
         "nav_msgs/msg/Odometry",
@@ -127,6 +129,11 @@ const TABLE: [Row; 16] = [
         MessageKind::MarkerArray,
         "visualization_msgs/msg/MarkerArray",
         "86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf",
+    ),
+    (
+        MessageKind::Log,
+        "rcl_interfaces/msg/Log",
+        "e28ce254ca8abc06abf92773b74602cdbf116ed34fbaf294fb9f81da9f318eac",
     ),
 ];
 

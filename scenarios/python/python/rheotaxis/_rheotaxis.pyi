@@ -1,5 +1,6 @@
 """The engine of the package. World axes are ENU, z = 0 at the still surface; headings are compass degrees."""
 
+from collections.abc import Callable
 from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, final
@@ -8,6 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 __version__: str
+
+Controller = Callable[[dict[str, Any]], dict[str, Any] | None]
 
 Outcome = Literal["found", "not_found", "completed", "aborted", "time_out", "interrupted", "failed"]
 
@@ -192,6 +195,7 @@ def run(
     scenario: str | PathLike[str] | Scenario,
     seed: int = 1,
     *,
+    controllers: Controller | dict[str, Controller] | None = None,
     files: str | PathLike[str] | None = None,
     recording: bool = True,
     cache: bool | str | PathLike[str] | None = None,
@@ -202,6 +206,11 @@ def run(
     ``scenario`` is a Scenario, the name of one in the catalogue, the path of a file, or a text. The run is that of
     ``rheotaxis run --seed``, bit by bit. Other threads of Python go on meanwhile; Ctrl-C ends the run and raises
     KeyboardInterrupt.
+
+    ``controllers`` decide for robots and gantries whose strategy is ``External``: a function for all of them, or a dict
+    of functions by id. A function gets a question as a dict and returns an answer as a dict, with the fields of
+    docs/doors.md; None changes nothing. An exception of it ends the run and is raised here; an answer that the machine
+    cannot carry out raises ValueError.
 
     ``files`` names a folder for the files that the command would write, ``run.mcap`` among them if ``recording``.
     ``cache`` is about spin-ups kept on the disk: by default those of the command (``RHEOTAXIS_CACHE``,

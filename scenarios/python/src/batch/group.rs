@@ -6,6 +6,7 @@ use rheotaxis::control::{Heard, Question};
 use rheotaxis::lanes::{Shared, Standing};
 use rheotaxis::ocean::SpunUp;
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::trial::Trial;
 use std::sync::Arc;
 
 /// How an environment stands.
@@ -117,7 +118,7 @@ impl Group {
             for question in asked {
                 env.ask(rules, question);
             }
-            env.look(rules, shared, place);
+            shared.look(place, |trial| env.look(rules, trial));
         }
         Ok(())
     }
@@ -143,9 +144,14 @@ impl Group {
                 }
             }
         }
-        for (place, question) in shared.until_asked() {
-            self.envs[place].ask(rules, question);
-        }
+        let envs = &mut self.envs;
+        shared.pass(|place, trial, questions| {
+            let env = &mut envs[place];
+            for question in questions {
+                env.ask(rules, question);
+            }
+            env.look(rules, trial);
+        });
         for (place, _) in &actions {
             self.envs[*place].judge(rules, shared, *place)?;
         }
@@ -168,19 +174,15 @@ impl Env {
         }
     }
 
-    /// Looks at the truth; `None` if the run has failed.
-    fn look(&mut self, rules: &Rules, shared: &mut Shared, place: usize) -> Option<()> {
-        let minds = &mut self.minds;
-        shared.look(place, |trial| {
-            for (mind, agent) in minds.iter_mut().zip(&rules.agents) {
-                mind.look(agent, trial);
-            }
-        })
+    /// Looks at the truth.
+    fn look(&mut self, rules: &Rules, trial: &Trial) {
+        for (mind, agent) in self.minds.iter_mut().zip(&rules.agents) {
+            mind.look(agent, trial);
+        }
     }
 
     /// Decides how the episode stands after a step.
     fn judge(&mut self, rules: &Rules, shared: &mut Shared, place: usize) -> Result<(), String> {
-        self.look(rules, shared, place);
         if shared.standing(place) == Standing::Failed {
             let said = shared
                 .failure(place)
@@ -190,7 +192,7 @@ impl Env {
         }
         let reached = |mind: &Mind| rules.goal_m.is_some_and(|m| mind.truth.closest_m <= m);
         if shared.standing(place) == Standing::Ended {
-            let ended = shared.look(place, rheotaxis::trial::Trial::ended);
+            let ended = shared.look(place, Trial::ended);
             self.outcome = ended.as_ref().map(|e| e.outcome);
             self.t_s = ended.map_or(self.t_s, |e| e.t_s - self.began_s);
             let good = [Some(RunOutcome::Found), Some(RunOutcome::Completed)];

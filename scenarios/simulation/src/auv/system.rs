@@ -7,14 +7,15 @@ use crate::control::consulting::{Consulting, Kept};
 use crate::ocean::Ocean;
 use crate::score::Score;
 use crate::searchers::{SearcherId, whole};
-use bevy_ecs::prelude::{DetectChanges, Query, Ref, Res, ResMut};
+use bevy_ecs::prelude::{DetectChanges, Local, Query, Ref, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
 use robots::estimate::Estimator;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{
-    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings,
+    Actuation, Behaviour, Belief, Command, Decision, Estimate, GuidanceStatus, Observation,
+    Readings,
 };
 use robots::map::MapObservation;
 use robots::sense::camera::Optics;
@@ -228,6 +229,8 @@ pub(crate) fn digest_robots(
     roster: Res<Robots>,
     mut digest: ResMut<Digest>,
     robots: Query<Digested>,
+    // Of the newest behaviour: some are hashed, and they seldom change.
+    mut number: Local<Option<(Behaviour, f64)>>,
 ) {
     for (truth, estimate, decision, set, belief) in robots.iter_many(&roster.0).map(whole) {
         digest.f64s(truth.pose.p_WB.as_slice());
@@ -236,8 +239,14 @@ pub(crate) fn digest_robots(
         digest.f64s(truth.w_WB_B.as_slice());
         digest.f64s(estimate.position.as_slice());
         digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
-        digest.f64s(&set.named().map(|(_, value)| value).collect::<Vec<_>>());
-        digest.f64s(&[f64::from(decision.goal.id), decision.behaviour.number()]);
+        for (_, value) in set.named() {
+            digest.f64s(&[value]);
+        }
+        let behaviour = decision.behaviour;
+        let known = number.filter(|(known, _)| *known == behaviour);
+        let (_, behaviour) =
+            *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number())));
+        digest.f64s(&[f64::from(decision.goal.id), behaviour]);
         // Only when it is new: a map is large and changes seldom.
         if let Some(belief) = belief.filter(|b| b.is_changed()) {
             digest.f64s(&belief.p);

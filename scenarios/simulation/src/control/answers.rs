@@ -47,7 +47,18 @@ pub fn read_answer(text: &[u8], number: u64, t_s: f64) -> Result<Answer, String>
 /// An answer as [`read_answer`] reads it, to the last bit.
 #[must_use]
 pub fn answer_json(answer: &Answer) -> Value {
-    serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written")
+    let mut value =
+        serde_json::to_value(AnswerForm::of(answer)).expect("numbers and names can be written");
+    drop_nulls(&mut value);
+    value
+}
+
+/// Takes away what is left out.
+fn drop_nulls(value: &mut Value) {
+    if let Value::Object(fields) = value {
+        fields.retain(|_, value| !value.is_null());
+        fields.values_mut().for_each(drop_nulls);
+    }
 }
 
 fn vertical(depth_m: Option<f64>, altitude_m: Option<f64>) -> Result<Option<Vertical>, String> {
@@ -99,7 +110,7 @@ impl AnswerForm {
             order: orders.into_iter().flatten().next(),
             behaviour: self.behaviour.as_deref().map(behaviour).transpose()?,
             declared: declared.transpose()?,
-            picture: self.picture,
+            picture: self.picture.unwrap_or(false),
             outcome: self.end.map(|end| match end {
                 EndForm::Completed => Outcome::Completed,
                 EndForm::Aborted => Outcome::Aborted,
@@ -115,7 +126,7 @@ impl AnswerForm {
                 rule: Some(d.rule.to_string()),
                 number: d.number,
             }),
-            picture: answer.picture,
+            picture: answer.picture.then_some(true),
             end: answer.outcome.map(|outcome| match outcome {
                 Outcome::Completed => EndForm::Completed,
                 Outcome::Aborted => EndForm::Aborted,

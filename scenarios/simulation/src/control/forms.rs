@@ -1,6 +1,6 @@
 //! The forms in which answers are written: JSON, SI units, radians, compass headings.
 //!
-//! A field that is left out stays as it is. [`answers`](super::answers) turns them into what a robot takes.
+//! A field that is left out, or `null`, stays as it is. [`answers`](super::answers) turns them into what a robot takes.
 
 use serde::{Deserialize, Serialize};
 
@@ -9,25 +9,15 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub(super) struct AnswerForm {
     /// The question's number, if it is repeated.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) number: Option<u64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) goal: Option<GoalForm>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) steer: Option<SteerForm>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) slide: Option<SlideForm>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) drives: Option<DrivesForm>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) head: Option<HeadForm>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) behaviour: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) declare: Option<DeclareForm>,
-    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
-    pub(super) picture: bool,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) picture: Option<bool>,
     pub(super) end: Option<EndForm>,
 }
 
@@ -36,13 +26,9 @@ pub(super) struct AnswerForm {
 #[serde(deny_unknown_fields)]
 pub(super) struct GoalForm {
     pub(super) manoeuvre: ManoeuvreForm,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) depth_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) altitude_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) speed_m_s: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<u32>,
 }
 
@@ -52,7 +38,6 @@ pub(super) struct GoalForm {
 pub(super) enum ManoeuvreForm {
     GoToPoint {
         point_m: [f64; 2],
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_m: Option<f64>,
     },
     FollowLine {
@@ -65,12 +50,10 @@ pub(super) enum ManoeuvreForm {
     },
     Hold {
         point_m: [f64; 2],
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         heading_rad: Option<f64>,
     },
     SlideTo {
         point_m: [f64; 2],
-        #[serde(default, skip_serializing_if = "Option::is_none")]
         radius_m: Option<f64>,
         heading_rad: f64,
     },
@@ -89,13 +72,9 @@ pub(super) enum ManoeuvreForm {
 #[serde(deny_unknown_fields)]
 pub(super) struct SteerForm {
     pub(super) heading_rad: f64,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) depth_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) altitude_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) speed_m_s: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<u32>,
 }
 
@@ -105,11 +84,8 @@ pub(super) struct SteerForm {
 pub(super) struct SlideForm {
     pub(super) heading_rad: f64,
     pub(super) velocity_m_s: [f64; 2],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) depth_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) altitude_m: Option<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<u32>,
 }
 
@@ -118,7 +94,6 @@ pub(super) struct SlideForm {
 #[serde(deny_unknown_fields)]
 pub(super) struct DrivesForm {
     pub(super) set: Vec<f64>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<u32>,
 }
 
@@ -127,11 +102,8 @@ pub(super) struct DrivesForm {
 #[serde(deny_unknown_fields)]
 pub(super) struct HeadForm {
     pub(super) target_m: [f64; 2],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) speed_m_s: Option<[f64; 2]>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) behaviour: Option<String>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) id: Option<u32>,
 }
 
@@ -140,7 +112,6 @@ pub(super) struct HeadForm {
 #[serde(deny_unknown_fields)]
 pub(super) struct DeclareForm {
     pub(super) position_m: [f64; 2],
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) rule: Option<String>,
     #[serde(default)]
     pub(super) number: u32,

@@ -266,3 +266,17 @@ fn a_searcher_of_a_gantry_gives_the_same_digest_from_outside() {
     });
     assert_eq!(ended.digest, inside.digest);
 }
+
+#[test]
+fn nobody_can_be_asked_more_often_than_there_are_steps() {
+    let [_, mut outside] = channels();
+    outside.scenario.robots[0].strategy = external(0.001);
+    let found = crate::scenario::check(&outside.scenario, &outside.base_dir);
+    let lines: Vec<String> = (found.iter())
+        .map(|f| format!("{}: {}", f.path, f.message))
+        .collect();
+    assert_eq!(
+        lines,
+        ["robots[0].strategy.period_s: must be at least time.step_s, 0.02, got 0.001"]
+    );
+}

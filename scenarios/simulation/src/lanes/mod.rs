@@ -148,7 +148,7 @@ impl<W: Watch> Lanes<W> {
             let (registry, scenario) = (&loaded.registry, &loaded.scenario);
             Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed)
         });
-        self.ocean = world.remove_resource();
+        self.ocean = taken(&mut world);
         let tick = tick.map_err(panicked)??;
         let simulation = Simulation::of(world, tick, course.origin.clone());
         Ok(Trial::of(&loaded.scenario, simulation, sources))
@@ -314,13 +314,21 @@ impl<W: Watch> Lane<W> {
 
 fn lend(ocean: &mut Option<Ocean>, trial: &mut Trial) {
     let ocean = ocean.take().expect("it comes back from each lane");
-    trial.simulation.world.insert_resource(ocean);
+    *trial.simulation.world.resource_mut::<Ocean>() = ocean;
 }
 
 fn take_back(ocean: &mut Option<Ocean>, trial: &mut Trial) {
-    *ocean = trial.simulation.world.remove_resource();
+    *ocean = taken(&mut trial.simulation.world);
+}
+
+/// The ocean out of a world, which keeps its place.
+fn taken(world: &mut World) -> Option<Ocean> {
+    let place = world.get_resource_mut::<Ocean>();
+    let ocean = place.map(|mut place| std::mem::replace(&mut *place, Ocean::away()));
+    let ocean = ocean.filter(Ocean::is_here);
     assert!(
         ocean.is_some(),
         "a system has removed the ocean from its world: no system may"
     );
+    ocean
 }

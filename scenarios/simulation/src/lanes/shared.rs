@@ -5,7 +5,7 @@
 //! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
 //! [`Trial`] alone.
 
-use super::{LaneError, caught, lend, take_back};
+use super::{LaneError, caught, lend, take_back, taken};
 use crate::assemble::Simulation;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
@@ -116,7 +116,7 @@ impl Shared {
         let seed = seed.into();
         let tick =
             caught(|| Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed));
-        self.ocean = world.remove_resource();
+        self.ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
         let simulation = Simulation::of(world, tick, self.origin.clone());
         let mut run = Run {
@@ -129,7 +129,7 @@ impl Shared {
             trial.begin_at(step);
             ask(trial)
         });
-        run.stands(&asked);
+        run.at = asked.as_ref().map_or(At::Over, |(at, _)| *at);
         if let Some(said) = run.failed {
             return Err(LaneError::Panicked(said));
         }
@@ -145,30 +145,40 @@ impl Shared {
     /// Steps the ocean and all runs until some of them ask; returns the questions, by place. Those left open by the
     /// last call count as put to somebody absent. Without questions no run goes on.
     pub fn until_asked(&mut self) -> Vec<(usize, Question)> {
-        for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
-            run.at = At::Acted;
-            run.with(&mut self.ocean, |trial| trial.search(&mut Unwatched));
-        }
         let mut asked = Vec::new();
-        while asked.is_empty() && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
+        self.pass(|place, _, questions| asked.extend(questions.into_iter().map(|q| (place, q))));
+        asked
+    }
+
+    /// The same for each run that asks or has ended in this call, while the ocean is with it: `see` gets its place, the
+    /// run and its questions.
+    pub fn pass(&mut self, mut see: impl FnMut(usize, &Trial, Vec<Question>)) {
+        for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
+            run.act(&mut self.ocean);
+        }
+        let mut asked = false;
+        while !asked && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
             self.pass_step();
             for (place, run) in self.runs.iter_mut().enumerate() {
                 let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
                     continue;
                 };
-                let step = run.with(&mut self.ocean, |trial| {
+                let at = run.with(&mut self.ocean, |trial| {
                     trial.simulation.report();
-                    if trial.heed(&mut Unwatched) {
+                    let (at, questions) = if trial.heed(&mut Unwatched) {
                         ask(trial)
                     } else {
                         (At::Over, Vec::new())
+                    };
+                    if at != At::Acted {
+                        see(place, trial, questions);
                     }
+                    at
                 });
-                run.stands(&step);
-                asked.extend(step.into_iter().flat_map(|(_, q)| q).map(|q| (place, q)));
+                run.at = at.unwrap_or(At::Over);
+                asked |= run.at == At::Asked;
             }
         }
-        asked
     }
 
     /// Lets the ocean develop to a step of the mission with nobody in it.
@@ -194,10 +204,16 @@ impl Shared {
         self.clock.step
     }
 
-    /// Answers an open question of a robot in a place; `None` if there is none.
+    /// Answers an open question of a robot in a place; `None` if there is none. With the last answer the run goes on
+    /// to the next step of the ocean.
     pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
         let run = self.runs.get_mut(place)?.as_mut()?;
-        run.trial.answer(robot, heard, &mut Unwatched)
+        let told = run.trial.answer(robot, heard, &mut Unwatched)?;
+        if run.trial.open_questions().is_empty() {
+            // Now rather than with all others, because what this run needs is in the processor's caches.
+            run.act(&mut self.ocean);
+        }
+        Some(told)
     }
 
     /// Reads a run with its ocean; `None` if there is none in the place, or if it has failed.
@@ -237,8 +253,10 @@ fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
 }
 
 impl Run {
-    fn stands(&mut self, step: &Option<(At, Vec<Question>)>) {
-        self.at = step.as_ref().map_or(At::Over, |(at, _)| *at);
+    /// The part of its tick up to the step of the ocean. What nobody has answered counts as put to somebody absent.
+    fn act(&mut self, ocean: &mut Option<Ocean>) {
+        self.at = At::Acted;
+        self.with(ocean, |trial| trial.search(&mut Unwatched));
     }
 
     /// Does something while the ocean is in the world of this run; `None` if it has failed.

@@ -16,6 +16,7 @@ use bevy_ecs::prelude::Resource;
 use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
 use plumes::flow::Water;
+use std::ops::{Deref, DerefMut};
 use world::area::Area;
 use world::digest::Digest;
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
@@ -23,17 +24,22 @@ use world::obstacles::Obstacles;
 use world::terrain::Terrain;
 
 /// Place, water and plume. It holds the truth. As a [`Flow`] it takes times of the mission, s.
+///
+/// It is one pointer, because an ocean that many searchers share goes from world to world in every tick; between its
+/// turns a world has none.
 #[derive(Resource)]
-pub struct Ocean {
+pub struct Ocean(Option<Box<Contents>>);
+
+/// What an [`Ocean`] holds.
+pub struct Contents {
     /// The operating area.
     pub area: Area,
     /// The bed.
     pub terrain: Terrain,
     /// All solid things, including those that the water passes through.
     pub obstacles: Obstacles,
-    // Boxed, because an ocean that many searchers share moves from world to world in every tick.
-    water: Box<Water>,
-    plume: Box<Plume>,
+    water: Water,
+    plume: Plume,
     /// Age of the water when the mission starts, s.
     spin_up_s: f64,
     /// Longest steps of the plume during the spin-up and during the mission, s.
@@ -41,6 +47,22 @@ pub struct Ocean {
     /// Digest of the plume at the checkpoint that the latest advance reached.
     checkpoint: Option<String>,
 }
+
+impl Deref for Ocean {
+    type Target = Contents;
+
+    fn deref(&self) -> &Contents {
+        self.0.as_deref().expect(AWAY)
+    }
+}
+
+impl DerefMut for Ocean {
+    fn deref_mut(&mut self) -> &mut Contents {
+        self.0.as_deref_mut().expect(AWAY)
+    }
+}
+
+const AWAY: &str = "another run has its turn in the ocean";
 
 impl Ocean {
     /// Before the spin-up; nothing is released yet.
@@ -52,16 +74,26 @@ impl Ocean {
         plume: Plume,
         origin: &Origin,
     ) -> Self {
-        Self {
+        Self(Some(Box::new(Contents {
             area,
             terrain,
             obstacles,
-            water: Box::new(water),
-            plume: Box::new(plume),
+            water,
+            plume,
             spin_up_s: origin.spin_up_s(),
             longest_s: [origin.spin_up_period_s(); 2],
             checkpoint: None,
-        }
+        })))
+    }
+
+    /// The place of an ocean that is in the world of another run.
+    pub(crate) fn away() -> Self {
+        Self(None)
+    }
+
+    /// Whether it is here.
+    pub(crate) fn is_here(&self) -> bool {
+        self.0.is_some()
     }
 
     /// The water. Its own time begins with the spin-up.
@@ -98,26 +130,28 @@ impl Ocean {
     /// Lets water and plume develop before the mission. `heard` gets the completed share after every step; if it
     /// returns `false`, the spin-up ends early.
     pub fn spin_up(&mut self, mut heard: impl FnMut(f64) -> bool) {
-        let (mut t_s, end_s) = (0.0, self.spin_up_s);
-        if !self.plume.sources().is_empty() && end_s > 0.0 {
-            self.plume.pace(0.0, end_s, self.longest_s[0]);
+        let here = &mut **self;
+        let (mut t_s, end_s) = (0.0, here.spin_up_s);
+        if !here.plume.sources().is_empty() && end_s > 0.0 {
+            here.plume.pace(0.0, end_s, here.longest_s[0]);
             while t_s < end_s {
-                self.water.advance(t_s);
-                t_s = self.plume.next_meeting_s();
-                self.plume.advance(&*self.water, t_s);
+                here.water.advance(t_s);
+                t_s = here.plume.next_meeting_s();
+                here.plume.advance(&here.water, t_s);
                 if !heard(t_s / end_s) {
                     return;
                 }
             }
         }
-        self.water.advance(end_s);
+        here.water.advance(end_s);
         self.set_out();
     }
 
     /// Starts the mission, in which the plume takes steps of at most `longest_s`.
     pub(crate) fn set_out(&mut self) {
-        let [_, longest_s] = self.longest_s;
-        self.plume.pace(self.spin_up_s, f64::INFINITY, longest_s);
+        let here = &mut **self;
+        let [_, longest_s] = here.longest_s;
+        here.plume.pace(here.spin_up_s, f64::INFINITY, longest_s);
     }
 
     /// Limits the plume's steps during the mission, s.
@@ -127,12 +161,13 @@ impl Ocean {
 
     /// Brings water and plume to a time of the mission, s.
     pub fn advance(&mut self, t_s: f64) {
-        let t_s = t_s + self.spin_up_s;
-        self.water.advance(t_s);
-        let meets = self.plume.advance(&*self.water, t_s);
-        self.checkpoint = meets.then(|| {
+        let here = &mut **self;
+        let t_s = t_s + here.spin_up_s;
+        here.water.advance(t_s);
+        let meets = here.plume.advance(&here.water, t_s);
+        here.checkpoint = meets.then(|| {
             let mut digest = Digest::default();
-            self.plume.digest_into(&mut digest);
+            here.plume.digest_into(&mut digest);
             digest.hex()
         });
     }
@@ -154,10 +189,11 @@ impl Ocean {
 
     /// Takes over the state of another ocean with the same origin.
     pub(crate) fn put_state(&mut self, (water, plume): (Water, Plume)) {
-        let threads = self.plume.threads();
-        *self.water = water;
-        *self.plume = plume;
-        self.plume.use_threads(threads);
+        let here = &mut **self;
+        let threads = here.plume.threads();
+        here.water = water;
+        here.plume = plume;
+        here.plume.use_threads(threads);
     }
 
     /// Steps the plume with this many threads; 0 means one for each core. The result is the same with any number. If
@@ -176,7 +212,7 @@ impl Flow for Ocean {
         Ocean::advance(self, t_s);
     }
     fn is_steady(&self) -> bool {
-        Flow::is_steady(&*self.water)
+        Flow::is_steady(&self.water)
     }
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.water.velocity(p, t_s + self.spin_up_s)
@@ -195,10 +231,10 @@ impl Flow for Ocean {
         out: &mut [(Vector3<f64>, Mixing)],
     ) {
         let t_s = t_s + self.spin_up_s;
-        Flow::column(&*self.water, place, heights_m, t_s, out);
+        Flow::column(&self.water, place, heights_m, t_s, out);
     }
     fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
-        Flow::carry(&*self.water, t_s + self.spin_up_s, dt_s, places);
+        Flow::carry(&self.water, t_s + self.spin_up_s, dt_s, places);
     }
     fn rates(&self, t_s: f64, cells: &mut Vec<[f32; 6]>) -> bool {
         self.water.rates(t_s + self.spin_up_s, cells)

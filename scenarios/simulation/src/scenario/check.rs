@@ -6,7 +6,7 @@ use super::fault::Severity;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use super::{
     check_able, check_berth, check_faults, check_fitted, check_limits, check_obstacles,
-    check_sources, check_steps, check_view, cost,
+    check_sources, check_steps, check_times, check_view, cost,
 };
 use plumes::error::PlumeError;
 use robots::error::RobotError;
@@ -23,9 +23,6 @@ use world::terrain::Terrain;
 
 /// A hull that starts nearer to an obstacle than this may touch it, m.
 const BERTH_M: f64 = 1.0;
-
-/// Legal steps of the physics, s. A shorter step makes a run endless, and a longer one cannot follow the vehicle.
-const STEP_S: (f64, f64) = (0.001, 0.1);
 
 /// Finds all errors and warnings. File paths in the scenario are relative to `base_dir`.
 #[must_use]
@@ -122,7 +119,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
     }
     added(scenario, &robot_ids, &gantry_ids, &mut found);
     check_able::declarations(scenario, &mut found);
-    times(scenario, &mut found);
+    check_times::times(scenario, &mut found);
     check_able::purpose(scenario, &mut found);
     if let Some(Ok(water)) = &water
         && !found.iter().any(|f| f.severity == Severity::Error)
@@ -322,32 +319,6 @@ pub(super) fn robot_error(robot: &str, part: &str, error: RobotError) -> Found {
             .hint("paths are relative to the scenario file"),
         RobotError::Invalid { field, problem } => {
             Found::error(within(robot, part, &field), problem)
-        }
-    }
-}
-
-fn times(scenario: &Scenario, found: &mut Vec<Found>) {
-    let t = &scenario.time;
-    let step = t.step_s.get();
-    if !(STEP_S.0..=STEP_S.1).contains(&step) {
-        found.push(Found::error(
-            "time.step_s",
-            format!("must be from {} to {} s, got {step}", STEP_S.0, STEP_S.1),
-        ));
-    }
-    let r = &scenario.record;
-    for (path, period) in [
-        ("time.limit_s", t.limit_s),
-        ("time.drift_period_s", t.drift_period_s),
-        ("time.spin_up_period_s", t.spin_up_period_s),
-        ("record.frame_period_s", r.frame_period_s),
-        ("record.plume_period_s", r.plume_period_s),
-    ] {
-        if period < t.step_s {
-            found.push(Found::error(
-                path,
-                format!("must be at least time.step_s, {step}, got {}", period.get()),
-            ));
         }
     }
 }

@@ -13,6 +13,7 @@ mod check_limits;
 mod check_obstacles;
 mod check_sources;
 mod check_steps;
+mod check_times;
 mod check_view;
 pub mod cost;
 mod fault;

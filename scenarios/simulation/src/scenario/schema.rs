@@ -295,7 +295,8 @@ impl StartSpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct TimeSpec {
-    /// Step of the physics, s. Every slower stage takes a whole number of these steps.
+    /// Step of the physics, s: 0.001 to 0.1, and up to 1 where all robots are kinematic. Every slower stage takes a
+    /// whole number of these steps.
     #[serde(default = "step")]
     pub step_s: Positive,
     /// Time in which the plume develops before the mission, s.

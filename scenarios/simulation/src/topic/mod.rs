@@ -46,6 +46,12 @@ pub enum FieldKind {
     Flags,
     /// Any number of words.
     Words,
+    /// An object of its own form.
+    Object,
+    /// Any number of them.
+    Objects,
+    /// Any number of (east, north), or null.
+    PointsOrNull,
 }
 
 impl FieldKind {
@@ -71,6 +77,9 @@ impl FieldKind {
             FieldKind::Numbers => json!({"type": "array", "items": {"type": "number"}}),
             FieldKind::Flags => json!({"type": "array", "items": {"type": "boolean"}}),
             FieldKind::Words => json!({"type": "array", "items": {"type": "string"}}),
+            FieldKind::Object => json!({"type": "object"}),
+            FieldKind::Objects => json!({"type": "array", "items": {"type": "object"}}),
+            FieldKind::PointsOrNull => json!({"type": ["array", "null"], "items": vector(2)}),
         };
         match schema {
             Value::Object(fields) => fields,

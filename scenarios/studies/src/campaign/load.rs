@@ -85,6 +85,18 @@ mod tests {
     }
 
     #[test]
+    fn an_arm_that_asks_a_searcher_outside_is_refused() {
+        let base = load_scenario(Path::new("duck_external")).unwrap();
+        let text = "(version: 2, title: \"t\", base: \"duck_external\", seeds: 2, arms: [(name: \"a\"), (name: \"b\")])";
+        let refused = Campaign::new("own.ron", "own", text, base).unwrap().check();
+        let said = refused.unwrap_err().to_string();
+        assert!(
+            said.contains("auv0 asks a searcher outside the program"),
+            "{said}"
+        );
+    }
+
+    #[test]
     fn a_missing_file_is_said_with_what_there_is() {
         let said = load(Path::new("nowhere.ron")).unwrap_err().to_string();
         assert_eq!(said, "nowhere.ron: there is no such file");

@@ -8,7 +8,7 @@
 //! *Parameters*: none.
 //! *Deviations*: rates about x and y are ignored, for no autopilot here holds them.
 
-use super::keys::{self, NodeKey};
+use super::keys::{self, End, NodeKey};
 use super::node::NAME;
 use super::topics::Qos;
 use crate::ros::MessageKind;
@@ -67,7 +67,7 @@ impl RosCommands {
             name: NAME,
         };
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        let token = node.subscriber(number, &name, kind, Qos::Reliable);
+        let token = node.end(End::Subscriber, number, &name, kind, Qos::Reliable);
         Ok(Self {
             inbox,
             taken: 0,

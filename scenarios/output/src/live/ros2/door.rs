@@ -1,14 +1,16 @@
 //! Says through the node what the publishing thread hands over.
 
-use super::frames::{MAP, fixed, transform};
 use super::node::Node;
+use super::state::names;
 use super::state::{Message, Spoken};
 use super::topics::{self, RosTopic};
-use super::{Ros2, Scene};
+use super::{MAP, Ros2};
 use crate::live::slots::Numbered;
 use crate::ros::{
     clock, compressed_image, marker_array, nanoseconds, plume_cloud, text, transforms,
 };
+use crate::scene::Scene;
+use crate::scene::frames::{fixed, transform};
 use rheotaxis::frame::{Frame, PictureFrame, PlumeFrame};
 use std::sync::Arc;
 use world::frames::Pose;
@@ -30,10 +32,11 @@ impl<'a> Door<'a> {
             spoken: Spoken::default(),
         };
         let scene = Arc::clone(&ros2.scene);
-        let still: Vec<_> = scene.machines.iter().flat_map(fixed).collect();
+        let machines = scene.machines.iter();
+        let still: Vec<_> = machines.flat_map(|m| fixed(m, &names(m))).collect();
         let fixed = [
             (&topics::TF_STATIC, transforms(&still)),
-            (&topics::SCENE, marker_array(0, MAP, &scene.solids)),
+            (&topics::SCENE, marker_array(0, MAP, &scene.markers())),
         ];
         for (topic, cdr) in fixed {
             door.node.say(topic, topic.name, cdr)?;

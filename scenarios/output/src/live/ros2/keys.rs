@@ -21,32 +21,35 @@ pub(super) struct NodeKey<'a> {
     pub(super) name: &'a str,
 }
 
+/// An end of a topic.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    Publisher,
+    Subscriber,
+}
+
 impl NodeKey<'_> {
     /// The token by which others see the node.
     pub(super) fn token(&self) -> String {
         self.entity(self.number, "NN")
     }
 
-    /// The token by which others see a publisher of it, with its number in the session.
-    pub(super) fn publisher(
+    /// The token by which others see one end of a topic, with its number in the session.
+    pub(super) fn end(
         &self,
+        end: End,
         number: u32,
         topic: &str,
         kind: MessageKind,
         qos: Qos,
     ) -> String {
-        end(&self.entity(number, "MP"), topic, kind, qos)
-    }
-
-    /// The same of a subscriber.
-    pub(super) fn subscriber(
-        &self,
-        number: u32,
-        topic: &str,
-        kind: MessageKind,
-        qos: Qos,
-    ) -> String {
-        end(&self.entity(number, "MS"), topic, kind, qos)
+        let name = match end {
+            End::Publisher => "MP",
+            End::Subscriber => "MS",
+        };
+        let (entity, topic) = (self.entity(number, name), topic.replace('/', "%"));
+        let (dds, hash) = (kind.dds_name(), kind.hash());
+        format!("{entity}/{topic}/{dds}/{hash}/{}", qos.chunk())
     }
 
     fn entity(&self, number: u32, kind: &str) -> String {
@@ -59,13 +62,6 @@ impl NodeKey<'_> {
         // Enclave and namespace are those of the root.
         format!("@ros2_lv/{domain}/{session}/{node}/{number}/{kind}/%/%/{name}")
     }
-}
-
-/// The token of an end of a topic.
-fn end(entity: &str, topic: &str, kind: MessageKind, qos: Qos) -> String {
-    let topic = topic.replace('/', "%");
-    let (dds, hash) = (kind.dds_name(), kind.hash());
-    format!("{entity}/{topic}/{dds}/{hash}/{}", qos.chunk())
 }
 
 /// The key of a topic's messages.
@@ -107,7 +103,13 @@ mod tests {
             "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/0/NN/%/%/rheotaxis"
         );
         assert_eq!(
-            NODE.publisher(7, "/auv0/odom", MessageKind::Odometry, Qos::Reliable),
+            NODE.end(
+                End::Publisher,
+                7,
+                "/auv0/odom",
+                MessageKind::Odometry,
+                Qos::Reliable
+            ),
             "@ros2_lv/3/aac3178e146ba6f1fc6e6a4085e77f21/0/7/MP/%/%/rheotaxis/%auv0%odom/\
              nav_msgs::msg::dds_::Odometry_/\
              RIHS01_3cc97dc7fb7502f8714462c526d369e35b603cfc34d946e3f2eda2766dfec6e0/::,10:,:,:,,"
@@ -120,7 +122,13 @@ mod tests {
         let hex = |id: [u8; 16]| id.map(|b| format!("{b:02x}")).concat();
         assert_eq!(hex(gid("")), "7f498d4624c30160d8984701d306aa99");
         assert_eq!(hex(gid(&NODE.token())), "df69bdb3a8e8c59cf74cbaf87a526c8c");
-        let publisher = NODE.publisher(7, "/auv0/odom", MessageKind::Odometry, Qos::Reliable);
+        let publisher = NODE.end(
+            End::Publisher,
+            7,
+            "/auv0/odom",
+            MessageKind::Odometry,
+            Qos::Reliable,
+        );
         assert_eq!(hex(gid(&publisher)), "e8c4f6484b75209f1f23d5d7f8acc4bb");
     }
 }

@@ -6,9 +6,9 @@
 //! *Deviations*: `map` carries each vehicle's body frame without an `odom` between them, because a position fix moves
 //! the estimate at once.
 //!
-//! [`topics`] is the table of what is published; [`scene`] what is known before the run; `state` makes messages of
-//! frames, without zenoh; `node` publishes them with `keys` and `attachment`; `commands` hears what nodes of ROS ask a
-//! robot to do, if the run allows it.
+//! [`topics`] is the table of what is published; [`scene`](crate::scene) what is known before the run; `state` makes
+//! messages of frames, without zenoh; `node` publishes them with `keys` and `attachment`; `commands` hears what nodes
+//! of ROS ask a robot to do, if the run allows it.
 
 #[cfg(feature = "live")]
 mod attachment;
@@ -17,14 +17,11 @@ mod commands;
 #[cfg(feature = "live")]
 mod door;
 #[cfg(feature = "live")]
-mod frames;
-#[cfg(feature = "live")]
 mod keys;
 #[cfg(feature = "live")]
 mod node;
 #[cfg(feature = "live")]
 mod readings;
-mod scene;
 #[cfg(feature = "live")]
 mod state;
 mod topics;
@@ -33,10 +30,14 @@ mod topics;
 pub(super) use commands::RosCommands;
 #[cfg(feature = "live")]
 pub(super) use door::Door;
-pub use scene::{Machine, Scene};
 pub use topics::{Qos, RosTopic, ros_topics};
 
+use crate::scene::Scene;
 use std::sync::Arc;
+
+/// The frame of the world: east, north, up; z = 0 at the still surface.
+#[cfg(feature = "live")]
+const MAP: &str = "map";
 
 /// How to publish for ROS 2.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! A node of the ROS graph, with a publisher for each topic that something was said on.
 
 use super::attachment::attachment;
-use super::keys::{self, NodeKey};
+use super::keys::{self, End, NodeKey};
 use super::topics::{Qos, RosTopic};
 use std::collections::BTreeMap;
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
@@ -75,7 +75,7 @@ impl<'a> Node<'a> {
 
     fn declare(&mut self, topic: &RosTopic, name: &str) -> Result<Said> {
         let RosTopic { kind, qos, .. } = *topic;
-        let token = key(self.domain, &self.id).publisher(self.next, name, kind, qos);
+        let token = key(self.domain, &self.id).end(End::Publisher, self.next, name, kind, qos);
         self.next += 1;
         let reliability = match qos {
             Qos::Clock | Qos::Sensor => Reliability::BestEffort,

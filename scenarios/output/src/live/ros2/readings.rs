@@ -1,11 +1,11 @@
 //! Messages of a robot's instruments, each with the time of its reading.
 
-use super::frames::BODY;
 use super::state::Of;
 use super::topics;
 use crate::ros::{
     Imu, Range, fluid_pressure, nanoseconds, point_cloud, twist_stamped, vector3_stamped,
 };
+use crate::scene::frames::BODY;
 use nalgebra::Vector3;
 use rheotaxis::frame::{At, Heard};
 use robots::handoff::{Attitude, RangeScan};

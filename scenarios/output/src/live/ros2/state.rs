@@ -1,19 +1,26 @@
 //! Messages of a frame. What is latched is said when it changes.
 
-use super::Scene;
-use super::frames::{BODY, MAP, slid, transform};
-use super::readings;
-use super::scene::Machine;
 use super::topics::{self, RosTopic};
+use super::{MAP, readings};
 use crate::ros::{
-    Joint, Odometry, Transform, float64, joint_state, nanoseconds, path, pose_stamped, text,
+    Odometry, Transform, float64, joint_state, joints, nanoseconds, path, pose_stamped, text,
     transforms, vector3_stamped,
 };
+use crate::scene::frames::{BODY, Names, slid, transform};
+use crate::scene::{Machine, Scene};
 use nalgebra::{UnitQuaternion, Vector3};
 use rheotaxis::frame::{Frame, GantryFrame, RobotFrame};
 use robots::handoff::Declaration;
 use std::collections::BTreeMap;
 use world::frames::Pose;
+
+/// Names of a machine's frames.
+pub(super) fn names(machine: &Machine) -> Names<'_> {
+    Names {
+        world: MAP,
+        own: &machine.name,
+    }
+}
 
 /// A message for a topic of a name.
 #[derive(Clone, Debug, PartialEq)]
@@ -147,16 +154,8 @@ impl Spoken {
 
     fn gantry(&mut self, of: &mut Of, g: &GantryFrame, tf: &mut Vec<Transform>) {
         let positions: Vec<f64> = g.joints.iter().map(|j| j.position_m).collect();
-        tf.extend(slid(of.t_ns, of.machine, &positions));
-        let joints: Vec<Joint> = (g.joint_names.iter().zip(&g.joints))
-            .map(|(name, j)| Joint {
-                name,
-                position: j.position_m,
-                velocity: j.speed_m_s,
-                effort: j.force_N,
-            })
-            .collect();
-        of.put(&topics::JOINTS, joint_state(of.t_ns, "", &joints));
+        tf.extend(slid(of.t_ns, of.machine, &names(of.machine), &positions));
+        of.put(&topics::JOINTS, joint_state(of.t_ns, "", &joints(g)));
         if let Some(scan) = &g.scan {
             let probes = of.machine.probes.iter().zip(&scan.volts[..scan.count]);
             for (probe, volts) in probes {

@@ -1,19 +1,35 @@
 //! Frames, and the transforms between them.
 
-use super::scene::Machine;
+use super::Machine;
 use crate::ros::Transform;
 use nalgebra::{UnitQuaternion, Vector3};
+use robots::vehicles::LinkLook;
 use std::f64::consts::FRAC_PI_2;
 use world::frames::Pose;
 
-/// The frame of the world: east, north, up; z = 0 at the still surface.
-pub(super) const MAP: &str = "map";
-
 /// Name of a robot's body frame.
-pub(super) const BODY: &str = "base_link";
+pub const BODY: &str = "base_link";
+
+/// Names of frames: in ROS live and in a recording they differ.
+#[derive(Clone, Copy, Debug)]
+pub struct Names<'a> {
+    /// The frame of the world: east, north, up; z = 0 at the still surface.
+    pub world: &'a str,
+    /// What stands before the names of a machine's links.
+    pub own: &'a str,
+}
+
+impl Names<'_> {
+    /// Frame of a link.
+    #[must_use]
+    pub fn frame(&self, link: &str) -> String {
+        format!("{}/{link}", self.own)
+    }
+}
 
 /// A pose as a transform.
-pub(super) fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> Transform {
+#[must_use]
+pub fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> Transform {
     Transform {
         t_ns,
         parent: parent.to_owned(),
@@ -23,17 +39,18 @@ pub(super) fn transform(t_ns: u64, parent: &str, child: String, pose: &Pose) -> 
     }
 }
 
-/// All that does not move: links of the URDFs, beams, and where gantries stand.
-pub(super) fn fixed(machine: &Machine) -> Vec<Transform> {
+/// All links of a machine but its slides, its altimeter's beam, and where a gantry stands; joints with drives at zero.
+#[must_use]
+pub fn fixed(machine: &Machine, names: &Names) -> Vec<Transform> {
     let mut all = Vec::new();
-    let name = |link: &str| machine.frame(link);
+    let name = |link: &str| names.frame(link);
     let root = name(&machine.description.root);
     let here = Pose {
         p_WB: Vector3::zeros(),
         R_WB: UnitQuaternion::identity(),
     };
     match &machine.base {
-        Some(base) => all.push(transform(0, MAP, root, base)),
+        Some(base) => all.push(transform(0, names.world, root, base)),
         None if machine.description.root != BODY => {
             all.push(transform(0, &name(BODY), root, &here));
         }
@@ -49,7 +66,8 @@ pub(super) fn fixed(machine: &Machine) -> Vec<Transform> {
             ));
         }
     }
-    if machine.altimeter_m.is_some() {
+    let sounds = |l: &LinkLook| l.name == "altimeter";
+    if machine.altimeter_m.is_some() && machine.description.links.iter().any(sounds) {
         // A range is along x, and the altimeter looks along the body's down axis.
         let down = UnitQuaternion::from_euler_angles(0.0, FRAC_PI_2, 0.0);
         let beam = Pose { R_WB: down, ..here };
@@ -64,11 +82,12 @@ pub(super) fn fixed(machine: &Machine) -> Vec<Transform> {
 }
 
 /// A gantry's slides at their positions, m.
-pub(super) fn slid(t_ns: u64, machine: &Machine, positions_m: &[f64]) -> Vec<Transform> {
+#[must_use]
+pub fn slid(t_ns: u64, machine: &Machine, names: &Names, positions_m: &[f64]) -> Vec<Transform> {
     let all = machine.slides.iter().zip(positions_m);
     all.filter_map(|(slide, position_m)| {
         let joint = (machine.description.joints.iter()).find(|j| j.joint == *slide)?;
-        let (parent, child) = (machine.frame(&joint.parent), machine.frame(&joint.child));
+        let (parent, child) = (names.frame(&joint.parent), names.frame(&joint.child));
         Some(transform(t_ns, &parent, child, &joint.slid(*position_m)))
     })
     .collect()
@@ -84,6 +103,15 @@ mod tests {
     use std::collections::BTreeMap;
     use std::path::Path;
     use world::physics::JointState;
+
+    const MAP: &str = "map";
+
+    fn names(machine: &Machine) -> Names<'_> {
+        Names {
+            world: MAP,
+            own: &machine.name,
+        }
+    }
 
     fn machine(scenario: &str) -> Machine {
         let path = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -121,8 +149,13 @@ mod tests {
             position_m,
             ..JointState::default()
         });
-        let mut all = fixed(&machine);
-        all.extend(slid(5, &machine, &joints.map(|j| j.position_m)));
+        let mut all = fixed(&machine, &names(&machine));
+        all.extend(slid(
+            5,
+            &machine,
+            &names(&machine),
+            &joints.map(|j| j.position_m),
+        ));
         let base = machine.base.unwrap();
         let head = in_map(&all, "crab0/head").p_WB;
         assert!((head - gantry.head_W(&base, &joints)).norm() < 1e-12);
@@ -140,7 +173,7 @@ mod tests {
     #[test]
     fn the_altimeter_s_beam_looks_down() {
         let machine = machine("harbour_3d.ron");
-        let mut all = fixed(&machine);
+        let mut all = fixed(&machine, &names(&machine));
         let level = Pose {
             p_WB: Vector3::new(1.0, 2.0, -3.0),
             R_WB: UnitQuaternion::identity(),

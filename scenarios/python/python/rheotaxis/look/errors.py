@@ -1,0 +1,5 @@
+"""What goes wrong in ways that a user can mend."""
+
+
+class LookError(Exception):
+    """A message for the user: what is wrong, where, and what to do."""

@@ -1,0 +1,135 @@
+//! Every topic, field and frame that a layout of `docs/layouts` names is in the recording of a run of its kind.
+
+mod recording;
+
+use crate::common::{mission, root, with_fields};
+use recording::Recording;
+use serde_json::Value;
+use std::collections::BTreeSet;
+use std::fs;
+
+/// What a layout names.
+#[derive(Debug, Default)]
+struct Named {
+    /// Topics that are drawn or listed, each with a colour field of its points.
+    topics: BTreeSet<(String, Option<String>)>,
+    /// Message paths of plots and state transitions.
+    paths: BTreeSet<String>,
+    /// Frames that a view follows, and beginnings of the names of links.
+    frames: BTreeSet<String>,
+}
+
+fn text(value: &Value) -> String {
+    value.as_str().expect("a text").to_owned()
+}
+
+/// Panels whose names stand in a tree of splits.
+fn placed(tree: &Value, into: &mut BTreeSet<String>) {
+    match tree {
+        Value::String(name) => drop(into.insert(name.clone())),
+        other => ["first", "second"]
+            .iter()
+            .for_each(|side| placed(&other[side], into)),
+    }
+}
+
+fn named(layout: &Value) -> Named {
+    let mut all = Named::default();
+    let panels = layout["configById"].as_object().expect("panels");
+    let mut shown = BTreeSet::new();
+    placed(&layout["layout"], &mut shown);
+    assert_eq!(shown, panels.keys().cloned().collect(), "panels and places");
+    for (name, panel) in panels {
+        match name.split('!').next().expect("a kind") {
+            "3D" => {
+                for (topic, settings) in panel["topics"].as_object().expect("topics") {
+                    let field = settings.get("colorField").map(text);
+                    all.topics.insert((topic.clone(), field));
+                }
+                for layer in panel["layers"].as_object().expect("layers").values() {
+                    match layer["layerId"].as_str() {
+                        Some("foxglove.Urdf") => {
+                            all.topics.insert((text(&layer["topic"]), None));
+                            let prefix = text(&layer["framePrefix"]);
+                            all.frames.insert(prefix);
+                        }
+                        Some("foxglove.Grid") => drop(all.frames.insert(text(&layer["frameId"]))),
+                        other => panic!("{name}: layer {other:?}"),
+                    }
+                }
+                all.frames.insert(text(&panel["followTf"]));
+            }
+            "Plot" | "StateTransitions" => {
+                let paths = panel["paths"].as_array().expect("paths");
+                // A number is a line at that height.
+                let paths = paths.iter().map(|p| text(&p["value"]));
+                all.paths
+                    .extend(paths.filter(|p| p.parse::<f64>().is_err()));
+            }
+            "RosOut" => drop(all.topics.insert((text(&panel["topicToRender"]), None))),
+            "Image" => {
+                let topic = text(&panel["imageMode"]["imageTopic"]);
+                all.topics.insert((topic, None));
+            }
+            other => panic!("{name}: no panel {other}"),
+        }
+    }
+    all
+}
+
+/// Runs a scenario of the catalogue, changed, and looks up what the layout names.
+fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
+    let read = |path: &str| fs::read_to_string(root().join(path)).expect("it is in the workspace");
+    let dir = tempfile::tempdir().expect("a folder");
+    let scenario = with_fields(&read(&format!("scenarios/catalog/{scenario}.ron")), fields);
+    mission(dir.path(), "s", &scenario);
+    let recording = Recording::read(&dir.path().join("s/run.mcap"));
+    let layout: Value =
+        serde_json::from_str(&read(&format!("docs/layouts/{layout}"))).expect("JSON");
+    let named = named(&layout);
+    assert!(named.topics.len() > 4 && named.paths.len() > 4, "{named:?}");
+    for (topic, field) in &named.topics {
+        let clouds = recording.messages(topic);
+        assert!(clouds > 0, "{topic} is not in {:#?}", recording.topics());
+        if let Some(field) = field {
+            let fields = recording.cloud_fields(topic);
+            assert!(
+                fields.contains(field),
+                "{topic} has {fields:?}, not {field}"
+            );
+        }
+    }
+    for path in &named.paths {
+        if let Err(why) = recording.resolves(path) {
+            panic!("{path}: {why}");
+        }
+    }
+    let frames = recording.frames();
+    for frame in &named.frames {
+        let known = match frame.strip_suffix('/') {
+            Some(_) => frames.iter().any(|f| f.starts_with(frame)),
+            None => frames.contains(frame),
+        };
+        assert!(known, "{frame} is not in {frames:#?}");
+    }
+}
+
+#[test]
+fn the_layout_of_a_vehicle_names_what_its_recording_holds() {
+    holds("auv.json", "uniform_channel", &[]);
+}
+
+#[test]
+fn the_layout_of_a_gantry_names_what_its_recording_holds() {
+    holds("gantry.json", "flume_crab", &[]);
+}
+
+#[test]
+fn the_layout_of_a_map_names_what_its_recording_holds() {
+    holds("map.json", "wp_laminar", &[]);
+}
+
+#[test]
+fn the_layout_of_a_survey_names_what_its_recording_holds() {
+    holds("survey.json", "eyes_over_source", &[]);
+}
