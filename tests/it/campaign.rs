@@ -7,6 +7,7 @@ mod keyed;
 mod permeable;
 mod plans;
 mod seeds;
+mod tracks;
 
 use crate::common::{self, timeless_rows as rows};
 use std::collections::BTreeMap;

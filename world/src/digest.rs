@@ -45,11 +45,22 @@ impl Digest {
     }
 
     /// Adds words in little-endian order on every machine. It hashes them in blocks, because hashing word by word would
-    /// cost more than the drift.
+    /// cost more than the drift; few words take a small block, because clearing a large one would cost more than them.
     fn words<T: Copy, const N: usize>(&mut self, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
-        const WORDS: usize = 256;
-        let mut block = [0_u8; WORDS * 8];
-        for chunk in values.chunks(WORDS) {
+        if values.len() <= 8 {
+            self.blocks::<T, N, 64>(values, bytes);
+        } else {
+            self.blocks::<T, N, 2048>(values, bytes);
+        }
+    }
+
+    fn blocks<T: Copy, const N: usize, const SIZE: usize>(
+        &mut self,
+        values: &[T],
+        bytes: impl Fn(T) -> [u8; N],
+    ) {
+        let mut block = [0_u8; SIZE];
+        for chunk in values.chunks(SIZE / 8) {
             for (place, v) in block.chunks_exact_mut(N).zip(chunk) {
                 place.copy_from_slice(&bytes(*v));
             }

@@ -202,6 +202,8 @@ pub(super) const REPORT_ABOUT: &str = "Compares the arms of a campaign, even if 
         - time, path and error with bootstrap intervals;\n\
         - curves over time of the share of runs that have not yet declared, and curves of the errors;\n\
         - differences between arms on the same seeds: better, worse, or not separable at this number of runs;\n\
+        - the tracks of the best, the median and the worst run of each of the first three arms; these runs are made \
+        anew;\n\
         - where the computing time went.\n\n\
         It is written as report.html, with figures as SVG and PNG and a CSV file for everything drawn.";
 
@@ -230,4 +232,16 @@ pub struct ReportArgs {
     /// Folder for the report [default: DIR/report].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Do not make runs anew to show their tracks.
+    #[arg(long)]
+    pub no_tracks: bool,
+    /// Runs at the same time; 0 means one on each core.
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub jobs: usize,
+    /// Show no progress.
+    #[arg(short, long)]
+    pub quiet: bool,
+    /// The key of the runs.
+    #[command(flatten)]
+    pub key: KeyArgs,
 }

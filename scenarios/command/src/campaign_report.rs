@@ -3,8 +3,9 @@
 use super::args_campaign::ReportArgs;
 use super::campaign::refused;
 use super::exit::Exit;
-use super::say;
-use studies::campaign::report::{About, write};
+use super::{say, stop};
+use indicatif::{ProgressBar, ProgressStyle};
+use studies::campaign::report::{About, Shown, picks, write};
 use studies::campaign::{Arm, Campaign, CampaignError, Manifest, RunRow, read_rows, wanted};
 
 /// Writes the report and prints its tables.
@@ -16,6 +17,11 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     let spec = &read.campaign.spec;
     let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
     let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
+    let shown = if args.no_tracks {
+        Vec::new()
+    } else {
+        tracks(args, &read, &arms)
+    };
     let about = About {
         name: &read.manifest.name,
         title: &spec.title,
@@ -27,6 +33,7 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
         seeds: &spec.seeds.words(),
         limit_s: Some(read.limit_s),
         planned: read.planned,
+        shown: &shown,
     };
     let out = args.out.clone().unwrap_or_else(|| args.dir.join("report"));
     match write(&out, &about, &read.rows) {
@@ -46,6 +53,31 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
             Exit::Error
         }
     }
+}
+
+/// Makes the runs anew whose tracks are shown. Ctrl-C leaves out those that have not begun.
+fn tracks(args: &ReportArgs, read: &Read, arms: &[String]) -> Vec<Shown> {
+    let mut campaign = read.campaign.clone();
+    campaign.key = args.key.get();
+    if let Err(error) = read.manifest.same_key(&campaign) {
+        eprintln!("no tracks are shown: {error}");
+        return Vec::new();
+    }
+    let picks = picks(arms, &read.rows);
+    let bar = if args.quiet {
+        ProgressBar::hidden()
+    } else {
+        ProgressBar::new(picks.len() as u64)
+    };
+    bar.set_style(
+        ProgressStyle::with_template("tracks: {pos} of {len} runs made anew [{bar:30}] {eta} left")
+            .expect("the template is well formed")
+            .progress_chars("=> "),
+    );
+    bar.tick();
+    let shown = campaign.films(picks, args.jobs, stop::listen(), &|| bar.inc(1));
+    bar.finish_and_clear();
+    shown
 }
 
 struct Read {

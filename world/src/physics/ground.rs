@@ -8,6 +8,7 @@ use crate::terrain::Terrain;
 use nalgebra::{UnitQuaternion, Vector3};
 use rapier3d::geometry::{Aabb, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
+use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::parry::utils::Array2;
 
 /// How far the bed's surface extends beyond the area, m: farther than the distance at which a search is aborted.
@@ -59,6 +60,11 @@ impl Fixed {
         };
         let scale = r::Vector::new(size.x, 1.0, size.y);
         Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
+    }
+
+    /// Whether it can have a part in a box.
+    pub(super) fn meets(&self, swept: &Aabb) -> bool {
+        self.bounds.intersects(swept)
     }
 
     /// Distance of `p_W` from it, m, 0 inside. Beyond `near_m` it may be less than that: the distance from its bounds.

@@ -11,7 +11,7 @@
 //! *Deviations:* a body on which no impulse acts is put where its own equation takes it. No contacts are searched while
 //! no body has anything in reach and there is no gantry; the result is the same to the last bit.
 
-use super::convert::pose;
+use super::convert::{pose, vector};
 use super::gantry::Gantry;
 use super::ground::Fixed;
 use super::rapier_alone::Twin;
@@ -22,6 +22,7 @@ use crate::obstacles::Obstacle;
 use crate::terrain::Terrain;
 use bevy_ecs::prelude::{Component, Resource};
 use nalgebra::{Matrix6, UnitQuaternion, Vector3};
+use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::prelude as r;
 
 /// Distance round a body's sphere within which contacts are searched, beyond its motion in two steps, m.
@@ -121,12 +122,21 @@ impl Body {
         self.reach_m + NEAR_M + way_m.max(2.0 * dt_s * self.truth.v_WB_B.norm())
     }
 
-    /// Whether anything fixed can matter in two steps. While the body stays in a sphere that is known to be clear,
+    /// A box that it does not leave in this step: its centre of mass goes straight, and it turns about it.
+    fn swept(&self) -> r::Aabb {
+        let start = vector(&self.truth.pose.p_WB);
+        let end = self.free.map_or(start, |free| vector(&free.pose.p_WB));
+        r::Aabb::new(start.min(end), start.max(end))
+            .loosened(self.reach_m + 2.0 * self.p_BG.norm() + NEAR_M)
+    }
+
+    /// Whether anything fixed can matter in this step. While the body stays in a sphere that is known to be clear,
     /// nothing is searched.
     fn is_near(&mut self, fixed: &[Fixed], dt_s: f64) -> bool {
         let (p, near_m) = (self.truth.pose.p_WB, self.near_m(dt_s));
         let (middle, radius_m) = self.clear;
-        if (p - middle).norm() + near_m < radius_m {
+        if (p - middle).norm() + near_m < radius_m || !fixed.iter().any(|f| f.meets(&self.swept()))
+        {
             return false;
         }
         let away = fixed.iter().map(|f| f.away_m(&p, near_m));

@@ -2,7 +2,7 @@
 
 use super::Follower;
 use crate::files::ReportError;
-use crate::report::{Figure, figures, write_all};
+use crate::report::{Figure, figures, film, write_all};
 use crate::results::{
     BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd,
     RunReport, SourceTruth, Summary, Totals, Track,
@@ -84,6 +84,12 @@ impl Gathered {
     #[must_use]
     pub fn figures(&self, ocean: &Ocean) -> Vec<Figure> {
         figures(&self.report(ocean))
+    }
+
+    /// The data of the [animation](crate::report::film) of the run; `None` if nothing moved.
+    #[must_use]
+    pub fn film(&self, ocean: &Ocean) -> Option<String> {
+        film(&self.report(ocean))
     }
 
     /// Writes summary, plume, figures and page into the folder, if there is one.

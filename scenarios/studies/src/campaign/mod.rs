@@ -1,5 +1,6 @@
 //! Thousands of seeded runs: planned, divided into blocks, run on any number of machines, and compared.
 
+mod again;
 mod block;
 mod columns;
 mod contained;

@@ -172,7 +172,8 @@ pub(super) fn differences(comparisons: &[Comparison]) -> String {
             .collect();
         let values = entries.iter().filter_map(|e| e.value);
         let ends = values.flat_map(|(v, i)| [v, i.low, i.high]).chain([0.0]);
-        let x = range_of(ends, 0.06).unwrap_or([-1.0, 1.0]);
+        let known = range_of(ends, 0.06).filter(|[low, high]| high - low > 1e-6);
+        let x = known.unwrap_or([-1.0, 1.0]);
         let label = format!("Difference in {} ({unit})", by.words());
         list(
             &mut c,

@@ -26,6 +26,7 @@ fn about(planned: u64) -> About<'static> {
         version: "0",
         arms: &[],
         planned,
+        shown: &[],
     }
 }
 

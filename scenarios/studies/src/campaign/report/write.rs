@@ -3,6 +3,7 @@
 use super::arms::{self, arm_names, of_arm};
 use super::page::Page;
 use super::text::align;
+use super::tracks::{self, Shown};
 use super::walls::Walls;
 use super::{curves, pairs, plots, reliability, tables};
 use crate::campaign::RunRow;
@@ -32,6 +33,8 @@ pub struct About<'a> {
     pub arms: &'a [String],
     /// Number of runs planned; if there are fewer rows, the report says that it shows a part.
     pub planned: u64,
+    /// The runs whose tracks are shown.
+    pub shown: &'a [Shown],
 }
 
 /// A report that was written.
@@ -210,6 +213,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         page.paragraph(&reliability::notes(&reliable));
         page.svg(&reliability::picture(&reliable, plots::colour));
     }
+    tracks::section(&mut page, about.shown, names.len());
     page.heading("Where the time goes");
     page.paragraph(&walls);
     if let Some(error) = &first_error {
