@@ -93,6 +93,15 @@ def test_a_recording_is_saved_for_the_viewer(run, tmp_path, capsys):
     assert "Missing" not in capsys.readouterr().err
 
 
+def test_pictures_of_a_camera_are_drawn_and_rerun_complains_of_nothing(tmp_path, capfd):
+    eyes = rheotaxis.Scenario.load("moth_eyes").with_({"time.spin_up_s": 60, "time.limit_s": 20})
+    rheotaxis.run(eyes, seed=1, files=str(tmp_path / "run"))
+    assert any(isinstance(e, events.Picture) for e in heard(tmp_path / "run"))
+    capfd.readouterr()
+    assert main([str(tmp_path / "run"), "--save", str(tmp_path / "run.rrd")]) == 0
+    assert "Warning" not in capfd.readouterr().err
+
+
 def test_a_recording_that_is_cut_off_is_shown_as_far_as_it_goes(run, tmp_path, capsys):
     for share in (0.3, 0.6, 0.95):
         cut(run / "run.mcap", tmp_path / "cut.mcap", share)

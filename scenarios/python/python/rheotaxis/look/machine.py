@@ -194,7 +194,8 @@ class Machine:
         if e.position is not None:
             at = e.position if e.mounted else self.scene.local(e.position)
             self.canvas.at(e.t_s, path, rr.Transform3D(translation=at, quaternion=e.quaternion))
-        focal = 0.5 * width / np.tan(0.5 * view)
+        # A number of NumPy's is none to Rerun.
+        focal = float(0.5 * width / np.tan(0.5 * view))
         lens = rr.Pinhole(
             focal_length=focal, width=width, height=height, image_plane_distance=1.5, camera_xyz=rr.ViewCoordinates.RDF
         )

@@ -186,7 +186,7 @@ mod tests {
             error: Some("panicked".to_string()),
             ..row(7, None)
         };
-        assert_eq!(picks(&[], &[broken.clone()]), []);
+        assert_eq!(picks(&[], std::slice::from_ref(&broken)), []);
         let one = runs(&picks(&[], &[broken, row(1, None)]));
         assert_eq!(one, [(Rank::Best, 1)]);
         let two = runs(&picks(&[], &[row(1, None), row(2, Some((1.0, 1.0)))]));
