@@ -94,7 +94,7 @@ def test_a_recording_is_saved_for_the_viewer(run, tmp_path, capsys):
 
 
 def test_pictures_of_a_camera_are_drawn_and_rerun_complains_of_nothing(tmp_path, capfd):
-    eyes = rheotaxis.Scenario.load("moth_eyes").with_({"time.spin_up_s": 60, "time.limit_s": 20})
+    eyes = rheotaxis.Scenario.load("inspect_places").with_({"time.spin_up_s": 60, "time.limit_s": 200})
     rheotaxis.run(eyes, seed=1, files=str(tmp_path / "run"))
     assert any(isinstance(e, events.Picture) for e in heard(tmp_path / "run"))
     capfd.readouterr()
