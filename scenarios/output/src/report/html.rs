@@ -17,7 +17,8 @@ th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.6em}\
 figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}td,th,p{overflow-wrap:anywhere}\
 @media(max-width:600px){body{font-size:14px;margin:1em auto;padding:0 .7em}table.facts td,table.facts th{display:block;padding-right:0}\
-table:not(.facts){display:block;overflow-x:auto}pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
+table:not(.facts){display:block;overflow-x:auto}table:not(.facts) :is(td,th){overflow-wrap:normal}\
+pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
 @media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
 h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
 pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}\
