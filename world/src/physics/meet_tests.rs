@@ -1,7 +1,7 @@
 //! Bodies of every shape, thrown at random against solids of every shape.
 
 use super::convert::pose;
-use super::{BodySpec, Physics, Shape};
+use super::{BodySpec, Physics, Shape, Solver};
 use crate::area::Area;
 use crate::frames::{Pose, Truth};
 use crate::seeds::Stream;
@@ -179,6 +179,56 @@ fn no_shape_passes_the_bed() {
             assert!(touched, "shape {k}, throw {n}");
         }
     }
+}
+
+/// Steps in which no contact is searched, because nothing fixed is in reach, are the same to the last bit as with the
+/// search: past bed and wall, in short steps and in long ones, and with a centre of mass that is not the origin.
+#[test]
+fn steps_without_a_search_are_those_with_one() {
+    let area = Area {
+        centre: Vector2::zeros(),
+        length_m: 100.0,
+        width_m: 100.0,
+        axis: Heading::from_deg(30.0),
+    };
+    let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 8.0, 9.0);
+    let mut rng = Stream::new(10, "meet", "skipped");
+    let (mut touched, mut free) = (0, 0);
+    for shape in shapes() {
+        for n in 0..16 {
+            let step_s = [0.02, 0.1, 1.0][n % 3];
+            let start = Vector3::new(3.0 * rng.normal(), 3.0 * rng.normal(), -5.0);
+            let v = Vector3::from_fn(|_, _| 1.5 * rng.normal());
+            let spec = BodySpec {
+                p_BG: Vector3::from_fn(|_, _| 0.2 * rng.normal()),
+                ..thrown(&mut rng, shape.clone(), start, v)
+            };
+            let [mut skipping, mut always] = [Solver::WhenInReach, Solver::Always].map(|solver| {
+                let mut physics = Physics::new(step_s).with_solver(solver);
+                physics.add_terrain(&terrain, &area);
+                let at = Pose::level(Vector3::new(4.0, 0.0, -5.0), Heading::from_deg(20.0));
+                physics.add_fixed(&at, SharedShape::cuboid(1.0, 3.0, 2.0));
+                (physics.add_body(spec.clone()), physics)
+            });
+            for _ in 0..(6.0 / step_s) as u64 {
+                for (_, physics) in [&mut skipping, &mut always] {
+                    physics.step();
+                }
+                let [a, b] = [&skipping, &always].map(|(id, p)| (p.truth(*id), p.contacts(*id)));
+                assert_eq!(a, b, "{shape:?}, throw {n}, steps of {step_s} s");
+                let count = if a.1.touching {
+                    &mut touched
+                } else {
+                    &mut free
+                };
+                *count += 1;
+            }
+        }
+    }
+    assert!(
+        touched > 50 && free > 1000,
+        "{touched} touched, {free} free"
+    );
 }
 
 /// Five bodies thrown together: momentum is exchanged, not made.
