@@ -115,7 +115,12 @@ fn paths_are_free_for_the_inflated_hull_in_ten_thousand_random_worlds() {
         };
         let (p_W, goal) = (place(), place());
         let heading = Heading::from_deg(360.0 * rng.uniform());
-        let Ok(path) = planner.plan(&room, &From { p_W, heading }, &goal) else {
+        let start = From {
+            p_W,
+            heading,
+            turning_radius_m: 0.0,
+        };
+        let Ok(path) = planner.plan(&room, &start, &goal) else {
             assert!(
                 (0..room.lattice().len()).all(|c| !room.free(c)),
                 "world {world}"

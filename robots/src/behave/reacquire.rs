@@ -10,7 +10,8 @@
 //! and closing turns ("a clockwise turn ... radius of at least 5.0 m. Therefore ... at least 13 m"), so a line spans
 //! half_width - 2 turn_radius = 3 m on either side of the centre and is 2 · 3 / sin 15° = 23 m long. `turn_radius_m:
 //! 0` gives the other reading: the lines alone span 13 m and are 100 m long. The turns themselves are how the
-//! guidance reaches the next line's start. The ends of a line are held 10 m inside the area. With N_re = 1 the bowtie
+//! guidance reaches the next line's start. A line is at least as long as the vehicle's turning circle is wide, so that
+//! a hull that turns wider than a REMUS has straight water to search, too. The ends of a line are held 10 m inside the area. With N_re = 1 the bowtie
 //! is centred on the point.
 
 use super::catalogue::BehaviourParams;
@@ -137,10 +138,11 @@ impl Bowtie {
         side: Side,
         seen: &Observation,
     ) -> (Vector2<f64>, Vector2<f64>) {
+        let half_m = self.half_length_m.max(seen.able.turning_radius_m);
         let half = up_flow
             .turned(side.other().sign() * self.angle_rad)
             .unit()
-            .scale(self.half_length_m);
+            .scale(half_m);
         (
             inside(&seen.area, centre - half, MARGIN_M),
             inside(&seen.area, centre + half, MARGIN_M),
@@ -216,10 +218,21 @@ mod tests {
 
     /// All lines until the end, for a vehicle that stays at `east`.
     fn lines(params: &Params, norths: &[f64], east: f64) -> Vec<(Vector2<f64>, Vector2<f64>)> {
+        lines_of(11.5, params, norths, east)
+    }
+
+    /// The same for a hull that turns on circles of `radius_m`.
+    fn lines_of(
+        radius_m: f64,
+        params: &Params,
+        norths: &[f64],
+        east: f64,
+    ) -> Vec<(Vector2<f64>, Vector2<f64>)> {
         let mut b = Bowtie::new(params).expect("legal");
         let mut m = memory(norths);
         let mut rng = Stream::new(1, "t", "t");
-        let o = seen(0.0, Vector2::new(east, 0.0), 0.0, None);
+        let mut o = seen(0.0, Vector2::new(east, 0.0), 0.0, None);
+        o.able.turning_radius_m = radius_m;
         b.enter(&o, &m);
         let mut found = Vec::new();
         loop {
@@ -249,6 +262,21 @@ mod tests {
         }
         let from_left = lines(&Params::default(), &[0.0], -18.0);
         assert!((from_left[0].0 - Vector2::new(-3.0, 10.0 - half_m)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn lines_are_as_long_as_a_wide_turning_circle() {
+        let length = |radius_m: f64| {
+            let (from, to) = lines_of(radius_m, &Params::default(), &[0.0], 18.0)[0];
+            // The angle to up-flow stays.
+            assert!((Heading::of(to - from).deg() - 345.0).abs() < 1e-9);
+            (to - from).norm()
+        };
+        let paper_m = 6.0 / math::sin(15f64.to_radians());
+        for radius_m in [0.0, 11.5] {
+            assert!((length(radius_m) - paper_m).abs() < 1e-9, "{radius_m}");
+        }
+        assert!((length(45.0) - 90.0).abs() < 1e-9);
     }
 
     #[test]

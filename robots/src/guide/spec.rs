@@ -39,6 +39,16 @@ pub struct GuidanceSpec {
     pub abort_outside_m: Positive,
 }
 
+impl GuidanceSpec {
+    /// Radius of the tightest turn of a vehicle that follows the commanded heading, m: that of its greatest speed and
+    /// rate, or the planned one if that is less.
+    #[must_use]
+    pub fn tightest_turn_m(&self) -> f64 {
+        let rate_rad_s = self.heading_rate_deg_s.get().to_radians();
+        (self.water_speed_limit_m_s.get() / rate_rad_s).min(self.turn_radius_m.get())
+    }
+}
+
 impl Default for GuidanceSpec {
     fn default() -> Self {
         Self {

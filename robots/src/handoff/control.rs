@@ -225,7 +225,7 @@ impl Default for Capabilities {
         Self {
             least_speed_m_s: 0.8,
             top_speed_m_s: 2.5,
-            turning_radius_m: 15.0,
+            turning_radius_m: 11.5,
             hovers: false,
             sideways: false,
             dives: true,

@@ -27,6 +27,11 @@ pub struct TorpedoSpec {
     pub design_speed_m_s: Positive,
     /// Greatest commanded turn rate, degrees/s.
     pub heading_rate_deg_s: Positive,
+    /// Radius of its tightest turn, m, for searchers and guidance; without it, that of design speed and turn rate.
+    /// `rheotaxis vehicle trials` measures it.
+    #[serde(deserialize_with = "world::limits::turn_m")]
+    #[schemars(transform = world::limits::schema::turn_m)]
+    pub turn_radius_m: Option<Positive>,
     /// Greatest commanded pitch, degrees.
     pub pitch_limit_deg: Positive,
     /// Natural frequency of the closed pitch loop, rad/s.
@@ -40,6 +45,7 @@ impl Default for TorpedoSpec {
         Self {
             design_speed_m_s: Positive::new(1.5),
             heading_rate_deg_s: Positive::new(10.0),
+            turn_radius_m: None,
             pitch_limit_deg: Positive::new(15.0),
             pitch_rad_s: Positive::new(1.7),
             heading_rad_s: Positive::new(0.5),
@@ -111,6 +117,11 @@ pub struct GliderSpec {
     pub volume_share: Positive,
     /// Greatest commanded turn rate, degrees/s.
     pub heading_rate_deg_s: Positive,
+    /// Radius of its tightest turn, m, for searchers and guidance; without it, that of glide and turn rate.
+    /// `rheotaxis vehicle trials` measures it.
+    #[serde(deserialize_with = "world::limits::turn_m")]
+    #[schemars(transform = world::limits::schema::turn_m)]
+    pub turn_radius_m: Option<Positive>,
 }
 
 impl Default for GliderSpec {
@@ -122,6 +133,7 @@ impl Default for GliderSpec {
             pitch_deg: Positive::new(25.0),
             volume_share: Positive::new(1.0),
             heading_rate_deg_s: Positive::new(3.0),
+            turn_radius_m: None,
         }
     }
 }

@@ -4,7 +4,8 @@
 //! *Source*: Wang & Pang, section II-D, eq. 7-9; Hart, Nilsson & Raphael 1968, IEEE Trans. Syst. Sci. Cybern. 4, 100.
 //!
 //! *Parameters*: `cost`, `Metric` or `Paper` (1000 in an obstacle cell, none elsewhere, Manhattan h, five moves); for
-//! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5); the share added to the cost beside
+//! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5), or the vehicle's own if that is
+//! greater; the share added to the cost beside
 //! a solid, `clearance_weight`, 2, which falls to zero at `clearance_m`, m, 4; the cost of a metre up or down in
 //! horizontal metres, `climb`, 3 (a REMUS climbs at less than 20°).
 //!
@@ -43,7 +44,7 @@ pub enum Cost {
 pub struct Params {
     /// Which costs.
     pub cost: Cost,
-    /// Turning radius for which the path is smoothed, m.
+    /// Turning radius for which the path is smoothed, m; the vehicle's own if that is greater.
     #[serde(deserialize_with = "world::limits::turn_m")]
     #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
@@ -166,10 +167,11 @@ impl Planner for AStar {
             Reach::Nearest((points[points.len() - 1] - end).norm())
         };
         let pulled = smooth::pull(room, &self.costs, &points);
+        let radius_m = self.turn_radius_m.max(own.turning_radius_m);
         let (mut points, tightest_m) = if e.leaves_solid {
             (pulled, 0.0)
         } else {
-            smooth::round(room, &own, &pulled, self.turn_radius_m)
+            smooth::round(room, &own, &pulled, radius_m)
         };
         if e.leaves_solid {
             points.insert(0, own.p_W);

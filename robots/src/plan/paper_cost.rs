@@ -172,6 +172,7 @@ mod tests {
         From {
             p_W: Vector3::new(x, y, -4.0),
             heading: Heading::from_deg(deg),
+            turning_radius_m: 0.0,
         }
     }
 

@@ -19,6 +19,8 @@ pub struct From {
     pub p_W: Vector3<f64>,
     /// Direction of motion.
     pub heading: Heading,
+    /// Radius of the vehicle's tightest turn, m.
+    pub turning_radius_m: f64,
 }
 
 /// How far a path leads.

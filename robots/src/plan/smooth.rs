@@ -245,6 +245,7 @@ mod tests {
         let start = From {
             p_W: at(10.0, 10.0),
             heading: Heading::from_deg(0.0),
+            turning_radius_m: 0.0,
         };
         let (path, tightest) = round(
             &open,
@@ -274,6 +275,7 @@ mod tests {
         let start = From {
             p_W: at(40.0, 40.0),
             heading: Heading::from_deg(0.0),
+            turning_radius_m: 0.0,
         };
         let legs = [at(40.0, 40.0), at(40.0, 5.0)];
         let open = room([80, 80, 1], [1.0; 3], vec![]);

@@ -13,6 +13,7 @@ fn from(x: f64, y: f64, z: f64) -> From {
     From {
         p_W: Vector3::new(x, y, z),
         heading: Heading::from_deg(270.0),
+        turning_radius_m: 0.0,
     }
 }
 

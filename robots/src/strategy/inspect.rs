@@ -28,8 +28,6 @@ use world::seeds::Stream;
 
 /// The survey begins within this distance of a place, m: room for a turn before the first line.
 const NEAR_M: f64 = 40.0;
-/// Most pictures over a point.
-const MOST_HELD: u32 = 50;
 /// Rule name of the declarations.
 const TOLD: &str = "told";
 
@@ -41,19 +39,12 @@ pub struct InspectSpec {
     pub places: Vec<ToldSpec>,
     /// How each is surveyed.
     pub survey: SurveySpec,
-    /// Pictures that a vehicle that hovers takes over each point that it holds, from 1 to 50. Others fly lines.
-    #[serde(default = "held_pictures")]
-    pub held_pictures: u32,
     /// Speed over ground, m/s.
     #[serde(default = "speed")]
     pub speed_m_s: Positive,
     /// Altitude or depth between the places.
     #[serde(default = "vertical")]
     pub vertical: VerticalSpec,
-}
-
-fn held_pictures() -> u32 {
-    10
 }
 
 fn speed() -> Positive {
@@ -128,19 +119,13 @@ impl Inspect {
             });
         }
         spec.survey.check("strategy.survey")?;
-        if !(1..=MOST_HELD).contains(&spec.held_pictures) {
-            return Err(RobotError::Invalid {
-                field: "strategy.held_pictures".into(),
-                problem: format!("must be from 1 to {MOST_HELD}, got {}", spec.held_pictures),
-            });
-        }
         let place = |p: &ToldSpec| Vector2::new(p.east_m.get(), p.north_m.get());
         let vertical = spec.vertical.into();
         let after = AfterDeclaration::Survey(Box::new(spec.survey.clone()));
         Ok(Self {
             places: spec.places.iter().map(place).collect(),
             vertical,
-            post: PostDeclaration::new(&after)?.held(spec.held_pictures),
+            post: PostDeclaration::new(&after)?.told(),
             now: 0,
             surveying: false,
             goal: Goal::none_yet(vertical, spec.speed_m_s.get()),
@@ -259,7 +244,6 @@ mod tests {
                 verify: Verify::Camera,
                 ..SurveySpec::default()
             },
-            held_pictures: held_pictures(),
             speed_m_s: speed(),
             vertical: vertical(),
         }
@@ -309,10 +293,15 @@ mod tests {
     fn without_places_or_with_parts_that_contradict_each_other_it_is_refused() {
         let none = Inspect::new(&spec(&[])).unwrap_err().to_string();
         assert_eq!(none, "strategy.places: must have at least 1 place, got 0");
-        let mut none = spec(&[[0.0, 0.0]]);
-        none.held_pictures = 0;
-        let said = Inspect::new(&none).unwrap_err().to_string();
-        assert_eq!(said, "strategy.held_pictures: must be from 1 to 50, got 0");
+        let mut many = spec(&[[0.0, 0.0]]);
+        if let Some(c) = &mut many.survey.camera {
+            c.held_pictures = 51;
+        }
+        let said = Inspect::new(&many).unwrap_err().to_string();
+        assert_eq!(
+            said,
+            "strategy.survey.camera.held_pictures: must be from 0 to 50, got 51"
+        );
         let mut blind = spec(&[[0.0, 0.0]]);
         blind.survey.camera = None;
         let said = Inspect::new(&blind).unwrap_err().to_string();

@@ -64,7 +64,7 @@ impl Craft {
         }
     }
 
-    /// What it can do; `turn_radius_m` is that of the guidance, which a REMUS is held to.
+    /// What it can do; `turn_radius_m` is that of a REMUS under its guidance.
     #[must_use]
     pub fn capabilities(&self, turn_radius_m: f64) -> Capabilities {
         let swims = |least_speed_m_s, top_speed_m_s, turning_radius_m| Capabilities {

@@ -25,7 +25,7 @@ pub struct EnergySpec {
     pub hotel_w: NonNegative,
 }
 
-/// 1 kWh, as in the REMUS 100 (Allen et al., OCEANS 1997); a hotel load of our own.
+/// Both are ours: about what a vehicle of the REMUS's size carries and takes.
 impl Default for EnergySpec {
     fn default() -> Self {
         Self {

@@ -4,13 +4,13 @@
 //! vehicle can make, those that end in a collision are excluded, and of the others the one nearest to the wish is
 //! taken.
 //!
-//! *Parameters*: turning radius, m; distance looked ahead, m; time for which it backs off, s, and propeller speed,
+//! *Parameters*: turning radius, m, or the vehicle's own if that is greater; distance looked ahead, m; time for which it backs off, s, and propeller speed,
 //! rpm.
 //!
 //! *Deviations*: the motions are turns on the turning circle to a course, then straight on; speed is not chosen. A
 //! vehicle that does not move although it should backs off: propeller astern, rudder amidships.
 
-use crate::handoff::{Manoeuvre, Observation};
+use crate::handoff::{Capabilities, Manoeuvre, Observation};
 use crate::plan::Room;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
@@ -27,7 +27,7 @@ const HELD: (f64, f64) = (0.25, 3.0);
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EvadeSpec {
-    /// Turning radius, m.
+    /// Turning radius, m; the vehicle's own if that is greater.
     #[serde(deserialize_with = "world::limits::turn_m")]
     #[schemars(transform = world::limits::schema::turn_m)]
     pub turn_radius_m: Positive,
@@ -54,6 +54,13 @@ impl Default for EvadeSpec {
     }
 }
 
+/// The ways that are tried: turns of this radius, m, and how far they are looked along, m.
+#[derive(Clone, Copy, Debug)]
+struct Ways {
+    radius_m: f64,
+    look_m: f64,
+}
+
 /// State.
 #[derive(Clone, Debug)]
 pub(super) struct Evade {
@@ -73,26 +80,28 @@ impl Evade {
         }
     }
 
-    /// Turning radius, m.
-    pub(super) fn turn_radius_m(&self) -> f64 {
-        self.spec.turn_radius_m.get()
+    /// Turning radius of a vehicle, m.
+    pub(super) fn turn_radius_m(&self, able: &Capabilities) -> f64 {
+        self.spec.turn_radius_m.get().max(able.turning_radius_m)
     }
 
-    /// The course nearest to `wish` that is free as far as it looks, from `at` (ENU, m) moving along `heading`; if
-    /// none is free, the one that is free for longest.
+    /// The course nearest to `wish` that is free as far as it looks, from `at` (ENU, m) moving along `heading`, with
+    /// turns of `radius_m`; if none is free, the one that is free for longest.
     pub(super) fn course(
         &self,
         room: &Room,
         at: &Vector3<f64>,
         heading: Heading,
         wish: Heading,
+        radius_m: f64,
     ) -> Heading {
-        let look_m = self.look_m(room);
+        let look_m = self.look_m(room, radius_m);
+        let ways = Ways { radius_m, look_m };
         let mut best = (0.0, wish);
         for k in 0..=12 {
             for side in [1.0, -1.0] {
                 let course = wish.turned(side * f64::from(k) * STEP_RAD);
-                let far_m = self.free_m(room, at, heading, course, look_m);
+                let far_m = self.free_m(room, at, heading, course, ways);
                 if far_m >= look_m {
                     return course;
                 }
@@ -105,10 +114,10 @@ impl Evade {
     }
 
     /// How far it looks, m: no farther than the vehicle needs to turn round and leave the room.
-    fn look_m(&self, room: &Room) -> f64 {
+    fn look_m(&self, room: &Room, radius_m: f64) -> f64 {
         let g = room.lattice();
         let across_m: f64 = (0..2).map(|a| g.n[a] as f64 * g.cell_m[a]).sum();
-        let round_m = std::f64::consts::PI * self.spec.turn_radius_m.get();
+        let round_m = std::f64::consts::PI * radius_m;
         self.spec.look_m.get().min(across_m + round_m)
     }
 
@@ -119,13 +128,13 @@ impl Evade {
         at: &Vector3<f64>,
         heading: Heading,
         course: Heading,
-        look_m: f64,
+        Ways { radius_m, look_m }: Ways,
     ) -> f64 {
         let clear_m = |p: &Vector3<f64>| room.clearance_m(room.nearest_cell(p));
         // Where it is already too near, it may come no nearer.
         let least_m = self.hull_m.min(clear_m(at));
         let step_m = 0.5 * room.narrowest_m();
-        let most = step_m / self.spec.turn_radius_m.get();
+        let most = step_m / radius_m;
         let (mut p, mut now, mut far_m) = (*at, heading, 0.0);
         while far_m < look_m {
             let turn = now.turn_to(course).clamp(-most, most);
@@ -181,13 +190,14 @@ mod tests {
     fn a_free_course_is_kept_and_a_pile_ahead_is_passed_clear() {
         let north = Heading::from_deg(0.0);
         let open = room([80, 80, 1], [1.0; 3], vec![]);
-        assert_eq!(evade().course(&open, &at(40.0, 10.0), north, north), north);
+        let straight = evade().course(&open, &at(40.0, 10.0), north, north, 12.0);
+        assert_eq!(straight, north);
         let pile = vec![block("p", 40.5, 40.0, [3.0, 3.0, 8.0])];
         let r = room([80, 80, 1], [1.0; 3], pile);
         let (mut p, mut h, mut nearest) = (at(40.0, 15.0), north, f64::INFINITY);
         // A vehicle that turns no tighter than its circle, and wants to go straight on.
         for _ in 0..400 {
-            let course = evade().course(&r, &p, h, north);
+            let course = evade().course(&r, &p, h, north, 12.0);
             let most = 0.1 / 12.0;
             h = h.turned(h.turn_to(course).clamp(-most, most));
             let d = h.unit() * 0.1;
@@ -210,8 +220,35 @@ mod tests {
             block("w", 30.0, 40.0, [4.0, 40.0, 8.0]),
         ];
         let r = room([80, 80, 1], [1.0; 3], walls);
-        let course = evade().course(&r, &at(38.0, 42.0), north, Heading::from_deg(-10.0));
+        let wish = Heading::from_deg(-10.0);
+        let course = evade().course(&r, &at(38.0, 42.0), north, wish, 12.0);
         assert!((60.0..180.0).contains(&course.deg()), "{course:?}");
+    }
+
+    /// A hull that turns wider than the setting begins its turn earlier, and the setting is the least.
+    #[test]
+    fn a_vehicle_that_turns_wider_turns_away_earlier() {
+        let north = Heading::from_deg(0.0);
+        let wall = vec![block("n", 40.0, 62.0, [80.0, 4.0, 8.0])];
+        let r = room([80, 80, 1], [1.0; 3], wall);
+        let spec = EvadeSpec {
+            look_m: Positive::new(60.0),
+            ..EvadeSpec::default()
+        };
+        let evade = Evade::new(spec, 0.8);
+        let able = |turning_radius_m| Capabilities {
+            turning_radius_m,
+            ..Capabilities::default()
+        };
+        let radii = [4.0, 12.0, 30.0].map(|m| evade.turn_radius_m(&able(m)));
+        assert_eq!(radii, [12.0, 12.0, 30.0]);
+        let turned = |y: f64, radius_m: f64| {
+            let course = evade.course(&r, &at(40.0, y), north, Heading::from_deg(60.0), radius_m);
+            north.turn_to(course).abs().to_degrees()
+        };
+        // The wall begins at 60. A turn of 12 m to 60 degrees and the rest of 60 m end at 54, those of 30 m at 60.3.
+        let (tight, wide) = (turned(20.0, 12.0), turned(20.0, 30.0));
+        assert!(tight < wide, "{tight} {wide}");
     }
 
     #[test]

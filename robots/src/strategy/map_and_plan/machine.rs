@@ -175,7 +175,7 @@ impl MapAndPlan {
             return;
         }
         let leg = Manoeuvre::Course {
-            course: self.pilot.clear(&seen.estimate, course),
+            course: self.pilot.clear(seen, course),
         };
         if self.goal.manoeuvre != leg {
             self.steer_by(leg, None, true);

@@ -192,6 +192,7 @@ impl Pilot {
             let start = From {
                 p_W: at,
                 heading: moving(&seen.estimate),
+                turning_radius_m: seen.able.turning_radius_m,
             };
             let path = self
                 .planner
@@ -215,10 +216,11 @@ impl Pilot {
             self.revision = self.room.revision().clone();
         }
         let steer = steer.expect("there is a path: it was just planned if there was none");
-        let course = self.clear(&seen.estimate, steer.course);
+        let course = self.clear(seen, steer.course);
         // A destination within the turning circle that cannot be approached without a collision will not be reached
         // any better.
-        let near = (wish - at).xy().norm() < self.evade.as_ref().map_or(0.0, Evade::turn_radius_m);
+        let circle_m = (self.evade.as_ref()).map_or(0.0, |e| e.turn_radius_m(&seen.able));
+        let near = (wish - at).xy().norm() < circle_m;
         let turned_away = near && course != steer.course;
         Steering {
             course,
@@ -229,10 +231,11 @@ impl Pilot {
     }
 
     /// The course nearest to `wish` that is free.
-    pub(super) fn clear(&self, est: &Estimate, wish: Heading) -> Heading {
-        let evade = self.evade.as_ref();
+    pub(super) fn clear(&self, seen: &Observation, wish: Heading) -> Heading {
+        let (evade, est) = (self.evade.as_ref(), &seen.estimate);
         evade.map_or(wish, |e| {
-            e.course(&self.room, &est.p_WB(), moving(est), wish)
+            let radius_m = e.turn_radius_m(&seen.able);
+            e.course(&self.room, &est.p_WB(), moving(est), wish, radius_m)
         })
     }
 

@@ -21,7 +21,7 @@ use crate::handoff::{Observation, PictureEvidence};
 use crate::places::{MARGIN_M, inside};
 use crate::vision::Verifier;
 use crate::vision::place::{AddUpSpec, Answer, Place, SeenClarity, Stand, Weighed};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use std::collections::VecDeque;
 use std::f64::consts::FRAC_PI_2;
 use world::math;
@@ -32,6 +32,8 @@ const BED: usize = 81;
 /// Pictures are taken as far before and behind the told place as a source may be, and this much farther, m: the
 /// template's reach and half a picture.
 const FARTHER_M: f64 = 4.5;
+/// A camera whose axis leads down by less than this share of its length (30°) shows no bed to stand off from.
+const STEEP: f64 = 0.5;
 /// Distance between strips that are compared, m; a strip is as wide as this share of what a picture shows.
 const STRIPS_M: f64 = 0.25;
 const STRIP: f64 = 0.7;
@@ -99,6 +101,8 @@ pub(super) struct Added {
     /// How far the vehicle came below the clearance, m.
     raised_m: f64,
     view_rad: f64,
+    /// Where the camera's axis meets the bed, for each metre of height, ahead and to the left.
+    looks_at: Vector2<f64>,
 }
 
 impl Added {
@@ -119,6 +123,7 @@ impl Added {
             lowest_m: highest_m,
             raised_m: 0.0,
             view_rad: FRAC_PI_2,
+            looks_at: Vector2::zeros(),
         }
     }
 
@@ -201,6 +206,10 @@ impl Added {
         };
         if let Some(place) = &mut self.place {
             self.view_rad = picture.view_rad;
+            let axis = picture.R_BC * Vector3::z();
+            if -axis.z > STEEP {
+                self.looks_at = axis.xy() / -axis.z;
+            }
             // A picture that says nothing is counted by the place.
             let _ = place.add(picture, &stand);
             self.weighed = Some(place.weigh());
@@ -234,7 +243,11 @@ impl Added {
         let unseen = self.place.as_ref().map_or_else(Vec::new, Place::unseen);
         let within_m = self.spec.within_m.get() + FARTHER_M;
         let best = best_point(&unseen, self.middle(), within_m, self.shown_m());
-        Some(inside(&seen.area, best + self.jumped, MARGIN_M))
+        // A camera that looks ahead shows the point from farther back.
+        let left = self.along.turned(-FRAC_PI_2).unit();
+        let ahead = self.along.unit() * self.looks_at.x + left * self.looks_at.y;
+        let stand = best - ahead * self.altitude_m;
+        Some(inside(&seen.area, stand + self.jumped, MARGIN_M))
     }
 
     /// How far to the side a picture from the present altitude shows the bed well, m.
@@ -359,6 +372,19 @@ mod tests {
             );
             assert!((added.middle() - Vector2::new(10.0 - mean, 20.0)).norm() < 1e-12);
         }
+    }
+
+    /// A camera that looks ahead by 30° from straight down is held that much farther back.
+    #[test]
+    fn points_are_held_where_the_camera_shows_them() {
+        let (mut added, o) = begun(2.0);
+        let below = added.next_point(&o).expect("a point");
+        assert!((below - Vector2::new(10.0, 20.0)).norm() < 1e-9, "{below}");
+        added.looks_at = Vector2::new(30f64.to_radians().tan(), 0.1);
+        let back = added.next_point(&o).expect("a point");
+        // Lines lie along north: ahead is north, left is west.
+        let want = below - Vector2::new(-0.2, 2.0 * 30f64.to_radians().tan());
+        assert!((back - want).norm() < 1e-9, "{back}");
     }
 
     #[test]

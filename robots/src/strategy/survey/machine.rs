@@ -10,9 +10,11 @@
 //! are towed at 10 to 20 %).
 //!
 //! *Deviations*: what is not printed is ours: the order, the rule; that pictures may be added up (`looks.rs`), which
-//! may leave it open whether there is a source; that a vehicle that hovers may hold over told places (`holds.rs`). Detections are ignored during a survey. A picture
-//! that verifies the source ends the camera's passes. If the declared place and the sidescan's differ, the
-//! declaration keeps its own and carries the other.
+//! may leave it open whether there is a source; that a vehicle that hovers holds over points (`holds.rs`) for pictures
+//! that are added up, or if the place was told. Where each picture is judged by itself and the place is as uncertain as
+//! a declared one, standing still would show less than a line, so that all vehicles fly lines. Detections are ignored
+//! during a survey. A picture that verifies the source ends the camera's passes. If the declared place and the
+//! sidescan's differ, the declaration keeps its own and carries the other.
 
 use super::holds::{Flown, Holding, Holds};
 use super::looks::Looks;
@@ -60,8 +62,8 @@ pub struct PostDeclaration {
     declaration: Option<Declaration>,
     along: Heading,
     flown: Flown,
-    /// Pictures over each point, if a vehicle that hovers holds over points; otherwise it flies lines.
-    held: Option<u32>,
+    /// Whether the places were told, and are not declared by the vehicle itself.
+    told: bool,
     /// The line being imaged and its picture.
     line: Option<(usize, Waterfall)>,
     objects: Vec<Object>,
@@ -89,7 +91,7 @@ impl PostDeclaration {
             declaration: None,
             along: Heading::from_deg(0.0),
             flown: Flown::nothing(),
-            held: None,
+            told: false,
             line: None,
             objects: Vec::new(),
             by_sidescan: None,
@@ -98,11 +100,10 @@ impl PostDeclaration {
         })
     }
 
-    /// The same for told places: a vehicle that hovers takes `pictures` over each point instead of flying lines for the
-    /// camera.
+    /// The same for told places, which are surer than declared ones.
     #[must_use]
-    pub(crate) fn held(mut self, pictures: u32) -> Self {
-        self.held = Some(pictures);
+    pub(crate) fn told(mut self) -> Self {
+        self.told = true;
         self
     }
 
@@ -177,10 +178,11 @@ impl PostDeclaration {
 
     /// How points are held; `None` if lines are flown for the camera.
     fn holding(&self, seen: &Observation) -> Option<Holding> {
-        let pictures = self.held.filter(|_| seen.able.hovers)?;
-        Some(Holding {
-            pictures,
-            period_s: self.spec()?.camera.as_ref()?.period_s.get(),
+        let camera = self.spec()?.camera.as_ref()?;
+        let worth = self.told || camera.add_up.is_some();
+        (seen.able.hovers && worth && camera.held_pictures > 0).then_some(Holding {
+            pictures: camera.held_pictures,
+            period_s: camera.period_s.get(),
             heading: self.along,
         })
     }

@@ -10,6 +10,8 @@ use world::ranges::{Finite, Positive};
 
 /// Most lines of either kind.
 const MOST_LINES: usize = 32;
+/// Most pictures over a point.
+const MOST_HELD: u32 = 50;
 
 /// What follows the declaration.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -109,6 +111,10 @@ pub struct CameraPasses {
     pub altitude_m: Positive,
     /// Time between two pictures, s.
     pub period_s: Positive,
+    /// Pictures that a vehicle that hovers takes over each point that it holds, up to 50: over the points that
+    /// `add_up` asks for, and over the middle of each line at a place that `Inspect` was told. Others fly lines; 0: all
+    /// do.
+    pub held_pictures: u32,
     /// When a picture shows a source.
     pub verifier: VerifierSpec,
     /// Adds up all pictures of the place instead; `offsets_m` and `verifier` are then not used, `altitude_m` is the
@@ -123,6 +129,7 @@ impl Default for CameraPasses {
             half_length_m: Positive::new(15.0),
             altitude_m: Positive::new(2.0),
             period_s: Positive::new(1.0),
+            held_pictures: 10,
             verifier: VerifierSpec::default(),
             add_up: None,
         }
@@ -182,6 +189,10 @@ impl SurveySpec {
         }
         match &self.camera {
             Some(c) => {
+                if c.held_pictures > MOST_HELD {
+                    let problem = format!("must be from 0 to {MOST_HELD}, got {}", c.held_pictures);
+                    return wrong("camera.held_pictures", problem);
+                }
                 c.verifier.check(&format!("{path}.camera.verifier"))?;
                 c.add_up.as_ref().map_or(Ok(()), |a| {
                     a.check(&format!("{path}.camera.add_up"), c.altitude_m.get())

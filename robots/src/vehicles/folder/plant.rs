@@ -14,6 +14,7 @@ use crate::handoff::{Capabilities, Does, PilotSpec, Plant, PlantDrive};
 use crate::vehicles::drives::{Drive, Fin, Kind};
 use crate::vehicles::dynamics::{Equation, turned};
 use nalgebra::{DMatrix, Vector3, Vector6};
+use world::ranges::Positive;
 use world::units::{GRAVITY_M_S2, SEA_WATER_KG_M3};
 
 /// Least share of the thrusters' summed force that counts as a push in a direction.
@@ -153,8 +154,11 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
         PilotSpec::Torpedo(spec) => Capabilities {
             least_speed_m_s: spec.least_speed_m_s(),
             top_speed_m_s,
-            turning_radius_m: spec.design_speed_m_s.get()
-                / spec.heading_rate_deg_s.get().to_radians(),
+            turning_radius_m: turning_m(
+                spec.turn_radius_m,
+                spec.design_speed_m_s.get(),
+                spec.heading_rate_deg_s,
+            ),
             hovers: false,
             sideways: false,
             dives: true,
@@ -165,7 +169,7 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
             Capabilities {
                 least_speed_m_s: 0.5 * speed,
                 top_speed_m_s: speed,
-                turning_radius_m: speed / spec.heading_rate_deg_s.get().to_radians(),
+                turning_radius_m: turning_m(spec.turn_radius_m, speed, spec.heading_rate_deg_s),
                 hovers: false,
                 sideways: false,
                 dives: true,
@@ -173,6 +177,11 @@ pub(super) fn capabilities(plant: &Plant, pilot: &PilotSpec) -> Capabilities {
             }
         }
     }
+}
+
+/// Radius of the tightest turn, m: as stated, or that of a speed, m/s, and the greatest rate.
+fn turning_m(stated: Option<Positive>, speed_m_s: f64, rate_deg_s: Positive) -> f64 {
+    stated.map_or(speed_m_s / rate_deg_s.get().to_radians(), Positive::get)
 }
 
 /// Horizontal speed of a steady glide, m/s: the weight along the path balances the drag ahead.

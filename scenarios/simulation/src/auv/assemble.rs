@@ -109,7 +109,7 @@ fn spawn(
         OnBoard::new(id, seed, dt_s),
     )?;
     let carried = vehicle.is_carried();
-    let able = vehicle.capabilities(spec.guidance.turn_radius_m.get());
+    let able = vehicle.capabilities(spec.guidance.tightest_turn_m());
     let pilot = Pilot::new(
         &spec.autopilot,
         &vehicle.control(),

@@ -127,7 +127,7 @@ pub(super) fn capabilities(
             found.push(Found::warning(format!("robots[{i}].autopilot"), problem));
         }
     }
-    let able = vehicle.capabilities(robot.guidance.turn_radius_m.get());
+    let able = vehicle.capabilities(robot.guidance.tightest_turn_m());
     let strategy = robot.strategy.name();
     let wishes = robot.strategy.wishes();
     // A depth of zero is the surface itself.

@@ -13,12 +13,11 @@ use super::sail::{DEPTH_M, STEP_S, Sailing};
 use super::straight::{dive, speed, stop};
 use super::turns::{circle, zigzag};
 use nalgebra::Vector3;
+use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Setpoint, Vertical};
 use robots::vehicles::Craft;
 use world::units::Heading;
 
-/// Turning radius of the guidance for vehicles that have none of their own, m.
-const GUIDED_M: f64 = 15.0;
 /// A curve keeps a point each so many steps: 0.2 s.
 pub(super) const THINNED: u64 = 10;
 
@@ -70,7 +69,7 @@ pub(super) fn measured(
 /// All trials that make sense for a vehicle.
 #[must_use]
 pub fn trials(craft: &Craft) -> Vec<Trial> {
-    let able = craft.capabilities(GUIDED_M);
+    let able = craft.capabilities(GuidanceSpec::default().tightest_turn_m());
     if !able.holds_depth && able.dives {
         return vec![sawtooth(craft, &able), circle(craft, &able)];
     }

@@ -71,6 +71,7 @@ pub(super) fn circle(craft: &Craft, able: &Capabilities) -> Trial {
             measured("tactical diameter", diameter, "m"),
             measured("turn rate", steady.map(f64::to_degrees), "degrees/s"),
             measured("radius", steady.map(|r| v / r), "m"),
+            measured("radius that searchers are told", able.turning_radius_m, "m"),
             measured("speed in the turn", v, "m/s"),
         ],
         curve: Curve {
