@@ -63,6 +63,7 @@ fn plan(bencher: divan::Bencher, room: &Room, params: &AStarParams, to: [f64; 3]
     let start = From {
         p_W: place([0.02, 0.03, 0.5]),
         heading: Heading::from_deg(45.0),
+        turning_radius_m: 12.0,
     };
     let goal = place(to);
     let mut planner = AStar::new(params).expect("legal");

@@ -114,6 +114,20 @@ fn holds(layout: &str, scenario: &str, fields: &[(&str, &str)]) {
     }
 }
 
+/// Echoes of the ranging are recorded as they are heard.
+#[test]
+fn a_recording_holds_the_pings_of_the_ranging() {
+    let path = root().join("scenarios/catalog/bluerov_harbour.ron");
+    let text = fs::read_to_string(path).expect("it is in the workspace");
+    let fields = [("limit_s", "100")];
+    let dir = tempfile::tempdir().expect("a folder");
+    mission(dir.path(), "s", &with_fields(&text, &fields));
+    let recording = Recording::read(&dir.path().join("s/run.mcap"));
+    // Two pings a second.
+    let pings = recording.messages("/rov0/ranging");
+    assert!((190..=200).contains(&pings), "{pings}");
+}
+
 #[test]
 fn the_layout_of_a_vehicle_names_what_its_recording_holds() {
     holds("auv.json", "uniform_channel", &[]);

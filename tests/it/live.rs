@@ -6,15 +6,17 @@
 
 mod hostile;
 mod kit;
+mod readings;
 mod ros2;
 mod setup;
 
 use image::Rgb;
 use kit::{
-    PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, picture, ping, plume,
+    PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, plume,
     scene_document, sent, start, water,
 };
 use output::live::{Live, LiveOptions, Payload, topics};
+use readings::{picture, ping};
 use rheotaxis::frame::Frame;
 use rheotaxis::scenario;
 use rheotaxis::trial::{Trial, Watch};

@@ -10,8 +10,8 @@
 //! among the causes of its 31 m error, and a bound on it as future work: `across_m` is that bound.
 
 use super::catalogue::{DeclareParams, Points};
-use crate::handoff::{Evidence, Lcdp};
-use crate::memory::PlumeMemory;
+use crate::handoff::{Evidence, Lcdp, Zone};
+use crate::memory::{PlumeMemory, most_up_flow_first};
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -62,6 +62,12 @@ impl DeclareParams for AlongFlow {
 
     fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)> {
         self.declare(memory.lost.all(), up_flow)
+    }
+
+    fn zone(&self, memory: &PlumeMemory, up_flow: Heading) -> Zone {
+        let points = most_up_flow_first(memory.lost.all(), up_flow);
+        let leading = points.get(..self.points.get()).unwrap_or_default();
+        Zone::boxed(leading.iter().map(|p| p.position).collect(), up_flow)
     }
 }
 

@@ -5,7 +5,7 @@ use super::siz_f::SizF;
 use super::siz_t::SizT;
 use super::{credible_area, sure, unchanged};
 use crate::error::RobotError;
-use crate::handoff::{Belief, Declaration, Evidence, Lcdp};
+use crate::handoff::{Belief, Declaration, Evidence, Lcdp, Zone};
 use crate::memory::PlumeMemory;
 use nalgebra::{Vector2, Vector3};
 use std::num::NonZeroUsize;
@@ -45,6 +45,11 @@ pub trait DeclareParams: Spec {
 
     /// The source's place (east, north), m, and its evidence, if the points show it.
     fn identify(&self, memory: &PlumeMemory, up_flow: Heading) -> Option<(Vector2<f64>, Evidence)>;
+
+    /// What it looks at, for whoever watches; empty if there are too few points.
+    fn zone(&self, _memory: &PlumeMemory, _up_flow: Heading) -> Zone {
+        Zone::default()
+    }
 
     /// Checks its parameters.
     ///

@@ -13,6 +13,8 @@ mod sure;
 mod testing;
 mod unchanged;
 mod zone_size;
+#[cfg(test)]
+mod zone_tests;
 
 pub use along_flow::AlongFlow;
 pub use catalogue::{

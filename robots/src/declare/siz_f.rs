@@ -13,7 +13,7 @@
 use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
-use crate::handoff::{Evidence, Lcdp};
+use crate::handoff::{Evidence, Lcdp, Zone};
 use crate::memory::PlumeMemory;
 use crate::memory::most_up_flow_first;
 use nalgebra::Vector2;
@@ -64,6 +64,13 @@ impl DeclareParams for SizF {
         self.declare(memory.lcdps.all(), up_flow, memory.fixes.scale_m())
     }
 
+    fn zone(&self, memory: &PlumeMemory, up_flow: Heading) -> Zone {
+        let points = memory.lcdps.all();
+        let radius_m = self.size.radius_m(points, up_flow, memory.fixes.scale_m());
+        let (left, _) = self.left(points, up_flow, radius_m);
+        Zone::round(left.iter().map(|p| p.position).collect(), radius_m)
+    }
+
     fn check_own(&self) -> Result<(), RobotError> {
         self.size.check("declare.SizF.size")
     }
@@ -80,24 +87,31 @@ impl SizF {
         up_flow: Heading,
         fix_m: f64,
     ) -> Option<(Vector2<f64>, Evidence)> {
-        if points.len() < self.initial.get() {
-            return None;
+        let radius_m = self.size.radius_m(points, up_flow, fix_m);
+        let (left, near) = self.left(points, up_flow, radius_m);
+        let first = left.first().filter(|_| near)?;
+        Some((first.position, Evidence::of(&left)))
+    }
+
+    /// The points that are left in the end, most up-flow first, and whether all lie within `radius_m` of their mean;
+    /// none if there are too few.
+    fn left(&self, points: &[Lcdp], up_flow: Heading, radius_m: f64) -> (Vec<Lcdp>, bool) {
+        if points.len() < self.needs().get() {
+            return (Vec::new(), false);
         }
-        let eps_m = self.size.radius_m(points, up_flow, fix_m);
         let mut left = most_up_flow_first(points, up_flow);
-        while left.len() >= self.points.get() {
+        loop {
             let sum: Vector2<f64> = left.iter().map(|p| p.position).sum();
             let mean = sum / left.len() as f64;
             let far = |p: &Lcdp| (p.position - mean).norm();
             // The last of equals is the most down-flow one.
-            let (k, most) =
-                (left.iter().enumerate()).max_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
-            if far(most) <= eps_m {
-                return Some((left.first()?.position, Evidence::of(&left)));
+            let farthest = (left.iter().enumerate()).max_by(|a, b| far(a.1).total_cmp(&far(b.1)));
+            match farthest {
+                Some((_, most)) if far(most) <= radius_m => return (left, true),
+                Some((k, _)) if left.len() > self.points.get() => _ = left.remove(k),
+                _ => return (left, false),
             }
-            left.remove(k);
         }
-        None
     }
 }
 

@@ -14,7 +14,7 @@
 use super::catalogue::DeclareParams;
 use super::zone_size::ZoneSize;
 use crate::error::RobotError;
-use crate::handoff::{Evidence, Lcdp};
+use crate::handoff::{Evidence, Lcdp, Zone};
 use crate::memory::PlumeMemory;
 use crate::memory::most_up_flow_first;
 use nalgebra::Vector2;
@@ -78,12 +78,36 @@ impl DeclareParams for SizT {
         self.declare(memory.lcdps.all(), up_flow, memory.fixes.scale_m())
     }
 
+    fn zone(&self, memory: &PlumeMemory, up_flow: Heading) -> Zone {
+        let looked_at = self
+            .looked_at(memory.lcdps.all(), up_flow)
+            .unwrap_or_default();
+        let places = looked_at.iter().map(|p| p.position).collect();
+        Zone::boxed(places, Heading::from_deg(0.0))
+    }
+
     fn check_own(&self) -> Result<(), RobotError> {
         self.size.check("declare.SizT.size")
     }
 }
 
 impl SizT {
+    /// The points that it looks at; `None` if there are too few.
+    fn looked_at(&self, points: &[Lcdp], up_flow: Heading) -> Option<Vec<Lcdp>> {
+        let n = self.points.get();
+        if points.len() < n.max(self.initial.get()) {
+            return None;
+        }
+        Some(match self.order {
+            Order::Time => points[points.len() - n..].to_vec(),
+            Order::UpFlow => {
+                let mut sorted = most_up_flow_first(points, up_flow);
+                sorted.truncate(n);
+                sorted
+            }
+        })
+    }
+
     /// The mean (east, north), m, of the considered `points` (given in order of time), if they lie close enough
     /// together, and its evidence. `fix_m`, the error of a navigation fix along an axis, m, matters to an adaptive
     /// size only; `up_flow` matters to an adaptive size and to the order of the same name.
@@ -94,25 +118,14 @@ impl SizT {
         up_flow: Heading,
         fix_m: f64,
     ) -> Option<(Vector2<f64>, Evidence)> {
-        let n = self.points.get();
-        if points.len() < n.max(self.initial.get()) {
-            return None;
-        }
-        let sorted;
-        let first = match self.order {
-            Order::Time => &points[points.len() - n..],
-            Order::UpFlow => {
-                sorted = most_up_flow_first(points, up_flow);
-                &sorted[..n]
-            }
-        };
+        let first = self.looked_at(points, up_flow)?;
         let corner = first[0].position;
         let (low, high) = first.iter().fold((corner, corner), |(l, h), p| {
             (l.inf(&p.position), h.sup(&p.position))
         });
-        let mean = first.iter().map(|p| p.position).sum::<Vector2<f64>>() / n as f64;
+        let mean = first.iter().map(|p| p.position).sum::<Vector2<f64>>() / first.len() as f64;
         let near = (high - low).norm() <= self.size.diagonal_m(points, up_flow, fix_m);
-        near.then(|| (mean, Evidence::of(first)))
+        near.then(|| (mean, Evidence::of(&first)))
     }
 }
 

@@ -4,6 +4,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::ranges::Positive;
 
+/// Speed of a REMUS in a turn, m/s: at full ahead it slows down to 1.9 m/s in its trial.
+const TURNING_M_S: f64 = 2.0;
+
 /// Guidance parameters; the defaults are Pang 2009, section 4 and Table 4, or the choice stated at the field.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -40,12 +43,13 @@ pub struct GuidanceSpec {
 }
 
 impl GuidanceSpec {
-    /// Radius of the tightest turn of a vehicle that follows the commanded heading, m: that of its greatest speed and
-    /// rate, or the planned one if that is less.
+    /// Radius of the tightest turn of a REMUS that follows the commanded heading, m: that of its speed and rate, or the
+    /// planned one if that is less.
     #[must_use]
     pub fn tightest_turn_m(&self) -> f64 {
         let rate_rad_s = self.heading_rate_deg_s.get().to_radians();
-        (self.water_speed_limit_m_s.get() / rate_rad_s).min(self.turn_radius_m.get())
+        (self.water_speed_limit_m_s.get().min(TURNING_M_S) / rate_rad_s)
+            .min(self.turn_radius_m.get())
     }
 }
 

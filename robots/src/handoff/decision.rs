@@ -1,6 +1,6 @@
 //! What a strategy decides in a tick.
 
-use super::{Goal, Layer, Regions};
+use super::{Goal, Layer, Regions, Zone};
 use bevy_ecs::prelude::Component;
 use nalgebra::{Vector2, Vector3};
 use serde::Serialize;
@@ -260,6 +260,8 @@ pub struct Decision {
     pub declared: Option<Declaration>,
     /// Points where the plume was lost (east, north), m; they change seldom.
     pub lost_points: Vec<Vector2<f64>>,
+    /// What the declaration rule looked at last.
+    pub zone: Arc<Zone>,
     /// The planned path (ENU), m, beginning with the vehicle's place at planning time; empty without a plan.
     pub planned: Arc<Vec<Vector3<f64>>>,
     /// The subregions of the mission; empty if it has none.
@@ -281,6 +283,7 @@ impl Decision {
             goal,
             declared: None,
             lost_points: Vec::new(),
+            zone: Arc::default(),
             planned: Arc::default(),
             regions: Regions::default(),
             layers: Arc::default(),

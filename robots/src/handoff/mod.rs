@@ -20,6 +20,7 @@ mod readings;
 mod regions;
 mod setting;
 mod side;
+mod zone;
 
 pub use answer::{Answer, Consulted, HeadOrder, MoveOrder, Order, Told};
 pub use belief::{Belief, BeliefGrid, Odour};
@@ -49,6 +50,7 @@ pub use readings::{
 pub use regions::{Region, RegionState, Regions, region_name};
 pub use setting::Setting;
 pub use side::Side;
+pub use zone::Zone;
 
 #[cfg(test)]
 pub(crate) mod testing;

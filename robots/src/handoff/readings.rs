@@ -102,6 +102,14 @@ pub struct RangeScan {
     pub beams: Arc<[Beam]>,
 }
 
+impl RangeScan {
+    /// The echoes in body axes (FLU), m.
+    pub fn echoes_B(&self) -> impl Iterator<Item = Vector3<f64>> {
+        let echo = |b: &Beam| Some(self.p_BS + b.dir_B * b.echo_m?);
+        self.beams.iter().filter_map(echo)
+    }
+}
+
 /// All readings of one tick.
 #[derive(Component, Clone, Debug, Default, PartialEq)]
 pub struct Readings {

@@ -210,6 +210,7 @@ pub(crate) fn frames(seconds: usize) -> Vec<Frame> {
                 behaviour,
                 layers: layers(behaviour),
                 lost_points: if away < 60.0 { lost } else { Vec::new() },
+                zone: Default::default(),
                 planned: std::sync::Arc::default(),
                 belief: Some(Belief {
                     odour: (away < 60.0).then(|| std::sync::Arc::new(odour(t_s.floor()))),

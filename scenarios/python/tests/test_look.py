@@ -53,6 +53,18 @@ def test_a_recording_tells_what_the_table_holds(run):
     assert isinstance(told[-1], events.Ended)
 
 
+def test_rays_and_zones_are_drawn(tmp_path, recwarn):
+    harbour = rheotaxis.Scenario.load("bluerov_harbour").with_({"time.limit_s": 450})
+    rheotaxis.run(harbour, seed=2, files=str(tmp_path / "run"))
+    told = heard(tmp_path / "run")
+    pings = [e for e in told if isinstance(e, events.Cloud) and e.name == "ranging"]
+    assert len(pings) > 400 and max(len(e.points) for e in pings) > 2
+    zones = [e for e in told if isinstance(e, events.Way) and e.name == "zone"]
+    assert zones and np.allclose(zones[0].points[0], zones[0].points[-1])
+    assert main([str(tmp_path / "run"), "--save", str(tmp_path / "run.rrd")]) == 0
+    assert not [w.message for w in recwarn if "Rerun" in w.category.__name__]
+
+
 def test_a_recording_ends_where_asked(run):
     told = [e for e in heard(run, until_s=20.0) if not isinstance(e, events.Ended)]
     assert 15.0 < max(e.t_s for e in told) <= 20.0
@@ -183,6 +195,14 @@ def test_live_messages_become_events_and_nonsense_none():
     told = wire.events("auv/a/behaviour", json.dumps(said).encode(), None)
     assert [type(e) for e in told] == [events.Words, events.Marks] and told[0].text == "find"
     assert wire.events("auv/a/behaviour", json.dumps(said).encode(), None) == []
+    said |= {"zone_points_m": [[1, 2], [3, 2]], "zone_m": [[1, 2], [3, 2], [3, 4]]}
+    here = {"t_s": 3.0, "position_m": [1, 2], "depth_m": 5, "heading_rad": 0, "pitch_rad": 0, "roll_rad": 0}
+    wire.events("auv/a/estimate", json.dumps(here).encode(), None)
+    points, outline = wire.events("auv/a/behaviour", json.dumps(said).encode(), None)
+    assert points.name == "zone_points" and outline.points.tolist() == [[1, 2, -5], [3, 2, -5], [3, 4, -5], [1, 2, -5]]
+    ping = {"t_s": 3.0, "echoes_body_m": [[3, 0, 0]]}
+    (cloud,) = wire.events("auv/a/ranging", json.dumps(ping).encode(), None)
+    assert cloud.name == "ranging" and cloud.points.shape == (1, 3)
     plume = np.arange(12, dtype="<f4").tobytes()
     (cloud,) = wire.events("plume", plume, b'{"t_s": 1.0}')
     assert cloud.points.shape == (2, 3) and cloud.values["mass"][1] == 10.0

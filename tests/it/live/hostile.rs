@@ -1,7 +1,8 @@
 //! Subscribers that die or stall, each a process of its own: threads of this one would stall the
 //! run's zenoh along with theirs, which no client of a real run can.
 
-use super::kit::{client, frame, kept, listen, next_of, picture, ping, plume, sent, start};
+use super::kit::{client, frame, kept, listen, next_of, plume, sent, start};
+use super::readings::{picture, ping};
 use serde_json::json;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::process::{Child, ChildStdout, Stdio};

@@ -1,17 +1,17 @@
 //! A run to listen to, and a client to listen with.
 
 use crate::common::root;
-use image::{Rgb, RgbImage};
-use nalgebra::{UnitQuaternion, Vector2, Vector3};
+
+use nalgebra::{Vector2, Vector3};
 use output::live::{Live, LiveMeta, LiveOptions, Scene};
-use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, RobotFrame, WaterFrame};
+use rheotaxis::frame::{Frame, Heard, PlumeFrame, RobotFrame, WaterFrame};
 use rheotaxis::gantry::GantryFrame;
 use rheotaxis::scenario::load;
 use robots::handoff::{
     Actuation, Attitude, Behaviour, Belief, BeliefGrid, ChemicalReading, Command, Declaration,
     Estimate, FlowEstimate, GantryBehaviour, GantryDecision, Goal, JointReadings, Layer,
-    LayerState, MAX_PROBES, Manoeuvre, Picture, PictureEvidence, ProbeScan, Region, RegionState,
-    Regions, Setpoint, SidescanPing, TrackerState, Vertical,
+    LayerState, MAX_PROBES, Manoeuvre, PictureEvidence, ProbeScan, Region, RegionState, Regions,
+    Setpoint, TrackerState, Vertical, Zone,
 };
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -124,7 +124,11 @@ pub(super) fn frame(step: u64) -> Frame {
         })),
         keeps_height: true,
         actuators: Actuation::default(),
-        heard: Default::default(),
+        heard: Heard {
+            ranging: Some(super::readings::ping_ahead()),
+            ..Heard::default()
+        },
+        zone: Arc::new(Zone::round(vec![Vector2::zeros(), Vector2::x()], 6.0)),
         chemical: Some(ChemicalReading {
             volts: 1.0,
             of_full_scale: 0.2,
@@ -231,39 +235,6 @@ pub(super) fn water() -> WaterFrame {
     WaterFrame {
         t_s: 0.5,
         points: vec![[1.0, 2.0, -3.0, 0.25, 0.0, -0.5]; 2],
-    }
-}
-
-/// A small red picture.
-pub(super) fn picture(t_s: f64) -> PictureFrame {
-    let robot = &frame(0).robots[0];
-    PictureFrame {
-        t_s,
-        robot: robot.id.clone(),
-        picture: Picture {
-            image: Arc::new(RgbImage::from_pixel(16, 8, Rgb([200, 30, 20]))),
-            p_BC: Vector3::new(0.5, 0.0, -0.1),
-            R_BC: UnitQuaternion::identity(),
-            view_rad: 1.0,
-        },
-        truth: robot.truth.pose,
-        estimate: robot.estimate,
-    }
-}
-
-/// Two samples to port, one to starboard.
-pub(super) fn ping(t_s: f64) -> PingFrame {
-    let robot = &frame(0).robots[0];
-    PingFrame {
-        t_s,
-        robot: robot.id.clone(),
-        ping: SidescanPing {
-            p_BS: Vector3::zeros(),
-            max_m: 20.0,
-            port_db: [1.0, 2.0].into(),
-            starboard_db: [3.0].into(),
-        },
-        estimate: robot.estimate,
     }
 }
 

@@ -2,7 +2,8 @@
 //! who come late. `scenarios/clients/check_ros2.py` has clients of others read the same.
 
 use super::hostile::Process;
-use super::kit::{PATIENCE, client, frame, meta, next, options, picture, plume, sent};
+use super::kit::{PATIENCE, client, frame, meta, next, options, plume, sent};
+use super::readings::picture;
 use crate::common::root;
 use nalgebra::Vector3;
 use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};

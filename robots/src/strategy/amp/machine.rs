@@ -16,7 +16,8 @@ use crate::behave::{GoHome, GoTo};
 use crate::declare::DeclareSpec;
 use crate::error::RobotError;
 use crate::handoff::{
-    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, detects,
+    Behaviour, Decision, Declaration, Goal, Lcdp, Observation, Outcome, Verdict, Vertical, Zone,
+    detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use nalgebra::Vector2;
@@ -60,6 +61,8 @@ pub struct Amp {
     speed_m_s: f64,
     vertical: Vertical,
     rule: DeclareSpec,
+    /// What the rule looked at last.
+    zone: Arc<Zone>,
     post: PostDeclaration,
     heeds_on_the_way: bool,
     behaviours: Behaviours,
@@ -80,6 +83,7 @@ impl Amp {
             speed_m_s,
             vertical,
             rule: spec.declare.clone(),
+            zone: Arc::default(),
             post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec
                 .start_at
@@ -186,8 +190,9 @@ impl Amp {
     }
 
     /// The declaration test at the end of Track-Out (section 5.6).
-    fn test(&self, seen: &Observation) -> Option<Declaration> {
+    fn test(&mut self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
+        self.zone = Arc::new(self.rule.zone(&self.memory, up_flow));
         self.rule.declaration(seen.t_s, &self.memory, up_flow)
     }
 
@@ -265,6 +270,7 @@ impl Strategy for Amp {
             goal: self.goal,
             declared,
             lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
+            zone: self.zone.clone(),
             planned: Arc::default(),
             regions: Default::default(),
             layers: Arc::default(),

@@ -347,6 +347,7 @@ impl Strategy for MapAndPlan {
             goal: self.goal,
             declared,
             lost_points: Vec::new(),
+            zone: Arc::default(),
             planned: match self.now {
                 Behaviour::Done => Arc::default(),
                 _ => self.pilot.planned(),

@@ -269,6 +269,7 @@ impl Subregions {
             goal: self.goal,
             declared: None,
             lost_points: Vec::new(),
+            zone: Arc::default(),
             planned: Arc::default(),
             regions: Regions::default(),
             layers: Arc::default(),
@@ -310,6 +311,7 @@ impl Strategy for Subregions {
                     Decision {
                         declared: searched.declared,
                         lost_points: searched.lost_points,
+                        zone: searched.zone,
                         ..self.under_way()
                     }
                 }

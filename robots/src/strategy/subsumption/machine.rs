@@ -34,7 +34,7 @@ use crate::declare::Points;
 use crate::error::RobotError;
 use crate::handoff::{
     Behaviour, Decision, Declaration, Goal, Layer, LayerState, Lcdp, Manoeuvre, Observation,
-    Outcome, Setting, Verdict, Vertical, detects,
+    Outcome, Setting, Verdict, Vertical, Zone, detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
 use std::sync::Arc;
@@ -48,6 +48,8 @@ pub struct Subsumption {
     memory: PlumeMemory,
     /// The rule's declaration, while Declare asks.
     declaring: Option<Declaration>,
+    /// What its declaration rule looked at last.
+    zone: Arc<Zone>,
     /// What follows a declaration; whether the survey has begun, and what it asks for.
     post: PostDeclaration,
     surveying: bool,
@@ -87,6 +89,7 @@ impl Subsumption {
             layers,
             memory: PlumeMemory::new(spec.lost_points, spec.lcdps),
             declaring: None,
+            zone: Arc::default(),
             post: PostDeclaration::new(
                 &spec
                     .survey
@@ -121,9 +124,10 @@ impl Subsumption {
     }
 
     /// The rule's present answer.
-    fn test(&self, seen: &Observation) -> Option<Declaration> {
+    fn test(&mut self, seen: &Observation) -> Option<Declaration> {
         let up_flow = self.memory.up_flow_or_nose(seen);
         let rule = self.layers.declare.as_ref()?;
+        self.zone = Arc::new(rule.zone(&self.memory, up_flow));
         rule.declaration(seen.t_s, &self.memory, up_flow)
     }
 
@@ -350,6 +354,7 @@ impl Strategy for Subsumption {
             goal: self.goal,
             declared,
             lost_points: points.iter().map(|l| l.position).collect(),
+            zone: self.zone.clone(),
             planned: Arc::default(),
             layers: self.states.clone(),
             picture: self.outcome.is_none() && self.wants_picture(),

@@ -158,6 +158,7 @@ pub(super) mod tests {
             behaviour: Behaviour::Find,
             layers: std::sync::Arc::default(),
             lost_points: Vec::new(),
+            zone: Default::default(),
             planned: std::sync::Arc::default(),
             belief: None,
             regions: Default::default(),

@@ -9,13 +9,13 @@ use crate::files::ReportError;
 use crate::mcap::{CONTROL, McapFile, RecordError};
 use crate::results::RunInfo;
 use crate::ros::{
-    MessageKind, Odometry, Transform, clock, float64, nanoseconds, point_cloud, pose_stamped, text,
-    transforms, vector3_stamped,
+    MessageKind, Odometry, Transform, clock, echo_cloud, float64, nanoseconds, point_cloud,
+    pose_stamped, text, transforms, vector3_stamped,
 };
 use crate::scene::Scene;
 use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::control::{Consultation, consultation_json};
-use rheotaxis::frame::{Frame, RobotFrame};
+use rheotaxis::frame::{At, Frame, RobotFrame};
 use robots::handoff::{Belief, Command, Declaration, Layer, Vertical, region_name};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -210,6 +210,10 @@ impl Recorder {
         put("altitude", MessageKind::Float64, &float64(r.altitude_m))?;
         if let Some(c) = r.chemical {
             put("chemical", MessageKind::Float64, &float64(c.volts))?;
+        }
+        if let Some(At { t_s, value: scan }) = &r.heard.ranging {
+            let cloud = echo_cloud(nanoseconds(*t_s), id, scan);
+            put("ranging", MessageKind::PointCloud2, &cloud)?;
         }
         if let Some(flow) = e.flow {
             let v = Vector3::new(flow.velocity.x, flow.velocity.y, 0.0);

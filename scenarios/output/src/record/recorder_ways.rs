@@ -1,5 +1,5 @@
-//! Ways and marks in a recording: where machines went and believed they went, what they plan, where they lost the plume
-//! and what they declared.
+//! Ways and marks in a recording: where machines went and believed they went, what they plan, where they lost the plume,
+//! the zone that this makes for the declaration rule, and what they declared.
 
 use super::recorder::{WORLD, on_plane};
 use super::ways::Way;
@@ -8,6 +8,7 @@ use crate::ros::{Balls, MessageKind, balls, path};
 use crate::scene::Scene;
 use nalgebra::{Vector2, Vector3};
 use rheotaxis::frame::Frame;
+use robots::handoff::Zone;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -17,9 +18,12 @@ const TOLERANCE_M: f64 = 0.5;
 /// Diameter of a mark, as a share of the area's diagonal; and without an area, m.
 const MARK: f64 = 0.006;
 const MARK_M: f64 = 2.0;
-/// Colours of lost points and of declared places: red, green, blue, opacity.
-const LOST: [f32; 4] = [0.80, 0.47, 0.65, 1.0];
-const DECLARED: [f32; 4] = [0.94, 0.89, 0.26, 1.0];
+/// The marks with their colours: red, green, blue, opacity.
+const MARKS: [(&str, [f32; 4]); 3] = [
+    ("lost points", [0.80, 0.47, 0.65, 1.0]),
+    ("points of the zone", [0.90, 0.62, 0.0, 1.0]),
+    ("declared", [0.94, 0.89, 0.26, 1.0]),
+];
 
 /// The ways and marks of a run.
 #[derive(Debug, Default)]
@@ -28,8 +32,9 @@ pub(super) struct WayRecorder {
     /// By topic.
     ways: BTreeMap<String, Way>,
     /// Newest marks and plan, by topic: they are recorded when they change.
-    marks: BTreeMap<String, [Vec<Vector3<f64>>; 2]>,
+    marks: BTreeMap<String, [Vec<Vector3<f64>>; 3]>,
     plans: BTreeMap<String, Arc<Vec<Vector3<f64>>>>,
+    zones: BTreeMap<String, Arc<Zone>>,
 }
 
 impl WayRecorder {
@@ -62,13 +67,15 @@ impl WayRecorder {
                 self.plans.insert(plan, Arc::clone(&r.planned));
             }
             let places = r.declarations.iter().map(|d| d.position);
-            let [lost, declared]: [Vec<_>; 2] = [r.lost_points.clone(), places.collect()];
-            self.mark(file, t_ns, &r.id, believed.z, [&lost, &declared])?;
+            let declared: Vec<_> = places.collect();
+            let flat = [&r.lost_points, &r.zone.points, &declared].map(Vec::as_slice);
+            self.mark(file, t_ns, &r.id, believed.z, flat)?;
+            self.zone(file, t_ns, &r.id, believed.z, &r.zone)?;
         }
         for g in &frame.gantries {
             self.pass(format!("/{}/head/path", g.id), g.head_W);
             let declared: Vec<_> = g.declaration.iter().map(|d| d.position).collect();
-            self.mark(file, t_ns, &g.id, g.head_W.z, [&[], &declared])?;
+            self.mark(file, t_ns, &g.id, g.head_W.z, [&[], &[], &declared])?;
         }
         Ok(())
     }
@@ -79,6 +86,28 @@ impl WayRecorder {
         way.or_insert_with(|| Way::new(tolerance_m)).push(p_W);
     }
 
+    /// The outline of what the declaration rule looked at, closed, at the height of its machine.
+    fn zone(
+        &mut self,
+        file: &mut McapFile,
+        t_ns: u64,
+        id: &str,
+        z: f64,
+        zone: &Arc<Zone>,
+    ) -> Result<(), RecordError> {
+        let topic = format!("/{id}/zone");
+        let known = self.zones.get(&topic);
+        if known.map_or(zone.corners.is_empty(), |k| k == zone) {
+            return Ok(());
+        }
+        let corners = zone.corners.iter().chain(zone.corners.first());
+        let outline: Vec<_> = corners.map(|p| on_plane(*p, z)).collect();
+        let cdr = path(t_ns, WORLD, &outline);
+        file.write(&topic, MessageKind::Path, t_ns, &cdr)?;
+        self.zones.insert(topic, Arc::clone(zone));
+        Ok(())
+    }
+
     /// Lost points and declarations are flat; they get the height of their machine when they are new.
     fn mark(
         &mut self,
@@ -86,10 +115,10 @@ impl WayRecorder {
         t_ns: u64,
         id: &str,
         z: f64,
-        flat: [&[Vector2<f64>]; 2],
+        flat: [&[Vector2<f64>]; 3],
     ) -> Result<(), RecordError> {
         let topic = format!("/{id}/marks");
-        let none = [Vec::new(), Vec::new()];
+        let none = [const { Vec::new() }; 3];
         let told = self.marks.get(&topic);
         let known = told.unwrap_or(&none);
         let same = |known: &[Vector3<f64>], now: &[Vector2<f64>]| {
@@ -99,7 +128,7 @@ impl WayRecorder {
         if told.is_some() && (known.iter().zip(flat)).all(|(k, now)| same(k, now)) {
             return Ok(());
         }
-        let raised = [0, 1].map(|k| {
+        let raised = [0, 1, 2].map(|k| {
             let places = flat[k].iter().map(|p| {
                 let before = known[k].iter().find(|q| q.xy() == *p);
                 before.copied().unwrap_or_else(|| on_plane(*p, z))
@@ -107,8 +136,7 @@ impl WayRecorder {
             places.collect::<Vec<_>>()
         });
         let diameter_m = self.diagonal_m.map_or(MARK_M, |m| MARK * m);
-        let shown = [("lost points", LOST), ("declared", DECLARED)];
-        let shown: Vec<Balls> = (shown.into_iter().zip(&raised))
+        let shown: Vec<Balls> = (MARKS.into_iter().zip(&raised))
             .map(|((name, colour), places)| Balls {
                 name,
                 colour,

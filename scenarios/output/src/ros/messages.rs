@@ -6,6 +6,7 @@
 
 use super::cdr::{Header, Time, bytes, cdr, pose, xyz};
 use nalgebra::{UnitQuaternion, Vector3};
+use robots::handoff::RangeScan;
 use serde::Serialize;
 
 /// Position and attitude of `child` in `frame`; velocities in the child's axes.
@@ -137,6 +138,15 @@ pub fn joint_state(t_ns: u64, frame: &str, joints: &[Joint]) -> Vec<u8> {
     let columns: [fn(&Joint) -> f64; 3] = [|j| j.position, |j| j.velocity, |j| j.effort];
     let columns = columns.map(|of| joints.iter().map(of).collect::<Vec<_>>());
     cdr(&(Header::new(t_ns, frame), names, columns))
+}
+
+/// The echoes of a ping in body axes, as a `PointCloud2`.
+#[must_use]
+pub fn echo_cloud(t_ns: u64, frame: &str, scan: &RangeScan) -> Vec<u8> {
+    let points: Vec<[f32; 3]> = (scan.echoes_B())
+        .map(|p| [p.x as f32, p.y as f32, p.z as f32])
+        .collect();
+    point_cloud(t_ns, frame, ["x", "y", "z"], &points)
 }
 
 /// A `PointCloud2` with the named 32-bit fields; for each point, `rows` holds one value per field.

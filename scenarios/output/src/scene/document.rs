@@ -41,7 +41,6 @@ impl Scene {
             "solids": solids.collect::<Vec<_>>(),
             "sources": sources.collect::<Vec<_>>(),
             "layers": layers.collect::<Vec<_>>(),
-            "zone_m": null,
             "machines": self.machines.iter().map(machine).collect::<Vec<_>>(),
         })
         .to_string()

@@ -1,7 +1,7 @@
 //! The messages of a robot, one for each row of [`TOPICS`](super::topics::TOPICS) that is JSON.
 
 use crate::abnormal::Abnormal;
-use crate::frame::RobotFrame;
+use crate::frame::{At, RobotFrame};
 use crate::topic::{chunk, merged, with};
 use robots::handoff::{Actuation, Command, Declaration, Goal, Manoeuvre, Vertical, region_name};
 use serde_json::{Value, json};
@@ -72,8 +72,26 @@ pub(crate) fn messages(t_s: f64, r: &RobotFrame, abnormal: &[Abnormal]) -> Vec<(
             }),
         );
     }
+    if let Some(At { t_s, value: scan }) = &r.heard.ranging {
+        let echoes: Vec<_> = scan.echoes_B().map(|p| [p.x, p.y, p.z]).collect();
+        say(
+            "ranging",
+            json!({
+                "t_s": t_s,
+                "place_body_m": scan.p_BS.as_slice(),
+                "free": scan.beams.len() - echoes.len(),
+                "echoes_body_m": echoes,
+                "max_m": scan.max_m,
+            }),
+        );
+    }
     let lost: Vec<[f64; 2]> = r.lost_points.iter().map(|p| [p.x, p.y]).collect();
     let mut doing = json!({"t_s": t_s, "behaviour": r.behaviour.name(), "lost_points_m": lost});
+    if !r.zone.points.is_empty() {
+        let [points, corners] = [&r.zone.points, &r.zone.corners]
+            .map(|all| all.iter().map(|p| [p.x, p.y]).collect::<Vec<_>>());
+        doing = merged(doing, json!({"zone_points_m": points, "zone_m": corners}));
+    }
     if let Some(k) = r.regions.now {
         let corners = r.regions.all[k as usize].area.corners();
         let corners = corners.map(|p| [p.x, p.y]);

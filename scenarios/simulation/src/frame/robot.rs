@@ -4,7 +4,7 @@ use super::Heard;
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{
     Actuation, Behaviour, Belief, ChemicalReading, Command, Declaration, Estimate, Goal, Layer,
-    LayerState, Picture, Regions, SidescanPing, Vertical,
+    LayerState, Picture, Regions, SidescanPing, Vertical, Zone,
 };
 use std::sync::Arc;
 use world::frames::{Pose, Truth};
@@ -40,6 +40,8 @@ pub struct RobotFrame {
     pub layers: Arc<[Layer]>,
     /// Points where it lost the plume, as it believes (east, north), m.
     pub lost_points: Vec<Vector2<f64>>,
+    /// What its declaration rule looked at last.
+    pub zone: Arc<Zone>,
     /// The path it plans to follow (ENU), m; empty without a path.
     pub planned: Arc<Vec<Vector3<f64>>>,
     /// Its map of where the source may be, if it keeps one. It is new only if [`Belief::updates`] has grown.

@@ -50,8 +50,6 @@ pub enum FieldKind {
     Object,
     /// Any number of them.
     Objects,
-    /// Any number of (east, north), or null.
-    PointsOrNull,
 }
 
 impl FieldKind {
@@ -79,7 +77,6 @@ impl FieldKind {
             FieldKind::Words => json!({"type": "array", "items": {"type": "string"}}),
             FieldKind::Object => json!({"type": "object"}),
             FieldKind::Objects => json!({"type": "array", "items": {"type": "object"}}),
-            FieldKind::PointsOrNull => json!({"type": ["array", "null"], "items": vector(2)}),
         };
         match schema {
             Value::Object(fields) => fields,

@@ -98,7 +98,6 @@ pub const RUN: &[Topic] = &[
         Field::always("solids", FieldKind::Objects, "Obstacles: name, color, vertices_m (base64 of f32), triangles (base64 of u32)."),
         Field::always("sources", FieldKind::Objects, "True sources: name, position_m."),
         Field::always("layers", FieldKind::Objects, "Interfaces between layers of the water: name, z_m."),
-        Field::always("zone_m", FieldKind::PointsOrNull, "Corners of the zone that the scenario keeps the search in, m; null without one."),
         Field::always("machines", FieldKind::Objects, "Robots and gantries: links with shapes, joints, drives, sensors."),
     ]),
     Topic::json("version", "meta/version", ONCE, "By what it is run.", &[

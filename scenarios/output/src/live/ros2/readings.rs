@@ -3,10 +3,9 @@
 use super::state::Of;
 use super::topics;
 use crate::ros::{
-    Imu, Range, fluid_pressure, nanoseconds, point_cloud, twist_stamped, vector3_stamped,
+    Imu, Range, echo_cloud, fluid_pressure, nanoseconds, twist_stamped, vector3_stamped,
 };
 use crate::scene::frames::BODY;
-use nalgebra::Vector3;
 use rheotaxis::frame::{At, Heard};
 use robots::handoff::{Attitude, RangeScan};
 
@@ -64,23 +63,14 @@ pub(super) fn put(of: &mut Of, heard: &Heard) {
 /// The echoes of the forward ranging as points, and the nearest.
 fn ranging(of: &mut Of, At { t_s, value: scan }: &At<RangeScan>, body: &str) {
     let t_ns = nanoseconds(*t_s);
-    let at = |dir_B: &Vector3<f64>, echo_m: f64| {
-        let p = scan.p_BS + dir_B * echo_m;
-        [p.x as f32, p.y as f32, p.z as f32]
-    };
-    let echoes = || (scan.beams.iter()).filter_map(|b| Some((b, b.echo_m?)));
-    let points: Vec<[f32; 3]> = echoes().map(|(b, m)| at(&b.dir_B, m)).collect();
-    of.put(
-        &topics::RANGING,
-        point_cloud(t_ns, body, ["x", "y", "z"], &points),
-    );
+    of.put(&topics::RANGING, echo_cloud(t_ns, body, scan));
     if let Some((limits_m, view_rad)) = of.machine.ranging {
         let nearest = Range {
             t_ns,
             frame: &of.machine.frame("ranging"),
             view_rad,
             limits_m,
-            range_m: echoes().map(|(_, m)| m).min_by(f64::total_cmp),
+            range_m: (scan.beams.iter().filter_map(|b| b.echo_m)).min_by(f64::total_cmp),
         };
         of.put(&topics::NEAREST, nearest.cdr());
     }

@@ -1,4 +1,4 @@
-"""Draws plume, water, source maps and sidescan lines."""
+"""Draws plume, water, source maps, sidescan lines and pings of the ranging."""
 
 import numpy as np
 import rerun as rr
@@ -98,6 +98,15 @@ class Clouds:
         colors = colours.shade((level[keep] + 10.0) / 40.0, "sonar")
         at = self.scene.local(e.points[keep]) + [0.0, 0.0, 0.03]
         self.canvas.at(e.t_s, path, rr.Points3D(at, colors=colors, radii=[rr.Radius.ui_points(1.5)]))
+
+
+    def ranging(self, e, path, at):
+        """Echoes of the ranging and their rays, in body axes."""
+        ends = e.points[np.isfinite(e.points).all(axis=1)]
+        rays = np.stack([np.broadcast_to(np.asarray(at, float), ends.shape), ends], axis=1)
+        dim, thin = [(*colours.ECHO, 70)], [rr.Radius.ui_points(0.6)]
+        self.canvas.at(e.t_s, f"{path}/rays", rr.LineStrips3D(rays, colors=dim, radii=thin))
+        self.canvas.at(e.t_s, f"{path}/echoes", rr.Points3D(ends, colors=[colours.ECHO], radii=[rr.Radius.ui_points(2)]))
 
 
 def _apart(places):

@@ -77,7 +77,7 @@ class Place(Event):
 
 @dataclass(slots=True)
 class Cloud(Event):
-    """Points with values: `plume`, `water`, `map`, `sidescan`."""
+    """Points with values: `plume`, `water`, `map`, `sidescan`; `ranging`, whose echoes are in body axes."""
 
     name: str
     points: np.ndarray
@@ -92,7 +92,7 @@ class Cloud(Event):
 
 @dataclass(slots=True)
 class Way(Event):
-    """A path that is planned (`plan`) or the line to the present goal (`goal`)."""
+    """A path that is planned (`plan`), the line to the present goal (`goal`), the outline of a zone (`zone`)."""
 
     name: str
     points: np.ndarray
@@ -103,7 +103,7 @@ class Way(Event):
 
 @dataclass(slots=True)
 class Marks(Event):
-    """Places with one meaning, such as `lost`: where the plume was lost."""
+    """Places with one meaning, such as `lost`: where the plume was lost; `zone_points`: what the declaration rule looks at."""
 
     name: str
     points: np.ndarray

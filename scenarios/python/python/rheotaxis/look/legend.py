@@ -7,10 +7,12 @@ _LINES = """\
 | dashed line | where it believes it was |
 | yellow points | readings above the threshold |
 | light red points | where it lost the plume |
+| amber points and outline | last detection points that the declaration rule looked at, and their zone |
 | red stake | a source that it declared |
 | green stake | the true source, once something is declared (`--truth`: always) |
 | points, violet to pale yellow | plume, weak to strong; radius: the filament's own size |
 | arrows | flow of the water |
+| turquoise points and rays | echoes of the forward ranging |
 | cubes, blue to yellow | source map, from 2 % of the likeliest cell; smaller is less likely |
 | violet sheet | mean depth of an interface between layers of water |
 | bed, sand to navy | shallow to deep |

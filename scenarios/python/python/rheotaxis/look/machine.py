@@ -145,8 +145,8 @@ class Machine:
             self._chart(e.t_s, f"axes/{name}", name.replace("_", " "), value, colours.of_robot(2 + len(name) % 3))
 
     def way(self, e):
-        """A planned path, or the line to the goal."""
-        color, width = (colours.PLAN, 2.2) if e.name == "plan" else (colours.GOAL, 1.0)
+        """A planned path, the line to the goal, or the outline of the zone that a declaration rule looks at."""
+        color, width = {"plan": (colours.PLAN, 2.2), "zone": (colours.ZONE, 1.6)}.get(e.name, (colours.GOAL, 1.0))
         path = f"{self.marked}/{e.name}"
         if len(e.points) < 2:
             self.canvas.at(e.t_s, path, rr.Clear(recursive=False))
@@ -160,10 +160,9 @@ class Machine:
         if points.shape[-1] == 2:
             z = self.true[2] if self.true is not None else 0.0
             points = np.column_stack([points, np.full(len(points), z)])
-        radii = [rr.Radius.ui_points(MARK + 1.0)]
-        self.canvas.at(
-            e.t_s, f"{self.marked}/{e.name}", rr.Points3D(self.scene.local(points), colors=[colours.LOST], radii=radii)
-        )
+        color, radius = (colours.ZONE, MARK) if e.name == "zone_points" else (colours.LOST, MARK + 1.0)
+        drawn = rr.Points3D(self.scene.local(points), colors=[color], radii=[rr.Radius.ui_points(radius)])
+        self.canvas.at(e.t_s, f"{self.marked}/{e.name}", drawn)
 
     def declared(self, e):
         """A declared source: a stake through the water."""
@@ -202,13 +201,16 @@ class Machine:
         self.canvas.at(e.t_s, path, lens, rr.EncodedImage(contents=e.data, media_type=e.media))
 
     def cloud(self, e):
-        """A map, or a line of the sidescan."""
+        """A map, a line of the sidescan, or a ping of the ranging."""
         if e.name == "map":
             entropy = self.clouds.belief(e, f"{self.marked}/belief")
             if entropy is not None and "entropy_nat" not in e.values:
                 self._chart(e.t_s, "map/entropy", "entropy of the map", entropy, (150, 230, 130))
         elif e.name == "sidescan":
             self.clouds.sidescan(e, f"{self.marked}/sidescan")
+        elif e.name == "ranging":
+            at = (self.scene.sensor(self.name, "ranging") or {}).get("position_m") or (0.0, 0.0, 0.0)
+            self.clouds.ranging(e, f"{self.at}/body/ranging", at)
 
     def told(self, e):
         """A line of the run's own log, which from then on takes the place of ours."""

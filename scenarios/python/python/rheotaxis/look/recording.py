@@ -14,6 +14,10 @@ from .events import Cloud, Declared, Ended, Joints, Number, Marks, Picture, Plac
 ROWS, POINTS = 8000, 4_000_000
 #: Shortest time between two clouds of one topic, s.
 CLOUD_S = 2.0
+#: Shortest time between two pings of the ranging, s.
+PING_S = 0.5
+#: Marks that are shown: their names in the recording and ours.
+MARKS = {"lost points": "lost", "points of the zone": "zone_points"}
 #: Values of which the largest in an interval is kept, because they come in short bursts.
 PEAKS = ("chemical", "probes/", "spikes/")
 #: Numbers of a machine: the topic's name and ours.
@@ -84,17 +88,18 @@ class Recording:
             yield Declared(min(at, t) if at > 0 else t, machine, number, position)
         elif name == "marks":
             for kind, places in cdr.markers(data):
-                if kind == "lost points":
-                    yield Marks(t, machine, "lost", places)
-        elif name == "plan":
-            yield Way(t, machine, "plan", cdr.path(data))
+                if kind in MARKS:
+                    yield Marks(t, machine, MARKS[kind], places)
+        elif name in ("plan", "zone"):
+            yield Way(t, machine, name, cdr.path(data))
         elif name == "camera/compressed":
             frame, kind, image = cdr.compressed_image(data)
             above, position, quaternion = self._seen_from(frame, machine)
             media = "image/png" if "png" in kind else "image/jpeg"
             yield Picture(t, machine, media, image, position, quaternion, above == machine)
-        elif name in ("map", "sidescan"):
-            if name == "sidescan" or self._due(topic, t, self.cloud_s):
+        elif name in ("map", "sidescan", "ranging"):
+            periods = {"map": self.cloud_s, "ranging": max(self.period_s, PING_S)}
+            if name not in periods or self._due(topic, t, periods[name]):
                 yield self._cloud(t, machine, name, data)
         elif self._due(topic, t, self.period_s):
             yield from self._dense(machine, name, t, data)

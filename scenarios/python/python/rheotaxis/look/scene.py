@@ -31,7 +31,6 @@ class Scene:
     solids: list = field(default_factory=list)
     sources: list = field(default_factory=list)
     layers: list = field(default_factory=list)
-    zone: np.ndarray | None = None
     machines: dict = field(default_factory=dict)
     #: Subtracted from east and north before drawing, because the viewer computes in 32 bits.
     origin: np.ndarray = field(default_factory=lambda: np.zeros(3))
@@ -115,8 +114,6 @@ def _read(said):
         {"name": s["name"], "position": np.asarray(s["position_m"], float)} for s in said.get("sources") or []
     ]
     scene.layers = [{"name": x.get("name", ""), "z_m": float(x["z_m"])} for x in said.get("layers") or []]
-    if said.get("zone_m"):
-        scene.zone = np.asarray(said["zone_m"], np.float64).reshape(-1, 2)
     scene.machines = {m["id"]: m for m in said.get("machines") or []}
     if scene.corners is not None:
         low = np.floor(scene.corners.min(axis=0))

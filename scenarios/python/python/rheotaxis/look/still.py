@@ -1,4 +1,4 @@
-"""Draws what stands still: bed, surface, area, solids, interfaces, zone."""
+"""Draws what stands still: bed, surface, area, solids, interfaces."""
 
 import numpy as np
 import rerun as rr
@@ -37,8 +37,6 @@ def draw(canvas, scene):
         else:
             drawn = rr.Mesh3D(vertex_positions=scene.local(vertices), triangle_indices=triangles, albedo_factor=color)
         canvas.still(f"world/solids/{rr.escape_entity_path_part(solid['name'])}_{n}", drawn)
-    if scene.zone is not None:
-        _zone(canvas, scene)
 
 
 def _bed(canvas, scene):
@@ -61,13 +59,3 @@ def _bed(canvas, scene):
             vertex_colors=colours.shade(share, "bed"),
         ),
     )
-
-
-def _zone(canvas, scene):
-    corners = scene.local(scene.zone)
-    ring = np.vstack([corners, corners[:1]])
-    low = -scene.depth_m()
-    strips = [np.column_stack([ring, np.full(len(ring), z)]) for z in (0.0, low)]
-    strips += [np.array([[*c, low], [*c, 0.0]]) for c in corners]
-    lines = rr.LineStrips3D(strips, colors=[colours.ZONE], radii=[rr.Radius.ui_points(1.2)])
-    canvas.still("world/zone", lines)

@@ -83,6 +83,10 @@ class Wire:
             lost = np.array(m.get("lost_points_m") or [], float).reshape(-1, 2)
             if self._new(who, "lost", lost.tobytes()):
                 yield Marks(t, who, "lost", lost)
+            yield from self._zone(t, who, m)
+        elif what == "ranging":
+            ends = np.array(m["echoes_body_m"], float).reshape(-1, 3)
+            yield Cloud(t, who, "ranging", ends, {})
         elif what == "layers":
             states = ", ".join(f"{n} {s}" for n, s in zip(m["layers"], m["states"]))
             yield from self._words(t, who, "layers", states)
@@ -96,6 +100,15 @@ class Wire:
             yield Picture(t, who, "image/jpeg", bytes(payload), place, turn, False, m["view_rad"])
         elif what == "sidescan":
             yield from self._sidescan(t, who, m, payload)
+
+    def _zone(self, t, who, m):
+        """What the declaration rule looked at last: its points and the zone's outline at the vehicle's height."""
+        points, corners = (np.array(m.get(n) or [], float).reshape(-1, 2) for n in ("zone_points_m", "zone_m"))
+        if who not in self._at or not self._new(who, "zone", points.tobytes() + corners.tobytes()):
+            return
+        yield Marks(t, who, "zone_points", points)
+        outline = np.concatenate([corners, corners[:1]])
+        yield Way(t, who, "zone", np.column_stack([outline, np.full(len(outline), self._at[who][2])]))
 
     def _gantry(self, t, who, what, m):
         if what == "joints":

@@ -79,6 +79,7 @@ pub(crate) fn picture(
             behaviour: decision.behaviour,
             layers: decision.layers.clone(),
             lost_points: decision.lost_points.clone(),
+            zone: decision.zone.clone(),
             planned: decision.planned.clone(),
             belief: belief.cloned(),
             regions: decision.regions.clone(),
