@@ -198,7 +198,7 @@ def dark(page, address, folder):
     check(sum(tone) < 200, f"dark: a page of {tone}")
     page.call("Emulation.setEmulatedMedia", media="print", features=[])
     hidden = page.value(f"getComputedStyle({FILM}).display")
-    check(hidden == "none" and page.value("document.querySelectorAll('figure svg').length > 0"), "print: pictures only")
+    check(hidden == "none" and page.value("document.querySelectorAll('figure svg, figure img').length > 0"), "print: pictures only")
     page.call("Emulation.setEmulatedMedia", media="", features=[])
 
 
@@ -245,7 +245,7 @@ def without_script(page, address, folder):
     time.sleep(1.5)
     page.picture(folder, "without_script")
     # DevTools still evaluates; the page's own scripts have not run.
-    state = page.value(f"[{FILM}.hidden, !{FILM}.dataset.ready, document.querySelector('figure svg') !== null]")
+    state = page.value(f"[{FILM}.hidden, !{FILM}.dataset.ready, document.querySelector('figure svg, figure img') !== null]")
     check(state == [True, True, True], "without script: no animation, but its pictures")
     page.call("Emulation.setScriptExecutionDisabled", value=False)
 

@@ -11,4 +11,4 @@ mod raster;
 pub mod room;
 
 pub use canvas::escaped;
-pub use raster::png;
+pub use raster::{png, small_png};

@@ -13,6 +13,15 @@ const FONTS: [&[u8]; 2] = [
 
 /// A figure as PNG bytes.
 pub fn png(svg: &str) -> Result<Vec<u8>, String> {
+    scaled(svg, |_| SCALE)
+}
+
+/// A figure as PNG bytes with at most `most_px` pixels on each side, for pages that are sent.
+pub fn small_png(svg: &str, most_px: u32) -> Result<Vec<u8>, String> {
+    scaled(svg, |longest| (most_px as f32 / longest).min(SCALE))
+}
+
+fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
     let mut options = Options::default();
     let fonts = options.fontdb_mut();
     for font in FONTS {
@@ -20,12 +29,13 @@ pub fn png(svg: &str) -> Result<Vec<u8>, String> {
     }
     let tree = Tree::from_str(svg, &options).map_err(|e| e.to_string())?;
     let size = tree.size();
-    let (w, h) = (size.width() * SCALE, size.height() * SCALE);
+    let scale = scale(size.width().max(size.height()));
+    let (w, h) = (size.width() * scale, size.height() * scale);
     let mut pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32)
         .ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
     resvg::render(
         &tree,
-        Transform::from_scale(SCALE, SCALE),
+        Transform::from_scale(scale, scale),
         &mut pixels.as_mut(),
     );
     pixels.encode_png().map_err(|e| e.to_string())
@@ -49,6 +59,15 @@ mod tests {
         assert_eq!(dark_pixels(&c), 0);
         c.text([5.0, 20.0], 14.0, Anchor::Start, "µ° −2²");
         assert!(dark_pixels(&c) > 50);
+    }
+
+    #[test]
+    fn a_small_picture_keeps_its_shape() {
+        let svg = Canvas::new(60.0, 30.0).svg("t");
+        for (most_px, want) in [(30, (30, 15)), (1000, (120, 60))] {
+            let p = Pixmap::decode_png(&small_png(&svg, most_px).unwrap()).unwrap();
+            assert_eq!((p.width(), p.height()), want);
+        }
     }
 
     /// All characters that the figures use in addition to ASCII have a glyph.

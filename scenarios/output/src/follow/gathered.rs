@@ -1,18 +1,25 @@
 //! All that a run has left, when it is over.
 
 use super::Follower;
-use crate::files::ReportError;
+use crate::charts::small_png;
+use crate::figures as draw;
+use crate::files::{ReportError, guarded};
 use crate::report::{Figure, figures, film, write_all};
 use crate::results::{
     BeliefTrack, Echoes, GantryTrack, MassBalance, ObstacleOutline, Pictures, PlumeFilm, RunEnd,
     RunReport, SourceTruth, Summary, Totals, Track,
 };
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
 use rheotaxis::frame::PlumeFrame;
 use rheotaxis::ocean::Ocean;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::trial::{Ended, Trial};
 use std::time::Duration;
 use world::files::Folder;
+
+/// Pixels of a [still](Gathered::still) along its longer side, at most: a page with nine is still easy to send.
+const STILL_PX: u32 = 1000;
 
 /// The results of a run that is over. Figures need its ocean as well, at the end of the run.
 pub struct Gathered {
@@ -90,6 +97,24 @@ impl Gathered {
     #[must_use]
     pub fn film(&self, ocean: &Ocean) -> Option<String> {
         film(&self.report(ocean))
+    }
+
+    /// A picture of the tracks in plan as a `data:` address of at most [`STILL_PX`] pixels on each side; `None` if
+    /// nothing moved.
+    ///
+    /// # Errors
+    /// If it cannot be drawn.
+    #[must_use]
+    pub fn still(&self, ocean: &Ocean) -> Option<Result<String, String>> {
+        let run = self.report(ocean);
+        let svg = if run.track.robots.is_empty() {
+            let gantry = run.gantries.first()?;
+            guarded(|| draw::flume(&run, gantry)).transpose()?
+        } else {
+            guarded(|| draw::map(&run))
+        };
+        let png = svg.and_then(|svg| small_png(&svg, STILL_PX));
+        Some(png.map(|png| format!("data:image/png;base64,{}", STANDARD.encode(png))))
     }
 
     /// Writes summary, plume, figures and page into the folder, if there is one.

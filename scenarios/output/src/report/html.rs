@@ -21,6 +21,7 @@ table:not(.facts){display:block;overflow-x:auto}table:not(.facts) :is(td,th){ove
 pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
 @media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
 h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
+table:not(.facts) :is(td,th){overflow-wrap:break-word}\
 pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}\
 @media screen and (prefers-color-scheme:dark){:root{color-scheme:dark}body{color:#e2e4e7;background:#14171a}h2{border-color:#3a3f45}\
 th,figcaption{color:#a8adb3}pre{background:#1d2126}svg{background:#fff;border-radius:4px}}";

@@ -2,7 +2,7 @@
 
 use super::contained::contained;
 use super::plan::Campaign;
-use super::report::{Pick, Shown};
+use super::report::{Film, Pick, Shown};
 use super::row::RunRow;
 use output::follow::Follower;
 use rayon::ThreadPoolBuilder;
@@ -37,16 +37,15 @@ impl Campaign {
         }
     }
 
-    /// The data of the [animation](output::report::film) of a run, which is made anew; its digest must be that of its
-    /// row.
+    /// The tracks of a run, which is made anew; its digest must be that of its row.
     ///
     /// # Errors
     /// Says why there is none: the scenario is no longer there or no longer the same, the run fails, another digest.
-    pub fn film(&self, row: &RunRow) -> Result<String, String> {
+    pub fn film(&self, row: &RunRow) -> Result<Film, String> {
         contained(|| self.film_of(row)).unwrap_or_else(|said| Err(format!("it panicked: {said}")))
     }
 
-    fn film_of(&self, row: &RunRow) -> Result<String, String> {
+    fn film_of(&self, row: &RunRow) -> Result<Film, String> {
         let place = self.place(row.run);
         if self.arm(place.arm).name != row.arm || place.seed.number() != row.seed {
             return Err("its row is of another campaign".to_string());
@@ -63,7 +62,10 @@ impl Campaign {
             ));
         }
         let gathered = follower.finish(&trial, &ended);
-        let film = gathered.film(trial.simulation.ocean());
-        film.ok_or_else(|| "nothing moved in it".to_string())
+        let ocean = trial.simulation.ocean();
+        let data = gathered.film(ocean).ok_or("nothing moved in it")?;
+        // A page without the picture is better than none.
+        let still = gathered.still(ocean).and_then(Result::ok);
+        Ok(Film { data, still })
     }
 }

@@ -32,7 +32,7 @@ pub use pairs::{Compares, Comparison};
 pub use restricted::Restricted;
 pub(crate) use tables::range;
 pub(crate) use text::align;
-pub use tracks::{Pick, Rank, Shown, picks};
+pub use tracks::{Film, Pick, Rank, Shown, picks};
 pub use unit::Unit;
 pub(crate) use walls::Walls;
 pub use write::{About, Written, write};

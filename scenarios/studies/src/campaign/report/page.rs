@@ -1,9 +1,13 @@
 //! The report as one self-contained page.
 
+use super::tracks::Film;
 use output::charts::escaped;
 use output::report::{FILM_STYLE, STYLE, film_script, film_section};
 use std::fmt::Write as _;
 
+/// Pictures of tracks are for print, and for browsers without JavaScript.
+const STILL_STYLE: &str = ".still{display:none}.still img{max-width:100%;background:#fff}\
+@media print{.still{display:block}.still img{max-height:215mm;margin:auto;display:block}}";
 const TEXT: &str = "writing to a String succeeds";
 
 /// A page that grows from top to bottom.
@@ -19,7 +23,7 @@ impl Page {
         let text = format!(
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\">\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\
-             <title>{title}</title><style>{STYLE}{FILM_STYLE}</style></head>\n<body>\n<h1>{title}</h1>\n"
+             <title>{title}</title><style>{STYLE}{FILM_STYLE}{STILL_STYLE}</style></head>\n<body>\n<h1>{title}</h1>\n"
         );
         Self { text, moves: false }
     }
@@ -34,13 +38,25 @@ impl Page {
 
     /// A paragraph for browsers without JavaScript.
     pub(super) fn without_script(&mut self, text: &str) {
-        writeln!(self.text, "<noscript><p>{}</p></noscript>", escaped(text)).expect(TEXT);
+        let text = escaped(text);
+        writeln!(
+            self.text,
+            "<noscript><style>.still{{display:block}}</style><p>{text}</p></noscript>"
+        )
+        .expect(TEXT);
     }
 
-    /// An animation, by its data.
-    pub(super) fn film(&mut self, title: &str, film: &str) {
+    /// An animation; its picture stands in for it in print and without JavaScript.
+    pub(super) fn film(&mut self, title: &str, film: &Film) {
         self.moves = true;
-        self.text.push_str(&film_section(title, film));
+        self.text.push_str(&film_section(title, &film.data));
+        if let Some(still) = &film.still {
+            let title = escaped(title);
+            let figure = format!(
+                "<figure class=\"still\"><img src=\"{still}\" alt=\"{title}\"><figcaption>{title}</figcaption></figure>"
+            );
+            writeln!(self.text, "{figure}").expect(TEXT);
+        }
     }
 
     pub(super) fn svg(&mut self, svg: &str) {

@@ -13,8 +13,8 @@ const MOST_ARMS: usize = 3;
 
 const NOTES: &str = "Runs with success are in the order of their times, then come those that declared elsewhere in the \
     order of their errors, then those without a declaration. Best is the first run, median the middle one, worst the last.";
-const STILL: &str = "The tracks move here in a browser with JavaScript. `rheotaxis campaign rerun DIR --run N` makes a run \
-    anew, with its pictures.";
+const STILL: &str = "The tracks move here in a browser with JavaScript; without it, and in print, they are pictures. \
+    `rheotaxis campaign rerun DIR --run N` makes a run anew, with all its pictures.";
 
 /// Where a run stands among those of its arm.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,8 +53,17 @@ pub struct Pick {
 pub struct Shown {
     /// Which one.
     pub pick: Pick,
-    /// The data of its [animation](output::report::film), or why there is none.
-    pub film: Result<String, String>,
+    /// How it moved, or why that is not known.
+    pub film: Result<Film, String>,
+}
+
+/// The tracks of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Film {
+    /// The data of its [animation](output::report::film).
+    pub data: String,
+    /// A picture of them as a `data:` address, for print and for browsers without JavaScript.
+    pub still: Option<String>,
 }
 
 /// The runs to show: of each of the first arms at most three, none of them twice. `arms` gives the order of the arms;
