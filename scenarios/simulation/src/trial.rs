@@ -38,6 +38,10 @@ pub trait Watch {
     fn developed(&mut self, _kept: bool) {}
     /// A new frame.
     fn frame(&mut self, _frame: &Frame) {}
+    /// Whether it looks at pictures of the plume. Otherwise none are made for it.
+    fn sees_plume(&self) -> bool {
+        true
+    }
     /// A new picture of the plume.
     fn plume(&mut self, _plume: &PlumeFrame) {}
     /// The flow may be looked at, as often as the plume; once only if it is steady. It is made when it is asked for.
@@ -58,7 +62,11 @@ pub trait Watch {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Unwatched;
 
-impl Watch for Unwatched {}
+impl Watch for Unwatched {
+    fn sees_plume(&self) -> bool {
+        false
+    }
+}
 
 /// What is known at the end of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -318,7 +326,8 @@ impl Trial {
 
     fn show(&mut self, watch: &mut dyn Watch) {
         let mut outbox = self.simulation.world.resource_mut::<Outbox>();
-        let (frame, plume) = (outbox.frame.take(), outbox.plume.take());
+        let (frame, due) = (outbox.frame.take(), outbox.plume_due.take());
+        let most = outbox.plume_points;
         for picture in std::mem::take(&mut outbox.pictures) {
             watch.picture(&picture);
         }
@@ -329,13 +338,20 @@ impl Trial {
             watch.frame(&frame);
             self.frame = Some(frame);
         }
-        if let Some(plume) = plume {
+        if let Some(t_s) = due {
             self.flow_samples += 1;
             for (sum, p_W) in self.flow_sums.iter_mut().zip(&self.sources) {
                 *sum += self.simulation.velocity(p_W);
             }
-            watch.plume(&plume);
-            water::show(&self.simulation, plume.t_s, &mut self.water_shown, watch);
+            if watch.sees_plume() {
+                let plume = self.simulation.ocean().plume();
+                watch.plume(&PlumeFrame {
+                    t_s,
+                    total: plume.len(),
+                    points: plume.decimated(most),
+                });
+            }
+            water::show(&self.simulation, t_s, &mut self.water_shown, watch);
         }
     }
 

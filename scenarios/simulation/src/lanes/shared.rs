@@ -10,6 +10,7 @@ use crate::assemble::Simulation;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin, SpunUp};
+use crate::outbox::Outbox;
 use crate::scenario::Loaded;
 use crate::trial::{Trial, Unwatched};
 use bevy_ecs::prelude::World;
@@ -118,6 +119,8 @@ impl Shared {
             caught(|| Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed));
         self.ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
+        // Whoever steps it looks at the run itself.
+        world.resource_mut::<Outbox>().closed = true;
         let simulation = Simulation::of(world, tick, self.origin.clone());
         let mut run = Run {
             trial: Trial::of(scenario, simulation, sources),

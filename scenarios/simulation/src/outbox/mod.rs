@@ -2,7 +2,7 @@
 
 pub(crate) mod system;
 
-use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame};
+use crate::frame::{Frame, PictureFrame, PingFrame};
 use bevy_ecs::prelude::Resource;
 use world::clock::Every;
 
@@ -14,15 +14,18 @@ pub struct Outbox {
     pub open: Option<Frame>,
     /// The newest frame.
     pub(crate) frame: Option<Frame>,
-    /// The newest picture of the plume.
-    pub(crate) plume: Option<PlumeFrame>,
+    /// The time at which the plume is to be pictured, if it is, s.
+    pub(crate) plume_due: Option<f64>,
+    /// Most filaments in such a picture.
+    pub(crate) plume_points: usize,
+    /// No frames are made: nobody will take them.
+    pub(crate) closed: bool,
     /// Pictures by cameras since the trial last took them.
     pub(crate) pictures: Vec<PictureFrame>,
     /// Pings of sidescan sonars since the trial last took them.
     pub(crate) pings: Vec<PingFrame>,
     frame_every: Every,
     plume_every: Every,
-    plume_points: usize,
 }
 
 impl Outbox {
@@ -32,12 +35,13 @@ impl Outbox {
         Self {
             open: None,
             frame: None,
-            plume: None,
+            plume_due: None,
+            plume_points,
+            closed: false,
             pictures: Vec::new(),
             pings: Vec::new(),
             frame_every,
             plume_every,
-            plume_points,
         }
     }
 }

@@ -1,8 +1,7 @@
 //! Makes frames at the end of a tick: opened here, filled by the systems of each apparatus, closed here.
 
 use super::Outbox;
-use crate::frame::{Frame, PlumeFrame};
-use crate::ocean::Ocean;
+use crate::frame::Frame;
 use crate::score::Score;
 use crate::topic::Topics;
 use bevy_ecs::prelude::{Res, ResMut};
@@ -11,31 +10,32 @@ use world::clock::Clock;
 /// Opens a frame if one is due. The last state of a mission is shown even between two frames.
 pub(crate) fn open_frame(clock: Res<Clock>, mut score: ResMut<Score>, mut outbox: ResMut<Outbox>) {
     let ended = score.take_ended();
-    outbox.open = (ended || outbox.frame_every.due(&clock)).then(|| Frame {
+    let due = ended || outbox.frame_every.due(&clock);
+    outbox.open = (due && !outbox.closed).then(|| Frame {
         t_s: clock.t_next_s(),
         step: clock.step + 1,
         ..Frame::default()
     });
 }
 
-/// Completes what is open, and pictures the plume if that is due.
+/// Completes what is open, and notes that the plume is to be pictured if that is due.
 pub(crate) fn close_frame(
     clock: Res<Clock>,
-    ocean: Res<Ocean>,
     score: Res<Score>,
     mut topics: ResMut<Topics>,
     mut outbox: ResMut<Outbox>,
 ) {
+    if outbox.plume_every.due(&clock) {
+        outbox.plume_due = Some(clock.t_next_s());
+    }
+    if outbox.closed {
+        // What was published waits for no frame.
+        drop(topics.take_fresh());
+        return;
+    }
     if let Some(mut frame) = outbox.open.take() {
         frame.abnormal.clone_from(&score.abnormal);
         frame.published = topics.take_fresh();
         outbox.frame = Some(frame);
-    }
-    if outbox.plume_every.due(&clock) {
-        outbox.plume = Some(PlumeFrame {
-            t_s: clock.t_next_s(),
-            total: ocean.plume().len(),
-            points: ocean.plume().decimated(outbox.plume_points),
-        });
     }
 }

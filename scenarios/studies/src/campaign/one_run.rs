@@ -109,6 +109,9 @@ impl Watch for Gatherer<'_> {
     fn spun_up(&mut self, _share: f64) -> bool {
         (self.go_on)()
     }
+    fn sees_plume(&self) -> bool {
+        false
+    }
     fn frame(&mut self, frame: &Frame) {
         self.builder.observe(frame);
     }

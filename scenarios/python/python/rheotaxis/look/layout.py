@@ -14,7 +14,7 @@ from . import colours
 from .canvas import TIMELINE
 
 #: Layouts by name; `Plan.kind` picks one.
-KINDS = ("auv", "gantry", "map", "vision", "several")
+KINDS = ("plume", "auv", "gantry", "map", "vision", "several")
 #: What may be laid out: all panels, or one 3D view alone.
 VIEWS = ("all", "mission", "beside")
 
@@ -43,6 +43,8 @@ class Plan:
     @property
     def kind(self):
         """The kind of mission, one of `KINDS`."""
+        if not (self.gantries or self.robots or self.live):
+            return "plume"
         if self.gantries and not self.robots:
             return "gantry"
         if len(self.robots) + len(self.gantries) > 1:
@@ -92,6 +94,9 @@ def blueprint(plan, view="all"):
     if view != "all" and names:
         return _whole(_overview(plan, names) if view == "mission" else _follow(plan, names[0]))
     main = _overview(plan, names)
+    legend = rrb.TextDocumentView(origin="legend", name="Legend")
+    if plan.kind == "plume":
+        return _whole(rrb.Horizontal(main, legend, column_shares=[13, 5]))
     lanes = rrb.StateTimelineView(origin="states", name="Behaviour and states", time_view=_time(plan))
     who = len(names) > 1
     log = rrb.TextLogView(
@@ -106,7 +111,6 @@ def blueprint(plan, view="all"):
             ],
         ),
     )
-    legend = rrb.TextDocumentView(origin="legend", name="Legend")
     kind = plan.kind
     if kind == "gantry":
         side = rrb.Vertical(

@@ -8,6 +8,11 @@ from .canvas import mesh
 
 #: Solids with more triangles than these are lit smoothly as they come.
 SHARP = 20_000
+#: Solids with more triangles than these are shapes from files, which are darker the lower a place is.
+RELIEF = 500
+#: Height by which solids are drawn higher, as a share of the scene: where a mound runs out on the bed, both lie in one
+#: plane, and a viewer shows patches of either.
+LIFT = 2e-4
 
 
 def draw(canvas, scene):
@@ -32,10 +37,11 @@ def draw(canvas, scene):
         if len(triangles) == 0:
             continue
         color = colours.from_unit(solid["color"])
-        if len(triangles) <= SHARP:
-            drawn = mesh(shapes.flat(scene.local(vertices), triangles), color)
+        vertices = scene.local(vertices) + [0.0, 0.0, LIFT * scene.size_m()]
+        if len(triangles) <= RELIEF:
+            drawn = mesh(shapes.flat(vertices, triangles), color)
         else:
-            drawn = rr.Mesh3D(vertex_positions=scene.local(vertices), triangle_indices=triangles, albedo_factor=color)
+            drawn = _relief(vertices, triangles, color)
         canvas.still(f"world/solids/{rr.escape_entity_path_part(solid['name'])}_{n}", drawn)
 
 
@@ -58,4 +64,17 @@ def _bed(canvas, scene):
             vertex_normals=normals.astype(np.float32),
             vertex_colors=colours.shade(share, "bed"),
         ),
+    )
+
+
+def _relief(vertices, triangles, color):
+    """A solid whose colour follows its height."""
+    normals = None
+    if len(triangles) <= SHARP:
+        vertices, triangles, normals = shapes.flat(vertices, triangles)
+    z = np.asarray(vertices)[:, 2]
+    share = (z - z.min()) / max(np.ptp(z), 1e-9)
+    shades = np.clip(np.outer(0.6 + 0.6 * share, color[:3]), 0, 255).astype(np.uint8)
+    return rr.Mesh3D(
+        vertex_positions=vertices, triangle_indices=triangles, vertex_normals=normals, vertex_colors=shades
     )
