@@ -145,7 +145,8 @@ impl Equation {
         let mass = &body.mass;
         let (v, w) = (flip(*v), flip(*w));
         let to_body = |x: &Vector3<f64>| flip(R_WB.inverse_transform_vector(x));
-        let down = to_body(&-Vector3::z());
+        let up = R_WB.matrix().row(2);
+        let down = Vector3::new(0.0 - up[0], up[1], up[2]);
 
         let mut force = Vector3::zeros();
         let (current, mut current_rate);
@@ -162,9 +163,14 @@ impl Equation {
             current_rate = Vector3::new(w.z * current.y, -w.z * current.x, 0.0);
         } else {
             current = to_body(&water.u_W);
-            let v_W = R_WB * flip(v);
-            let a_hull = to_body(&(water.rate_W + water.gradient_W * v_W));
-            let a_water = to_body(&(water.rate_W + water.gradient_W * water.u_W));
+            let (mut a_hull, mut a_water) = (Vector3::zeros(), Vector3::zeros());
+            // Uniform, steady water does not push.
+            if water.rate_W != Vector3::zeros() || water.gradient_W != Matrix3::zeros() {
+                let v_W = R_WB * flip(v);
+                a_hull = to_body(&(water.rate_W + water.gradient_W * v_W));
+                a_water = to_body(&(water.rate_W + water.gradient_W * water.u_W));
+                along = to_body(&(water.gradient_W * R_WB.matrix().column(0)));
+            }
             current_rate = -w.cross(&current) + a_hull;
             let pushed = a_water * (water.density_kg_m3 * body.volume_m3 * water.wet);
             force += pushed;
@@ -172,7 +178,6 @@ impl Equation {
             // M_RB a_u also has a moment, because the centre of gravity is not the origin.
             force -= a_hull * mass.kg;
             moment -= mass.r_G.cross(&(a_hull * mass.kg));
-            along = to_body(&(water.gradient_W * R_WB.matrix().column(0)));
         }
         let v_r = v - current;
 
