@@ -75,6 +75,12 @@ where
         .unwrap_or_else(|said| Err(panicked(&said)))
 }
 
+/// Panics where runs do, with these words: the tests make sure that it becomes an exception.
+#[pyfunction(name = "_panic")]
+pub(crate) fn panic_of(py: Python<'_>, words: String) -> PyResult<()> {
+    apart(py, move || panic!("{words}"))
+}
+
 /// The exception for a panic.
 pub(crate) fn panicked(said: &str) -> PyErr {
     PyRuntimeError::new_err(format!("rheotaxis: {said}"))

@@ -29,7 +29,7 @@ mod _rheotaxis {
     #[pymodule_export]
     use crate::batch::Batch;
     #[pymodule_export]
-    use crate::error::{ScenarioError, ScenarioWarning};
+    use crate::error::{ScenarioError, ScenarioWarning, panic_of};
     #[pymodule_export]
     use crate::result::{PyFigure, PyRunResult};
     #[pymodule_export]

@@ -28,6 +28,14 @@ def test_ctrl_c_ends_a_spin_up(endless):
         rheotaxis.run(scenario)
 
 
+def test_a_panic_is_an_exception_and_the_next_run_goes_on(channel):
+    from rheotaxis import _rheotaxis
+
+    with pytest.raises(RuntimeError, match="rheotaxis: .*no bottom"):
+        _rheotaxis._panic("no bottom")
+    assert rheotaxis.run(channel.with_({"time.limit_s": 2}), seed=1).digest
+
+
 def test_what_a_handler_raises_comes_out(endless):
     class Enough(Exception):
         pass

@@ -223,6 +223,7 @@ def run(
 def catalogue() -> dict[str, dict[str, Any]]:
     """The scenarios that come with the program, by name: ``title``, ``citation``, ``searchers`` (ids)."""
 
+def _panic(words: str) -> None: ...
 def explain(path: str = "") -> str:
     """What a place of a scenario may hold: unit, range, default, meaning and source of each field.
 
