@@ -1,6 +1,7 @@
 //! Brings robots into a run.
 
 use super::shown::system as shown;
+use super::yard::{Yard, build};
 use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
 use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
@@ -8,7 +9,7 @@ use crate::control::consulting::{Asking, Consulting};
 use crate::error::AssembleError;
 use crate::ocean::Ocean;
 use crate::ocean::system::digest_plume;
-use crate::scenario::{Beside, RobotSpec};
+use crate::scenario::RobotSpec;
 use crate::score::Score;
 use crate::searchers::SearcherId;
 use bevy_ecs::prelude::{IntoScheduleConfigs, World};
@@ -23,7 +24,7 @@ use robots::handoff::{
     Setting, Vertical,
 };
 use robots::sense::{OnBoard, SensorSuite};
-use robots::vehicles::{Battery, Craft};
+use robots::vehicles::Battery;
 use world::catalogue::Entry;
 use world::clock::Clock;
 use world::frames::{Pose, Truth};
@@ -101,7 +102,11 @@ fn spawn(
     let p_W = spec.start.p_W(&setting.bed);
     let mut truth = Truth::at_rest(Pose::level(p_W, heading));
     truth.v_WB_B.x = spec.start.speed_m_s.get();
-    let vehicle = Craft::load(&spec.vehicle, &Beside(base_dir))?;
+    let turn_m = spec.guidance.tightest_turn_m();
+    let (vehicle, able) = match world.get_resource_mut::<Yard>() {
+        Some(mut yard) => yard.take(&spec.vehicle, turn_m, base_dir),
+        None => build(&spec.vehicle, turn_m, base_dir),
+    }?;
     let body = (world.resource_mut::<Physics>()).add_body(vehicle.body_spec(id, truth));
     let suite = SensorSuite::new(
         &spec.sensors,
@@ -109,7 +114,6 @@ fn spawn(
         OnBoard::new(id, seed, dt_s),
     )?;
     let carried = vehicle.is_carried();
-    let able = vehicle.capabilities(spec.guidance.tightest_turn_m());
     let pilot = Pilot::new(
         &spec.autopilot,
         &vehicle.control(),

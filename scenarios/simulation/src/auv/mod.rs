@@ -5,6 +5,9 @@ pub(crate) mod message;
 mod shown;
 pub(crate) mod system;
 pub mod topics;
+mod yard;
+
+pub(crate) use yard::Yard;
 
 pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
 

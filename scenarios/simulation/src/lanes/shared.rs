@@ -7,6 +7,7 @@
 
 use super::{LaneError, caught, lend, take_back, taken};
 use crate::assemble::Simulation;
+use crate::auv::Yard;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin, SpunUp};
@@ -25,6 +26,8 @@ pub struct Shared {
     ocean: Option<Ocean>,
     clock: Clock,
     runs: Vec<Option<Run>>,
+    /// In a world while its run is put together.
+    yard: Yard,
 }
 
 struct Run {
@@ -83,6 +86,7 @@ impl Shared {
             ocean: Some(ocean),
             clock: Clock::new(loaded.scenario.time.step_s.get()),
             runs: (0..places).map(|_| None).collect(),
+            yard: Yard::default(),
         })
     }
 
@@ -112,12 +116,14 @@ impl Shared {
         let loaded = &self.loaded;
         let mut world = World::new();
         world.insert_resource(self.ocean.take().expect("it is back"));
+        world.insert_resource(std::mem::take(&mut self.yard));
         let sources = world.resource::<Ocean>().sources();
         let (registry, scenario) = (&loaded.registry, &loaded.scenario);
         let seed = seed.into();
         let tick =
             caught(|| Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed));
         self.ocean = taken(&mut world);
+        self.yard = world.remove_resource().unwrap_or_default();
         let tick = tick.map_err(LaneError::Panicked)??;
         // Whoever steps it looks at the run itself.
         world.resource_mut::<Outbox>().closed = true;
