@@ -74,7 +74,8 @@ fn counted(session: &Session) -> (Queryable<()>, Arc<AtomicU64>) {
 fn watchers_see_a_run_that_nobody_can_touch() {
     let text = channel(ASKS, 10.0);
     let alone = Run::start(&text, &["--allow-control", "--control-wait", "0"]).end();
-    let wait = ["--allow-control", "--control-wait", "10", "--speed", "10"];
+    // Slow enough that a busy machine asks before the run is over.
+    let wait = ["--allow-control", "--control-wait", "10", "--speed", "3"];
     let run = secured("watchers.json5", LOOPBACK, &text, &wait, |_| {});
     let watcher = Watcher::new(client(&run.endpoint));
     let rogues = ["client", "peer", "router"].map(|mode| Rogue::at(&run.endpoint, mode));
