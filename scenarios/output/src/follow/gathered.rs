@@ -99,7 +99,7 @@ impl Gathered {
         film(&self.report(ocean))
     }
 
-    /// A picture of the tracks in plan as a `data:` address of at most [`STILL_PX`] pixels on each side; `None` if
+    /// A picture of the tracks in plan as a `data:` address of at most 1000 pixels on each side; `None` if
     /// nothing moved.
     ///
     /// # Errors
