@@ -11,8 +11,8 @@
 //! half_width - 2 turn_radius = 3 m on either side of the centre and is 2 · 3 / sin 15° = 23 m long. `turn_radius_m:
 //! 0` gives the other reading: the lines alone span 13 m and are 100 m long. The turns themselves are how the
 //! guidance reaches the next line's start. A line is at least as long as the vehicle's turning circle is wide, so that
-//! a hull that turns wider than a REMUS has straight water to search, too. The ends of a line are held 10 m inside the area. With N_re = 1 the bowtie
-//! is centred on the point.
+//! a hull that turns wider than a REMUS has straight water to search, too. The ends of a line are held 10 m inside the
+//! area. With N_re = 1 the bowtie is centred on the point.
 
 use super::catalogue::BehaviourParams;
 use super::{Behave, Stride};

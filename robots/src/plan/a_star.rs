@@ -5,9 +5,8 @@
 //!
 //! *Parameters*: `cost`, `Metric` or `Paper` (1000 in an obstacle cell, none elsewhere, Manhattan h, five moves); for
 //! `Metric` the turning radius `turn_radius_m`, m, 12 (2 m/s at 10 °/s make 11.5), or the vehicle's own if that is
-//! greater; the share added to the cost beside
-//! a solid, `clearance_weight`, 2, which falls to zero at `clearance_m`, m, 4; the cost of a metre up or down in
-//! horizontal metres, `climb`, 3 (a REMUS climbs at less than 20°).
+//! greater; the share added to the cost beside a solid, `clearance_weight`, 2, which falls to zero at `clearance_m`,
+//! m, 4; the cost of a metre up or down in horizontal metres, `climb`, 3 (a REMUS climbs at less than 20°).
 //!
 //! *Deviations*: eq. 8 gives free cells no cost, which makes the search greedy: `Paper` keeps it (see
 //! `paper_cost.rs`), and the default cost is the length. See `search.rs` for the search, `smooth.rs` for the

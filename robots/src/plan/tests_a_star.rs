@@ -52,6 +52,26 @@ fn leaves_the_dead_end_that_holds_the_potential_field() {
     );
 }
 
+/// The setting is the least radius; a hull that turns wider gets wider turns.
+#[test]
+fn turns_are_as_wide_as_the_hull_needs() {
+    let r = room([200, 200, 1], [1.0; 3], vec![]);
+    let goal = Vector3::new(100.0, 20.0, -4.0);
+    let tightest = |radius_m: f64| {
+        let start = From {
+            turning_radius_m: radius_m,
+            ..from(150.0, 150.0, -4.0)
+        };
+        let path = a_star().plan(&r, &start, &goal).unwrap();
+        assert_eq!(path.reach, Reach::Goal);
+        path.tightest_m
+    };
+    for radius_m in [0.0, 12.0] {
+        assert!((tightest(radius_m) - 12.0).abs() < 1e-9, "{radius_m}");
+    }
+    assert!((tightest(30.0) - 30.0).abs() < 1e-9);
+}
+
 #[test]
 fn ends_are_the_ends_asked_for_and_turns_are_the_vehicles() {
     let r = room(

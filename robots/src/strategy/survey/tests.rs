@@ -325,3 +325,48 @@ fn parts_that_do_not_go_together_are_named() {
     };
     assert!(says(none).contains("sidescan.offsets_m: must have from 1 to 32 lines, got 0"));
 }
+
+/// What the camera's part of a survey begins with, for a vehicle that hovers or not.
+fn first_of_the_camera(hovers: bool, camera: CameraPasses) -> Manoeuvre {
+    let spec = SurveySpec {
+        sidescan: None,
+        camera: Some(camera),
+        verify: Verify::Camera,
+        ..SurveySpec::default()
+    };
+    let after = AfterDeclaration::Survey(Box::new(spec));
+    let mut post = PostDeclaration::new(&after).unwrap();
+    let place = Vector2::new(10.0, 20.0);
+    let mut o = seen(0.0, place, 0.0, None);
+    o.able.hovers = hovers;
+    let first = Declaration::first(0.0, place, "test");
+    let _ = post.enter(first, &o, Heading::from_deg(30.0));
+    // The first step ends the sidescan's part, which has no lines.
+    match post.step(&o, false) {
+        Progress::Go(Stride::Start(manoeuvre)) => manoeuvre,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn over_a_declared_place_a_vehicle_that_hovers_holds_for_pictures_that_add_up() {
+    let added = || CameraPasses {
+        add_up: Some(AddUpSpec::default()),
+        ..CameraPasses::default()
+    };
+    let holds = first_of_the_camera(true, added());
+    assert!(matches!(holds, Manoeuvre::GoToPoint { .. }), "{holds:?}");
+    let not_asked = CameraPasses {
+        held_pictures: 0,
+        ..added()
+    };
+    // Each picture by itself, or a vehicle that cannot hover, or one that is told to fly lines.
+    for (hovers, camera) in [
+        (true, CameraPasses::default()),
+        (false, added()),
+        (true, not_asked),
+    ] {
+        let flies = first_of_the_camera(hovers, camera);
+        assert!(matches!(flies, Manoeuvre::FollowLine { .. }), "{flies:?}");
+    }
+}
