@@ -18,20 +18,23 @@ pub struct Area {
 }
 
 impl Area {
+    /// Unit vectors along the axis and to the right of it (east, north).
+    fn axes(&self) -> [Vector2<f64>; 2] {
+        let right = self.axis.turned(std::f64::consts::FRAC_PI_2);
+        [self.axis.unit(), right.unit()]
+    }
+
     /// Coordinates of a world point in the area: (distance along the axis, distance to the right of it), m.
     #[must_use]
     pub fn local(&self, p: Vector2<f64>) -> Vector2<f64> {
         let d = p - self.centre;
-        let a = self.axis.unit();
-        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit();
-        Vector2::new(d.dot(&a), d.dot(&r))
+        self.axes().map(|axis| d.dot(&axis)).into()
     }
 
     /// World point (east, north) for the area's coordinates (along, across).
     #[must_use]
     pub fn world(&self, local: Vector2<f64>) -> Vector2<f64> {
-        let a = self.axis.unit();
-        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit();
+        let [a, r] = self.axes();
         self.centre + a * local.x + r * local.y
     }
 
@@ -44,13 +47,10 @@ impl Area {
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
     #[must_use]
     pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
-        let q = self.local(p);
-        let (dx, dy) = (
-            self.length_m / 2.0 - q.x.abs(),
-            self.width_m / 2.0 - q.y.abs(),
-        );
-        let a = self.axis.unit() * q.x.signum();
-        let r = self.axis.turned(std::f64::consts::FRAC_PI_2).unit() * q.y.signum();
+        let axes = self.axes();
+        let [x, y] = axes.map(|axis| (p - self.centre).dot(&axis));
+        let (dx, dy) = (self.length_m / 2.0 - x.abs(), self.width_m / 2.0 - y.abs());
+        let [a, r] = [axes[0] * x.signum(), axes[1] * y.signum()];
         if dx < 0.0 && dy < 0.0 {
             let out = a * -dx + r * -dy;
             let d = out.norm();

@@ -242,7 +242,7 @@ impl Carrier {
             b.z[l] = b.z[l] * (bed / b.bed[l]) - bed * rise;
             b.bed[l] = bed;
         }
-        for l in (0..BLOCK).filter(|l| fits[*l] == 0) {
+        for l in (0..b.used).filter(|l| fits[*l] == 0) {
             self.far(lookup, grid, b, l, column[l], level[l], gone);
         }
     }

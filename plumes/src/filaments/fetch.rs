@@ -34,10 +34,10 @@ impl Columns {
         (self.at[l], self.f[l], self.g[l]) = (c.at, c.f, c.g);
     }
 
-    /// Works out the weights for [`fetch`].
+    /// Works out the weights of the first `N` for [`fetch`].
     #[inline(always)]
-    pub(super) fn weigh(&mut self) {
-        for l in 0..BLOCK {
+    pub(super) fn weigh<const N: usize>(&mut self) {
+        for l in 0..N {
             let w = weights(self.f[l], self.g[l]);
             for (weight, w) in self.weight.iter_mut().zip(w) {
                 weight[l] = w;
@@ -82,13 +82,13 @@ impl Levels {
 /// u, v, w and K_z of a block.
 pub(super) type Fetched = [[f32; BLOCK]; 4];
 
-/// Fills in the water at the places of a block. Multiplies `slope`, the reciprocal distance of the levels, by the
+/// Fills in the water at the first `N` places of a block; `N` is a multiple of four. Multiplies `slope`, the reciprocal distance of the levels, by the
 /// difference of K_z between them.
 ///
 /// # Safety
 /// The machine must have the instructions of `P`.
 #[inline(always)]
-pub(super) unsafe fn fetch<P: Pair>(
+pub(super) unsafe fn fetch<P: Pair, const N: usize>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
     column: &Columns,
@@ -97,12 +97,12 @@ pub(super) unsafe fn fetch<P: Pair>(
     mut slope: Option<&mut [f32; BLOCK]>,
 ) {
     let (up_j, up_i) = cells.strides();
-    let lowest = highest(&column.at) as usize * up_j + highest(&level.below) as usize;
+    let lowest = highest(&column.at[..N]) as usize * up_j + highest(&level.below[..N]) as usize;
     assert!(
         lowest + 1 + up_j + up_i < nodes.len(),
         "a filament's cell is not one of the flow grid: its nodes and those of the cells were not refreshed together"
     );
-    for from in (0..BLOCK).step_by(4) {
+    for from in (0..N).step_by(4) {
         // SAFETY: no cell of the block reaches beyond the nodes, as asserted above; the caller promises `P`.
         let [a, b, c, d] = unsafe {
             [
@@ -125,9 +125,9 @@ pub(super) unsafe fn fetch<P: Pair>(
     }
 }
 
-/// The highest index of a block.
+/// The highest of these indices.
 #[inline(always)]
-pub(super) fn highest(indices: &[u32; BLOCK]) -> u32 {
+pub(super) fn highest(indices: &[u32]) -> u32 {
     indices.iter().fold(0, |most, n| most.max(*n))
 }
 

@@ -98,8 +98,25 @@ impl Work {
     }
 }
 
-/// Moves all filaments of the block, each by its `dt`.
+/// Moves all filaments of the block, each by its `dt`. Of a block with few filaments only the first places are worked
+/// on, with the same bits.
 pub(super) fn step(
+    path: Path,
+    cells: &Lookup,
+    nodes: &[[f32; 4]],
+    key: [u32; 2],
+    block: &mut Block,
+    work: &mut Work,
+) {
+    match block.used {
+        ..=32 => step_first::<32>(path, cells, nodes, key, block, work),
+        ..=64 => step_first::<64>(path, cells, nodes, key, block, work),
+        _ => step_first::<BLOCK>(path, cells, nodes, key, block, work),
+    }
+}
+
+/// The same for the first `N` places.
+fn step_first<const N: usize>(
     path: Path,
     cells: &Lookup,
     nodes: &[[f32; 4]],
@@ -109,19 +126,19 @@ pub(super) fn step(
 ) {
     match path {
         // SAFETY: these instructions are part of every machine of the target.
-        Path::Portable => unsafe { body::<Twice>(cells, nodes, key, block, work) },
+        Path::Portable => unsafe { body::<Twice, N>(cells, nodes, key, block, work) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { body_avx2(cells, nodes, key, block, work) },
+        Path::Avx2 => unsafe { body_avx2::<N>(cells, nodes, key, block, work) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx512 => unsafe { body_avx512(cells, nodes, key, block, work) },
+        Path::Avx512 => unsafe { body_avx512::<N>(cells, nodes, key, block, work) },
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn body_avx512(
+fn body_avx512<const N: usize>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
     key: [u32; 2],
@@ -129,12 +146,12 @@ fn body_avx512(
     work: &mut Work,
 ) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<Avx>(cells, nodes, key, block, work) };
+    unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn body_avx2(
+fn body_avx2<const N: usize>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
     key: [u32; 2],
@@ -142,7 +159,7 @@ fn body_avx2(
     work: &mut Work,
 ) {
     // SAFETY: the pair needs AVX, which is part of this function's features.
-    unsafe { body::<Avx>(cells, nodes, key, block, work) };
+    unsafe { body::<Avx, N>(cells, nodes, key, block, work) };
 }
 
 /// # Safety
@@ -152,7 +169,7 @@ fn body_avx2(
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-unsafe fn body<P: Pair>(
+unsafe fn body<P: Pair, const N: usize>(
     cells: &Lookup,
     nodes: &[[f32; 4]],
     key: [u32; 2],
@@ -170,23 +187,23 @@ unsafe fn body<P: Pair>(
         there,
     } = work;
 
-    for l in 0..BLOCK {
+    for l in 0..N {
         let n = normals(b.number[l], key);
         for d in 0..4 {
             noise[d][l] = n[d];
         }
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         column.set(l, cells.column(b.x[l], b.y[l]));
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         up[l] = -1.0 / b.bed[l];
         slope[l] = level.set(l, cells.level(b.z[l], up[l]));
     }
-    column.weigh();
+    column.weigh::<N>();
     // SAFETY: the caller promises the instructions of the pair.
-    unsafe { fetch::<P>(cells, nodes, column, level, here, Some(slope)) };
-    for l in 0..BLOCK {
+    unsafe { fetch::<P, N>(cells, nodes, column, level, here, Some(slope)) };
+    for l in 0..N {
         kick[l] = (2.0 * here[3][l] * b.dt[l] * b.kicked[l]).sqrt() * noise[2][l];
         level.set(
             l,
@@ -194,15 +211,15 @@ unsafe fn body<P: Pair>(
         );
     }
     // SAFETY: as above.
-    unsafe { fetch::<P>(cells, nodes, column, level, there, None) };
+    unsafe { fetch::<P, N>(cells, nodes, column, level, there, None) };
     if let Some(k_h) = cells.even_k_h {
-        for l in 0..BLOCK {
+        for l in 0..N {
             let kick = (2.0 * k_h * b.dt[l] * b.kicked[l]).sqrt();
             b.x[l] += kick * noise[0][l];
             b.y[l] += kick * noise[1][l];
         }
     } else {
-        for l in 0..BLOCK {
+        for l in 0..N {
             let (k_h, gradient) = cells.k_h(column.get(l));
             let dt = b.dt[l] * b.kicked[l];
             let kick = (2.0 * k_h * dt).sqrt();
@@ -210,7 +227,7 @@ unsafe fn body<P: Pair>(
             b.y[l] += kick * noise[1][l] + gradient[1] * dt;
         }
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         let half = 0.5 * b.dt[l];
         // Secant of K_z over the kick. For a kick below a hundred-thousandth of the depth it would be only rounding.
         let long = kick[l].abs() * up[l] > 1e-5;
@@ -223,16 +240,16 @@ unsafe fn body<P: Pair>(
             + kick[l]
             + half * b.kicked[l] * (0.5 * (slope[l] + secant)) * squares;
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         let c = cells.column(b.x[l], b.y[l]);
         b.outside[l] = u32::from(c.outside);
         b.moved[l] = u32::from(c.at != column.at(l));
         column.set(l, c);
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         b.bed[l] = cells.bed(column.get(l));
     }
-    for l in 0..BLOCK {
+    for l in 0..N {
         b.z[l] = folded(b.z[l], b.bed[l], -1.0 / b.bed[l]);
     }
 }

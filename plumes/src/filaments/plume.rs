@@ -24,6 +24,7 @@ use super::sampled::Sampled;
 use super::size::Size;
 use super::solids::Solids;
 use super::store::Store;
+use super::sweep::Desk;
 use crate::error::PlumeError;
 use crate::flow::Blocked;
 use crate::flow::eddies::Small;
@@ -80,6 +81,23 @@ pub struct Plume {
     pub(super) turned_back: u64,
     pub(super) index: Index,
     pub(super) threads: Option<Arc<rayon::ThreadPool>>,
+    pub(super) desk: OwnDesk,
+}
+
+/// Where a plume moves its filaments. It holds nothing from one step to the next, so a copy of a plume has a new one.
+#[derive(Default)]
+pub(super) struct OwnDesk(pub(super) Box<Desk>);
+
+impl Clone for OwnDesk {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl std::fmt::Debug for OwnDesk {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("OwnDesk")
+    }
 }
 
 impl Plume {
@@ -126,6 +144,7 @@ impl Plume {
             turned_back: 0,
             index: Index::default(),
             threads: None,
+            desk: OwnDesk::default(),
         })
     }
 

@@ -46,6 +46,34 @@ pub(super) struct Swept {
     kept: usize,
 }
 
+/// Memory in which blocks are moved, kept so that it is not cleared for every few filaments.
+pub(super) struct Desk {
+    block: Block,
+    work: Work,
+    way: Way,
+}
+
+impl Default for Desk {
+    fn default() -> Self {
+        Self {
+            block: Block {
+                x: [0.0; BLOCK],
+                y: [0.0; BLOCK],
+                z: [0.0; BLOCK],
+                bed: [-1.0; BLOCK],
+                dt: [0.0; BLOCK],
+                number: [0; BLOCK],
+                kicked: [1.0; BLOCK],
+                outside: [0; BLOCK],
+                moved: [0; BLOCK],
+                used: 0,
+            },
+            work: Work::new(),
+            way: Way::new(),
+        }
+    }
+}
+
 /// The part of a store that one thread moves.
 struct Chunk<'a> {
     x: &'a mut [f32],
@@ -61,15 +89,21 @@ struct Chunk<'a> {
 
 impl Sweep<'_> {
     /// Moves a range of the store. Filaments released within the step move from their release on. Those that leave are
-    /// removed. `first` of later bands is corrected.
-    pub(super) fn over(&self, store: &mut Store, band: Range<usize>, threads: bool) -> Swept {
+    /// removed. `first` of later bands is corrected. Without `threads`, `desk` is used.
+    pub(super) fn over(
+        &self,
+        store: &mut Store,
+        band: Range<usize>,
+        threads: bool,
+        desk: &mut Desk,
+    ) -> Swept {
         // A single thread moves them down as it goes.
         let many = if threads { CHUNK } else { band.len() };
         let mut chunks = chunks(store, band.clone(), many);
         if threads {
-            chunks.par_iter_mut().for_each(|c| self.through(c));
+            (chunks.par_iter_mut()).for_each(|c| self.through(c, &mut Desk::default()));
         } else {
-            chunks.iter_mut().for_each(|c| self.through(c));
+            chunks.iter_mut().for_each(|c| self.through(c, desk));
         }
         let swept: Vec<Swept> = chunks.into_iter().map(|c| c.swept).collect();
         let (mut all, mut to) = (Swept::default(), band.start);
@@ -94,20 +128,9 @@ impl Sweep<'_> {
         all
     }
 
-    fn through(&self, c: &mut Chunk) {
-        let mut b = Block {
-            x: [0.0; BLOCK],
-            y: [0.0; BLOCK],
-            z: [0.0; BLOCK],
-            bed: [-1.0; BLOCK],
-            dt: [0.0; BLOCK],
-            number: [0; BLOCK],
-            kicked: [1.0; BLOCK],
-            outside: [0; BLOCK],
-            moved: [0; BLOCK],
-            used: 0,
-        };
-        let (mut work, mut way) = (Work::new(), self.carrier.map(|_| Way::new()));
+    fn through(&self, c: &mut Chunk, desk: &mut Desk) {
+        let Desk { block: b, work, way } = desk;
+        b.kicked.fill(1.0);
         let Span { from_s, to_s } = self.span;
         let (total, mut to) = (c.x.len(), 0);
         for from in (0..total).step_by(BLOCK) {
@@ -134,8 +157,8 @@ impl Sweep<'_> {
                 }
             }
             let start = [b.x, b.y, b.z];
-            if let (Some(carrier), Some(way)) = (self.carrier, &mut way) {
-                carrier.carry(self.path, self.cells, self.grid, &mut b, way);
+            if let Some(carrier) = self.carrier {
+                carrier.carry(self.path, self.cells, self.grid, b, way);
             }
             let carried = [b.x, b.y, b.z];
             kernel::step(
@@ -143,29 +166,29 @@ impl Sweep<'_> {
                 self.cells,
                 &self.grid.data,
                 self.key,
-                &mut b,
-                &mut work,
+                b,
+                work,
             );
-            if let Some(way) = &way {
+            if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&way.gone) {
                     *outside |= gone;
                 }
             }
             if self.room.has_solids() {
-                c.swept.turned += self.keep_out(&carried, &mut b, &work);
+                c.swept.turned += self.keep_out(&carried, b, work);
             }
-            self.note(&b, &mut c.swept.columns);
+            self.note(b, &mut c.swept.columns);
             if b.outside[..n].iter().any(|o| *o != 0) {
                 for l in 0..n {
                     if b.outside[l] == 0 {
-                        c.put(&b, &start, l, from + l, to, 1);
+                        c.put(b, &start, l, from + l, to, 1);
                         to += 1;
                     } else {
                         c.swept.gone.push(from + l);
                     }
                 }
             } else {
-                c.put(&b, &start, 0, from, to, n);
+                c.put(b, &start, 0, from, to, n);
                 to += n;
             }
         }

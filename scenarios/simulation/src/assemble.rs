@@ -10,7 +10,7 @@ use crate::outbox::Outbox;
 use crate::registry::topics;
 use crate::scenario::Scenario;
 use crate::score::Score;
-use crate::tick::Tick;
+use crate::tick::{Frames, Tick};
 use crate::topic::Topics;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{Mut, World};
@@ -62,7 +62,8 @@ impl Simulation {
         let origin = Origin::of(scenario, base_dir, seed);
         let mut world = World::new();
         world.insert_resource(origin.build(base_dir)?);
-        let tick = Self::furnish(&mut world, registry, scenario, base_dir, origin.seed())?;
+        let seed = origin.seed();
+        let tick = Self::furnish(&mut world, registry, scenario, base_dir, seed, Frames::Made)?;
         Ok(Self::of(world, tick, origin))
     }
 
@@ -76,6 +77,7 @@ impl Simulation {
         scenario: &Scenario,
         base_dir: &Path,
         seed: Seed,
+        frames: Frames,
     ) -> Result<Tick, AssembleError> {
         furnish(world, scenario)?;
         world.insert_resource(Topics::new(topics(registry)));
@@ -88,7 +90,7 @@ impl Simulation {
         for apparatus in fleet.all() {
             apparatus.spawn(world, &launch)?;
         }
-        schedule(world, &fleet, registry)
+        schedule(world, &fleet, registry, frames)
     }
 
     /// Of a world that is furnished.
@@ -191,19 +193,24 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
 }
 
 /// The tick with the systems of each kind of apparatus and of each extension.
-fn schedule(world: &mut World, fleet: &Fleet, registry: &Registry) -> Result<Tick, AssembleError> {
+fn schedule(
+    world: &mut World,
+    fleet: &Fleet,
+    registry: &Registry,
+    frames: Frames,
+) -> Result<Tick, AssembleError> {
     let additions: Vec<&Addition> = registry.carried().collect();
     let kinds = fleet.kinds();
-    let mut tick = Tick::new(kinds.len() + additions.len(), fleet.own_kinds());
+    let mut tick = Tick::new(kinds.len() + additions.len(), fleet.own_kinds(), frames);
     let truth = truth(world);
     let mut faults = Vec::new();
     for (turn, kind) in kinds.iter().enumerate() {
-        let mut systems = Systems::new(tick.parts(), world, &truth, turn);
+        let mut systems = Systems::new(tick.parts(), world, &truth, turn, frames);
         kind.systems(&mut systems);
         faults.extend(systems.faults());
     }
     for (turn, addition) in (kinds.len()..).zip(additions) {
-        let mut systems = Systems::new(tick.parts(), world, &truth, turn);
+        let mut systems = Systems::new(tick.parts(), world, &truth, turn, frames);
         (addition.0)(&mut systems);
         faults.extend(systems.faults());
     }

@@ -30,6 +30,15 @@ pub enum Part {
     Report,
 }
 
+/// Whether a run makes frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Frames {
+    /// Somebody may look.
+    Made,
+    /// Nobody will take them.
+    Unmade,
+}
+
 /// The tick: `Sense → Estimate → Map`, then answers from outside, then `Decide → Guide → Actuate → Physics`, then the
 /// ocean, then `Drift → Report`.
 pub(crate) struct Tick {
@@ -40,7 +49,7 @@ pub(crate) struct Tick {
 
 impl Tick {
     /// A tick with room for so many turns, of which the first `own` are of this program.
-    pub(crate) fn new(turns: usize, own: usize) -> Self {
+    pub(crate) fn new(turns: usize, own: usize, frames: Frames) -> Self {
         let [sense, estimate, map, before @ .., drift, report] = Stage::ALL;
         let mut tick = Self {
             observe: part(Part::Observe, &[sense, estimate, map], turns, own),
@@ -57,16 +66,24 @@ impl Tick {
             ocean::digest_plume
                 .in_set(report)
                 .before(Turn::Added(report)),
-            (open_frame, close_frame, pass_time).chain().after(report),
+            pass_time.after(report),
         ));
-        for n in 0..turns {
-            let frames = &mut tick.report;
-            frames.configure_sets(Turn::Frame(n).after(open_frame).before(close_frame));
-            if n > 0 {
-                frames.configure_sets(Turn::Frame(n).after(Turn::Frame(n - 1)));
-            }
+        if frames == Frames::Made {
+            tick.make_frames(turns);
         }
         tick
+    }
+
+    fn make_frames(&mut self, turns: usize) {
+        let report = &mut self.report;
+        let whole = (open_frame, close_frame).chain();
+        report.add_systems(whole.after(Stage::Report).before(pass_time));
+        for n in 0..turns {
+            report.configure_sets(Turn::Frame(n).after(open_frame).before(close_frame));
+            if n > 0 {
+                report.configure_sets(Turn::Frame(n).after(Turn::Frame(n - 1)));
+            }
+        }
     }
 
     /// Its parts, for what is added to them.

@@ -12,7 +12,8 @@ pub use watch::{Unwatched, Watch};
 
 use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
-use crate::control::{Controller, Question};
+use crate::control::Controller;
+use crate::control::consulting::Open;
 use crate::error::AssembleError;
 use crate::fleet::Fleet;
 use crate::frame::{Frame, PlumeFrame};
@@ -42,7 +43,8 @@ pub struct Ended {
     pub t_s: f64,
     /// Declarations by robot or gantry.
     pub declarations: BTreeMap<String, Vec<Declaration>>,
-    /// Flow at each source, averaged over the mission at the times the plume was pictured, m/s.
+    /// Flow at each source, averaged over the mission at the times the plume was pictured, m/s; zero in a run without
+    /// frames.
     pub flow_at_sources: Vec<Vector3<f64>>,
 }
 
@@ -71,7 +73,7 @@ pub struct Trial {
     began_s: f64,
     controllers: BTreeMap<String, Box<dyn Controller>>,
     /// The first part of a tick is done, and these questions are not answered yet.
-    open: Option<Vec<Question>>,
+    open: Option<Vec<Open>>,
 }
 
 impl Trial {

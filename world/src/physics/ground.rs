@@ -5,7 +5,7 @@ use super::convert::{pose, vector};
 use crate::area::Area;
 use crate::frames::Pose;
 use crate::terrain::Terrain;
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rapier3d::geometry::{Aabb, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
 use rapier3d::parry::bounding_volume::BoundingVolume;
@@ -21,6 +21,8 @@ pub(super) struct Fixed {
     pub(super) pose: r::Pose,
     pub(super) shape: SharedShape,
     bounds: Aabb,
+    /// Of a bed: its heights, for a quick answer.
+    heights: Option<Heights>,
     /// Name for error messages.
     pub(super) name: String,
     /// rapier's handle; invalid until rapier has the collider.
@@ -34,6 +36,7 @@ impl Fixed {
             pose: pose_W,
             shape,
             bounds,
+            heights: None,
             name: String::new(),
             collider: ColliderHandle::invalid(),
         }
@@ -59,12 +62,20 @@ impl Fixed {
             R_WB: UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
         };
         let scale = r::Vector::new(size.x, 1.0, size.y);
-        Self::new(pose(&upright), SharedShape::heightfield(heights, scale))
+        let west_north = Vector2::new(middle.x - size.x / 2.0, middle.y + size.y / 2.0);
+        let known = Heights::new(&heights, west_north, size);
+        let bed = SharedShape::heightfield(heights, scale);
+        Self {
+            heights: Some(known),
+            ..Self::new(pose(&upright), bed)
+        }
     }
 
     /// Whether it can have a part in a box.
     pub(super) fn meets(&self, swept: &Aabb) -> bool {
-        self.bounds.intersects(swept)
+        let lies_below =
+            |heights: &Heights| heights.highest_under(swept).is_some_and(|z| z < swept.mins.z);
+        self.bounds.intersects(swept) && !self.heights.as_ref().is_some_and(lies_below)
     }
 
     /// Distance of `p_W` from it, m, 0 inside. Beyond `near_m` it may be less than that: the distance from its bounds.
@@ -95,11 +106,59 @@ impl Fixed {
     }
 }
 
+/// The highest point of a bed in each of its cells.
+struct Heights {
+    /// South by south from the north, each row from west to east, m.
+    z_m: Vec<f64>,
+    /// Rows and columns.
+    cells: [usize; 2],
+    /// North-western corner (east, north), m.
+    corner: Vector2<f64>,
+    cell_m: Vector2<f64>,
+}
+
+impl Heights {
+    /// Of nodes in rows from north to south, over an area of this size with this north-western corner.
+    fn new(nodes: &Array2<f64>, corner: Vector2<f64>, size: Vector2<f64>) -> Self {
+        let cells = [nodes.nrows() - 1, nodes.ncols() - 1];
+        let highest = |i: usize, j: usize| {
+            let corners = [[i, j], [i + 1, j], [i, j + 1], [i + 1, j + 1]];
+            let z = corners.map(|[i, j]| nodes[(i, j)]);
+            z.into_iter().fold(f64::NEG_INFINITY, f64::max)
+        };
+        let all = (0..cells[0]).flat_map(|i| (0..cells[1]).map(move |j| (i, j)));
+        Self {
+            z_m: all.map(|(i, j)| highest(i, j)).collect(),
+            cells,
+            corner,
+            cell_m: Vector2::new(size.x / cells[1] as f64, size.y / cells[0] as f64),
+        }
+    }
+
+    /// The highest point under a box; `None` if the box has a part outside the bed.
+    fn highest_under(&self, swept: &Aabb) -> Option<f64> {
+        let span = |low: f64, high: f64, cell_m: f64, cells: usize| {
+            // A little wider, against rounding.
+            let (low, high) = (low / cell_m - 1e-6, high / cell_m + 1e-6);
+            let inside = low >= 0.0 && high < cells as f64;
+            inside.then(|| low as usize..=high as usize)
+        };
+        let [rows, columns] = self.cells;
+        let south = [self.corner.y - swept.maxs.y, self.corner.y - swept.mins.y];
+        let east = [swept.mins.x - self.corner.x, swept.maxs.x - self.corner.x];
+        let rows = span(south[0], south[1], self.cell_m.y, rows)?;
+        let columns_under = span(east[0], east[1], self.cell_m.x, columns)?;
+        let (first, last) = columns_under.into_inner();
+        let row = |i: usize| &self.z_m[i * columns + first..=i * columns + last];
+        let all = rows.flat_map(|i| row(i).iter().copied());
+        Some(all.fold(f64::NEG_INFINITY, f64::max))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::units::Heading;
-    use nalgebra::Vector2;
 
     #[test]
     fn the_bed_stands_where_the_terrain_says() {
@@ -126,6 +185,19 @@ mod tests {
             let above_m = bed.away_m(&high, 5.0);
             assert!(above_m > 5.0 && above_m <= bed.away_m(&high, 100.0));
         }
+        // A box meets the bed if it reaches below the highest place under it.
+        let above = |x: f64, y: f64, over_m: f64| {
+            let z = terrain.bed_z(x, y) + over_m;
+            Aabb::new(
+                r::Vector::new(x - 1.0, y - 1.0, z),
+                r::Vector::new(x + 1.0, y + 1.0, z + 1.0),
+            )
+        };
+        for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
+            assert!(bed.meets(&above(x, y, -0.5)) && !bed.meets(&above(x, y, 0.5)));
+        }
+        let beyond = above(1000.0, 0.0, -0.5);
+        assert!(!bed.meets(&beyond), "there is no bed");
         // Past the area, within the margin.
         let out = area.world(Vector2::new(255.0, 0.0));
         let from = Vector3::new(out.x, out.y, -1.0);

@@ -39,6 +39,8 @@ impl Plume {
             cells: _,
             room: _,
             index: _,
+            // Nothing stays in it from step to step.
+            desk: _,
         } = self;
         assert!(
             (0..=bands.last()).all(|band| bands.span(band).to_s <= *now_s),

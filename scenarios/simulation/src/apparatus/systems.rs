@@ -2,8 +2,9 @@
 
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{
-    IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System, SystemSet, World,
+    Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System, SystemSet, World,
 };
+use crate::tick::Frames;
 use bevy_ecs::system::{ScheduleSystem, SystemAccess};
 use world::stage::Stage;
 
@@ -35,6 +36,7 @@ pub struct Systems<'a> {
     world: &'a mut World,
     truth: &'a [(ComponentId, &'static str)],
     turn: usize,
+    frames: Frames,
     faults: Vec<String>,
 }
 
@@ -45,6 +47,7 @@ impl<'a> Systems<'a> {
         world: &'a mut World,
         truth: &'a [(ComponentId, &'static str)],
         turn: usize,
+        frames: Frames,
     ) -> Self {
         Self {
             observe,
@@ -53,6 +56,7 @@ impl<'a> Systems<'a> {
             world,
             truth,
             turn,
+            frames,
             faults: Vec::new(),
         }
     }
@@ -73,14 +77,28 @@ impl<'a> Systems<'a> {
     }
 
     /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the
-    /// frame is open in those steps in which one is taken.
+    /// frame is open in those steps in which one is taken. In a run without frames they are left out.
     pub fn add_to_frame<M>(
         &mut self,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
     ) -> &mut Self {
-        let systems = systems.in_set(Turn::Frame(self.turn));
-        self.report.add_systems(systems);
+        if self.has_frames() {
+            let systems = systems.in_set(Turn::Frame(self.turn));
+            self.report.add_systems(systems);
+        }
         self
+    }
+
+    /// Whether the run makes frames. Without them it needs no system that only prepares them.
+    #[must_use]
+    pub fn has_frames(&self) -> bool {
+        self.frames == Frames::Made
+    }
+
+    /// Whether an entity has this component now. Systems for what nobody has can be left out.
+    #[must_use]
+    pub fn has<C: Component>(&mut self) -> bool {
+        (self.world.query::<&C>().iter(self.world)).next().is_some()
     }
 
     /// Adds a system that works for a searcher. If it reads one of the types that hold the truth, the run is refused.

@@ -58,9 +58,14 @@ impl Apparatus for RobotSpec {
     fn systems(&self, systems: &mut Systems) {
         systems
             .add(Stage::Sense, system::read_instruments)
-            .add_blind(Stage::Estimate, system::estimate_state)
-            .add_blind(Stage::Map, system::update_map)
-            .add_blind_after(Stage::Map, system::ask, system::update_map)
+            .add_blind(Stage::Estimate, system::estimate_state);
+        if systems.has::<Mapping>() {
+            systems.add_blind(Stage::Map, system::update_map);
+        }
+        if systems.has::<Consulting>() {
+            systems.add_blind_after(Stage::Map, system::ask, system::update_map);
+        }
+        systems
             .add_blind(Stage::Decide, system::decide)
             .add_blind(Stage::Guide, system::guide)
             .add_blind(Stage::Actuate, system::actuate)
@@ -77,12 +82,16 @@ impl Apparatus for RobotSpec {
                     system::digest_robots.before(digest_plume),
                     system::keep_score,
                     system::watch,
-                    system::tell_faults,
-                    shown::keep_log,
                 )
                     .chain(),
             )
             .add_to_frame(shown::picture);
+        if systems.has::<FaultLog>() {
+            systems.add(Stage::Report, system::tell_faults.after(system::watch));
+        }
+        if systems.has_frames() {
+            systems.add(Stage::Report, shown::keep_log.after(system::watch));
+        }
     }
 }
 
@@ -185,9 +194,11 @@ fn spawn(
         (
             SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
             DriveFaults::new(&spec.faults, dt_s, &drives),
-            FaultLog::new(&spec.faults, dt_s),
         ),
     ));
+    if !spec.faults.is_empty() {
+        robot.insert(FaultLog::new(&spec.faults, dt_s));
+    }
     if let Some(mapper) = mapper {
         robot.insert((mapper.belief().clone(), Mapping { mapper }));
     }

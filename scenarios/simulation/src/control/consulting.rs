@@ -278,11 +278,11 @@ pub(crate) fn truth_of(world: &World, name: &str) -> Option<Truth> {
 
 /// The questions of this tick that nobody has taken, in the order of the scenario.
 pub(crate) fn take_questions(world: &mut World) -> Vec<Question> {
-    let Some(asking) = world.get_resource::<Asking>().cloned() else {
-        return Vec::new();
-    };
     let mut open = Vec::new();
-    for entity in asking.0 {
+    for n in 0.. {
+        let Some(entity) = asking(world, n) else {
+            break;
+        };
         if let Some(mut consulting) = world.get_mut::<Consulting>(entity) {
             open.extend(consulting.question.take());
         }
@@ -290,17 +290,43 @@ pub(crate) fn take_questions(world: &mut World) -> Vec<Question> {
     open
 }
 
+/// The machine in this place among those that ask.
+fn asking(world: &World, n: usize) -> Option<Entity> {
+    world.get_resource::<Asking>()?.0.get(n).copied()
+}
+
+/// A question that waits for its answer.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Open {
+    /// Who asks.
+    pub(crate) robot: String,
+    number: u64,
+    step: u64,
+    t_s: f64,
+}
+
+impl From<&Question> for Open {
+    fn from(question: &Question) -> Self {
+        Self {
+            robot: question.robot.clone(),
+            number: question.number,
+            step: question.step,
+            t_s: question.t_s,
+        }
+    }
+}
+
 /// Puts in what came of a question, counts it, and returns it as observers see it. An answer that the machine cannot
 /// carry out counts as nonsense.
-pub(crate) fn put_in(world: &mut World, question: &Question, mut heard: Heard) -> Consultation {
-    let asking = world.get_resource::<Asking>().cloned().unwrap_or_default();
-    for entity in asking.0 {
-        let Some(id) = world.get::<SearcherId>(entity).cloned() else {
+pub(crate) fn put_in(world: &mut World, question: Open, mut heard: Heard) -> Consultation {
+    for n in 0.. {
+        let Some(entity) = asking(world, n) else {
+            break;
+        };
+        let own = (world.get::<SearcherId>(entity)).filter(|id| id.name == question.robot);
+        let Some(place) = own.map(|id| id.place) else {
             continue;
         };
-        if id.name != question.robot {
-            continue;
-        }
         let Some(mut consulting) = world.get_mut::<Consulting>(entity) else {
             continue;
         };
@@ -314,7 +340,7 @@ pub(crate) fn put_in(world: &mut World, question: &Question, mut heard: Heard) -
             _ => Told::Nothing,
         });
         let mut score = world.resource_mut::<Score>();
-        let own = score.searchers[id.place].consulted.get_or_insert_default();
+        let own = score.searchers[place].consulted.get_or_insert_default();
         own.asked += 1;
         *match &heard {
             Heard::Answer(_) => &mut own.answered,
@@ -325,7 +351,7 @@ pub(crate) fn put_in(world: &mut World, question: &Question, mut heard: Heard) -
         } += 1;
     }
     Consultation {
-        robot: question.robot.clone(),
+        robot: question.robot,
         number: question.number,
         step: question.step,
         t_s: question.t_s,

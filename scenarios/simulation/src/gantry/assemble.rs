@@ -45,7 +45,6 @@ impl Apparatus for GantryBlock {
     fn systems(&self, systems: &mut Systems) {
         systems
             .add(Stage::Sense, system::read_probes)
-            .add_blind(Stage::Map, system::ask)
             .add_blind(Stage::Decide, system::track)
             .add(Stage::Actuate, system::drive_gantries)
             .add(
@@ -57,6 +56,9 @@ impl Apparatus for GantryBlock {
                     .chain(),
             )
             .add_to_frame(system::picture);
+        if systems.has::<Consulting>() {
+            systems.add_blind(Stage::Map, system::ask);
+        }
     }
 }
 

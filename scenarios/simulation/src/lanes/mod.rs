@@ -35,6 +35,7 @@ use crate::error::AssembleError;
 use crate::ocean::system::drift;
 use crate::ocean::{Mismatch, Ocean, Origin, SpunUp};
 use crate::scenario::Loaded;
+use crate::tick::Frames;
 use crate::trial::{Trial, Watch};
 use alike::Course;
 use bevy_ecs::prelude::World;
@@ -146,7 +147,8 @@ impl<W: Watch> Lanes<W> {
         let seed = course.origin.seed();
         let tick = caught(|| {
             let (registry, scenario) = (&loaded.registry, &loaded.scenario);
-            Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed)
+            let dir = &loaded.base_dir;
+            Simulation::furnish(&mut world, registry, scenario, dir, seed, Frames::Made)
         });
         self.ocean = taken(&mut world);
         let tick = tick.map_err(panicked)??;

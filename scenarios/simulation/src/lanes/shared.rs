@@ -11,8 +11,8 @@ use crate::auv::Yard;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
 use crate::ocean::{Ocean, Origin, SpunUp};
-use crate::outbox::Outbox;
 use crate::scenario::Loaded;
+use crate::tick::Frames;
 use crate::trial::{Trial, Unwatched};
 use bevy_ecs::prelude::World;
 use world::clock::Clock;
@@ -120,13 +120,15 @@ impl Shared {
         let sources = world.resource::<Ocean>().sources();
         let (registry, scenario) = (&loaded.registry, &loaded.scenario);
         let seed = seed.into();
-        let tick =
-            caught(|| Simulation::furnish(&mut world, registry, scenario, &loaded.base_dir, seed));
+        // Whoever steps it looks at the run itself.
+        let frames = Frames::Unmade;
+        let tick = caught(|| {
+            let dir = &loaded.base_dir;
+            Simulation::furnish(&mut world, registry, scenario, dir, seed, frames)
+        });
         self.ocean = taken(&mut world);
         self.yard = world.remove_resource().unwrap_or_default();
         let tick = tick.map_err(LaneError::Panicked)??;
-        // Whoever steps it looks at the run itself.
-        world.resource_mut::<Outbox>().closed = true;
         let simulation = Simulation::of(world, tick, self.origin.clone());
         let mut run = Run {
             trial: Trial::of(scenario, simulation, sources),
@@ -218,7 +220,7 @@ impl Shared {
     pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
         let run = self.runs.get_mut(place)?.as_mut()?;
         let told = run.trial.answer(robot, heard, &mut Unwatched)?;
-        if run.trial.open_questions().is_empty() {
+        if !run.trial.waits() {
             // Now rather than with all others, because what this run needs is in the processor's caches.
             run.act(&mut self.ocean);
         }
@@ -251,8 +253,7 @@ impl Shared {
 
 /// The beginning of a tick: up to the questions, or, without any, up to the step of the ocean.
 fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
-    trial.observe(&mut Unwatched);
-    let questions = trial.open_questions().to_vec();
+    let questions = trial.observe(&mut Unwatched);
     if questions.is_empty() {
         trial.search(&mut Unwatched);
         (At::Acted, questions)

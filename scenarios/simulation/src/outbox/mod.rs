@@ -18,8 +18,6 @@ pub struct Outbox {
     pub(crate) plume_due: Option<f64>,
     /// Most filaments in such a picture.
     pub(crate) plume_points: usize,
-    /// No frames are made: nobody will take them.
-    pub(crate) closed: bool,
     /// Pictures by cameras since the trial last took them.
     pub(crate) pictures: Vec<PictureFrame>,
     /// Pings of sidescan sonars since the trial last took them.
@@ -37,7 +35,6 @@ impl Outbox {
             frame: None,
             plume_due: None,
             plume_points,
-            closed: false,
             pictures: Vec::new(),
             pings: Vec::new(),
             frame_every,

@@ -11,7 +11,7 @@ use world::clock::Clock;
 pub(crate) fn open_frame(clock: Res<Clock>, mut score: ResMut<Score>, mut outbox: ResMut<Outbox>) {
     let ended = score.take_ended();
     let due = ended || outbox.frame_every.due(&clock);
-    outbox.open = (due && !outbox.closed).then(|| Frame {
+    outbox.open = due.then(|| Frame {
         t_s: clock.t_next_s(),
         step: clock.step + 1,
         ..Frame::default()
@@ -27,11 +27,6 @@ pub(crate) fn close_frame(
 ) {
     if outbox.plume_every.due(&clock) {
         outbox.plume_due = Some(clock.t_next_s());
-    }
-    if outbox.closed {
-        // What was published waits for no frame.
-        drop(topics.take_fresh());
-        return;
     }
     if let Some(mut frame) = outbox.open.take() {
         frame.abnormal.clone_from(&score.abnormal);

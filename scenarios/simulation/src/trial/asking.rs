@@ -1,7 +1,7 @@
 //! How a run asks searchers outside this program, and takes their answers.
 
 use super::{RunPhase, Trial, Watch};
-use crate::control::consulting::{put_in, take_questions, truth_of};
+use crate::control::consulting::{Open, put_in, take_questions, truth_of};
 use crate::control::{Consultation, Controller, Heard, Question};
 use crate::scenario::Scenario;
 use robots::handoff::Consulted;
@@ -49,16 +49,17 @@ impl Trial {
     pub(crate) fn search(&mut self, watch: &mut dyn Watch) {
         self.observe(watch);
         for question in self.open.take().unwrap_or_default() {
-            let told = put_in(&mut self.simulation.world, &question, Heard::Absent);
+            let told = put_in(&mut self.simulation.world, question, Heard::Absent);
             watch.consulted(&told);
         }
         self.simulation.act();
     }
 
-    /// The tick up to the answers from outside, unless that is done, and the answers of the controllers.
-    pub(crate) fn observe(&mut self, watch: &mut dyn Watch) {
+    /// The tick up to the answers from outside, unless that is done, and the answers of the controllers. Returns the
+    /// questions that are left; until they are answered, the run keeps them open.
+    pub(crate) fn observe(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
         if self.open.is_some() {
-            return;
+            return Vec::new();
         }
         self.simulation.observe();
         let mut open = Vec::new();
@@ -68,9 +69,11 @@ impl Trial {
                 continue;
             };
             let heard = controller.answer(&question);
-            watch.consulted(&put_in(&mut self.simulation.world, &question, heard));
+            let world = &mut self.simulation.world;
+            watch.consulted(&put_in(world, Open::from(&question), heard));
         }
-        self.open = Some(open);
+        self.open = Some(open.iter().map(Open::from).collect());
+        open
     }
 
     /// Lets a controller decide for a robot or gantry whose strategy is `External`.
@@ -116,18 +119,18 @@ impl Trial {
             return Vec::new();
         }
         while self.going() {
-            self.observe(watch);
-            if let Some(open) = self.open.as_ref().filter(|open| !open.is_empty()) {
-                return open.clone();
+            let open = self.observe(watch);
+            if !open.is_empty() {
+                return open;
             }
             self.advance(watch);
         }
         Vec::new()
     }
 
-    /// The open questions of this tick.
-    pub(crate) fn open_questions(&self) -> &[Question] {
-        self.open.as_deref().unwrap_or_default()
+    /// Whether questions of this tick are open.
+    pub(crate) fn waits(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| !open.is_empty())
     }
 
     /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
@@ -141,7 +144,7 @@ impl Trial {
         let open = self.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
         let question = open.remove(n);
-        let told = put_in(&mut self.simulation.world, &question, heard);
+        let told = put_in(&mut self.simulation.world, question, heard);
         watch.consulted(&told);
         Some(told)
     }
