@@ -1,21 +1,12 @@
 //! Places in the operating area: distances to its edges, and moving a point inside.
 
 use nalgebra::Vector2;
-use std::f64::consts::FRAC_PI_2;
 use world::area::Area;
 
 /// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
 #[must_use]
 pub fn edges(area: &Area, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
-    let q = area.local(p);
-    let (along, across) = (area.axis.unit(), area.axis.turned(FRAC_PI_2).unit());
-    let (l, w) = (area.length_m / 2.0, area.width_m / 2.0);
-    [
-        (l - q.x, along),
-        (l + q.x, -along),
-        (w - q.y, across),
-        (w + q.y, -across),
-    ]
+    area.sides().edges(p)
 }
 
 /// Distance from the area's edge, m, within which no destination is placed: twice the 5 m of the cage's edge.

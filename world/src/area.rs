@@ -44,22 +44,19 @@ impl Area {
         self.edge_distance(p).0 >= 0.0
     }
 
+    /// Its sides, for questions in every tick.
+    #[must_use]
+    pub fn sides(&self) -> Sides {
+        Sides {
+            axes: self.axes(),
+            area: *self,
+        }
+    }
+
     /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
     #[must_use]
     pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
-        let axes = self.axes();
-        let [x, y] = axes.map(|axis| (p - self.centre).dot(&axis));
-        let (dx, dy) = (self.length_m / 2.0 - x.abs(), self.width_m / 2.0 - y.abs());
-        let [a, r] = [axes[0] * x.signum(), axes[1] * y.signum()];
-        if dx < 0.0 && dy < 0.0 {
-            let out = a * -dx + r * -dy;
-            let d = out.norm();
-            (-d, out / d)
-        } else if dx <= dy {
-            (dx, a)
-        } else {
-            (dy, r)
-        }
+        self.sides().edge_distance(p)
     }
 
     /// The four corners in world coordinates, in order round the rectangle.
@@ -76,6 +73,58 @@ impl Area {
         let min = c.iter().fold(c[0], |m, p| m.inf(p));
         let max = c.iter().fold(c[0], |m, p| m.sup(p));
         (min, max)
+    }
+}
+
+/// An area with the directions of its sides: its questions need no trigonometry.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sides {
+    area: Area,
+    axes: [Vector2<f64>; 2],
+}
+
+impl Sides {
+    /// The area.
+    #[must_use]
+    pub fn area(&self) -> &Area {
+        &self.area
+    }
+
+    /// Signed distance to the nearest edge, m (positive inside), and that edge's outward normal (east, north).
+    #[must_use]
+    pub fn edge_distance(&self, p: Vector2<f64>) -> (f64, Vector2<f64>) {
+        let Area {
+            centre,
+            length_m,
+            width_m,
+            ..
+        } = self.area;
+        let [x, y] = self.axes.map(|axis| (p - centre).dot(&axis));
+        let (dx, dy) = (length_m / 2.0 - x.abs(), width_m / 2.0 - y.abs());
+        let [a, r] = [self.axes[0] * x.signum(), self.axes[1] * y.signum()];
+        if dx < 0.0 && dy < 0.0 {
+            let out = a * -dx + r * -dy;
+            let d = out.norm();
+            (-d, out / d)
+        } else if dx <= dy {
+            (dx, a)
+        } else {
+            (dy, r)
+        }
+    }
+
+    /// For each edge: the distance to it (m, positive inside) and its outward normal (east, north).
+    #[must_use]
+    pub fn edges(&self, p: Vector2<f64>) -> [(f64, Vector2<f64>); 4] {
+        let [along, across] = self.axes;
+        let [x, y] = self.axes.map(|axis| (p - self.area.centre).dot(&axis));
+        let (l, w) = (self.area.length_m / 2.0, self.area.width_m / 2.0);
+        [
+            (l - x, along),
+            (l + x, -along),
+            (w - y, across),
+            (w + y, -across),
+        ]
     }
 }
 

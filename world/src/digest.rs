@@ -6,65 +6,81 @@ use xxhash_rust::xxh3::Xxh3;
 
 /// Running digest of every number of the state, in the order of the tick.
 #[derive(Resource, Clone)]
-pub struct Digest {
+pub struct Digest(
+    // Apart, because a world of entities sets aside the room of many for each of its resources.
+    Box<Hashed>,
+);
+
+#[derive(Clone)]
+struct Hashed {
     hash: Xxh3,
+    /// Bytes that are to be hashed together, because hashing few of them costs more than the drift.
+    waiting: [u8; WAITING],
+    used: usize,
 }
+
+const WAITING: usize = 1024;
 
 impl Default for Digest {
     fn default() -> Self {
-        Self { hash: Xxh3::new() }
+        Self(Box::new(Hashed {
+            hash: Xxh3::new(),
+            waiting: [0; WAITING],
+            used: 0,
+        }))
     }
 }
 
 impl Digest {
     /// Adds numbers by their bits.
     pub fn f64s(&mut self, values: &[f64]) {
-        self.words(values, |v| v.to_bits().to_le_bytes());
+        self.0.words(values, |v| v.to_bits().to_le_bytes());
     }
 
     /// Adds single-precision numbers by their bits.
     pub fn f32s(&mut self, values: &[f32]) {
-        self.words(values, |v| v.to_bits().to_le_bytes());
+        self.0.words(values, |v| v.to_bits().to_le_bytes());
     }
 
     /// Adds text and its length.
     pub fn text(&mut self, s: &str) {
-        self.hash.update(&(s.len() as u64).to_le_bytes());
-        self.hash.update(s.as_bytes());
+        self.bytes(&(s.len() as u64).to_le_bytes());
+        self.bytes(s.as_bytes());
     }
 
     /// Adds bytes as they are; how they are divided into calls makes no difference.
     pub fn bytes(&mut self, bytes: &[u8]) {
-        self.hash.update(bytes);
+        self.0.hash_waiting();
+        self.0.hash.update(bytes);
     }
 
     /// The digest so far, 32 hexadecimal digits.
     #[must_use]
     pub fn hex(&self) -> String {
-        format!("{:032x}", self.hash.digest128())
+        let mut all = self.0.hash.clone();
+        all.update(&self.0.waiting[..self.0.used]);
+        format!("{:032x}", all.digest128())
+    }
+}
+
+impl Hashed {
+    fn hash_waiting(&mut self) {
+        self.hash.update(&self.waiting[..self.used]);
+        self.used = 0;
     }
 
-    /// Adds words in little-endian order on every machine. It hashes them in blocks, because hashing word by word would
-    /// cost more than the drift; few words take a small block, because clearing a large one would cost more than them.
+    /// Adds words in little-endian order on every machine.
     fn words<T: Copy, const N: usize>(&mut self, values: &[T], bytes: impl Fn(T) -> [u8; N]) {
-        if values.len() <= 8 {
-            self.blocks::<T, N, 64>(values, bytes);
-        } else {
-            self.blocks::<T, N, 2048>(values, bytes);
-        }
-    }
-
-    fn blocks<T: Copy, const N: usize, const SIZE: usize>(
-        &mut self,
-        values: &[T],
-        bytes: impl Fn(T) -> [u8; N],
-    ) {
-        let mut block = [0_u8; SIZE];
-        for chunk in values.chunks(SIZE / 8) {
-            for (place, v) in block.chunks_exact_mut(N).zip(chunk) {
+        for chunk in values.chunks(WAITING / N) {
+            let size = chunk.len() * N;
+            if self.used + size > WAITING {
+                self.hash_waiting();
+            }
+            let places = self.waiting[self.used..self.used + size].chunks_exact_mut(N);
+            for (place, v) in places.zip(chunk) {
                 place.copy_from_slice(&bytes(*v));
             }
-            self.hash.update(&block[..chunk.len() * N]);
+            self.used += size;
         }
     }
 }

@@ -129,7 +129,11 @@ impl Sweep<'_> {
     }
 
     fn through(&self, c: &mut Chunk, desk: &mut Desk) {
-        let Desk { block: b, work, way } = desk;
+        let Desk {
+            block: b,
+            work,
+            way,
+        } = desk;
         b.kicked.fill(1.0);
         let Span { from_s, to_s } = self.span;
         let (total, mut to) = (c.x.len(), 0);
@@ -161,14 +165,7 @@ impl Sweep<'_> {
                 carrier.carry(self.path, self.cells, self.grid, b, way);
             }
             let carried = [b.x, b.y, b.z];
-            kernel::step(
-                self.path,
-                self.cells,
-                &self.grid.data,
-                self.key,
-                b,
-                work,
-            );
+            kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&way.gone) {
                     *outside |= gone;

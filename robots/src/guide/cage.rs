@@ -9,20 +9,24 @@
 //! the order is (east, north) throughout. In a corner both edges act. If nothing is left of the command (straight
 //! outward at the edge), the course is the inward normal.
 
-use crate::places::edges;
 use nalgebra::Vector2;
-use world::area::Area;
+use world::area::Sides;
 use world::units::Heading;
 
 /// The course to take instead of a commanded course at `position`.
-pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m: f64) -> Heading {
-    let (nearest_m, normal) = area.edge_distance(position);
+pub(super) fn cage(
+    course: Heading,
+    position: Vector2<f64>,
+    sides: &Sides,
+    width_m: f64,
+) -> Heading {
+    let (nearest_m, normal) = sides.edge_distance(position);
     if nearest_m < 0.0 {
         return Heading::of(-normal);
     }
     let wanted = course.unit();
     let mut left = wanted;
-    for (distance_m, normal) in edges(area, position) {
+    for (distance_m, normal) in sides.edges(position) {
         let outward = wanted.dot(&normal);
         if distance_m < width_m && outward > 0.0 {
             left -= normal * ((1.0 - distance_m / width_m) * outward);
@@ -35,14 +39,15 @@ pub(super) fn cage(course: Heading, position: Vector2<f64>, area: &Area, width_m
 }
 
 /// Whether a position is farther outside than allowed.
-pub(super) fn lost(position: Vector2<f64>, area: &Area, abort_outside_m: f64) -> bool {
-    area.edge_distance(position).0 < -abort_outside_m
+pub(super) fn lost(position: Vector2<f64>, sides: &Sides, abort_outside_m: f64) -> bool {
+    sides.edge_distance(position).0 < -abort_outside_m
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use world::area::Area;
 
     fn duck() -> Area {
         Area {
@@ -62,10 +67,10 @@ mod tests {
         };
         // North-east at 2.5 m from the north edge: north part halved, atan2(1, 0.5) = 63.43 deg.
         let p = Vector2::new(0.0, 547.0 - 2.5);
-        let c = cage(Heading::from_deg(45.0), p, &area, 5.0);
+        let c = cage(Heading::from_deg(45.0), p, &area.sides(), 5.0);
         assert!((c.deg() - 63.434_949).abs() < 1e-5, "{}", c.deg());
         // A course heading inward is not changed.
-        let c = cage(Heading::from_deg(135.0), p, &area, 5.0);
+        let c = cage(Heading::from_deg(135.0), p, &area.sides(), 5.0);
         assert!((c.deg() - 135.0).abs() < 1e-9);
     }
 
@@ -73,8 +78,8 @@ mod tests {
     fn aborts_only_far_outside() {
         let a = duck();
         let beyond = |m: f64| a.world(Vector2::new(a.length_m / 2.0 + m, 0.0));
-        assert!(!lost(beyond(29.9), &a, 30.0));
-        assert!(lost(beyond(30.1), &a, 30.0));
+        assert!(!lost(beyond(29.9), &a.sides(), 30.0));
+        assert!(lost(beyond(30.1), &a.sides(), 30.0));
     }
 
     proptest! {
@@ -90,7 +95,7 @@ mod tests {
                 2 => (Vector2::new(at * l, w), Vector2::new(0.0, out), Vector2::new(0.0, 1.0)),
                 _ => (Vector2::new(at * l, -w), Vector2::new(0.0, -out), Vector2::new(0.0, -1.0)),
             };
-            let course = cage(Heading::from_deg(course), a.world(on + beyond), &a, 5.0);
+            let course = cage(Heading::from_deg(course), a.world(on + beyond), &a.sides(), 5.0);
             let outward = a.world(n) - a.world(Vector2::zeros());
             prop_assert!(course.unit().dot(&outward) < 1e-6);
         }
@@ -99,7 +104,7 @@ mod tests {
         fn far_inside_nothing_changes(course in 0.0..360.0, x in -500.0..500.0, y in -170.0..170.0) {
             let a = duck();
             let h = Heading::from_deg(course);
-            let c = cage(h, a.world(Vector2::new(x, y)), &a, 5.0);
+            let c = cage(h, a.world(Vector2::new(x, y)), &a.sides(), 5.0);
             prop_assert!(h.turn_to(c).abs() < 1e-9);
         }
     }

@@ -20,7 +20,7 @@ use crate::handoff::{
 };
 use bevy_ecs::prelude::Component;
 use nalgebra::Vector2;
-use world::area::Area;
+use world::area::{Area, Sides};
 use world::ranges::Positive;
 use world::units::Heading;
 
@@ -52,6 +52,8 @@ pub struct Guidance {
     carried: bool,
     /// Whether the vehicle hovers.
     hovers: bool,
+    /// Of the area of the last step.
+    sides: Option<Sides>,
 }
 
 impl Guidance {
@@ -67,6 +69,7 @@ impl Guidance {
             aborted: false,
             carried: true,
             hovers: false,
+            sides: None,
         }
     }
 
@@ -102,13 +105,16 @@ impl Guidance {
         area: &Area,
         dt_s: f64,
     ) -> (Command, GuidanceStatus) {
+        let known = self.sides.filter(|sides| sides.area() == area);
+        let sides = &known.unwrap_or_else(|| area.sides());
+        self.sides = Some(*sides);
         if let Some(command) = straight(goal) {
             // Neither cage nor filter stands between the searcher and the autopilot or the drives.
             self.filter.reset();
             self.goal_id = None;
             self.done = false;
             if !matches!(goal.manoeuvre, Manoeuvre::Direct { .. }) {
-                self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
+                self.aborted |= lost(est.position, sides, self.spec.abort_outside_m.get());
             }
             return (command, self.status(goal.id));
         }
@@ -119,7 +125,7 @@ impl Guidance {
             self.done = false;
             self.mode = self.start(est, goal, moving);
         }
-        self.aborted |= lost(est.position, area, self.spec.abort_outside_m.get());
+        self.aborted |= lost(est.position, sides, self.spec.abort_outside_m.get());
         if let Mode::Hover(hovering) = &mut self.mode {
             hovering.adjust(goal.manoeuvre);
             let at = Pose {
@@ -128,10 +134,10 @@ impl Guidance {
             };
             let wanted = hovering.step(at, goal.speed_m_s);
             self.done |= wanted.done;
-            return (self.moved(est, goal, &wanted, area), self.status(goal.id));
+            return (self.moved(est, goal, &wanted, sides), self.status(goal.id));
         }
         let wanted = self.course(est, goal, moving, dt_s);
-        let course = cage(wanted, est.position, area, self.spec.cage_m.get());
+        let course = cage(wanted, est.position, sides, self.spec.cage_m.get());
         let drift = est.flow.filter(|_| self.carried);
         let drift = drift.map_or_else(Vector2::zeros, |f| f.velocity);
         let limit = self.spec.water_speed_limit_m_s.get();
@@ -145,11 +151,11 @@ impl Guidance {
     }
 
     /// The command of a hovering vehicle: its velocity within the cage and the limit of its speed.
-    fn moved(&self, est: &Estimate, goal: &Goal, wanted: &Wanted, area: &Area) -> Command {
+    fn moved(&self, est: &Estimate, goal: &Goal, wanted: &Wanted, sides: &Sides) -> Command {
         let speed = wanted.velocity_m_s.norm();
         let over_ground_m_s = if speed > 0.0 {
             let course = Heading::of(wanted.velocity_m_s);
-            let course = cage(course, est.position, area, self.spec.cage_m.get());
+            let course = cage(course, est.position, sides, self.spec.cage_m.get());
             course.unit() * speed.min(self.spec.water_speed_limit_m_s.get())
         } else {
             Vector2::zeros()

@@ -6,9 +6,10 @@ use super::{cache, say};
 use image::{ImageFormat, RgbImage};
 use nalgebra::Vector3;
 use output::files::{ReportError, write_whole};
+use rheotaxis::assemble::WaterLight;
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
-use robots::sense::camera::{CameraModel, CameraSpec, Optics, Rendered, Scene, looking, render};
+use robots::sense::camera::{CameraModel, CameraSpec, Rendered, Scene, looking, render};
 use std::io::Cursor;
 use std::path::Path;
 use world::ranges::Positive;
@@ -90,7 +91,7 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
         terrain: &ocean.terrain,
         obstacles: &ocean.obstacles,
         dye: ocean.plume(),
-        optics: world.resource::<Optics>(),
+        optics: &world.resource::<WaterLight>().0,
     };
     let spec = (loaded.scenario.robots.iter()).find_map(|r| r.sensors.get::<CameraSpec>().cloned());
     let camera = CameraModel::new(&spec.unwrap_or_default());

@@ -13,7 +13,7 @@ use crate::score::Score;
 use crate::tick::{Frames, Tick};
 use crate::topic::Topics;
 use bevy_ecs::component::ComponentId;
-use bevy_ecs::prelude::{Mut, World};
+use bevy_ecs::prelude::{Mut, Resource, World};
 use nalgebra::Vector3;
 use robots::handoff::Outcome;
 use robots::sense::camera::Optics;
@@ -142,6 +142,11 @@ impl Simulation {
         self.tick.report(&mut self.world);
     }
 
+    /// Whether it makes frames.
+    pub(crate) fn makes_frames(&self) -> bool {
+        self.tick.frames == Frames::Made
+    }
+
     /// The time.
     pub(crate) fn clock(&self) -> Clock {
         *self.world.resource()
@@ -166,6 +171,10 @@ impl Simulation {
     }
 }
 
+/// Light in the water, for cameras. Apart, because a world sets aside the room of many for each of its resources.
+#[derive(Resource, Clone, Debug)]
+pub struct WaterLight(pub Box<Optics>);
+
 /// Puts in what every run has beside the ocean: physics, clock, score, outbox.
 fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> {
     let dt_s = scenario.time.step_s.get();
@@ -175,7 +184,7 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
     ocean.step_at_most(scenario.time.drift_period_s.get());
     let sources = ocean.sources();
     let mut physics = Physics::new(dt_s);
-    physics.add_terrain(&ocean.terrain, &ocean.area);
+    physics.add_bed(&ocean.bed);
     for obstacle in &ocean.obstacles.0 {
         physics.add_obstacle(obstacle);
     }
@@ -186,7 +195,7 @@ fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> 
         every(scenario.record.plume_period_s.get()),
         scenario.record.plume_points as usize,
     ));
-    world.insert_resource(optics);
+    world.insert_resource(WaterLight(Box::new(optics)));
     world.insert_resource(physics);
     world.insert_resource(Digest::default());
     Ok(())

@@ -45,6 +45,8 @@ pub(crate) struct Tick {
     observe: Schedule,
     act: Schedule,
     report: Schedule,
+    /// Whether it makes frames.
+    pub(crate) frames: Frames,
 }
 
 impl Tick {
@@ -55,6 +57,7 @@ impl Tick {
             observe: part(Part::Observe, &[sense, estimate, map], turns, own),
             act: part(Part::Act, &before, turns, own),
             report: part(Part::Report, &[drift, report], turns, own),
+            frames,
         };
         tick.act.add_systems(
             move_bodies

@@ -288,6 +288,9 @@ impl Trial {
     }
 
     fn show(&mut self, watch: &mut dyn Watch) {
+        if !self.simulation.makes_frames() {
+            return;
+        }
         let mut outbox = self.simulation.world.resource_mut::<Outbox>();
         let (frame, due) = (outbox.frame.take(), outbox.plume_due.take());
         let most = outbox.plume_points;

@@ -10,6 +10,7 @@ use rapier3d::geometry::{Aabb, ColliderHandle, Ray, SharedShape};
 use rapier3d::math as r;
 use rapier3d::parry::bounding_volume::BoundingVolume;
 use rapier3d::parry::utils::Array2;
+use std::sync::Arc;
 
 /// How far the bed's surface extends beyond the area, m: farther than the distance at which a search is aborted.
 const MARGIN_M: f64 = 60.0;
@@ -22,11 +23,19 @@ pub(super) struct Fixed {
     pub(super) shape: SharedShape,
     bounds: Aabb,
     /// Of a bed: its heights, for a quick answer.
-    heights: Option<Heights>,
+    heights: Option<Arc<Heights>>,
     /// Name for error messages.
     pub(super) name: String,
     /// rapier's handle; invalid until rapier has the collider.
     pub(super) collider: ColliderHandle,
+}
+
+/// The bed over an area and a margin round it, as a body meets it. Copies share it.
+#[derive(Clone)]
+pub struct Bed {
+    pose: r::Pose,
+    shape: SharedShape,
+    heights: Arc<Heights>,
 }
 
 impl Fixed {
@@ -42,39 +51,20 @@ impl Fixed {
         }
     }
 
-    /// The bed over the area and a margin round it.
-    pub(super) fn bed(terrain: &Terrain, area: &Area) -> Self {
-        let (min, max) = area.bounds();
-        let size = (max - min).map(|s| s + 2.0 * MARGIN_M);
-        let cells = size.map(|s| (s / CELL_M).ceil().max(1.0) as usize);
-        let middle = (min + max) / 2.0;
-        // parry's height fields have y up. Turned by a quarter about x, their x is our east and their z our south.
-        let mut heights = Array2::zeros(cells.y + 1, cells.x + 1);
-        for i in 0..=cells.y {
-            let north = size.y * (0.5 - i as f64 / cells.y as f64);
-            for j in 0..=cells.x {
-                let east = size.x * (j as f64 / cells.x as f64 - 0.5);
-                heights[(i, j)] = terrain.bed_z(middle.x + east, middle.y + north);
-            }
-        }
-        let upright = Pose {
-            p_WB: Vector3::new(middle.x, middle.y, 0.0),
-            R_WB: UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
-        };
-        let scale = r::Vector::new(size.x, 1.0, size.y);
-        let west_north = Vector2::new(middle.x - size.x / 2.0, middle.y + size.y / 2.0);
-        let known = Heights::new(&heights, west_north, size);
-        let bed = SharedShape::heightfield(heights, scale);
+    pub(super) fn bed(bed: &Bed) -> Self {
         Self {
-            heights: Some(known),
-            ..Self::new(pose(&upright), bed)
+            heights: Some(bed.heights.clone()),
+            ..Self::new(bed.pose, bed.shape.clone())
         }
     }
 
     /// Whether it can have a part in a box.
     pub(super) fn meets(&self, swept: &Aabb) -> bool {
-        let lies_below =
-            |heights: &Heights| heights.highest_under(swept).is_some_and(|z| z < swept.mins.z);
+        let lies_below = |heights: &Arc<Heights>| {
+            heights
+                .highest_under(swept)
+                .is_some_and(|z| z < swept.mins.z)
+        };
         self.bounds.intersects(swept) && !self.heights.as_ref().is_some_and(lies_below)
     }
 
@@ -103,6 +93,37 @@ impl Fixed {
     ) -> Option<f64> {
         let ray = Ray::new(vector(from_W), vector(along_W));
         self.shape.cast_ray(&self.pose, &ray, max_m, true)
+    }
+}
+
+impl Bed {
+    /// The bed of a terrain.
+    #[must_use]
+    pub fn new(terrain: &Terrain, area: &Area) -> Self {
+        let (min, max) = area.bounds();
+        let size = (max - min).map(|s| s + 2.0 * MARGIN_M);
+        let cells = size.map(|s| (s / CELL_M).ceil().max(1.0) as usize);
+        let middle = (min + max) / 2.0;
+        // parry's height fields have y up. Turned by a quarter about x, their x is our east and their z our south.
+        let mut heights = Array2::zeros(cells.y + 1, cells.x + 1);
+        for i in 0..=cells.y {
+            let north = size.y * (0.5 - i as f64 / cells.y as f64);
+            for j in 0..=cells.x {
+                let east = size.x * (j as f64 / cells.x as f64 - 0.5);
+                heights[(i, j)] = terrain.bed_z(middle.x + east, middle.y + north);
+            }
+        }
+        let upright = Pose {
+            p_WB: Vector3::new(middle.x, middle.y, 0.0),
+            R_WB: UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::FRAC_PI_2),
+        };
+        let scale = r::Vector::new(size.x, 1.0, size.y);
+        let west_north = Vector2::new(middle.x - size.x / 2.0, middle.y + size.y / 2.0);
+        Self {
+            pose: pose(&upright),
+            heights: Arc::new(Heights::new(&heights, west_north, size)),
+            shape: SharedShape::heightfield(heights, scale),
+        }
     }
 }
 
@@ -169,7 +190,7 @@ mod tests {
             axis: Heading::from_deg(340.0),
         };
         let terrain = Terrain::sloping_over(&area, Heading::from_deg(250.0), 4.0, 8.0);
-        let bed = Fixed::bed(&terrain, &area);
+        let bed = Fixed::bed(&Bed::new(&terrain, &area));
         for (x, y) in [(30.0, -20.0), (-40.0, 77.0), (100.0, -120.0), (71.3, 5.5)] {
             let from = Vector3::new(x, y, -1.0);
             let hit = bed.ray(&from, &-Vector3::z(), 100.0).expect("bed below");

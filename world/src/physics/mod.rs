@@ -21,5 +21,6 @@ mod solid_tests;
 
 pub use gantry::{AxisDrive, AxisSpec, GantryBodySpec, GantryId, JointState};
 pub use gantry_report::{GantryContact, Solid};
+pub use ground::Bed;
 pub use shape::{Inside, Shape};
 pub use solid::{BodyId, BodySpec, ContactReport, Physics, Solver};

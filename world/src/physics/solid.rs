@@ -13,7 +13,7 @@
 
 use super::convert::{pose, vector};
 use super::gantry::Gantry;
-use super::ground::Fixed;
+use super::ground::{Bed, Fixed};
 use super::rapier_alone::Twin;
 use super::shape::Shape;
 use crate::area::Area;
@@ -151,7 +151,8 @@ impl Body {
 pub struct Physics {
     dt_s: f64,
     solver: Solver,
-    pub(super) world: r::PhysicsWorld,
+    /// Apart, because a world of entities sets aside the room of many for each of its resources.
+    pub(super) world: Box<r::PhysicsWorld>,
     pub(super) bodies: Vec<Body>,
     pub(super) gantries: Vec<Gantry>,
     pub(super) fixed: Vec<Fixed>,
@@ -161,7 +162,7 @@ impl Physics {
     /// Empty water with steps of `dt_s`, s.
     #[must_use]
     pub fn new(dt_s: f64) -> Self {
-        let mut world = r::PhysicsWorld::new();
+        let mut world = Box::new(r::PhysicsWorld::new());
         world.gravity = r::Vector::ZERO;
         world.integration_parameters.dt = dt_s;
         world.integration_parameters.num_solver_iterations = 4;
@@ -190,7 +191,12 @@ impl Physics {
 
     /// Makes the bed solid under the area and 60 m beyond it.
     pub fn add_terrain(&mut self, terrain: &Terrain, area: &Area) {
-        self.add_solid("bed", Fixed::bed(terrain, area));
+        self.add_bed(&Bed::new(terrain, area));
+    }
+
+    /// Makes a bed solid.
+    pub fn add_bed(&mut self, bed: &Bed) {
+        self.add_solid("bed", Fixed::bed(bed));
     }
 
     /// Makes a fixed shape solid.

@@ -17,7 +17,6 @@ use super::dye::{Dye, DyeSpec};
 use super::light::{INDEX, Light, LightSpec, fresnel, phase};
 use super::sensor::hash;
 use crate::error::RobotError;
-use bevy_ecs::prelude::Resource;
 use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -58,7 +57,7 @@ impl Default for OpticsSpec {
 }
 
 /// Light in the water of a scenario.
-#[derive(Resource, Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Optics {
     /// The water.
     pub clarity: Clarity,

@@ -1,10 +1,11 @@
 //! How systems join the tick.
 
+use crate::tick::Frames;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{
-    Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System, SystemSet, World,
+    Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System,
+    SystemSet, World,
 };
-use crate::tick::Frames;
 use bevy_ecs::system::{ScheduleSystem, SystemAccess};
 use world::stage::Stage;
 

@@ -2,6 +2,7 @@
 
 use super::{Briefing, Hull, Mapping, Robots, Searching};
 use crate::abnormal::{Abnormality, FaultLog, Lookout, OUTSIDE_M};
+use crate::assemble::WaterLight;
 use crate::control::Seen;
 use crate::control::consulting::{Consulting, Kept};
 use crate::ocean::Ocean;
@@ -18,7 +19,6 @@ use robots::handoff::{
     Readings,
 };
 use robots::map::MapObservation;
-use robots::sense::camera::Optics;
 use robots::sense::{Around, Asked, SensorSuite};
 use robots::vehicles::Battery;
 use world::clock::Clock;
@@ -29,7 +29,7 @@ use world::physics::Physics;
 pub(crate) fn read_instruments(
     clock: Res<Clock>,
     ocean: Res<Ocean>,
-    optics: Res<Optics>,
+    light: Res<WaterLight>,
     mut robots: Query<(
         &Truth,
         &Decision,
@@ -46,7 +46,7 @@ pub(crate) fn read_instruments(
             dye: &ocean.dye(clock.t_s()),
             terrain: &ocean.terrain,
             obstacles: &ocean.obstacles,
-            optics: &optics,
+            optics: &light.0,
             asked: Asked::from(decision),
         });
         faults.alter(&clock, &mut readings);
@@ -319,7 +319,7 @@ pub(crate) fn watch(
     let events = &mut score.abnormal;
     for (id, truth, readings, hull, pilot, battery, mut lookout) in &mut robots {
         let p = truth.pose.p_WB;
-        let outside_m = -ocean.area.edge_distance(p.xy()).0;
+        let outside_m = -ocean.sides.edge_distance(p.xy()).0;
         let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
         for (what, wrong) in [
             (Abnormality::LeftArea, Some(outside_m > OUTSIDE_M)),

@@ -17,10 +17,11 @@ use nalgebra::{Vector2, Vector3};
 use plumes::filaments::{Displaced, Plume};
 use plumes::flow::Water;
 use std::ops::{Deref, DerefMut};
-use world::area::Area;
+use world::area::{Area, Sides};
 use world::digest::Digest;
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 use world::obstacles::Obstacles;
+use world::physics::Bed;
 use world::terrain::Terrain;
 
 /// Place, water and plume. It holds the truth. As a [`Flow`] it takes times of the mission, s.
@@ -34,6 +35,8 @@ pub struct Ocean(Option<Box<Contents>>);
 pub struct Contents {
     /// The operating area.
     pub area: Area,
+    pub(crate) sides: Sides,
+    pub(crate) bed: Bed,
     /// The bed.
     pub terrain: Terrain,
     /// All solid things, including those that the water passes through.
@@ -75,6 +78,8 @@ impl Ocean {
         origin: &Origin,
     ) -> Self {
         Self(Some(Box::new(Contents {
+            sides: area.sides(),
+            bed: Bed::new(&terrain, &area),
             area,
             terrain,
             obstacles,
