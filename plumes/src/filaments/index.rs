@@ -53,7 +53,7 @@ pub(super) struct Group {
     reach: f32,
     /// Additional vertical reach over a steep bed, m.
     pub(super) steep: f32,
-    boxes: OnceLock<Box<Boxes>>,
+    boxes: OnceLock<Boxes>,
     whole: OnceLock<Part>,
 }
 
@@ -194,7 +194,7 @@ impl Group {
 
     /// The ways of its members.
     pub(super) fn boxes(&self, s: &Store) -> &Boxes {
-        (self.boxes).get_or_init(|| Box::new(Boxes::new(s, self.from, self.n)))
+        (self.boxes).get_or_init(|| Boxes::new(s, self.from, self.n))
     }
 
     fn whole(&self, s: &Store) -> Part {

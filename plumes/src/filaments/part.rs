@@ -7,7 +7,7 @@
 //! *Deviations*: none.
 
 use super::image::{Felt, Spot};
-use super::index::{GROUP, Group, Question};
+use super::index::{Group, Question};
 use super::leaf::{CUT_SIGMAS, LEAF, Leaf};
 use super::moving::Moving;
 use super::store::Store;
@@ -42,46 +42,40 @@ struct Present {
     walled: Vec<Felt>,
 }
 
-/// The way of each member of a group through its step: least and greatest coordinates.
+/// The way of each member of a group through its step: least and greatest coordinates, with a fourth place that makes
+/// them one word of the processor.
 #[derive(Clone, Debug)]
-pub(super) struct Boxes {
-    lo: [[f32; GROUP]; 3],
-    hi: [[f32; GROUP]; 3],
-}
+pub(super) struct Boxes(Box<[[[f32; 4]; 2]]>);
 
 impl Boxes {
     /// Of `n` members from `from` on.
     pub(super) fn new(s: &Store, from: usize, n: usize) -> Self {
-        let mut this = Self {
-            lo: [[0.0; GROUP]; 3],
-            hi: [[0.0; GROUP]; 3],
-        };
-        for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
-            let ways = start[from..from + n].iter().zip(&end[from..from + n]);
-            for ((lo, hi), (a, b)) in this.lo[d].iter_mut().zip(&mut this.hi[d]).zip(ways) {
-                (*lo, *hi) = if a < b { (*a, *b) } else { (*b, *a) };
+        let way = |m: usize| {
+            let mut ends = [[0.0; 4]; 2];
+            for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
+                let (a, b) = (start[m], end[m]);
+                (ends[0][d], ends[1][d]) = if a < b { (a, b) } else { (b, a) };
             }
-        }
-        this
+            ends
+        };
+        Self((from..from + n).map(way).collect())
     }
 
     /// The box that holds the ways of all these members.
     fn around(&self, members: &[u16]) -> [[f32; 2]; 3] {
-        // Several at a time, so that one does not wait for the other.
-        const LANES: usize = 4;
-        std::array::from_fn(|d| {
-            let (mut lo, mut hi) = ([f32::MAX; LANES], [f32::MIN; LANES]);
-            for some in members.chunks(LANES) {
-                for ((m, lo), hi) in some.iter().zip(&mut lo).zip(&mut hi) {
-                    let m = usize::from(*m) % GROUP;
-                    let (low, high) = (self.lo[d][m], self.hi[d][m]);
-                    *lo = if low < *lo { low } else { *lo };
-                    *hi = if high > *hi { high } else { *hi };
+        // Two at a time, so that one does not wait for the other.
+        let mut all = [[[f32::MAX; 4], [f32::MIN; 4]]; 2];
+        for some in members.chunks(2) {
+            for (m, [lo, hi]) in some.iter().zip(&mut all) {
+                let [low, high] = &self.0[usize::from(*m)];
+                for k in 0..4 {
+                    lo[k] = if low[k] < lo[k] { low[k] } else { lo[k] };
+                    hi[k] = if high[k] > hi[k] { high[k] } else { hi[k] };
                 }
             }
-            let (lo, hi) = (lo.into_iter(), hi.into_iter());
-            [lo.fold(f32::MAX, f32::min), hi.fold(f32::MIN, f32::max)]
-        })
+        }
+        let [a, b] = all;
+        std::array::from_fn(|d| [a[0][d].min(b[0][d]), a[1][d].max(b[1][d])])
     }
 }
 

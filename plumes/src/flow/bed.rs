@@ -48,7 +48,7 @@ impl BedSpec {
                 ),
             });
         }
-        Ok(BoundaryLayer { z0, delta })
+        Ok(BoundaryLayer::new(z0, delta))
     }
 }
 
@@ -57,9 +57,30 @@ impl BedSpec {
 pub struct BoundaryLayer {
     z0: f64,
     delta: f64,
+    /// The top in deep water, m, and the logarithm of its height in units of the roughness.
+    deep: (f64, f64),
 }
 
 impl BoundaryLayer {
+    fn new(z0: f64, delta: f64) -> Self {
+        let top = delta.max(3.0 * z0);
+        Self {
+            z0,
+            delta,
+            deep: (top, math::ln(top / z0)),
+        }
+    }
+
+    /// ln(top/z0).
+    fn ln_top(&self, top_m: f64) -> f64 {
+        let (deep_m, ln_deep) = self.deep;
+        if top_m == deep_m {
+            ln_deep
+        } else {
+            math::ln(top_m / self.z0)
+        }
+    }
+
     /// Height at which the free current is reached in water of this depth, m.
     #[must_use]
     pub fn top(&self, depth_m: f64) -> f64 {
@@ -75,14 +96,14 @@ impl BoundaryLayer {
         } else if height_m <= self.z0 {
             0.0
         } else {
-            math::ln(height_m / self.z0) / math::ln(top / self.z0)
+            math::ln(height_m / self.z0) / self.ln_top(top)
         }
     }
 
     /// Friction velocity u_*, m/s, under a free current of this speed.
     #[must_use]
     pub fn friction_velocity(&self, free_speed_m_s: f64, depth_m: f64) -> f64 {
-        KARMAN * free_speed_m_s / math::ln(self.top(depth_m) / self.z0)
+        KARMAN * free_speed_m_s / self.ln_top(self.top(depth_m))
     }
 }
 

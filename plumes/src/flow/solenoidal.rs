@@ -18,6 +18,8 @@ pub(crate) struct Solenoidal {
     // Lower Cholesky factor of the normal equations, by rows of `band + 1`.
     factor: Vec<f64>,
     band: usize,
+    // The contribution of each corner of a cell to each spline in it, for x and y.
+    shares: [[[f64; 2]; 4]; 9],
 }
 
 /// The three splines that are not zero in a cell, or their slopes per cell, at t in [0, 1].
@@ -35,6 +37,31 @@ fn integral(f: impl Fn(f64) -> f64) -> f64 {
     (5.0 * f(0.5 - d) + 8.0 * f(0.5) + 5.0 * f(0.5 + d)) / 18.0
 }
 
+/// The contribution of each corner of a cell of size `h` to each spline in it, for x and y.
+fn shares(h: [f64; 2]) -> [[[f64; 2]; 4]; 9] {
+    let hat = |t: f64, i: usize| if i == 0 { 1.0 - t } else { t };
+    let mut value = [[0.0; 2]; 3];
+    let mut slope = [[0.0; 2]; 3];
+    for a in 0..3 {
+        for i in 0..2 {
+            value[a][i] = integral(|t| splines(t).0[a] * hat(t, i));
+            slope[a][i] = integral(|t| splines(t).1[a] * hat(t, i));
+        }
+    }
+    let mut shares = [[[0.0; 2]; 4]; 9];
+    for (l, share) in shares.iter_mut().enumerate() {
+        let a = [l / 3, l % 3];
+        for (corner, share) in share.iter_mut().enumerate() {
+            let (p, q) = (corner / 2, corner % 2);
+            *share = [
+                h[0] * value[a[0]][p] * slope[a[1]][q],
+                h[1] * slope[a[0]][p] * value[a[1]][q],
+            ];
+        }
+    }
+    shares
+}
+
 impl Solenoidal {
     pub(crate) fn new(cells: [usize; 2], h: [f64; 2]) -> Self {
         let inner = cells[1] + 2;
@@ -45,6 +72,7 @@ impl Solenoidal {
             h,
             factor: vec![0.0; n * (band + 1)],
             band,
+            shares: shares(h),
         };
         let mut mass = [[0.0; 3]; 3];
         let mut stiff = [[0.0; 3]; 3];
@@ -106,34 +134,13 @@ impl Solenoidal {
     /// Coefficients of the stream function of the field nearest to `u` at the nodes (index i·(my + 1) + j).
     pub(crate) fn project(&self, u: &[Vector2<f64>]) -> Vec<f64> {
         let [mx, my] = self.cells;
-        let hat = |t: f64, i: usize| if i == 0 { 1.0 - t } else { t };
-        let mut value = [[0.0; 2]; 3];
-        let mut slope = [[0.0; 2]; 3];
-        for a in 0..3 {
-            for i in 0..2 {
-                value[a][i] = integral(|t| splines(t).0[a] * hat(t, i));
-                slope[a][i] = integral(|t| splines(t).1[a] * hat(t, i));
-            }
-        }
-        // The contribution of each corner of a cell to each spline in it, for x and y.
-        let mut share = [[[0.0; 2]; 4]; 9];
-        for (l, share) in share.iter_mut().enumerate() {
-            let a = [l / 3, l % 3];
-            for (corner, share) in share.iter_mut().enumerate() {
-                let (p, q) = (corner / 2, corner % 2);
-                *share = [
-                    self.h[0] * value[a[0]][p] * slope[a[1]][q],
-                    self.h[1] * slope[a[0]][p] * value[a[1]][q],
-                ];
-            }
-        }
         let n = (mx + 2) * (my + 2);
         let mut c = vec![0.0; n];
         for cell in 0..mx * my {
             let (i, j) = (cell / my, cell % my);
             let at = i * (my + 1) + j;
             let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
-            for ((r, _), share) in self.alive(cell).zip(&share) {
+            for ((r, _), share) in self.alive(cell).zip(&self.shares) {
                 for (node, share) in corners.iter().zip(share) {
                     c[r] += share[0] * node.x - share[1] * node.y;
                 }

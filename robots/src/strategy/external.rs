@@ -94,6 +94,7 @@ impl StrategyParams for ExternalSpec {
             behaviour: Behaviour::Other("external"),
             outcome: None,
             standing_in: None,
+            nothing: None,
         }))
     }
 
@@ -144,6 +145,8 @@ struct External {
     outcome: Option<Outcome>,
     /// While the fallback decides: what its goals' numbers are counted from.
     standing_in: Option<u32>,
+    /// A decision that says nothing but a goal; its empty lists are shared.
+    nothing: Option<Decision>,
 }
 
 impl Strategy for External {
@@ -152,7 +155,8 @@ impl Strategy for External {
             self.outcome.get_or_insert(Outcome::Aborted);
         }
         let goal = *self.goal.get_or_insert_with(|| setting_out(seen));
-        let mut answer = &Answer::default();
+        let none = Answer::default();
+        let mut answer = &none;
         match &seen.told {
             Some(Told::Answer(told)) => {
                 self.standing_in = None;
@@ -180,11 +184,18 @@ impl Strategy for External {
                 ..decision
             };
         }
+        let goal = self.goal.unwrap_or(goal);
+        let behaviour = self.behaviour;
+        let nothing = self
+            .nothing
+            .get_or_insert_with(|| Decision::new(behaviour, goal));
         Decision {
+            behaviour,
+            goal,
             declared: answer.declared,
             picture: answer.picture,
             outcome: self.outcome,
-            ..Decision::new(self.behaviour, self.goal.unwrap_or(goal))
+            ..nothing.clone()
         }
     }
 }
