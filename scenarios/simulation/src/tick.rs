@@ -5,14 +5,14 @@
 //!
 //! The tick has three parts. Between the first and the second, searchers outside this program answer: see
 //! [`control`](crate::control). Between the second and the third the ocean makes its step, which runs in the same ocean
-//! share: see [`lanes`](crate::lanes).
+//! share: see [`lanes`](crate::lanes). A tick in which a frame is due ends with that frame.
 //!
 //! Here stand only the systems that every run has. Each apparatus of the scenario and each extension of the registry
 //! adds its own to the stages, in a fixed order of turns.
 
 use crate::apparatus::{BodiesMove, Turn};
 use crate::ocean::system as ocean;
-use crate::outbox::system::{close_frame, open_frame};
+use crate::outbox::{Frames, close_frame, open_frame};
 use bevy_ecs::prelude::{IntoScheduleConfigs, ResMut, Schedule, World};
 use bevy_ecs::schedule::{LogLevel, ScheduleBuildSettings, ScheduleLabel, SingleThreadedExecutor};
 use world::clock::Clock;
@@ -28,23 +28,17 @@ pub enum Part {
     Act,
     /// What follows the step of the ocean.
     Report,
-}
-
-/// Whether a run makes frames.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Frames {
-    /// Somebody may look.
-    Made,
-    /// Nobody will take them.
-    Unmade,
+    /// What is shown, in a tick in which a frame is due.
+    Frame,
 }
 
 /// The tick: `Sense → Estimate → Map`, then answers from outside, then `Decide → Guide → Actuate → Physics`, then the
-/// ocean, then `Drift → Report`.
+/// ocean, then `Drift → Report`, then the frame if one is due.
 pub(crate) struct Tick {
     observe: Schedule,
     act: Schedule,
     report: Schedule,
+    frame: Schedule,
     /// Whether it makes frames.
     pub(crate) frames: Frames,
 }
@@ -57,6 +51,7 @@ impl Tick {
             observe: part(Part::Observe, &[sense, estimate, map], turns, own),
             act: part(Part::Act, &before, turns, own),
             report: part(Part::Report, &[drift, report], turns, own),
+            frame: part(Part::Frame, &[], turns, own),
             frames,
         };
         tick.act.add_systems(
@@ -65,33 +60,26 @@ impl Tick {
                 .in_set(BodiesMove)
                 .before(Turn::Added(Stage::Physics)),
         );
-        tick.report.add_systems((
+        tick.report.add_systems(
             ocean::digest_plume
                 .in_set(report)
                 .before(Turn::Added(report)),
-            pass_time.after(report),
-        ));
-        if frames == Frames::Made {
-            tick.make_frames(turns);
+        );
+        for n in 1..turns {
+            let after = Turn::Frame(n).after(Turn::Frame(n - 1));
+            tick.frame.configure_sets(after);
         }
         tick
     }
 
-    fn make_frames(&mut self, turns: usize) {
-        let report = &mut self.report;
-        let whole = (open_frame, close_frame).chain();
-        report.add_systems(whole.after(Stage::Report).before(pass_time));
-        for n in 0..turns {
-            report.configure_sets(Turn::Frame(n).after(open_frame).before(close_frame));
-            if n > 0 {
-                report.configure_sets(Turn::Frame(n).after(Turn::Frame(n - 1)));
-            }
-        }
-    }
-
     /// Its parts, for what is added to them.
-    pub(crate) fn parts(&mut self) -> [&mut Schedule; 3] {
-        [&mut self.observe, &mut self.act, &mut self.report]
+    pub(crate) fn parts(&mut self) -> [&mut Schedule; 4] {
+        [
+            &mut self.observe,
+            &mut self.act,
+            &mut self.report,
+            &mut self.frame,
+        ]
     }
 
     /// Fixes the order of all systems; an error says why there is none.
@@ -113,9 +101,14 @@ impl Tick {
         self.act.run(world);
     }
 
-    /// The part after it.
+    /// The part after it, with a frame if one is due. Then the time passes.
     pub(crate) fn report(&mut self, world: &mut World) {
         self.report.run(world);
+        if self.frames == Frames::Made && open_frame(world) {
+            self.frame.run(world);
+            close_frame(world);
+        }
+        world.resource_mut::<Clock>().advance();
     }
 }
 
@@ -150,10 +143,6 @@ fn part(label: Part, stages: &[Stage], turns: usize, own: usize) -> Schedule {
 /// One step of the physics for all bodies.
 fn move_bodies(mut physics: ResMut<Physics>) {
     physics.step();
-}
-
-fn pass_time(mut clock: ResMut<Clock>) {
-    clock.advance();
 }
 
 #[cfg(test)]

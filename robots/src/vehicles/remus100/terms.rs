@@ -140,19 +140,14 @@ impl RemusTerms<'_> {
         let (mut Y, mut Z, mut M, mut N) = (0.0, 0.0, 0.0, 0.0);
         if c.cross_flow_both {
             let (turn_y, turn_z) = (w.z - along.y, -w.y - along.z);
-            // In pairs, because a processor takes two roots in the time of one; the sums keep their order.
-            for pair in stations.chunks(2) {
-                let x = [pair[0], *pair.last().unwrap_or(&0.0)];
-                let vy = x.map(|x| v.y + x * turn_y);
-                let vz = x.map(|x| v.z + x * turn_z);
-                let size = [0, 1].map(|i| (vy[i] * vy[i] + vz[i] * vz[i]).sqrt());
-                for i in 0..pair.len() {
-                    let (fy, fz) = (size[i] * vy[i], size[i] * vz[i]);
-                    Y -= fy;
-                    Z -= fz;
-                    N -= x[i] * fy;
-                    M += x[i] * fz;
-                }
+            for &x in stations {
+                let (vy, vz) = (v.y + x * turn_y, v.z + x * turn_z);
+                let size = (vy * vy + vz * vz).sqrt();
+                let (fy, fz) = (size * vy, size * vz);
+                Y -= fy;
+                Z -= fz;
+                N -= x * fy;
+                M += x * fz;
             }
         } else {
             for &x in stations {

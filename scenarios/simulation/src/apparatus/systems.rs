@@ -1,6 +1,6 @@
 //! How systems join the tick.
 
-use crate::tick::Frames;
+use crate::outbox::Frames;
 use bevy_ecs::component::ComponentId;
 use bevy_ecs::prelude::{
     Component, IntoScheduleConfigs, IntoSystem, IntoSystemSet, Resource, Schedule, System,
@@ -34,6 +34,7 @@ pub struct Systems<'a> {
     observe: &'a mut Schedule,
     act: &'a mut Schedule,
     report: &'a mut Schedule,
+    frame: &'a mut Schedule,
     world: &'a mut World,
     truth: &'a [(ComponentId, &'static str)],
     turn: usize,
@@ -44,7 +45,7 @@ pub struct Systems<'a> {
 impl<'a> Systems<'a> {
     /// For one turn in all parts of the tick. Systems added as blind may not read `truth`.
     pub(crate) fn new(
-        [observe, act, report]: [&'a mut Schedule; 3],
+        [observe, act, report, frame]: [&'a mut Schedule; 4],
         world: &'a mut World,
         truth: &'a [(ComponentId, &'static str)],
         turn: usize,
@@ -54,6 +55,7 @@ impl<'a> Systems<'a> {
             observe,
             act,
             report,
+            frame,
             world,
             truth,
             turn,
@@ -77,15 +79,14 @@ impl<'a> Systems<'a> {
         self
     }
 
-    /// Adds systems that write into a frame, after all stages but the end of the report. They run in every step; the
-    /// frame is open in those steps in which one is taken. In a run without frames they are left out.
+    /// Adds systems that write into a frame. They run after all stages of a step in which a frame is made.
     pub fn add_to_frame<M>(
         &mut self,
         systems: impl IntoScheduleConfigs<ScheduleSystem, M>,
     ) -> &mut Self {
         if self.has_frames() {
             let systems = systems.in_set(Turn::Frame(self.turn));
-            self.report.add_systems(systems);
+            self.frame.add_systems(systems);
         }
         self
     }

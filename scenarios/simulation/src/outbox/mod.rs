@@ -1,10 +1,21 @@
 //! What a run hands to those who record, publish and draw: frames, pictures, pings.
 
-pub(crate) mod system;
+mod frames;
+
+pub(crate) use frames::{close_frame, open_frame};
 
 use crate::frame::{Frame, PictureFrame, PingFrame};
 use bevy_ecs::prelude::Resource;
 use world::clock::Every;
+
+/// Whether a run makes frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Frames {
+    /// Somebody may look.
+    Made,
+    /// Nobody will take them.
+    Unmade,
+}
 
 /// What waits for the trial, which takes it after the tick; and how often frames are made. It holds the truth.
 #[derive(Resource, Debug)]
