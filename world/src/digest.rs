@@ -155,6 +155,18 @@ mod tests {
         whole.f64s(&values);
         values.chunks(7).for_each(|c| parts.f64s(c));
         assert_eq!(whole.hex(), parts.hex());
+        // Reading it on the way changes nothing, and neither do bytes in between.
+        let mut mixed = Digest::default();
+        for (n, v) in values.iter().enumerate() {
+            match n % 3 {
+                0 => mixed.bytes(&v.to_le_bytes()),
+                1 => mixed.f64s(&[*v]),
+                _ => mixed
+                    .f32s(&[v.to_bits() as u32, (v.to_bits() >> 32) as u32].map(f32::from_bits)),
+            }
+            let _ = mixed.hex();
+        }
+        assert_eq!(whole.hex(), mixed.hex());
         let mut changed = values.clone();
         changed[999] = f64::from_bits(changed[999].to_bits() ^ 1);
         other.f64s(&changed);
