@@ -109,8 +109,8 @@ pub(super) fn step(
     work: &mut Work,
 ) {
     match block.used {
-        ..=32 => step_first::<32>(path, cells, nodes, key, block, work),
-        ..=64 => step_first::<64>(path, cells, nodes, key, block, work),
+        0..=32 => step_first::<32>(path, cells, nodes, key, block, work),
+        33..=64 => step_first::<64>(path, cells, nodes, key, block, work),
         _ => step_first::<BLOCK>(path, cells, nodes, key, block, work),
     }
 }

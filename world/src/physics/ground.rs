@@ -162,7 +162,7 @@ impl Heights {
             // A little wider, against rounding.
             let (low, high) = (low / cell_m - 1e-6, high / cell_m + 1e-6);
             let inside = low >= 0.0 && high < cells as f64;
-            inside.then(|| low as usize..=high as usize)
+            inside.then_some(low as usize..=high as usize)
         };
         let [rows, columns] = self.cells;
         let south = [self.corner.y - swept.maxs.y, self.corner.y - swept.mins.y];
