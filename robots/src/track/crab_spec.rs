@@ -8,14 +8,14 @@ use super::pace::{self, PaceSpec};
 use super::predictor::PredictorSpec;
 use super::steer::{self, ContrastSpec};
 use super::stop::{self, StopSpec};
-use super::threshold::ThresholdSpec;
+use super::threshold::{HalfMean, ThresholdSpec};
 use crate::error::RobotError;
 use crate::handoff::GantryLayout;
 use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::num::NonZeroUsize;
-use world::ranges::Positive;
+use world::ranges::{Fraction, Positive};
 
 /// The tracker's units.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -77,10 +77,17 @@ impl Default for CrabSpec {
 
 impl CrabSpec {
     /// The tracker with the paper's future work: adaptive speed, contrast threshold and stopping frequency. Any spike
-    /// moves it up-stream, because continuous motion leaves no step that is long enough to compare averages.
+    /// moves it up-stream, because continuous motion leaves no step that is long enough to compare averages. Steps are
+    /// longer, as the head is faster. The threshold is its floor alone: half of an average that holds the strong spikes
+    /// in the thread's core would leave those at its edge unheard.
     #[must_use]
     pub fn adaptive() -> Self {
         Self {
+            step_m: [Positive::new(0.18), Positive::new(0.06)],
+            threshold: ThresholdSpec::HalfMean(HalfMean {
+                share: Fraction::new(0.0),
+                ..HalfMean::default()
+            }),
             advance: AdvanceSpec::Gated(advance::Gated::default()),
             contrast: ContrastSpec::Adaptive(steer::Adaptive::default()),
             speed: PaceSpec::Adaptive(pace::Adaptive::default()),

@@ -15,7 +15,7 @@
 //!
 //! `trail_end`, true: an empty sweep after a followed plume means that the source is near, because dye is met only
 //! down-stream of it, and passes below the probes just before it. The head moves across to the middle of the `points`
-//! most up-stream spikes (3, so that no single maximum of noise decides) and stops. It does not go back, because the
+//! most up-stream spikes (2, so that no single maximum of noise decides) and stops. It does not go back, because the
 //! source is not down-stream of spikes. No sweep is needed if the silence alone is proof: at the frequency met on the
 //! way `silence` spikes should have come and none did, 7: exp(-7) is one in a thousand if spikes are independent.
 //!
@@ -95,10 +95,10 @@ pub struct Experience {
 
 impl Default for Experience {
     fn default() -> Self {
-        let three = NonZeroUsize::new(3).expect("3 is not zero");
+        let count = |n| NonZeroUsize::new(n).expect("not zero");
         Self {
             factor: Positive::new(2.5),
-            reference_steps: three,
+            reference_steps: count(3),
             least_hz: Positive::new(1.0),
             most_hz: Positive::new(4.0),
             drift_m_s: Positive::new(0.05),
@@ -106,7 +106,7 @@ impl Default for Experience {
             count: Count::Greatest,
             trail_end: true,
             silence: Positive::new(7.0),
-            points: three,
+            points: count(2),
         }
     }
 }
@@ -271,7 +271,7 @@ mod tests {
             stops(&spec, &[3.0, 3.0, 3.0, 3.5, 4.6]),
             [false, false, false, false, true]
         );
-        assert_eq!(StopRule::new(&spec).trail_end(), Some(3));
+        assert_eq!(StopRule::new(&spec).trail_end(), Some(2));
     }
 
     #[test]
