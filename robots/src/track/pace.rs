@@ -14,8 +14,8 @@
 //!
 //! *Deviations*: in `Adaptive` the speed grows linearly with the spikes of the last step up to `enough`. With enough
 //! of them the next step follows without rest; with fewer the head waits for them, at most `dwell_s`. `enough` 2 made
-//! half of all steps wait, because a head in a smooth thread of dye meets few maxima. A rest of 1.2 s or less takes
-//! gaps of the plume for its end, one of 1.86 s costs a second at each.
+//! half of all steps wait, because a head in a smooth thread of dye meets few maxima. Shorter rests take more gaps
+//! of the plume for its end, longer ones cost time at each.
 
 use nalgebra::Vector2;
 use schemars::JsonSchema;
