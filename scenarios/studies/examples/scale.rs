@@ -51,6 +51,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         return Ok(());
     }
     let file = args.first().map_or("docs/figures/scale.svg", |file| file);
+    if file.starts_with('-') {
+        println!(
+            "usage: scale [FILE]   measures, prints a table and draws FILE [default: docs/figures/scale.svg]"
+        );
+        return Ok(());
+    }
     let mut curves = Vec::new();
     println!("| what | number | ms for a second of mission | memory, MB |\n|---|---|---|---|");
     for (what, numbers) in [
