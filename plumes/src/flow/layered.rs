@@ -273,6 +273,7 @@ pub struct LayeredColumn<'a> {
 impl Layered {
     /// The layers over the floor at (east, north) `p` and time `t_s`.
     #[must_use]
+    #[inline(always)]
     pub fn column(&self, p: Vector2<f64>, floor: &Floor, t_s: f64) -> LayeredColumn<'_> {
         let n = self.u.len();
         let mut column = LayeredColumn {
@@ -344,6 +345,22 @@ impl LayeredColumn<'_> {
         lowest.map(|i| self.faces[i].z)
     }
 
+    /// The share of the layer above an interface in the water at a height.
+    fn share(&self, face: usize, z: f64) -> f64 {
+        // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
+        let x = (z - self.faces[face].z) / self.of.faces[face].thickness;
+        1.0 / (1.0 + math::exp(-4.0 * x))
+    }
+
+    /// Horizontal velocity at a height, m/s: that of [`Self::profile`], without the rest.
+    #[must_use]
+    pub fn velocity(&self, z: f64) -> Vector2<f64> {
+        let n = self.of.u.len();
+        (0..n - 1).fold(self.u[n - 1], |u, i| {
+            u + (self.u[i] - self.u[i + 1]) * self.share(i, z)
+        })
+    }
+
     /// Velocity, density and gradients at a height, m.
     #[must_use]
     pub fn profile(&self, z: f64) -> Profile {
@@ -355,9 +372,7 @@ impl LayeredColumn<'_> {
             drho_dz: 0.0,
         };
         for (i, face) in self.of.faces.iter().enumerate() {
-            // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
-            let x = (z - self.faces[i].z) / face.thickness;
-            let share = 1.0 / (1.0 + math::exp(-4.0 * x));
+            let share = self.share(i, z);
             let slope = 4.0 * share * (1.0 - share) / face.thickness;
             let du = self.u[i] - self.u[i + 1];
             let drho = self.of.density[i] - self.of.density[i + 1];

@@ -253,6 +253,8 @@ impl Water {
 
     /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
     #[must_use]
+    // Not called but copied into the caller, because a column is large to return.
+    #[inline(always)]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));
@@ -292,7 +294,13 @@ impl Column<'_> {
 
     /// Horizontal current as it would be without bed friction, m/s.
     fn free(&self, z: f64) -> Vector2<f64> {
-        self.plane + self.profile(z).map_or(Vector2::zeros(), |p| p.u)
+        self.plane + self.layered(z)
+    }
+
+    /// The part of the layers in the current, m/s.
+    fn layered(&self, z: f64) -> Vector2<f64> {
+        let layers = self.layers.as_ref();
+        layers.map_or(Vector2::zeros(), |layers| layers.velocity(z))
     }
 
     fn profile(&self, z: f64) -> Option<Profile> {
@@ -307,15 +315,26 @@ impl Column<'_> {
     #[must_use]
     pub fn velocity(&self, z: f64) -> Vector3<f64> {
         let z = self.inside(z);
-        self.velocity_in(z, self.profile(z).as_ref())
+        self.velocity_in(z, self.layered(z), self.factor(z))
     }
 
-    fn velocity_in(&self, z: f64, profile: Option<&Profile>) -> Vector3<f64> {
-        let factor = self
-            .water
-            .bed
-            .map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z));
-        let mut u = (self.plane + profile.map_or(Vector2::zeros(), |p| p.u)) * factor;
+    /// The same, given the [`Self::factor`] of a column `other` at this height. It holds wherever the floor is as high.
+    fn velocity_beside(&self, z: f64, other: &Self, factor: f64) -> Vector3<f64> {
+        if self.floor.z != other.floor.z {
+            return self.velocity(z);
+        }
+        let z = self.inside(z);
+        self.velocity_in(z, self.layered(z), factor)
+    }
+
+    /// The part of the free current that bed friction leaves at a height in the water.
+    fn factor(&self, z: f64) -> f64 {
+        let bed = self.water.bed;
+        bed.map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z))
+    }
+
+    fn velocity_in(&self, z: f64, layered: Vector2<f64>, factor: f64) -> Vector3<f64> {
+        let mut u = (self.plane + layered) * factor;
         if let Some(flume) = &self.water.flume {
             u += flume.channel.along * flume.channel.speed(z - self.floor.z);
         }
@@ -362,7 +381,7 @@ impl Column<'_> {
         let profile = self.profile(z);
         let profile = profile.as_ref();
         (
-            self.velocity_in(z, profile),
+            self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u), self.factor(z)),
             self.mixing_in(z, u_star_m_s, profile),
         )
     }

@@ -1,6 +1,6 @@
 //! The trait [`Flow`] for the whole water.
 
-use super::{Column, Water};
+use super::Water;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 
@@ -119,21 +119,24 @@ impl Flow for Water {
             }
             return sample;
         }
-        let column =
-            |dx: f64, dy: f64, dt: f64| self.column(Vector2::new(p.x + dx, p.y + dy), t_s + dt);
-        let here = column(0.0, 0.0, 0.0);
+        // Each column lives only as long as its one question: a copy of it costs as much as the question.
+        let here = self.column(p.xy(), t_s);
+        let factor = here.factor(here.inside(p.z));
+        let at = |dx: f64, dy: f64, dt: f64| {
+            let place = Vector2::new(p.x + dx, p.y + dy);
+            let column = self.column(place, t_s + dt);
+            column.velocity_beside(p.z, &here, factor)
+        };
         let twice = 1.0 / (2.0 * H);
-        let across = |a: Column<'_>, b: Column<'_>| (a.velocity(p.z) - b.velocity(p.z)) * twice;
         let back = H.min(t_s);
         let mut sample = WaterSample {
-            velocity: here.velocity(p.z),
+            velocity: here.velocity_beside(p.z, &here, factor),
             gradient: Matrix3::from_columns(&[
-                across(column(H, 0.0, 0.0), column(-H, 0.0, 0.0)),
-                across(column(0.0, H, 0.0), column(0.0, -H, 0.0)),
+                (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) * twice,
+                (at(0.0, H, 0.0) - at(0.0, -H, 0.0)) * twice,
                 (here.velocity(p.z + H) - here.velocity(p.z - H)) * twice,
             ]),
-            rate: (column(0.0, 0.0, H).velocity(p.z) - column(0.0, 0.0, -back).velocity(p.z))
-                / (H + back),
+            rate: (at(0.0, 0.0, H) - at(0.0, 0.0, -back)) / (H + back),
             density_kg_m3: here.density(p.z),
         };
         if let Some(eddies) = self.eddies() {
