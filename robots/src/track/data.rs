@@ -92,4 +92,6 @@ pub struct StepRecord {
     pub left: Tally,
     /// The rightmost probe's spikes.
     pub right: Tally,
+    /// The most up-stream place of a spike (forward), m.
+    pub foremost_m: Option<f64>,
 }

@@ -100,6 +100,7 @@ fn step(better: bool, left: f64, right: f64) -> StepRecord {
         predicted_v: Some(1.0),
         left: tally(left),
         right: tally(right),
+        foremost_m: None,
     }
 }
 

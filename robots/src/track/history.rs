@@ -72,6 +72,7 @@ pub struct History {
     began_s: f64,
     arrived: bool,
     tallies: [Tally; MAX_PROBES],
+    foremost_m: Option<f64>,
     previous_v: Option<f64>,
     predicted_v: Option<f64>,
 }
@@ -89,6 +90,7 @@ impl History {
             began_s: 0.0,
             arrived: false,
             tallies: Default::default(),
+            foremost_m: None,
             previous_v: None,
             predicted_v: None,
         }
@@ -107,12 +109,14 @@ impl History {
     /// Takes a spike.
     pub fn add(&mut self, spike: &Spike) {
         self.tallies[spike.probe].add(spike.magnitude_v);
+        let forward_m = spike.place_m.x;
+        self.foremost_m = Some(self.foremost_m.map_or(forward_m, |m| m.max(forward_m)));
     }
 
     /// The head has come to rest.
     pub fn arrive(&mut self) {
         if !self.arrived && self.since == Since::Arrival {
-            self.tallies = Default::default();
+            (self.tallies, self.foremost_m) = Default::default();
         }
         self.arrived = true;
     }
@@ -139,6 +143,7 @@ impl History {
             predicted_v: self.predicted_v,
             left: self.tallies[self.left],
             right: self.tallies[self.right],
+            foremost_m: self.foremost_m,
         }
     }
 
@@ -157,7 +162,7 @@ impl History {
     fn begin(&mut self, t_s: f64, predicted_v: Option<f64>) {
         self.began_s = t_s;
         self.arrived = false;
-        self.tallies = Default::default();
+        (self.tallies, self.foremost_m) = Default::default();
         self.predicted_v = predicted_v;
     }
 }

@@ -25,7 +25,7 @@ pub mod stop;
 mod testing;
 pub mod threshold;
 
-pub use advance::{AdvanceSpec, Gated, StepRule};
+pub use advance::{AdvanceSpec, Gated, StepFrom, StepRule};
 pub use builder::{Best, SweepSpec};
 pub use catalogue::{READINGS, UNITS};
 pub use chemotaxis::{Chemotaxis, ChemotaxisSpec};
