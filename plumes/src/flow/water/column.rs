@@ -1,0 +1,150 @@
+//! The water over one place at one time, asked at heights.
+//!
+//! *Source*: as `water`.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: none of its own.
+
+use super::Column;
+use crate::flow::bed::KARMAN;
+use crate::flow::layered::{LayeredColumn, Profile, Sheet};
+use crate::flow::mixing;
+use nalgebra::{Vector2, Vector3};
+use world::fields::Mixing;
+
+impl Column<'_> {
+    /// Height of the bed, m.
+    #[must_use]
+    pub fn bed_z(&self) -> f64 {
+        self.floor.z
+    }
+
+    /// The interfaces between the layers, top first.
+    #[must_use]
+    pub fn interfaces(&self) -> &[Sheet] {
+        self.layers.as_ref().map_or(&[], LayeredColumn::faces)
+    }
+
+    /// Horizontal current as it would be without bed friction, m/s.
+    pub(super) fn free(&self, z: f64) -> Vector2<f64> {
+        self.plane + self.layered(z)
+    }
+
+    /// The part of the layers in the current, m/s.
+    fn layered(&self, z: f64) -> Vector2<f64> {
+        let layers = self.layers.as_ref();
+        layers.map_or(Vector2::zeros(), |layers| layers.velocity(z))
+    }
+
+    pub(super) fn profile(&self, z: f64) -> Option<Profile> {
+        self.layers.as_ref().map(|l| l.profile(z))
+    }
+
+    pub(super) fn inside(&self, z: f64) -> f64 {
+        z.clamp(self.floor.z, 0.0)
+    }
+
+    /// Velocity at a height, m/s.
+    #[must_use]
+    pub fn velocity(&self, z: f64) -> Vector3<f64> {
+        let z = self.inside(z);
+        self.velocity_in(z, self.layered(z), self.factor(z))
+    }
+
+    /// The same, given the [`Self::factor`] of a column `other` at this height. It holds wherever the floor is as high.
+    pub(super) fn velocity_beside(&self, z: f64, other: &Self, factor: f64) -> Vector3<f64> {
+        if self.floor.z != other.floor.z {
+            return self.velocity(z);
+        }
+        let z = self.inside(z);
+        self.velocity_in(z, self.layered(z), factor)
+    }
+
+    /// The part of the free current that bed friction leaves at a height in the water.
+    pub(super) fn factor(&self, z: f64) -> f64 {
+        let bed = self.water.bed;
+        bed.map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z))
+    }
+
+    fn velocity_in(&self, z: f64, layered: Vector2<f64>, factor: f64) -> Vector3<f64> {
+        let mut u = (self.plane + layered) * factor;
+        if let Some(flume) = &self.water.flume {
+            u += flume.channel.along * flume.channel.speed(z - self.floor.z);
+        }
+        let (slope, rate) = match &self.layers {
+            Some(layers) => {
+                let sheet = layers.sheet(z, &self.floor);
+                (sheet.slope, sheet.rate)
+            }
+            None => (self.floor.slope * (z / self.floor.z), 0.0),
+        };
+        Vector3::new(u.x, u.y, rate + u.dot(&slope))
+    }
+
+    /// Density at a height, kg/m³.
+    #[must_use]
+    pub fn density(&self, z: f64) -> f64 {
+        let layers = self.layers.as_ref();
+        layers.map_or(self.water.density, |l| l.profile(self.inside(z)).density)
+    }
+
+    /// Friction velocity at the bed, m/s; zero without bed friction.
+    #[must_use]
+    pub fn friction_velocity(&self) -> f64 {
+        if let Some(flume) = &self.water.flume {
+            return flume.channel.u_star_m_s;
+        }
+        self.water.bed.map_or(0.0, |bed| {
+            let depth = -self.floor.z;
+            let speed = self.free(self.floor.z + bed.top(depth)).norm();
+            bed.friction_velocity(speed, depth)
+        })
+    }
+
+    /// Diffusivities at a height, given the column's friction velocity.
+    #[must_use]
+    pub fn mixing(&self, z: f64, u_star_m_s: f64) -> Mixing {
+        let z = self.inside(z);
+        self.mixing_in(z, u_star_m_s, self.profile(z).as_ref())
+    }
+
+    /// Velocity and diffusivities at a height, as from both methods, with the profile computed only once.
+    pub(super) fn both(&self, z: f64, u_star_m_s: f64) -> (Vector3<f64>, Mixing) {
+        let z = self.inside(z);
+        let profile = self.profile(z);
+        let profile = profile.as_ref();
+        (
+            self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u), self.factor(z)),
+            self.mixing_in(z, u_star_m_s, profile),
+        )
+    }
+
+    fn mixing_in(&self, z: f64, u_star_m_s: f64, profile: Option<&Profile>) -> Mixing {
+        let (height, depth) = (z - self.floor.z, -self.floor.z);
+        let reach = self.layers.as_ref().and_then(LayeredColumn::lid);
+        let reach = reach.map_or(depth, |lid| lid - self.floor.z);
+        let flume = self.water.flume.as_ref();
+        let mut k_z = flume.map_or_else(
+            || mixing::parabolic(u_star_m_s, height, reach),
+            |flume| flume.vertical(height),
+        );
+        if let Some(waves) = &self.water.waves {
+            k_z += waves.vertical(z);
+        }
+        if k_z > 0.0
+            && let Some(p) = profile
+        {
+            let wall = u_star_m_s / (KARMAN * height);
+            let shear2 = p.du_dz.norm_squared() + wall * wall;
+            k_z *= mixing::damping(mixing::richardson(p.drho_dz, p.density, shear2));
+        }
+        let spec = &self.water.mixing;
+        Mixing {
+            k_h_m2_s: spec.horizontal_m2_s.get()
+                + spec.transverse.get() * u_star_m_s * depth
+                + flume.map_or(0.0, |flume| flume.k_h),
+            k_z_m2_s: spec.background_vertical_m2_s.get() + k_z,
+        }
+    }
+}
