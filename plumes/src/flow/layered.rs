@@ -274,7 +274,6 @@ pub struct LayeredColumn<'a> {
 impl Layered {
     /// The layers over the floor at (east, north) `p` and time `t_s`.
     #[must_use]
-    #[inline(always)]
     pub fn column(&self, p: Vector2<f64>, floor: &Floor, t_s: f64) -> LayeredColumn<'_> {
         let n = self.u.len();
         let mut column = LayeredColumn {

@@ -254,8 +254,6 @@ impl Water {
 
     /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
     #[must_use]
-    // Not called but copied into the caller, because a column is large to return.
-    #[inline(always)]
     pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));

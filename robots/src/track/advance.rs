@@ -8,9 +8,9 @@
 //! paper); prediction error `prediction_error`, a share of the prediction, 0.02; whether that error has a sign,
 //! `signed`, true: the paper defines it as "predicted value minus the average spike magnitude" and takes a large one
 //! for a perceived loss, so that a magnitude above the prediction is no error. `Gated`: least number of spikes in the
-//! step, `spikes`, 1; where the next step is measured from, `from`, `Head`: the head's own place, as in the paper, which leads
-//! nearly two steps beyond a spike that was met early in a step. From `Spike`, the most up-stream spike of this step, the
-//! head is never more than a step beyond the dye that it knows.
+//! step, `spikes`, 1; where the next step is measured from, `from`, `Head`: the head's own place, as in the paper. That
+//! leads nearly two steps beyond a spike that was met early in a step. From `Spike`, the most up-stream spike of this
+//! step, it is never more than one step beyond.
 //!
 //! *Deviations*: "exceeds" is taken strictly, so that no signal never exceeds no signal. The first step after a sweep
 //! has no previous one; it allows another step if it has any spike. `Gated` is not in the paper's tracker.

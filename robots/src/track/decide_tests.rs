@@ -2,11 +2,13 @@
 
 use super::*;
 use crate::handoff::GantryBehaviour as B;
+use crate::track::advance::{Gated, StepFrom};
 use crate::track::builder::Best;
 use crate::track::crab_spec::CrabSpec;
 use crate::track::data::Tally;
 use crate::track::stop::{Experience, StopSpec};
 use crate::track::testing::{layout, spike};
+use std::num::NonZeroUsize;
 
 struct Hand {
     unit: DecisionUnit,
@@ -131,6 +133,26 @@ fn the_adaptive_contrast_gathers_until_it_suffices() {
     assert!(is(h.ask(left, false), B::StepUp, 0.6, 0.05));
     // On the new lane it begins anew.
     assert!(is(h.ask(left, false), B::StepUp, 0.7, 0.05));
+}
+
+#[test]
+fn a_gated_step_may_be_measured_from_the_most_up_stream_spike() {
+    for (from, beyond_m) in [(StepFrom::Head, 0.3), (StepFrom::Spike, 0.24)] {
+        let spikes = NonZeroUsize::MIN;
+        let mut h = Hand::new(&CrabSpec {
+            advance: AdvanceSpec::Gated(Gated { spikes, from }),
+            ..CrabSpec::default()
+        })
+        .swept(0.0);
+        let met = StepRecord {
+            foremost_m: Some(0.24),
+            ..step(true, 1.0, 1.0)
+        };
+        assert!(
+            is(h.ask(met, false), B::StepUp, beyond_m + 0.1, 0.0),
+            "{from:?}"
+        );
+    }
 }
 
 #[test]

@@ -218,4 +218,20 @@ mod tests {
         assert_eq!(h.record(4.0).mean_v, 9.0 / 3.0);
         assert_eq!(h.record(5.5).mean_v, 9.0 / 4.5, "silence lowers it");
     }
+
+    #[test]
+    fn the_most_up_stream_spike_is_that_of_the_step() {
+        let mut h = History::new(&HistorySpec::default(), 0, 1);
+        h.forget(0.0, None);
+        assert_eq!(h.record(1.0).foremost_m, None);
+        for (t, forward_m) in [(1.0, -0.3), (2.0, 0.7), (3.0, 0.4)] {
+            let mut s = spike(t, 0, 1.0);
+            s.place_m.x = forward_m;
+            h.add(&s);
+        }
+        h.arrive();
+        assert_eq!(h.record(4.0).foremost_m, Some(0.7));
+        h.next(4.0, None);
+        assert_eq!(h.record(5.0).foremost_m, None);
+    }
 }

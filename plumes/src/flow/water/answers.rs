@@ -119,18 +119,15 @@ impl Flow for Water {
             }
             return sample;
         }
-        // Each column lives only as long as its one question: a copy of it costs as much as the question.
         let here = self.column(p.xy(), t_s);
-        let factor = here.factor(here.inside(p.z));
         let at = |dx: f64, dy: f64, dt: f64| {
             let place = Vector2::new(p.x + dx, p.y + dy);
-            let column = self.column(place, t_s + dt);
-            column.velocity_beside(p.z, &here, factor)
+            self.column(place, t_s + dt).velocity(p.z)
         };
         let twice = 1.0 / (2.0 * H);
         let back = H.min(t_s);
         let mut sample = WaterSample {
-            velocity: here.velocity_beside(p.z, &here, factor),
+            velocity: here.velocity(p.z),
             gradient: Matrix3::from_columns(&[
                 (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) * twice,
                 (at(0.0, H, 0.0) - at(0.0, -H, 0.0)) * twice,

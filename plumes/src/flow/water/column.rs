@@ -49,25 +49,13 @@ impl Column<'_> {
     #[must_use]
     pub fn velocity(&self, z: f64) -> Vector3<f64> {
         let z = self.inside(z);
-        self.velocity_in(z, self.layered(z), self.factor(z))
+        self.velocity_in(z, self.layered(z))
     }
 
-    /// The same, given the [`Self::factor`] of a column `other` at this height. It holds wherever the floor is as high.
-    pub(super) fn velocity_beside(&self, z: f64, other: &Self, factor: f64) -> Vector3<f64> {
-        if self.floor.z != other.floor.z {
-            return self.velocity(z);
-        }
-        let z = self.inside(z);
-        self.velocity_in(z, self.layered(z), factor)
-    }
-
-    /// The part of the free current that bed friction leaves at a height in the water.
-    pub(super) fn factor(&self, z: f64) -> f64 {
+    /// Velocity at a height in the water, of which the layers are this part.
+    fn velocity_in(&self, z: f64, layered: Vector2<f64>) -> Vector3<f64> {
         let bed = self.water.bed;
-        bed.map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z))
-    }
-
-    fn velocity_in(&self, z: f64, layered: Vector2<f64>, factor: f64) -> Vector3<f64> {
+        let factor = bed.map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z));
         let mut u = (self.plane + layered) * factor;
         if let Some(flume) = &self.water.flume {
             u += flume.channel.along * flume.channel.speed(z - self.floor.z);
@@ -115,7 +103,7 @@ impl Column<'_> {
         let profile = self.profile(z);
         let profile = profile.as_ref();
         (
-            self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u), self.factor(z)),
+            self.velocity_in(z, profile.map_or(Vector2::zeros(), |p| p.u)),
             self.mixing_in(z, u_star_m_s, profile),
         )
     }
