@@ -5,7 +5,11 @@ use super::fail::{Fail, Misfit, What};
 use super::scalar;
 use super::tree::{Kind, Wanted, is_name};
 use super::value::Value;
-use serde::de::{Deserializer, Visitor};
+use serde::de::value::StrDeserializer;
+use serde::de::{Deserializer, IntoDeserializer, Visitor};
+
+/// The name by which `ron::value::RawValue` asks for the text of a value.
+const RAW: &str = "$ron::private::RawValue";
 
 macro_rules! whole_numbers {
     ($($method:ident, $visit:ident, $of:ty;)*) => {$(
@@ -159,9 +163,20 @@ impl Deserializer<'static> for Value<'_, '_> {
 
     fn deserialize_newtype_struct<V: Visitor<'static>>(
         self,
-        _: &'static str,
+        name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Fail> {
+        if name == RAW {
+            let text = if self.asks(Wanted::Plain("a value")) {
+                "()"
+            } else {
+                &self.reading.text[self.node().value]
+            };
+            let text: StrDeserializer<'_, Fail> = text.into_deserializer();
+            return visitor
+                .visit_newtype_struct(text)
+                .map_err(|e| self.about(e));
+        }
         let wrapped = self.group().is_some_and(|g| g.bracket == '(') && !self.unwrapped;
         visitor
             .visit_newtype_struct(Value {

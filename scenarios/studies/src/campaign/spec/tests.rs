@@ -120,6 +120,18 @@ fn version_1_means_what_it_meant_and_says_so() {
 }
 
 #[test]
+fn seeds_are_read_beside_a_mistake_elsewhere() {
+    for seeds in ["20", "Literal(first: 101, count: 20)"] {
+        let text = GOOD
+            .replace("20", seeds)
+            .replace("version: 2", "version: 2, foo: 3");
+        let said = faults(&text);
+        assert_eq!(said.len(), 1, "{said:?}");
+        assert!(said[0].contains("no field `foo`"), "{said:?}");
+    }
+}
+
+#[test]
 fn more_conditions_than_can_be_counted_are_refused() {
     let axes = "(\"x\", [\"1\", \"2\"]), ".repeat(70);
     let text = GOOD.replace("arms:", &format!("conditions: Grid([{axes}]), arms:"));
