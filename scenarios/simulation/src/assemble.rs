@@ -17,6 +17,7 @@ use bevy_ecs::prelude::{Mut, Resource, World};
 use nalgebra::Vector3;
 use robots::handoff::Outcome;
 use robots::sense::camera::Optics;
+use std::mem::swap;
 use std::path::Path;
 use world::clock::{Clock, Every};
 use world::digest::Digest;
@@ -82,14 +83,7 @@ impl Simulation {
         furnish(world, scenario)?;
         world.insert_resource(Topics::new(topics(registry)));
         let fleet = Fleet::of(scenario);
-        let launch = Launch {
-            base_dir,
-            seed,
-            dt_s: scenario.time.step_s.get(),
-        };
-        for apparatus in fleet.all() {
-            apparatus.spawn(world, &launch)?;
-        }
+        launch(world, &fleet, scenario, base_dir, seed)?;
         schedule(world, &fleet, registry, frames)
     }
 
@@ -142,6 +136,11 @@ impl Simulation {
         self.tick.report(&mut self.world);
     }
 
+    /// Makes the tick fit for use again after a system has panicked in it.
+    pub(crate) fn recover(&mut self) {
+        self.tick.recover();
+    }
+
     /// Whether it makes frames.
     pub(crate) fn makes_frames(&self) -> bool {
         self.tick.frames == Frames::Made
@@ -175,30 +174,80 @@ impl Simulation {
 #[derive(Resource, Clone, Debug)]
 pub struct WaterLight(pub Box<Optics>);
 
-/// Puts in what every run has beside the ocean: physics, clock, score, outbox.
+/// What every run has of its own beside the ocean: time, bodies, score, digest and what waits to be shown.
+pub(crate) struct Beside {
+    clock: Clock,
+    score: Score,
+    outbox: Outbox,
+    physics: Physics,
+    digest: Digest,
+}
+
+impl Beside {
+    /// At the beginning of a run in an ocean.
+    pub(crate) fn new(scenario: &Scenario, ocean: &Ocean) -> Self {
+        let dt_s = scenario.time.step_s.get();
+        let every = |period_s: f64| Every::period(period_s, dt_s);
+        let mut physics = Physics::new(dt_s);
+        physics.add_bed(&ocean.bed);
+        for obstacle in &ocean.obstacles.0 {
+            physics.add_obstacle(obstacle);
+        }
+        Self {
+            clock: Clock::new(dt_s),
+            score: Score::new(ocean.sources()),
+            outbox: Outbox::new(
+                every(scenario.record.frame_period_s.get()),
+                every(scenario.record.plume_period_s.get()),
+                scenario.record.plume_points as usize,
+            ),
+            physics,
+            digest: Digest::default(),
+        }
+    }
+
+    fn put_into(self, world: &mut World) {
+        world.insert_resource(self.clock);
+        world.insert_resource(self.score);
+        world.insert_resource(self.outbox);
+        world.insert_resource(self.physics);
+        world.insert_resource(self.digest);
+    }
+
+    /// Takes what is in a world, and leaves this in its place.
+    pub(crate) fn exchange(&mut self, world: &mut World) {
+        swap(&mut *world.resource_mut::<Clock>(), &mut self.clock);
+        swap(&mut *world.resource_mut::<Score>(), &mut self.score);
+        swap(&mut *world.resource_mut::<Outbox>(), &mut self.outbox);
+        swap(&mut *world.resource_mut::<Physics>(), &mut self.physics);
+        swap(&mut *world.resource_mut::<Digest>(), &mut self.digest);
+    }
+}
+
+/// Puts in what every run has beside the ocean.
 fn furnish(world: &mut World, scenario: &Scenario) -> Result<(), AssembleError> {
-    let dt_s = scenario.time.step_s.get();
-    let every = |period_s: f64| Every::period(period_s, dt_s);
     let optics = Optics::new(&scenario.optics).map_err(AssembleError::Optics)?;
     let mut ocean = world.resource_mut::<Ocean>();
     ocean.step_at_most(scenario.time.drift_period_s.get());
-    let sources = ocean.sources();
-    let mut physics = Physics::new(dt_s);
-    physics.add_bed(&ocean.bed);
-    for obstacle in &ocean.obstacles.0 {
-        physics.add_obstacle(obstacle);
-    }
-    world.insert_resource(Clock::new(dt_s));
-    world.insert_resource(Score::new(sources));
-    world.insert_resource(Outbox::new(
-        every(scenario.record.frame_period_s.get()),
-        every(scenario.record.plume_period_s.get()),
-        scenario.record.plume_points as usize,
-    ));
+    Beside::new(scenario, world.resource()).put_into(world);
     world.insert_resource(WaterLight(Box::new(optics)));
-    world.insert_resource(physics);
-    world.insert_resource(Digest::default());
     Ok(())
+}
+
+/// Puts the machines of a scenario into a world.
+pub(crate) fn launch(
+    world: &mut World,
+    fleet: &Fleet,
+    scenario: &Scenario,
+    base_dir: &Path,
+    seed: Seed,
+) -> Result<(), AssembleError> {
+    let launch = Launch {
+        base_dir,
+        seed,
+        dt_s: scenario.time.step_s.get(),
+    };
+    fleet.all().try_for_each(|a| a.spawn(world, &launch))
 }
 
 /// The tick with the systems of each kind of apparatus and of each extension.

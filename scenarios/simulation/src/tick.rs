@@ -91,6 +91,14 @@ impl Tick {
         Ok(())
     }
 
+    /// Makes it fit for use again after a system has panicked: an executor that was left in the middle still counts the
+    /// systems before as done.
+    pub(crate) fn recover(&mut self) {
+        for part in self.parts() {
+            part.set_executor(SingleThreadedExecutor::new());
+        }
+    }
+
     /// The part before the answers from outside.
     pub(crate) fn observe(&mut self, world: &mut World) {
         self.observe.run(world);

@@ -62,18 +62,38 @@ enum RunPhase {
 pub struct Trial {
     /// Its world and its tick.
     pub simulation: Simulation,
-    phase: RunPhase,
     scenario: Scenario,
     sources: Vec<Vector3<f64>>,
+    controllers: BTreeMap<String, Box<dyn Controller>>,
+    pub(crate) progress: Progress,
+}
+
+/// What a run has come to, beside the state of its world.
+pub(crate) struct Progress {
+    phase: RunPhase,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
     frame: Option<Frame>,
     water_shown: bool,
     /// Time of the ocean at which the mission began, s.
     began_s: f64,
-    controllers: BTreeMap<String, Box<dyn Controller>>,
     /// The first part of a tick is done, and these questions are not answered yet.
     open: Option<Vec<Open>>,
+}
+
+impl Progress {
+    /// Before the spin-up, with so many sources.
+    pub(crate) fn new(sources: usize) -> Self {
+        Self {
+            phase: RunPhase::Assembled,
+            flow_sums: vec![Vector3::zeros(); sources],
+            flow_samples: 0,
+            frame: None,
+            water_shown: false,
+            began_s: 0.0,
+            open: None,
+        }
+    }
 }
 
 impl Trial {
@@ -97,16 +117,10 @@ impl Trial {
     ) -> Self {
         Self {
             simulation,
-            phase: RunPhase::Assembled,
             scenario: scenario.clone(),
-            flow_sums: vec![Vector3::zeros(); sources.len()],
-            flow_samples: 0,
+            progress: Progress::new(sources.len()),
             sources,
-            frame: None,
-            water_shown: false,
-            began_s: 0.0,
             controllers: BTreeMap::new(),
-            open: None,
         }
     }
 
@@ -118,7 +132,7 @@ impl Trial {
     /// If the run has been spun up before.
     pub fn spin_up(&mut self, watch: &mut dyn Watch) -> Option<SpunUp> {
         self.develop(watch);
-        (self.phase == RunPhase::SpunUp).then(|| {
+        (self.progress.phase == RunPhase::SpunUp).then(|| {
             let state = self.simulation.ocean().state();
             SpunUp::new(self.simulation.origin.clone(), state)
         })
@@ -153,14 +167,14 @@ impl Trial {
 
     fn start_afresh(&self) {
         assert!(
-            self.phase == RunPhase::Assembled,
+            self.progress.phase == RunPhase::Assembled,
             "a trial is spun up once: assemble another for another run"
         );
     }
 
     /// Begins the mission in the ocean as it is, unless an observer has stopped the spin-up.
     pub(crate) fn set_out(&mut self, stopped: bool) {
-        self.phase = if stopped {
+        self.progress.phase = if stopped {
             RunPhase::Stopped
         } else {
             RunPhase::SpunUp
@@ -171,10 +185,10 @@ impl Trial {
 
     /// Begins the mission in an ocean that others have used before, in this step of theirs.
     pub(crate) fn begin_at(&mut self, step: u64) {
-        self.phase = RunPhase::SpunUp;
+        self.progress.phase = RunPhase::SpunUp;
         let mut clock = self.simulation.world.resource_mut::<Clock>();
         clock.step = step;
-        self.began_s = clock.t_s();
+        self.progress.began_s = clock.t_s();
         self.digest_plume();
     }
 
@@ -208,7 +222,7 @@ impl Trial {
 
     /// One tick with an observer; `false` once the run is over or `watch` stopped it.
     fn advance(&mut self, watch: &mut dyn Watch) -> bool {
-        if self.phase == RunPhase::Assembled {
+        if self.progress.phase == RunPhase::Assembled {
             self.develop(watch);
         }
         if !self.going() {
@@ -222,7 +236,7 @@ impl Trial {
 
     /// Whether the mission has begun and lasts.
     pub(crate) fn going(&self) -> bool {
-        self.phase == RunPhase::SpunUp
+        self.progress.phase == RunPhase::SpunUp
     }
 
     /// Shows an observer what a tick has made; `false` once the run is over or the observer stopped it.
@@ -230,9 +244,11 @@ impl Trial {
         self.show(watch);
         let t_s = self.simulation.t_s();
         if !watch.go_on(t_s) {
-            self.phase = RunPhase::Stopped;
-        } else if self.all_over() || t_s - self.began_s >= self.scenario.time.limit_s.get() - 1e-9 {
-            self.phase = RunPhase::Ended;
+            self.progress.phase = RunPhase::Stopped;
+        } else if self.all_over()
+            || t_s - self.progress.began_s >= self.scenario.time.limit_s.get() - 1e-9
+        {
+            self.progress.phase = RunPhase::Ended;
         }
         self.going()
     }
@@ -241,13 +257,18 @@ impl Trial {
     #[must_use]
     pub fn ended(&self) -> Ended {
         let world = &self.simulation.world;
-        let samples = f64::from(self.flow_samples.max(1));
+        let samples = f64::from(self.progress.flow_samples.max(1));
         Ended {
-            outcome: match self.phase {
+            outcome: match self.progress.phase {
                 RunPhase::Stopped => RunOutcome::Interrupted,
                 _ => self.outcome(),
             },
-            flow_at_sources: self.flow_sums.iter().map(|sum| sum / samples).collect(),
+            flow_at_sources: self
+                .progress
+                .flow_sums
+                .iter()
+                .map(|sum| sum / samples)
+                .collect(),
             digest: world.resource::<Digest>().hex(),
             steps: world.resource::<Clock>().step,
             t_s: self.simulation.t_s(),
@@ -264,7 +285,7 @@ impl Trial {
     /// The newest frame; `None` before the first. `record.frame_period_s` of the scenario says how often there is one.
     #[must_use]
     pub fn frame(&self) -> Option<&Frame> {
-        self.frame.as_ref()
+        self.progress.frame.as_ref()
     }
 
     /// The newest value of every key that was published, sorted by key.
@@ -302,11 +323,11 @@ impl Trial {
         }
         if let Some(frame) = frame {
             watch.frame(&frame);
-            self.frame = Some(frame);
+            self.progress.frame = Some(frame);
         }
         if let Some(t_s) = due {
-            self.flow_samples += 1;
-            for (sum, p_W) in self.flow_sums.iter_mut().zip(&self.sources) {
+            self.progress.flow_samples += 1;
+            for (sum, p_W) in self.progress.flow_sums.iter_mut().zip(&self.sources) {
                 *sum += self.simulation.velocity(p_W);
             }
             if watch.sees_plume() {
@@ -317,7 +338,7 @@ impl Trial {
                     points: plume.decimated(most),
                 });
             }
-            water::show(&self.simulation, t_s, &mut self.water_shown, watch);
+            water::show(&self.simulation, t_s, &mut self.progress.water_shown, watch);
         }
     }
 

@@ -33,8 +33,10 @@
 //! `Command`, `GuidanceStatus`, `Actuation`, and of a gantry `GantryReadings` and `GantryDecision`; also
 //! [`Briefing`](crate::auv::Briefing).
 
+mod own;
 mod systems;
 
+pub(crate) use own::{Own, own};
 pub use systems::{BodiesMove, Systems, Turn};
 
 use crate::error::AssembleError;

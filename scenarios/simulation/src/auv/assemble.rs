@@ -200,7 +200,9 @@ fn spawn(
         robot.insert(FaultLog::new(&spec.faults, dt_s));
     }
     if let Some(mapper) = mapper {
-        robot.insert((mapper.belief().clone(), Mapping { mapper }));
+        let belief = mapper.belief().clone();
+        let digested = None;
+        robot.insert((belief, Mapping { mapper, digested }));
     }
     if let Some(energy) = &spec.energy {
         robot.insert(Battery::new(energy));

@@ -2,11 +2,13 @@
 
 mod assemble;
 pub(crate) mod message;
+mod own;
 mod shown;
 pub(crate) mod system;
 pub mod topics;
 mod yard;
 
+pub(crate) use own::RobotOwn;
 pub(crate) use yard::Yard;
 
 pub use crate::frame::{PictureFrame, PingFrame, RobotFrame};
@@ -60,6 +62,8 @@ pub struct Briefing {
 pub struct Mapping {
     /// The map.
     pub mapper: Box<dyn Mapper>,
+    /// How many updates it had when the digest saw it last; `None` before the first time.
+    pub(crate) digested: Option<u64>,
 }
 
 /// What happened to a robot between two frames.

@@ -8,7 +8,7 @@ use crate::control::consulting::{Consulting, Kept};
 use crate::ocean::Ocean;
 use crate::score::Score;
 use crate::searchers::{SearcherId, whole};
-use bevy_ecs::prelude::{DetectChanges, Local, Query, Ref, Res, ResMut};
+use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
 use robots::estimate::Estimator;
@@ -222,17 +222,18 @@ type Digested<'a> = (
     &'a Estimate,
     &'a Decision,
     &'a Actuation,
-    Option<Ref<'a, Belief>>,
+    Option<(&'a Belief, &'a mut Mapping)>,
 );
 
 pub(crate) fn digest_robots(
     roster: Res<Robots>,
     mut digest: ResMut<Digest>,
-    robots: Query<Digested>,
+    mut robots: Query<Digested>,
     // Of the newest behaviour: some are hashed, and they seldom change.
     mut number: Local<Option<(Behaviour, f64)>>,
 ) {
-    for (truth, estimate, decision, set, belief) in robots.iter_many(&roster.0).map(whole) {
+    let mut each = robots.iter_many_mut(&roster.0);
+    while let Some((truth, estimate, decision, set, map)) = each.fetch_next().map(whole) {
         digest.f64s(truth.pose.p_WB.as_slice());
         digest.f64s(truth.pose.R_WB.coords.as_slice());
         digest.f64s(truth.v_WB_B.as_slice());
@@ -248,8 +249,11 @@ pub(crate) fn digest_robots(
             *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number())));
         digest.f64s(&[f64::from(decision.goal.id), behaviour]);
         // Only when it is new: a map is large and changes seldom.
-        if let Some(belief) = belief.filter(|b| b.is_changed()) {
+        if let Some((belief, mut mapping)) = map
+            && mapping.digested != Some(belief.updates)
+        {
             digest.f64s(&belief.p);
+            mapping.digested = Some(belief.updates);
         }
     }
 }

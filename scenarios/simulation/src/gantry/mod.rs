@@ -2,10 +2,12 @@
 
 mod assemble;
 pub(crate) mod message;
+mod own;
 pub(crate) mod system;
 pub mod topics;
 
 pub use crate::frame::GantryFrame;
+pub(crate) use own::GantryOwn;
 
 use bevy_ecs::prelude::{Entity, Resource};
 

@@ -22,6 +22,7 @@
 
 mod alike;
 mod caught;
+mod common;
 mod shared;
 #[cfg(test)]
 mod tests;

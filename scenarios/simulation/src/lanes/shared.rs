@@ -3,14 +3,15 @@
 //! Each place holds at most one run. A run that begins later finds the ocean as it is then. It follows from the
 //! scenario, the ocean's seed, the searcher's own seed and the step in which it begins, and it is the same, bit by bit,
 //! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
-//! [`Trial`] alone.
+//! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
+use super::common::{Belongings, Common};
 use super::{LaneError, caught, lend, take_back, taken};
 use crate::assemble::Simulation;
 use crate::auv::Yard;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
-use crate::ocean::{Ocean, Origin, SpunUp};
+use crate::ocean::{Origin, SpunUp};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
 use crate::trial::{Trial, Unwatched};
@@ -22,18 +23,24 @@ use world::seeds::Seed;
 pub struct Shared {
     loaded: Loaded,
     origin: Origin,
-    /// In the world of a run while that run has its turn.
-    ocean: Option<Ocean>,
+    /// With the ocean, unless that is in the world of a run that has its turn.
+    common: Common,
     clock: Clock,
     runs: Vec<Option<Run>>,
-    /// In a world while its run is put together.
-    yard: Yard,
 }
 
 struct Run {
-    trial: Trial,
+    seat: Seat,
     at: At,
     failed: Option<String>,
+}
+
+/// Where a run takes its turns.
+enum Seat {
+    /// In the common world.
+    Common(Box<Belongings>),
+    /// In a world of its own.
+    Own(Box<Trial>),
 }
 
 /// Where a run is in the present tick.
@@ -82,11 +89,10 @@ impl Shared {
         ocean.set_out();
         Ok(Self {
             loaded: loaded.clone(),
+            common: Common::new(loaded, &origin, ocean)?,
             origin,
-            ocean: Some(ocean),
             clock: Clock::new(loaded.scenario.time.step_s.get()),
             runs: (0..places).map(|_| None).collect(),
-            yard: Yard::default(),
         })
     }
 
@@ -113,30 +119,19 @@ impl Shared {
         seed: impl Into<Seed>,
     ) -> Result<Vec<Question>, LaneError> {
         self.runs[place] = None;
-        let loaded = &self.loaded;
-        let mut world = World::new();
-        world.insert_resource(self.ocean.take().expect("it is back"));
-        world.insert_resource(std::mem::take(&mut self.yard));
-        let sources = world.resource::<Ocean>().sources();
-        let (registry, scenario) = (&loaded.registry, &loaded.scenario);
         let seed = seed.into();
-        // Whoever steps it looks at the run itself.
-        let frames = Frames::Unmade;
-        let tick = caught(|| {
-            let dir = &loaded.base_dir;
-            Simulation::furnish(&mut world, registry, scenario, dir, seed, frames)
-        });
-        self.ocean = taken(&mut world);
-        self.yard = world.remove_resource().unwrap_or_default();
-        let tick = tick.map_err(LaneError::Panicked)??;
-        let simulation = Simulation::of(world, tick, self.origin.clone());
+        let seat = if Common::serves(&self.loaded) {
+            Seat::Common(Box::new(self.common.launch(&self.loaded, seed)?))
+        } else {
+            Seat::Own(Box::new(self.assembled(seed)?))
+        };
         let mut run = Run {
-            trial: Trial::of(scenario, simulation, sources),
+            seat,
             at: At::Acted,
             failed: None,
         };
         let step = self.clock.step;
-        let asked = run.with(&mut self.ocean, |trial| {
+        let asked = run.with(&mut self.common, |trial| {
             trial.begin_at(step);
             ask(trial)
         });
@@ -146,6 +141,26 @@ impl Shared {
         }
         self.runs[place] = Some(run);
         Ok(asked.map_or_else(Vec::new, |(_, questions)| questions))
+    }
+
+    /// A run in a world of its own.
+    fn assembled(&mut self, seed: Seed) -> Result<Trial, LaneError> {
+        let (registry, scenario) = (&self.loaded.registry, &self.loaded.scenario);
+        let dir = &self.loaded.base_dir;
+        let there = &mut self.common.trial.simulation.world;
+        let mut world = World::new();
+        world.insert_resource(taken(there).expect("it is back"));
+        world.insert_resource(std::mem::take(&mut *there.resource_mut::<Yard>()));
+        // Whoever steps it looks at the run itself.
+        let frames = Frames::Unmade;
+        let tick =
+            caught(|| Simulation::furnish(&mut world, registry, scenario, dir, seed, frames));
+        there.insert_resource(taken(&mut world).expect("it is back"));
+        there.insert_resource(world.remove_resource::<Yard>().unwrap_or_default());
+        let tick = tick.map_err(LaneError::Panicked)??;
+        let sources = self.common.ocean().sources();
+        let simulation = Simulation::of(world, tick, self.origin.clone());
+        Ok(Trial::of(scenario, simulation, sources))
     }
 
     /// Ends the run in a place before its time.
@@ -165,7 +180,7 @@ impl Shared {
     /// run and its questions.
     pub fn pass(&mut self, mut see: impl FnMut(usize, &Trial, Vec<Question>)) {
         for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
-            run.act(&mut self.ocean);
+            run.act(&mut self.common);
         }
         let mut asked = false;
         while !asked && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
@@ -174,7 +189,7 @@ impl Shared {
                 let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
                     continue;
                 };
-                let at = run.with(&mut self.ocean, |trial| {
+                let at = run.with(&mut self.common, |trial| {
                     trial.simulation.report();
                     let (at, questions) = if trial.heed(&mut Unwatched) {
                         ask(trial)
@@ -205,7 +220,7 @@ impl Shared {
     }
 
     fn pass_step(&mut self) {
-        drift(&self.clock, self.ocean.as_mut().expect("it is back"));
+        drift(&self.clock, &mut self.common.ocean_mut());
         self.clock.advance();
     }
 
@@ -219,10 +234,17 @@ impl Shared {
     /// to the next step of the ocean.
     pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
         let run = self.runs.get_mut(place)?.as_mut()?;
-        let told = run.trial.answer(robot, heard, &mut Unwatched)?;
-        if !run.trial.waits() {
-            // Now rather than with all others, because what this run needs is in the processor's caches.
-            run.act(&mut self.ocean);
+        let (told, acted) = run.with(&mut self.common, |trial| {
+            let told = trial.answer(robot, heard, &mut Unwatched)?;
+            let acts = !trial.waits();
+            if acts {
+                // Now rather than with all others, because what this run needs is in the processor's caches.
+                trial.search(&mut Unwatched);
+            }
+            Some((told, acts))
+        })??;
+        if acted {
+            run.at = At::Acted;
         }
         Some(told)
     }
@@ -230,7 +252,7 @@ impl Shared {
     /// Reads a run with its ocean; `None` if there is none in the place, or if it has failed.
     pub fn look<T>(&mut self, place: usize, look: impl FnOnce(&Trial) -> T) -> Option<T> {
         let run = self.runs.get_mut(place)?.as_mut()?;
-        run.with(&mut self.ocean, |trial| look(trial))
+        run.with(&mut self.common, |trial| look(trial))
     }
 
     /// What a run that failed said.
@@ -264,23 +286,27 @@ fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
 
 impl Run {
     /// The part of its tick up to the step of the ocean. What nobody has answered counts as put to somebody absent.
-    fn act(&mut self, ocean: &mut Option<Ocean>) {
+    fn act(&mut self, common: &mut Common) {
         self.at = At::Acted;
-        self.with(ocean, |trial| trial.search(&mut Unwatched));
+        self.with(common, |trial| trial.search(&mut Unwatched));
     }
 
-    /// Does something while the ocean is in the world of this run; `None` if it has failed.
-    fn with<T>(
-        &mut self,
-        ocean: &mut Option<Ocean>,
-        work: impl FnOnce(&mut Trial) -> T,
-    ) -> Option<T> {
+    /// Does something while it is the turn of this run; `None` if it has failed.
+    fn with<T>(&mut self, common: &mut Common, work: impl FnOnce(&mut Trial) -> T) -> Option<T> {
         if self.failed.is_some() {
             return None;
         }
-        lend(ocean, &mut self.trial);
-        let done = caught(|| work(&mut self.trial));
-        take_back(ocean, &mut self.trial);
+        let done = match &mut self.seat {
+            Seat::Common(own) => common.with(own, work),
+            Seat::Own(trial) => {
+                let mut ocean = taken(&mut common.trial.simulation.world);
+                lend(&mut ocean, trial);
+                let done = caught(|| work(trial));
+                take_back(&mut ocean, trial);
+                lend(&mut ocean, &mut common.trial);
+                done
+            }
+        };
         done.map_err(|said| {
             self.failed = Some(said);
             self.at = At::Over;

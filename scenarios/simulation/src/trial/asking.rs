@@ -48,7 +48,7 @@ impl Trial {
     /// answers count as put to somebody absent.
     pub(crate) fn search(&mut self, watch: &mut dyn Watch) {
         self.observe(watch);
-        for question in self.open.take().unwrap_or_default() {
+        for question in self.progress.open.take().unwrap_or_default() {
             let told = put_in(&mut self.simulation.world, question, Heard::Absent);
             watch.consulted(&told);
         }
@@ -58,7 +58,7 @@ impl Trial {
     /// The tick up to the answers from outside, unless that is done, and the answers of the controllers. Returns the
     /// questions that are left; until they are answered, the run keeps them open.
     pub(crate) fn observe(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
-        if self.open.is_some() {
+        if self.progress.open.is_some() {
             return Vec::new();
         }
         self.simulation.observe();
@@ -72,7 +72,7 @@ impl Trial {
             let world = &mut self.simulation.world;
             watch.consulted(&put_in(world, Open::from(&question), heard));
         }
-        self.open = Some(open.iter().map(Open::from).collect());
+        self.progress.open = Some(open.iter().map(Open::from).collect());
         open
     }
 
@@ -112,10 +112,10 @@ impl Trial {
     /// Runs to the next questions that no controller answers, with the spin-up before the first. The answers are given
     /// with [`Self::answer`]; then this, [`Self::step`] or [`Self::run`] goes on. Without questions the run is over.
     pub fn until_asked(&mut self, watch: &mut dyn Watch) -> Vec<Question> {
-        if self.phase == RunPhase::Assembled {
+        if self.progress.phase == RunPhase::Assembled {
             self.develop(watch);
         }
-        if self.open.is_some() && !self.advance(watch) {
+        if self.progress.open.is_some() && !self.advance(watch) {
             return Vec::new();
         }
         while self.going() {
@@ -130,7 +130,10 @@ impl Trial {
 
     /// Whether questions of this tick are open.
     pub(crate) fn waits(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| !open.is_empty())
+        self.progress
+            .open
+            .as_ref()
+            .is_some_and(|open| !open.is_empty())
     }
 
     /// Answers an open question of a robot. `watch` gets what came of it, which is returned, too: an answer that the
@@ -141,7 +144,7 @@ impl Trial {
         heard: Heard,
         watch: &mut dyn Watch,
     ) -> Option<Consultation> {
-        let open = self.open.as_mut()?;
+        let open = self.progress.open.as_mut()?;
         let n = open.iter().position(|q| q.robot == robot)?;
         let question = open.remove(n);
         let told = put_in(&mut self.simulation.world, question, heard);

@@ -1,0 +1,94 @@
+//! Decisions of searchers outside in the oceans that they share, one core: `cargo bench -p rheotaxis --bench decisions`.
+//!
+//! As `scenarios/python/examples/benchmark.py`, without Python: one decision a second of simulated time, about 1000
+//! filaments. An item is a decision.
+
+use divan::Bencher;
+use divan::counter::ItemsCount;
+use rheotaxis::control::{Heard, Question};
+use rheotaxis::lanes::Shared;
+use rheotaxis::scenario::{Loaded, load_text, template};
+use robots::handoff::{Answer, Manoeuvre, MoveOrder, Order};
+use world::registry::Registry;
+use world::units::Heading;
+
+const REMUS: &str = "vehicle: Remus100()";
+const SENSORS: &str = "sensors: (fluorometer: (), dvl: (), adcp: (), compass: (), depth: (), altimeter: (), lbl: (noise_m: 1))";
+const SLOW_SENSORS: &str = "sensors: (fluorometer: (rate_hz: 1), dvl: (rate_hz: 1), adcp: (rate_hz: 1), compass: (rate_hz: 1), \
+     depth: (rate_hz: 1), altimeter: (rate_hz: 1), lbl: (noise_m: 1))";
+
+fn main() {
+    divan::main();
+}
+
+/// The channel with a searcher outside that is asked every second.
+fn channel(kinematic: bool) -> Loaded {
+    let changes = [
+        (
+            "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+            "strategy: External()",
+        ),
+        ("release: (rate_hz: 5)", "release: (rate_hz: 0.5)"),
+        (
+            "limit_s: 1800)",
+            "limit_s: 36000), record: (frame_period_s: 40000, plume_period_s: 40000)",
+        ),
+    ];
+    let simple = [
+        (REMUS, "vehicle: Kinematic()"),
+        (SENSORS, SLOW_SENSORS),
+        ("time: (", "time: (step_s: 1, "),
+    ];
+    let text = template("uniform_channel").expect("in the catalogue").text;
+    let all = changes
+        .into_iter()
+        .chain(simple.into_iter().filter(|_| kinematic));
+    let text = all.fold(text.to_string(), |text, (from, to)| {
+        assert!(text.contains(from), "the scenario has changed: {from}");
+        text.replace(from, to)
+    });
+    load_text(&Registry::default(), "channel", &text).expect("legal")
+}
+
+fn answer(place: usize, question: &Question) -> Heard {
+    let heading = Heading::from_deg(((place as u64 * 77 + question.number * 50) % 360) as f64);
+    let order = MoveOrder {
+        id: None,
+        manoeuvre: Manoeuvre::Steer { heading },
+        vertical: None,
+        speed_m_s: Some(1.0),
+    };
+    Heard::Answer(Answer {
+        order: Some(Order::Move(order)),
+        ..Answer::default()
+    })
+}
+
+#[divan::bench(args = [(true, 8, 32), (true, 256, 1), (true, 1, 32), (false, 8, 32), (false, 32, 1)], sample_count = 20)]
+fn decisions(bencher: Bencher<'_, '_>, (kinematic, plumes, each): (bool, usize, usize)) {
+    let loaded = channel(kinematic);
+    let spun_up = Shared::spin_up(&loaded, 1).expect("legal");
+    let begin = |_| {
+        let mut ocean = Shared::new(&loaded, 1, each, Some(&spun_up)).expect("legal");
+        let begun = (0..each).flat_map(|place| {
+            let asked = ocean.begin(place, place as u64).expect("legal");
+            asked.into_iter().map(move |question| (place, question))
+        });
+        let open: Vec<_> = begun.collect();
+        (ocean, open)
+    };
+    let mut all: Vec<_> = (0..plumes).map(begin).collect();
+    bencher
+        .counter(ItemsCount::new(plumes * each))
+        .bench_local(|| {
+            for (ocean, open) in &mut all {
+                for (place, question) in open.drain(..) {
+                    ocean
+                        .answer(place, "auv0", answer(place, &question))
+                        .expect("it asks");
+                }
+                *open = ocean.until_asked();
+                assert!(open.len() == each, "all go on");
+            }
+        });
+}

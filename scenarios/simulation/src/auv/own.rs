@@ -1,0 +1,46 @@
+//! All components of a robot: what it keeps while the robot of another run has its turn in the same world.
+
+use super::{Briefing, Hull, Log, Mapping, Searching};
+use crate::abnormal::{FaultLog, Lookout};
+use crate::apparatus::own;
+use crate::control::consulting::Consulting;
+use crate::searchers::SearcherId;
+use robots::actuate::Pilot;
+use robots::estimate::Estimator;
+use robots::faults::{DriveFaults, SensorFaults};
+use robots::guide::Guidance;
+use robots::handoff::{Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Readings};
+use robots::sense::SensorSuite;
+use robots::vehicles::Battery;
+use world::frames::Truth;
+
+own! {
+    /// All components of a robot.
+    RobotOwn as RobotParts {
+        id: SearcherId,
+        truth: Truth,
+        hull: Hull,
+        suite: SensorSuite,
+        readings: Readings,
+        estimator: Estimator,
+        estimate: Estimate,
+        searching: Searching,
+        briefing: Briefing,
+        decision: Decision,
+        guidance: Guidance,
+        command: Command,
+        status: GuidanceStatus,
+        pilot: Pilot,
+        actuation: Actuation,
+        log: Log,
+        lookout: Lookout,
+        sensor_faults: SensorFaults,
+        drive_faults: DriveFaults,
+    } some {
+        fault_log: FaultLog,
+        belief: Belief,
+        mapping: Mapping,
+        battery: Battery,
+        consulting: Consulting,
+    }
+}

@@ -1,0 +1,214 @@
+//! A world in which several runs of one scenario take turns.
+//!
+//! Systems keep their state, a world its tables; both are the same for all runs of a scenario, and larger than what a
+//! run has of its own. So runs that share an ocean share them, too: a run's own values are exchanged for those in the
+//! world before its turn and after it. Then hundreds of runs fit into the processor's caches.
+//!
+//! Systems of other crates may keep values that nobody can exchange. Their runs have worlds of their own.
+
+use super::{LaneError, caught};
+use crate::apparatus::Own;
+use crate::assemble::{Beside, Simulation, launch};
+use crate::auv::{RobotOwn, Robots, Yard};
+use crate::control::consulting::Asking;
+use crate::extend::Addition;
+use crate::fleet::Fleet;
+use crate::gantry::{Gantries, GantryOwn};
+use crate::ocean::{Ocean, Origin};
+use crate::outbox::Frames;
+use crate::scenario::Loaded;
+use crate::searchers::SearcherId;
+use crate::trial::{Progress, Trial};
+use bevy_ecs::prelude::{Entity, Mut, With, World};
+use bevy_ecs::query::QueryState;
+use std::mem::swap;
+use world::seeds::Seed;
+
+/// The world, and the machines in it that the runs exchange.
+pub(super) struct Common {
+    /// What is in the world at the moment: the run that has its turn, or between the turns nobody's.
+    pub(super) trial: Trial,
+    robots: Machines<RobotOwn>,
+    gantries: Machines<GantryOwn>,
+}
+
+/// The machines of a kind in the world.
+struct Machines<O: Own> {
+    all: Vec<Entity>,
+    parts: QueryState<O::Parts>,
+}
+
+/// What a run has of its own.
+pub(super) struct Belongings {
+    beside: Beside,
+    robots: Vec<RobotOwn>,
+    gantries: Vec<GantryOwn>,
+    progress: Progress,
+}
+
+/// Who is in a world.
+#[derive(Default)]
+struct Rosters {
+    robots: Option<Robots>,
+    gantries: Option<Gantries>,
+    asking: Option<Asking>,
+}
+
+impl Common {
+    /// Whether runs of a scenario can take turns in one world.
+    pub(super) fn serves(loaded: &Loaded) -> bool {
+        loaded.registry.carried::<Addition>().next().is_none()
+            && loaded.scenario.apparatus.is_empty()
+    }
+
+    /// A world for the runs of a scenario in an ocean.
+    ///
+    /// # Errors
+    /// If the scenario cannot be assembled.
+    pub(super) fn new(loaded: &Loaded, origin: &Origin, ocean: Ocean) -> Result<Self, LaneError> {
+        let Loaded {
+            registry,
+            scenario,
+            base_dir,
+            ..
+        } = loaded;
+        let mut world = World::new();
+        let sources = ocean.sources();
+        world.insert_resource(ocean);
+        world.insert_resource(Yard::default());
+        let seed = origin.seed();
+        // Whoever steps the runs looks at them.
+        let frames = Frames::Unmade;
+        let tick =
+            caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+        let tick = tick.map_err(LaneError::Panicked)??;
+        let (robots, gantries) = (
+            world
+                .get_resource::<Robots>()
+                .map_or(Vec::new(), |r| r.0.clone()),
+            world
+                .get_resource::<Gantries>()
+                .map_or(Vec::new(), |g| g.0.clone()),
+        );
+        Ok(Self {
+            robots: Machines::new(&mut world, robots),
+            gantries: Machines::new(&mut world, gantries),
+            trial: Trial::of(
+                scenario,
+                Simulation::of(world, tick, origin.clone()),
+                sources,
+            ),
+        })
+    }
+
+    /// The ocean.
+    pub(super) fn ocean(&self) -> &Ocean {
+        self.trial.simulation.ocean()
+    }
+
+    /// The ocean, to move it or to lend it to a run that has a world of its own.
+    pub(super) fn ocean_mut(&mut self) -> Mut<'_, Ocean> {
+        self.trial.simulation.ocean_mut()
+    }
+
+    /// A new run of the scenario; `seed` is that of the searcher.
+    ///
+    /// # Errors
+    /// If it cannot be put together, or panics.
+    pub(super) fn launch(&mut self, loaded: &Loaded, seed: Seed) -> Result<Belongings, LaneError> {
+        let sources = self.trial.simulation.ocean().sources().len();
+        let world = &mut self.trial.simulation.world;
+        let mut beside = Beside::new(&loaded.scenario, world.resource());
+        beside.exchange(world);
+        let mut rosters = Rosters::default();
+        rosters.exchange(world);
+        let fleet = Fleet::of(&loaded.scenario);
+        let launched = caught(|| launch(world, &fleet, &loaded.scenario, &loaded.base_dir, seed));
+        rosters.exchange(world);
+        beside.exchange(world);
+        if !matches!(launched, Ok(Ok(()))) {
+            self.expel();
+        }
+        launched.map_err(LaneError::Panicked)??;
+        let world = &mut self.trial.simulation.world;
+        let robots = rosters.robots.map_or(Vec::new(), |r| r.0);
+        let gantries = rosters.gantries.map_or(Vec::new(), |g| g.0);
+        Ok(Belongings {
+            beside,
+            robots: robots.iter().map(|m| Own::take(world, *m)).collect(),
+            gantries: gantries.iter().map(|m| Own::take(world, *m)).collect(),
+            progress: Progress::new(sources),
+        })
+    }
+
+    /// Removes the machines of a run that was not put together.
+    fn expel(&mut self) {
+        let world = &mut self.trial.simulation.world;
+        let all = world.query_filtered::<Entity, With<SearcherId>>();
+        let all: Vec<Entity> = { all }.iter(world).collect();
+        for machine in all {
+            if !self.robots.all.contains(&machine) && !self.gantries.all.contains(&machine) {
+                world.despawn(machine);
+            }
+        }
+    }
+
+    /// Does something while a run has its turn; an error is what it said in a panic.
+    pub(super) fn with<T>(
+        &mut self,
+        run: &mut Belongings,
+        work: impl FnOnce(&mut Trial) -> T,
+    ) -> Result<T, String> {
+        self.exchange(run);
+        let done = caught(|| work(&mut self.trial));
+        self.exchange(run);
+        if done.is_err() {
+            self.trial.simulation.recover();
+        }
+        done
+    }
+
+    fn exchange(&mut self, run: &mut Belongings) {
+        let world = &mut self.trial.simulation.world;
+        run.beside.exchange(world);
+        self.robots.exchange(world, &mut run.robots);
+        self.gantries.exchange(world, &mut run.gantries);
+        swap(&mut self.trial.progress, &mut run.progress);
+    }
+}
+
+impl<O: Own> Machines<O> {
+    fn new(world: &mut World, all: Vec<Entity>) -> Self {
+        Self {
+            all,
+            parts: QueryState::new(world),
+        }
+    }
+
+    fn exchange(&mut self, world: &mut World, own: &mut [O]) {
+        for (machine, own) in self.all.iter().zip(own) {
+            own.exchange(&mut self.parts, world, *machine);
+        }
+    }
+}
+
+impl Rosters {
+    /// Takes what is in a world, and leaves this in its place.
+    fn exchange(&mut self, world: &mut World) {
+        let there = Self {
+            robots: world.remove_resource(),
+            gantries: world.remove_resource(),
+            asking: world.remove_resource(),
+        };
+        let own = std::mem::replace(self, there);
+        if let Some(robots) = own.robots {
+            world.insert_resource(robots);
+        }
+        if let Some(gantries) = own.gantries {
+            world.insert_resource(gantries);
+        }
+        if let Some(asking) = own.asking {
+            world.insert_resource(asking);
+        }
+    }
+}
