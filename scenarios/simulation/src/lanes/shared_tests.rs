@@ -1,8 +1,12 @@
 use super::*;
+use crate::extend::Extend;
 use crate::scenario::{load_text, template};
-use robots::handoff::{Answer, Manoeuvre, MoveOrder, Order};
+use bevy_ecs::prelude::{Local, ResMut, Resource};
+use nalgebra::Vector2;
+use robots::handoff::{Answer, GantryBehaviour, HeadOrder, Manoeuvre, MoveOrder, Order};
 use robots::strategy::{ExternalSpec, StrategySpec};
 use world::registry::Registry;
+use world::stage::Stage;
 use world::units::Heading;
 
 /// A minute of the channel with a searcher outside that is asked every second.
@@ -122,4 +126,128 @@ fn a_place_is_used_again_and_unanswered_questions_count() {
     assert_eq!(absent(&mut shared), None, "another run");
     while !shared.until_asked().is_empty() {}
     assert_eq!(shared.standing(0), Standing::Ended);
+}
+
+/// A run among three others, and alone: its digests.
+fn digests(
+    loaded: &Loaded,
+    robot: &str,
+    answer: impl Fn(&Question) -> Heard + Copy,
+) -> [String; 2] {
+    let kept = Shared::spin_up(loaded, 5).expect("legal");
+    [4, 1].map(|places| {
+        let mut shared = Shared::new(loaded, 5, places, Some(&kept)).expect("legal");
+        let begun = (0..places).flat_map(|place| {
+            let asked = shared.begin(place, 20 + place as u64).expect("legal");
+            asked.into_iter().map(move |q| (place, q))
+        });
+        let mut open: Vec<_> = begun.collect();
+        while shared.standing(0) == Standing::Going {
+            for (place, question) in open {
+                shared
+                    .answer(place, robot, answer(&question))
+                    .expect("it asked");
+            }
+            open = shared.until_asked();
+        }
+        shared
+            .look(0, |trial| trial.ended().digest)
+            .expect("it is there")
+    })
+}
+
+#[test]
+fn all_that_a_robot_can_have_is_its_own() {
+    let text = template("uniform_channel").expect("in the catalogue").text;
+    let text = text
+        .replace("spin_up_s: 2000, limit_s: 1800", "spin_up_s: 300, limit_s: 20")
+        .replace(
+            "strategy: Amp(speed_m_s: 1.5, vertical: Altitude(2))",
+            "strategy: External(), map: Pomdp(grid: (along: 20, across: 6)), energy: (battery_wh: 0.5),
+             faults: [(at_s: 5, until_s: 9, what: Compass(Biased(5))), (at_s: 7, what: Fluorometer(Biased(0.5)))]",
+        );
+    let loaded = load_text(&Registry::default(), "all", &text).expect("legal");
+    let [among, alone] = digests(&loaded, "auv0", answer);
+    assert_eq!(among, alone);
+}
+
+#[test]
+fn gantries_share_a_flume() {
+    let text = template("flume_external").expect("in the catalogue").text;
+    let text = text
+        .replace("spin_up_s: 60", "spin_up_s: 3")
+        .replace("limit_s: 180", "limit_s: 4");
+    let loaded = load_text(&Registry::default(), "flume", &text).expect("legal");
+    let [among, alone] = digests(&loaded, "crab0", |question| {
+        let left = 0.1 * (question.number % 5) as f64;
+        Heard::Answer(Answer {
+            order: Some(Order::Head(HeadOrder {
+                id: None,
+                target_m: Vector2::new(0.05 * question.number as f64, left),
+                speed_m_s: None,
+                behaviour: GantryBehaviour::StepUp,
+            })),
+            ..Answer::default()
+        })
+    });
+    assert_eq!(among, alone);
+}
+
+#[test]
+fn systems_of_other_crates_keep_their_values_for_each_run() {
+    #[derive(Resource, Default)]
+    struct Ticks(u64);
+    let registry = Registry::default().with_systems(|systems| {
+        systems.insert(Ticks::default());
+        systems.add(
+            Stage::Report,
+            |mut own: Local<u64>, mut ticks: ResMut<Ticks>| {
+                *own += 1;
+                ticks.0 = *own;
+            },
+        );
+    });
+    let mut loaded = channel();
+    let plain = digests(&loaded, "auv0", answer);
+    loaded.registry = registry;
+    assert_eq!(digests(&loaded, "auv0", answer), plain);
+    let mut shared = Shared::new(&loaded, 5, 2, None).expect("legal");
+    begin(&mut shared, 0, 1);
+    begin(&mut shared, 1, 2);
+    shared.until_asked();
+    shared.until_asked();
+    for place in [0, 1] {
+        let ticks = shared.look(place, |t| t.simulation.world.resource::<Ticks>().0);
+        assert_eq!(ticks, Some(shared.step()), "place {place}");
+    }
+}
+
+#[test]
+fn a_run_that_panics_in_the_middle_of_a_tick_does_not_touch_the_others() {
+    let loaded = channel();
+    let kept = Shared::spin_up(&loaded, 5).expect("legal");
+    let digest_with = |panics: bool| {
+        let mut shared = Shared::new(&loaded, 5, 3, Some(&kept)).expect("legal");
+        let mut open = begin(&mut shared, 0, 11);
+        open.extend(begin(&mut shared, 1, 12));
+        if panics {
+            let Shared { common, runs, .. } = &mut shared;
+            let run = runs[1].as_mut().expect("it has begun");
+            let broken = run.with(common, |trial| {
+                // Without its ocean no instrument can be read.
+                let away = crate::ocean::Ocean::away();
+                let ocean = std::mem::replace(&mut *trial.simulation.ocean_mut(), away);
+                let said = caught(|| trial.simulation.observe()).expect_err("no ocean");
+                *trial.simulation.ocean_mut() = ocean;
+                panic!("{said}");
+            });
+            assert!(broken.is_none());
+            assert_eq!(shared.standing(1), Standing::Failed);
+            assert!(shared.failure(1).is_some_and(|said| said.contains("ocean")));
+            open.pop();
+            assert!(shared.answer(1, "auv0", Heard::Absent).is_none());
+        }
+        digest(&mut shared, 0, open)
+    };
+    assert_eq!(digest_with(true), digest_with(false));
 }
