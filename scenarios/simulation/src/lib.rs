@@ -84,7 +84,7 @@
 //! - [`tick`] shows the order of all systems on one screen; [`assemble`] puts a run together.
 //! - [`score`] and [`abnormal`] judge a run; [`frame`] and [`topic`] are what is seen of it.
 //! - [`registry`] lists everything that has a name; [`extend`] adds systems and topics.
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod abnormal;
 pub mod apparatus;

@@ -10,6 +10,8 @@
 //! Here stand only the systems that every run has. Each apparatus of the scenario and each extension of the registry
 //! adds its own to the stages, in a fixed order of turns.
 
+mod in_order;
+
 use crate::apparatus::{BodiesMove, Turn};
 use crate::ocean::system as ocean;
 use crate::outbox::{Frames, close_frame, open_frame};
@@ -39,6 +41,8 @@ pub(crate) struct Tick {
     act: Schedule,
     report: Schedule,
     frame: Schedule,
+    /// Which of these parts need nothing but to run their systems in order.
+    in_order: [bool; 4],
     /// Whether it makes frames.
     pub(crate) frames: Frames,
 }
@@ -52,6 +56,7 @@ impl Tick {
             act: part(Part::Act, &before, turns, own),
             report: part(Part::Report, &[drift, report], turns, own),
             frame: part(Part::Frame, &[], turns, own),
+            in_order: [false; 4],
             frames,
         };
         tick.act.add_systems(
@@ -84,18 +89,23 @@ impl Tick {
 
     /// Fixes the order of all systems; an error says why there is none.
     pub(crate) fn initialize(&mut self, world: &mut World) -> Result<(), String> {
-        for part in self.parts() {
+        let mut in_order = [false; 4];
+        for (part, in_order) in self.parts().into_iter().zip(&mut in_order) {
+            *in_order = in_order::without_conditions(part);
             let done = part.initialize(world);
             done.map_err(|error| error.to_string(part.graph(), world))?;
+            *in_order &= !in_order::puts_off(part);
         }
+        self.in_order = in_order;
+        self.recover();
         Ok(())
     }
 
-    /// Makes it fit for use again after a system has panicked: an executor that was left in the middle still counts the
-    /// systems before as done.
+    /// Makes it fit for use again after a system has panicked.
     pub(crate) fn recover(&mut self) {
-        for part in self.parts() {
-            part.set_executor(SingleThreadedExecutor::new());
+        let in_order = self.in_order;
+        for (part, in_order) in self.parts().into_iter().zip(in_order) {
+            in_order::execute(part, in_order);
         }
     }
 
