@@ -89,6 +89,29 @@ impl Plume {
         met
     }
 
+    /// Whether no filament begins a step before a time, s. Until then [`Self::look_at`] may take any time from the
+    /// latest advance on, and back again.
+    #[must_use]
+    pub fn rests_until(&self, t_s: f64) -> bool {
+        self.bands.next_s() >= t_s - 1e-9
+    }
+
+    /// The plume as it is at a time at which it [rests](Self::rests_until): filaments are on their ways to the ends of
+    /// their steps. It is what [`Self::advance`] would make it.
+    ///
+    /// # Panics
+    /// If a filament would begin a step before that time: a mistake in the code.
+    pub fn look_at(&mut self, t_s: f64) {
+        assert!(
+            self.rests_until(t_s),
+            "the plume takes a step before {t_s} s: advance it"
+        );
+        if self.now_s != t_s {
+            self.now_s = t_s;
+            self.index.forget();
+        }
+    }
+
     /// Moves every filament from `t0_s` to `t1_s` in one step and releases those that are due meanwhile. `flow` must
     /// have been advanced to `t0_s` or `t1_s`.
     ///

@@ -249,21 +249,27 @@ impl<W: Watch> Lanes<W> {
     }
 
     /// The turn of each lane between two steps of the ocean: the end of a tick, unless it is the `first`, and the
-    /// next one up to that step. Lanes that have ended leave; `false` if there is none left.
+    /// next one up to that step, also of the ticks in which the ocean rests. Lanes that have ended leave; `false` if
+    /// there is none left.
     fn turns(&mut self, first: bool, ended: &mut impl FnMut(W, Result<&Trial, LaneError>)) -> bool {
         let mut n = 0;
         while let Some(lane) = self.lanes.get_mut(n) {
             let going = lane.with(&mut self.ocean, |trial, watch| {
-                let going = if first {
-                    trial.going()
-                } else {
-                    trial.simulation.report();
-                    trial.heed(watch)
-                };
-                if going {
-                    trial.search(watch);
+                if first {
+                    let going = trial.going();
+                    if going {
+                        trial.search(watch);
+                    }
+                    return going;
                 }
-                going
+                let quiet = quiet_steps(trial);
+                through(trial, quiet, |trial| {
+                    let going = trial.heed(watch);
+                    if going {
+                        trial.search(watch);
+                    }
+                    going
+                })
             });
             if going == Some(true) {
                 n += 1;
@@ -273,6 +279,29 @@ impl<W: Watch> Lanes<W> {
         }
         !self.lanes.is_empty()
     }
+}
+
+/// Steps after the present one in which the ocean rests.
+fn quiet_steps(trial: &Trial) -> u64 {
+    let mut clock = trial.simulation.clock();
+    // A run that has its turn has not ended the step that the ocean has.
+    clock.advance();
+    trial.simulation.ocean().quiet_steps(&clock)
+}
+
+/// Ends the present tick, and so many later ones in which the ocean rests. After each, `next` does what comes before
+/// the next step of the ocean; `false` ends the turn. A run that goes through all of them in one turn has what it needs
+/// in the processor's caches.
+fn through(trial: &mut Trial, quiet: u64, mut next: impl FnMut(&mut Trial) -> bool) -> bool {
+    for _ in 0..=quiet {
+        let t_s = trial.simulation.clock().t_next_s();
+        trial.simulation.ocean_mut().look_at(t_s);
+        trial.simulation.report();
+        if !next(trial) {
+            return false;
+        }
+    }
+    true
 }
 
 impl<W: Watch> Lane<W> {

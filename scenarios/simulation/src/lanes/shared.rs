@@ -6,7 +6,7 @@
 //! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
 use super::common::{Belongings, Common};
-use super::{LaneError, caught, lend, take_back, taken};
+use super::{LaneError, caught, lend, take_back, taken, through};
 use crate::assemble::Simulation;
 use crate::auv::Yard;
 use crate::control::{Consultation, Heard, Question};
@@ -14,9 +14,9 @@ use crate::ocean::system::drift;
 use crate::ocean::{Origin, SpunUp};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
-use crate::trial::{Trial, Unwatched};
+use crate::trial::{Trial, Unwatched, consulted};
 use bevy_ecs::prelude::World;
-use world::clock::Clock;
+use world::clock::{Clock, Every};
 use world::seeds::Seed;
 
 /// An ocean with places for runs.
@@ -26,6 +26,8 @@ pub struct Shared {
     /// With the ocean, unless that is in the world of a run that has its turn.
     common: Common,
     clock: Clock,
+    /// When machines ask.
+    asking: Vec<Every>,
     runs: Vec<Option<Run>>,
 }
 
@@ -87,11 +89,16 @@ impl Shared {
             _ => ocean.spin_up(|_| true),
         }
         ocean.set_out();
+        let step_s = loaded.scenario.time.step_s.get();
+        let asking = consulted(&loaded.scenario).into_iter();
         Ok(Self {
             loaded: loaded.clone(),
             common: Common::new(loaded, &origin, ocean)?,
             origin,
-            clock: Clock::new(loaded.scenario.time.step_s.get()),
+            clock: Clock::new(step_s),
+            asking: asking
+                .map(|(_, c)| Every::period(c.period_s, step_s))
+                .collect(),
             runs: (0..places).map(|_| None).collect(),
         })
     }
@@ -185,26 +192,44 @@ impl Shared {
         let mut asked = false;
         while !asked && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
             self.pass_step();
+            let quiet = self.quiet_steps();
+            let mut reached = self.clock.step;
             for (place, run) in self.runs.iter_mut().enumerate() {
                 let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
                     continue;
                 };
                 let at = run.with(&mut self.common, |trial| {
-                    trial.simulation.report();
-                    let (at, questions) = if trial.heed(&mut Unwatched) {
-                        ask(trial)
-                    } else {
-                        (At::Over, Vec::new())
-                    };
-                    if at != At::Acted {
-                        see(place, trial, questions);
-                    }
+                    let mut at = At::Over;
+                    through(trial, quiet, |trial| {
+                        let questions;
+                        (at, questions) = if trial.heed(&mut Unwatched) {
+                            ask(trial)
+                        } else {
+                            (At::Over, Vec::new())
+                        };
+                        if at != At::Acted {
+                            see(place, trial, questions);
+                        }
+                        at == At::Acted
+                    });
+                    reached = reached.max(trial.simulation.clock().step);
                     at
                 });
                 run.at = at.unwrap_or(At::Over);
                 asked |= run.at == At::Asked;
             }
+            self.clock.step = reached;
+            self.common.ocean_mut().look_at(self.clock.t_s());
         }
+    }
+
+    /// Steps after the present one in which the ocean rests and nobody asks before the last of them.
+    fn quiet_steps(&self) -> u64 {
+        let step = self.clock.step;
+        let until_asked = |every: &Every| step.next_multiple_of(every.steps) - step;
+        let until_asked = self.asking.iter().map(until_asked).min();
+        let quiet = self.common.ocean().quiet_steps(&self.clock);
+        until_asked.map_or(quiet, |steps| steps.min(quiet))
     }
 
     /// Lets the ocean develop to a step of the mission with nobody in it.

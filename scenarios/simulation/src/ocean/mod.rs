@@ -18,6 +18,7 @@ use plumes::filaments::{Displaced, Plume};
 use plumes::flow::Water;
 use std::ops::{Deref, DerefMut};
 use world::area::{Area, Sides};
+use world::clock::Clock;
 use world::digest::Digest;
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 use world::obstacles::Obstacles;
@@ -47,8 +48,8 @@ pub struct Contents {
     spin_up_s: f64,
     /// Longest steps of the plume during the spin-up and during the mission, s.
     longest_s: [f64; 2],
-    /// Digest of the plume at the checkpoint that the latest advance reached.
-    checkpoint: Option<String>,
+    /// Time (with the spin-up, s) and digest of the plume at the checkpoint that the latest advance reached.
+    checkpoint: Option<(f64, String)>,
 }
 
 impl Deref for Ocean {
@@ -64,6 +65,9 @@ impl DerefMut for Ocean {
         self.0.as_deref_mut().expect(AWAY)
     }
 }
+
+/// The water is asked at most so long after it was advanced, s. All currents know half a second more than that.
+const QUIET_S: f64 = 0.5;
 
 const AWAY: &str = "another run has its turn in the ocean";
 
@@ -173,15 +177,36 @@ impl Ocean {
         here.checkpoint = meets.then(|| {
             let mut digest = Digest::default();
             here.plume.digest_into(&mut digest);
-            digest.hex()
+            (t_s, digest.hex())
         });
+    }
+
+    /// Further steps of this length in which nothing in the ocean begins to move otherwise: in them it can be looked
+    /// at, in any order.
+    pub(crate) fn quiet_steps(&self, clock: &Clock) -> u64 {
+        let (mut steps, mut later) = (0, *clock);
+        later.advance();
+        while later.t_s() <= clock.t_s() + QUIET_S
+            && self.plume.rests_until(later.t_s() + self.spin_up_s)
+        {
+            steps += 1;
+            later.advance();
+        }
+        steps
+    }
+
+    /// The ocean at a time of the mission, s, that is within such steps. It is what [`Self::advance`] would make it.
+    pub(crate) fn look_at(&mut self, t_s: f64) {
+        let here = &mut **self;
+        here.plume.look_at(t_s + here.spin_up_s);
     }
 
     /// Digest of the plume, if the latest advance reached a checkpoint: the first tick after all filaments have met at
     /// the end of a longest step.
     #[must_use]
     pub fn checkpoint(&self) -> Option<&str> {
-        self.checkpoint.as_deref()
+        let (t_s, digest) = self.checkpoint.as_ref()?;
+        (*t_s == self.plume.now_s()).then_some(digest)
     }
 
     /// Copies of the present water and plume.

@@ -21,7 +21,10 @@ impl SystemExecutor for InOrder {
         _: Option<&FixedBitSet>,
         fault: fn(BevyError, ErrorContext),
     ) {
-        #[expect(unsafe_code, reason = "bevy gives an executor its systems in no other way")]
+        #[expect(
+            unsafe_code,
+            reason = "bevy gives an executor its systems in no other way"
+        )]
         // SAFETY: the systems are only run.
         let systems = unsafe { schedule.systems_mut() };
         for system in systems {
