@@ -6,9 +6,10 @@
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use rheotaxis::control::{Heard, Question};
-use rheotaxis::lanes::Shared;
+use rheotaxis::lanes::{Shared, Worlds};
 use rheotaxis::scenario::{Loaded, load_text, template};
 use robots::handoff::{Answer, Manoeuvre, MoveOrder, Order};
+use std::sync::Arc;
 use world::registry::Registry;
 use world::units::Heading;
 
@@ -68,8 +69,9 @@ fn answer(place: usize, question: &Question) -> Heard {
 fn decisions(bencher: Bencher<'_, '_>, (kinematic, plumes, each): (bool, usize, usize)) {
     let loaded = channel(kinematic);
     let spun_up = Shared::spin_up(&loaded, 1).expect("legal");
+    let worlds = Arc::new(Worlds::new(&loaded));
     let begin = |_| {
-        let mut ocean = Shared::new(&loaded, 1, each, Some(&spun_up)).expect("legal");
+        let mut ocean = Shared::among(&worlds, 1, each, Some(&spun_up)).expect("legal");
         let begun = (0..each).flat_map(|place| {
             let asked = ocean.begin(place, place as u64).expect("legal");
             asked.into_iter().map(move |question| (place, question))

@@ -63,7 +63,6 @@ pub struct Trial {
     /// Its world and its tick.
     pub simulation: Simulation,
     scenario: Scenario,
-    sources: Vec<Vector3<f64>>,
     controllers: BTreeMap<String, Box<dyn Controller>>,
     pub(crate) progress: Progress,
 }
@@ -71,6 +70,8 @@ pub struct Trial {
 /// What a run has come to, beside the state of its world.
 pub(crate) struct Progress {
     phase: RunPhase,
+    /// The sources of its ocean (ENU), m.
+    sources: Vec<Vector3<f64>>,
     flow_sums: Vec<Vector3<f64>>,
     flow_samples: u32,
     frame: Option<Frame>,
@@ -82,11 +83,12 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// Before the spin-up, with so many sources.
-    pub(crate) fn new(sources: usize) -> Self {
+    /// Before the spin-up, with these sources.
+    pub(crate) fn new(sources: Vec<Vector3<f64>>) -> Self {
         Self {
             phase: RunPhase::Assembled,
-            flow_sums: vec![Vector3::zeros(); sources],
+            flow_sums: vec![Vector3::zeros(); sources.len()],
+            sources,
             flow_samples: 0,
             frame: None,
             water_shown: false,
@@ -118,8 +120,7 @@ impl Trial {
         Self {
             simulation,
             scenario: scenario.clone(),
-            progress: Progress::new(sources.len()),
-            sources,
+            progress: Progress::new(sources),
             controllers: BTreeMap::new(),
         }
     }
@@ -327,7 +328,10 @@ impl Trial {
         }
         if let Some(t_s) = due {
             self.progress.flow_samples += 1;
-            for (sum, p_W) in self.progress.flow_sums.iter_mut().zip(&self.sources) {
+            let Progress {
+                flow_sums, sources, ..
+            } = &mut self.progress;
+            for (sum, p_W) in flow_sums.iter_mut().zip(&*sources) {
                 *sum += self.simulation.velocity(p_W);
             }
             if watch.sees_plume() {
@@ -369,7 +373,7 @@ impl Trial {
             && !declarations.is_empty()
         {
             let within_m = wanted.within_m.get();
-            return if self.sources.iter().any(|s| declared(s, within_m)) {
+            return if self.progress.sources.iter().any(|s| declared(s, within_m)) {
                 RunOutcome::Found
             } else {
                 RunOutcome::NotFound
@@ -388,7 +392,8 @@ impl Trial {
             match &self.scenario.success {
                 SuccessSpec::Completed => RunOutcome::Completed,
                 SuccessSpec::AllDeclared(wanted)
-                    if (self.sources.iter()).all(|s| declared(s, wanted.within_m.get())) =>
+                    if (self.progress.sources.iter())
+                        .all(|s| declared(s, wanted.within_m.get())) =>
                 {
                     RunOutcome::Found
                 }

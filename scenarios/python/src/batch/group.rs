@@ -92,7 +92,7 @@ impl Group {
         places: Vec<(usize, u64)>,
     ) -> Result<(), String> {
         if let Some((seed, kept)) = ocean {
-            let made = Shared::new(&rules.loaded, seed, self.envs.len(), Some(&kept));
+            let made = Shared::among(&rules.worlds, seed, self.envs.len(), Some(&kept));
             self.shared = Some(made.map_err(|e| e.to_string())?);
             self.envs
                 .iter_mut()

@@ -18,9 +18,10 @@ use plumes::Plumes;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
+use rheotaxis::lanes::Worlds;
 use rheotaxis::ocean::Origin;
 use rheotaxis::scenario::Loaded;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Arc, Mutex, PoisonError};
 use told::Told;
 use world::ranges::Positive;
 
@@ -33,6 +34,8 @@ const MOST: usize = 65_536;
 /// What all environments of a batch have in common.
 pub(crate) struct Rules {
     pub(crate) loaded: Loaded,
+    /// Worlds in which the runs take turns.
+    pub(crate) worlds: Arc<Worlds>,
     pub(crate) agents: Vec<Agent>,
     /// Time between two decisions, s, and the same in steps.
     pub(crate) period_s: f64,
@@ -158,6 +161,7 @@ impl Batch {
             turn_rad: turn_deg.to_radians(),
             climb_m,
             speed_m_s,
+            worlds: Arc::new(Worlds::new(&loaded)),
             loaded,
         };
         let groups = (0..n / per_plume).map(|_| Group::new(&rules, per_plume));

@@ -6,7 +6,7 @@
 //!
 //! Systems of other crates may keep values that nobody can exchange. Their runs have worlds of their own.
 
-use super::{LaneError, caught};
+use super::{LaneError, caught, lend, take_back, taken};
 use crate::apparatus::Own;
 use crate::assemble::{Beside, Simulation, launch};
 use crate::auv::{RobotOwn, Robots, Yard};
@@ -19,15 +19,22 @@ use crate::outbox::Frames;
 use crate::scenario::Loaded;
 use crate::searchers::SearcherId;
 use crate::trial::{Progress, Trial};
-use bevy_ecs::prelude::{Entity, Mut, With, World};
+use bevy_ecs::prelude::{Entity, With, World};
 use bevy_ecs::query::QueryState;
 use std::mem::swap;
+use std::sync::{Mutex, PoisonError};
 use world::seeds::Seed;
 
-/// The world, and the machines in it that the runs exchange.
+/// Worlds for runs of one scenario, in oceans of any seeds. There are as many as are in use at once.
+pub struct Worlds {
+    pub(super) loaded: Loaded,
+    idle: Mutex<Vec<Box<Common>>>,
+}
+
+/// A world, and the machines in it that the runs exchange.
 pub(super) struct Common {
     /// What is in the world at the moment: the run that has its turn, or between the turns nobody's.
-    pub(super) trial: Trial,
+    trial: Trial,
     robots: Machines<RobotOwn>,
     gantries: Machines<GantryOwn>,
 }
@@ -54,18 +61,48 @@ struct Rosters {
     asking: Option<Asking>,
 }
 
-impl Common {
-    /// Whether runs of a scenario can take turns in one world.
-    pub(super) fn serves(loaded: &Loaded) -> bool {
-        loaded.registry.carried::<Addition>().next().is_none()
-            && loaded.scenario.apparatus.is_empty()
+impl Worlds {
+    /// For the runs of a scenario; none is made yet.
+    #[must_use]
+    pub fn new(loaded: &Loaded) -> Self {
+        Self {
+            loaded: loaded.clone(),
+            idle: Mutex::default(),
+        }
     }
 
-    /// A world for the runs of a scenario in an ocean.
+    /// Whether its runs can take turns in one world.
+    pub(super) fn are_common(&self) -> bool {
+        let (registry, scenario) = (&self.loaded.registry, &self.loaded.scenario);
+        registry.carried::<Addition>().next().is_none() && scenario.apparatus.is_empty()
+    }
+
+    /// One that is not in use; if there is none, it is made with an ocean of the scenario.
     ///
     /// # Errors
     /// If the scenario cannot be assembled.
-    pub(super) fn new(loaded: &Loaded, origin: &Origin, ocean: Ocean) -> Result<Self, LaneError> {
+    pub(super) fn take(
+        &self,
+        origin: &Origin,
+        ocean: &mut Option<Ocean>,
+    ) -> Result<Box<Common>, LaneError> {
+        let idle = self
+            .idle
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .pop();
+        let made = || Common::new(&self.loaded, origin, ocean).map(Box::new);
+        idle.map_or_else(made, Ok)
+    }
+
+    /// Keeps one for the next time.
+    pub(super) fn put_back(&self, common: Box<Common>) {
+        (self.idle.lock().unwrap_or_else(PoisonError::into_inner)).push(common);
+    }
+}
+
+impl Common {
+    fn new(loaded: &Loaded, origin: &Origin, ocean: &mut Option<Ocean>) -> Result<Self, LaneError> {
         let Loaded {
             registry,
             scenario,
@@ -73,50 +110,50 @@ impl Common {
             ..
         } = loaded;
         let mut world = World::new();
-        let sources = ocean.sources();
-        world.insert_resource(ocean);
+        world.insert_resource(ocean.take().expect("it is back"));
         world.insert_resource(Yard::default());
         let seed = origin.seed();
         // Whoever steps the runs looks at them.
         let frames = Frames::Unmade;
         let tick =
             caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+        *ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
-        let (robots, gantries) = (
-            world
-                .get_resource::<Robots>()
-                .map_or(Vec::new(), |r| r.0.clone()),
-            world
-                .get_resource::<Gantries>()
-                .map_or(Vec::new(), |g| g.0.clone()),
-        );
+        let robots = world
+            .get_resource::<Robots>()
+            .map_or(Vec::new(), |r| r.0.clone());
+        let gantries = world
+            .get_resource::<Gantries>()
+            .map_or(Vec::new(), |g| g.0.clone());
         Ok(Self {
             robots: Machines::new(&mut world, robots),
             gantries: Machines::new(&mut world, gantries),
             trial: Trial::of(
                 scenario,
                 Simulation::of(world, tick, origin.clone()),
-                sources,
+                Vec::new(),
             ),
         })
     }
 
-    /// The ocean.
-    pub(super) fn ocean(&self) -> &Ocean {
-        self.trial.simulation.ocean()
-    }
-
-    /// The ocean, to move it or to lend it to a run that has a world of its own.
-    pub(super) fn ocean_mut(&mut self) -> Mut<'_, Ocean> {
-        self.trial.simulation.ocean_mut()
-    }
-
-    /// A new run of the scenario; `seed` is that of the searcher.
+    /// A new run of the scenario in an ocean; `seed` is that of the searcher.
     ///
     /// # Errors
     /// If it cannot be put together, or panics.
-    pub(super) fn launch(&mut self, loaded: &Loaded, seed: Seed) -> Result<Belongings, LaneError> {
-        let sources = self.trial.simulation.ocean().sources().len();
+    pub(super) fn launch(
+        &mut self,
+        loaded: &Loaded,
+        seed: Seed,
+        ocean: &mut Option<Ocean>,
+    ) -> Result<Belongings, LaneError> {
+        lend(ocean, &mut self.trial);
+        let launched = self.launched(loaded, seed);
+        take_back(ocean, &mut self.trial);
+        launched
+    }
+
+    fn launched(&mut self, loaded: &Loaded, seed: Seed) -> Result<Belongings, LaneError> {
+        let sources = self.trial.simulation.ocean().sources();
         let world = &mut self.trial.simulation.world;
         let mut beside = Beside::new(&loaded.scenario, world.resource());
         beside.exchange(world);
@@ -153,14 +190,17 @@ impl Common {
         }
     }
 
-    /// Does something while a run has its turn; an error is what it said in a panic.
+    /// Does something while a run has its turn in an ocean; an error is what it said in a panic.
     pub(super) fn with<T>(
         &mut self,
         run: &mut Belongings,
+        ocean: &mut Option<Ocean>,
         work: impl FnOnce(&mut Trial) -> T,
     ) -> Result<T, String> {
         self.exchange(run);
+        lend(ocean, &mut self.trial);
         let done = caught(|| work(&mut self.trial));
+        take_back(ocean, &mut self.trial);
         self.exchange(run);
         if done.is_err() {
             self.trial.simulation.recover();

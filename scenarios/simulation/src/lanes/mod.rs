@@ -29,6 +29,7 @@ mod tests;
 
 pub use alike::alike;
 pub use caught::caught;
+pub use common::Worlds;
 pub use shared::{Shared, Standing};
 
 use crate::assemble::Simulation;

@@ -5,26 +5,28 @@
 //! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
 //! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
-use super::common::{Belongings, Common};
+use super::common::{Belongings, Common, Worlds};
 use super::{LaneError, caught, lend, take_back, taken, through};
 use crate::assemble::Simulation;
-use crate::auv::Yard;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
-use crate::ocean::{Origin, SpunUp};
+use crate::ocean::{Ocean, Origin, SpunUp};
 use crate::outbox::Frames;
 use crate::scenario::Loaded;
 use crate::trial::{Trial, Unwatched, consulted};
 use bevy_ecs::prelude::World;
+use std::sync::Arc;
 use world::clock::{Clock, Every};
 use world::seeds::Seed;
 
+const BACK: &str = "it comes back from each run";
+
 /// An ocean with places for runs.
 pub struct Shared {
-    loaded: Loaded,
+    worlds: Arc<Worlds>,
     origin: Origin,
-    /// With the ocean, unless that is in the world of a run that has its turn.
-    common: Common,
+    /// In the world of a run while that run has its turn.
+    ocean: Option<Ocean>,
     clock: Clock,
     /// When machines ask.
     asking: Vec<Every>,
@@ -79,6 +81,20 @@ impl Shared {
         places: usize,
         kept: Option<&SpunUp>,
     ) -> Result<Self, LaneError> {
+        Self::among(&Arc::new(Worlds::new(loaded)), seed, places, kept)
+    }
+
+    /// The same beside other oceans of the scenario, whose runs take turns in the same worlds.
+    ///
+    /// # Errors
+    /// If the ocean cannot be built.
+    pub fn among(
+        worlds: &Arc<Worlds>,
+        seed: impl Into<Seed>,
+        places: usize,
+        kept: Option<&SpunUp>,
+    ) -> Result<Self, LaneError> {
+        let loaded = &worlds.loaded;
         let origin = Origin::of(&loaded.scenario, &loaded.base_dir, seed);
         let built = caught(|| origin.build(&loaded.base_dir)).map_err(LaneError::Panicked)?;
         let mut ocean = built?;
@@ -92,9 +108,9 @@ impl Shared {
         let step_s = loaded.scenario.time.step_s.get();
         let asking = consulted(&loaded.scenario).into_iter();
         Ok(Self {
-            loaded: loaded.clone(),
-            common: Common::new(loaded, &origin, ocean)?,
+            worlds: worlds.clone(),
             origin,
+            ocean: Some(ocean),
             clock: Clock::new(step_s),
             asking: asking
                 .map(|(_, c)| Every::period(c.period_s, step_s))
@@ -127,10 +143,24 @@ impl Shared {
     ) -> Result<Vec<Question>, LaneError> {
         self.runs[place] = None;
         let seed = seed.into();
-        let seat = if Common::serves(&self.loaded) {
-            Seat::Common(Box::new(self.common.launch(&self.loaded, seed)?))
-        } else {
-            Seat::Own(Box::new(self.assembled(seed)?))
+        let mut common = self.common()?;
+        let begun = self.begun(&mut common, place, seed);
+        self.keep(common);
+        begun
+    }
+
+    fn begun(
+        &mut self,
+        common: &mut Option<Box<Common>>,
+        place: usize,
+        seed: Seed,
+    ) -> Result<Vec<Question>, LaneError> {
+        let seat = match common {
+            Some(common) => {
+                let own = common.launch(&self.worlds.loaded, seed, &mut self.ocean)?;
+                Seat::Common(Box::new(own))
+            }
+            None => Seat::Own(Box::new(self.assembled(seed)?)),
         };
         let mut run = Run {
             seat,
@@ -138,7 +168,7 @@ impl Shared {
             failed: None,
         };
         let step = self.clock.step;
-        let asked = run.with(&mut self.common, |trial| {
+        let asked = run.with(common, &mut self.ocean, |trial| {
             trial.begin_at(step);
             ask(trial)
         });
@@ -152,22 +182,37 @@ impl Shared {
 
     /// A run in a world of its own.
     fn assembled(&mut self, seed: Seed) -> Result<Trial, LaneError> {
-        let (registry, scenario) = (&self.loaded.registry, &self.loaded.scenario);
-        let dir = &self.loaded.base_dir;
-        let there = &mut self.common.trial.simulation.world;
+        let Loaded {
+            registry,
+            scenario,
+            base_dir,
+            ..
+        } = &self.worlds.loaded;
         let mut world = World::new();
-        world.insert_resource(taken(there).expect("it is back"));
-        world.insert_resource(std::mem::take(&mut *there.resource_mut::<Yard>()));
+        world.insert_resource(self.ocean.take().expect("it is back"));
+        let sources = world.resource::<Ocean>().sources();
         // Whoever steps it looks at the run itself.
         let frames = Frames::Unmade;
         let tick =
-            caught(|| Simulation::furnish(&mut world, registry, scenario, dir, seed, frames));
-        there.insert_resource(taken(&mut world).expect("it is back"));
-        there.insert_resource(world.remove_resource::<Yard>().unwrap_or_default());
+            caught(|| Simulation::furnish(&mut world, registry, scenario, base_dir, seed, frames));
+        self.ocean = taken(&mut world);
         let tick = tick.map_err(LaneError::Panicked)??;
-        let sources = self.common.ocean().sources();
         let simulation = Simulation::of(world, tick, self.origin.clone());
         Ok(Trial::of(scenario, simulation, sources))
+    }
+
+    /// The world in which runs take turns; `None` if each has one of its own.
+    fn common(&mut self) -> Result<Option<Box<Common>>, LaneError> {
+        let common = self.worlds.are_common();
+        common
+            .then(|| self.worlds.take(&self.origin, &mut self.ocean))
+            .transpose()
+    }
+
+    fn keep(&self, common: Option<Box<Common>>) {
+        if let Some(common) = common {
+            self.worlds.put_back(common);
+        }
     }
 
     /// Ends the run in a place before its time.
@@ -186,8 +231,13 @@ impl Shared {
     /// The same for each run that asks or has ended in this call, while the ocean is with it: `see` gets its place, the
     /// run and its questions.
     pub fn pass(&mut self, mut see: impl FnMut(usize, &Trial, Vec<Question>)) {
+        // There was one when the runs began. Whoever has no world then fails and says so.
+        let mut common = self.common().unwrap_or_default();
         for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
-            run.act(&mut self.common);
+            run.at = At::Acted;
+            run.with(&mut common, &mut self.ocean, |trial| {
+                trial.search(&mut Unwatched)
+            });
         }
         let mut asked = false;
         while !asked && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
@@ -198,7 +248,7 @@ impl Shared {
                 let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
                     continue;
                 };
-                let at = run.with(&mut self.common, |trial| {
+                let at = run.with(&mut common, &mut self.ocean, |trial| {
                     let mut at = At::Over;
                     through(trial, quiet, |trial| {
                         let questions;
@@ -219,8 +269,10 @@ impl Shared {
                 asked |= run.at == At::Asked;
             }
             self.clock.step = reached;
-            self.common.ocean_mut().look_at(self.clock.t_s());
+            let t_s = self.clock.t_s();
+            self.ocean.as_mut().expect(BACK).look_at(t_s);
         }
+        self.keep(common);
     }
 
     /// Steps after the present one in which the ocean rests and nobody asks before the last of them.
@@ -228,7 +280,7 @@ impl Shared {
         let step = self.clock.step;
         let until_asked = |every: &Every| step.next_multiple_of(every.steps) - step;
         let until_asked = self.asking.iter().map(until_asked).min();
-        let quiet = self.common.ocean().quiet_steps(&self.clock);
+        let quiet = self.ocean.as_ref().expect(BACK).quiet_steps(&self.clock);
         until_asked.map_or(quiet, |steps| steps.min(quiet))
     }
 
@@ -245,7 +297,7 @@ impl Shared {
     }
 
     fn pass_step(&mut self) {
-        drift(&self.clock, &mut self.common.ocean_mut());
+        drift(&self.clock, self.ocean.as_mut().expect(BACK));
         self.clock.advance();
     }
 
@@ -258,8 +310,7 @@ impl Shared {
     /// Answers an open question of a robot in a place; `None` if there is none. With the last answer the run goes on
     /// to the next step of the ocean.
     pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
-        let run = self.runs.get_mut(place)?.as_mut()?;
-        let (told, acted) = run.with(&mut self.common, |trial| {
+        self.turn(place, |trial| {
             let told = trial.answer(robot, heard, &mut Unwatched)?;
             let acts = !trial.waits();
             if acts {
@@ -267,17 +318,28 @@ impl Shared {
                 trial.search(&mut Unwatched);
             }
             Some((told, acts))
-        })??;
-        if acted {
-            run.at = At::Acted;
-        }
-        Some(told)
+        })
+        .flatten()
+        .map(|(told, acts)| {
+            if acts && let Some(Some(run)) = self.runs.get_mut(place) {
+                run.at = At::Acted;
+            }
+            told
+        })
     }
 
     /// Reads a run with its ocean; `None` if there is none in the place, or if it has failed.
     pub fn look<T>(&mut self, place: usize, look: impl FnOnce(&Trial) -> T) -> Option<T> {
-        let run = self.runs.get_mut(place)?.as_mut()?;
-        run.with(&mut self.common, |trial| look(trial))
+        self.turn(place, |trial| look(trial))
+    }
+
+    /// Does something while the run in a place has its turn.
+    fn turn<T>(&mut self, place: usize, work: impl FnOnce(&mut Trial) -> T) -> Option<T> {
+        let mut common = self.common().unwrap_or_default();
+        let run = self.runs.get_mut(place).and_then(Option::as_mut);
+        let done = run.and_then(|run| run.with(&mut common, &mut self.ocean, work));
+        self.keep(common);
+        done
     }
 
     /// What a run that failed said.
@@ -310,25 +372,23 @@ fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
 }
 
 impl Run {
-    /// The part of its tick up to the step of the ocean. What nobody has answered counts as put to somebody absent.
-    fn act(&mut self, common: &mut Common) {
-        self.at = At::Acted;
-        self.with(common, |trial| trial.search(&mut Unwatched));
-    }
-
     /// Does something while it is the turn of this run; `None` if it has failed.
-    fn with<T>(&mut self, common: &mut Common, work: impl FnOnce(&mut Trial) -> T) -> Option<T> {
+    fn with<T>(
+        &mut self,
+        common: &mut Option<Box<Common>>,
+        ocean: &mut Option<Ocean>,
+        work: impl FnOnce(&mut Trial) -> T,
+    ) -> Option<T> {
         if self.failed.is_some() {
             return None;
         }
-        let done = match &mut self.seat {
-            Seat::Common(own) => common.with(own, work),
-            Seat::Own(trial) => {
-                let mut ocean = taken(&mut common.trial.simulation.world);
-                lend(&mut ocean, trial);
+        let done = match (&mut self.seat, common) {
+            (Seat::Common(own), Some(common)) => common.with(own, ocean, work),
+            (Seat::Common(_), None) => Err("there is no world for its turn".to_string()),
+            (Seat::Own(trial), _) => {
+                lend(ocean, trial);
                 let done = caught(|| work(trial));
-                take_back(&mut ocean, trial);
-                lend(&mut ocean, &mut common.trial);
+                take_back(ocean, trial);
                 done
             }
         };
