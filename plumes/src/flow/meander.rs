@@ -15,6 +15,7 @@
 //! currents at the area's centre. (5) Outside the area, the value at the nearest edge applies.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 
 use nalgebra::Vector2;
 use schemars::JsonSchema;
@@ -124,7 +125,8 @@ pub struct Meander {
     // Unit vectors (east, north) along and across, and half the extents, so that questions need no trigonometry.
     axes: [Vector2<f64>; 2],
     half: Vector2<f64>,
-    grid: Solenoidal,
+    /// Copies of the water share it.
+    grid: Arc<Solenoidal>,
     carried: Carried,
     dt_s: f64,
     // Stream functions at times (first + k)·dt.
@@ -211,7 +213,7 @@ impl MeanderSpec {
         for _ in 0..PRE_ROLL {
             carried.advance();
         }
-        let grid = Solenoidal::new(cells, h);
+        let grid = Arc::new(Solenoidal::new(cells, h));
         let now = grid.project(&carried.u);
         let mut meander = Meander {
             centre: area.centre,

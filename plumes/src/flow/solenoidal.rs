@@ -17,6 +17,8 @@ pub(crate) struct Solenoidal {
     h: [f64; 2],
     // Lower Cholesky factor of the normal equations, by rows of `band + 1`.
     factor: Vec<f64>,
+    // The same below its diagonal, by columns of `band`.
+    below: Vec<f64>,
     band: usize,
     // The contribution of each corner of a cell to each spline in it, for x and y.
     shares: [[[f64; 2]; 4]; 9],
@@ -71,6 +73,7 @@ impl Solenoidal {
             cells,
             h,
             factor: vec![0.0; n * (band + 1)],
+            below: vec![0.0; n * band],
             band,
             shares: shares(h),
         };
@@ -127,35 +130,28 @@ impl Solenoidal {
                 } else {
                     left / self.factor[rj + j]
                 };
+                if i != j {
+                    self.below[j * w + i - j - 1] = self.factor[ri + j];
+                }
             }
         }
     }
 
     /// Coefficients of the stream function of the field nearest to `u` at the nodes (index i·(my + 1) + j).
     pub(crate) fn project(&self, u: &[Vector2<f64>]) -> Vec<f64> {
-        let [mx, my] = self.cells;
-        let n = (mx + 2) * (my + 2);
-        let mut c = vec![0.0; n];
-        for cell in 0..mx * my {
-            let (i, j) = (cell / my, cell % my);
-            let at = i * (my + 1) + j;
-            let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
-            for ((r, _), share) in self.alive(cell).zip(&self.shares) {
-                for (node, share) in corners.iter().zip(share) {
-                    c[r] += share[0] * node.x - share[1] * node.y;
-                }
-            }
-        }
+        let mut c = self.sums(u);
+        let n = c.len();
         let (w, row) = (self.band, self.band + 1);
+        // What the coefficients so far take from those to come. Column by column, each sum has the order of a row, and
+        // the processor works on several at once.
+        let mut taken = vec![-0.0; n + w];
         for i in 0..n {
-            let from = i.saturating_sub(w);
-            let l = &self.factor[i * row + w - (i - from)..=i * row + w];
-            let dot: f64 = l[..i - from]
-                .iter()
-                .zip(&c[from..i])
-                .map(|(a, b)| a * b)
-                .sum();
-            c[i] = (c[i] - dot) / l[i - from];
+            let known = (c[i] - taken[i]) / self.factor[i * row + w];
+            c[i] = known;
+            let below = &self.below[i * w..(i + 1) * w];
+            for (taken, l) in taken[i + 1..i + 1 + w].iter_mut().zip(below) {
+                *taken += l * known;
+            }
         }
         for i in (0..n).rev() {
             let from = i.saturating_sub(w);
@@ -164,6 +160,25 @@ impl Solenoidal {
             let done = c[i];
             for (c, l) in c[from..i].iter_mut().zip(l) {
                 *c -= l * done;
+            }
+        }
+        c
+    }
+
+    /// Right-hand side of the normal equations.
+    fn sums(&self, u: &[Vector2<f64>]) -> Vec<f64> {
+        let [mx, my] = self.cells;
+        let mut c = vec![0.0; (mx + 2) * (my + 2)];
+        for (i, j) in (0..mx).flat_map(|i| (0..my).map(move |j| (i, j))) {
+            let at = i * (my + 1) + j;
+            let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
+            for (a, shares) in self.shares.chunks_exact(3).enumerate() {
+                let first = (i + a) * (my + 2) + j;
+                for (c, shares) in c[first..first + 3].iter_mut().zip(shares) {
+                    for (node, share) in corners.iter().zip(shares) {
+                        *c += share[0] * node.x - share[1] * node.y;
+                    }
+                }
             }
         }
         c
@@ -243,6 +258,38 @@ mod tests {
         for (x, y) in [(0.1, 5.9), (5.3, 7.7), (12.0, 6.0), (11.0, 0.4)] {
             let left = s.velocity(Vector2::new(x, y), [&gone, &gone], 0.0);
             assert!(left.norm() < 5e-3, "{left}");
+        }
+    }
+
+    /// Column by column, the coefficients are those of substitution row by row, to the last bit.
+    #[test]
+    fn columns_give_the_bits_of_rows() {
+        for cells in [[2, 2], [9, 7], [20, 6]] {
+            let mut rng = world::seeds::Stream::new(4, "test", "field");
+            let nodes = (cells[0] + 1) * (cells[1] + 1);
+            let field: Vec<_> = (0..nodes)
+                .map(|_| Vector2::new(rng.normal(), rng.normal()))
+                .collect();
+            let s = Solenoidal::new(cells, [10.0, 12.0]);
+            let (w, row) = (s.band, s.band + 1);
+            let mut rows = s.sums(&field);
+            for i in 0..rows.len() {
+                let from = i.saturating_sub(w);
+                let l = &s.factor[i * row + w - (i - from)..=i * row + w];
+                let dot: f64 = l.iter().zip(&rows[from..i]).map(|(a, b)| a * b).sum();
+                rows[i] = (rows[i] - dot) / l[i - from];
+            }
+            for i in (0..rows.len()).rev() {
+                let from = i.saturating_sub(w);
+                let l = &s.factor[i * row + w - (i - from)..=i * row + w];
+                rows[i] /= l[i - from];
+                let done = rows[i];
+                for (c, l) in rows[from..i].iter_mut().zip(l) {
+                    *c -= l * done;
+                }
+            }
+            let bits = |all: &[f64]| all.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
+            assert_eq!(bits(&s.project(&field)), bits(&rows), "{cells:?}");
         }
     }
 
