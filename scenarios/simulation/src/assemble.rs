@@ -214,11 +214,11 @@ impl Beside {
         world.insert_resource(self.digest);
     }
 
-    /// Takes what is in a world, and leaves this in its place.
+    /// Takes what is in a world, and leaves this in its place; but for what waits to be shown, which runs without frames
+    /// do not touch.
     pub(crate) fn exchange(&mut self, world: &mut World) {
         swap(&mut *world.resource_mut::<Clock>(), &mut self.clock);
         swap(&mut *world.resource_mut::<Score>(), &mut self.score);
-        swap(&mut *world.resource_mut::<Outbox>(), &mut self.outbox);
         swap(&mut *world.resource_mut::<Physics>(), &mut self.physics);
         swap(&mut *world.resource_mut::<Digest>(), &mut self.digest);
     }

@@ -3,7 +3,7 @@
 use bevy_ecs::prelude::{Entity, World};
 use bevy_ecs::query::QueryState;
 
-/// All components of one machine of a kind.
+/// All components of one machine of a kind that a run without frames uses.
 pub(crate) trait Own: Send + Sync + Sized {
     /// The same in a world.
     type Parts: bevy_ecs::query::QueryData;
@@ -18,13 +18,16 @@ pub(crate) trait Own: Send + Sync + Sized {
     fn exchange(&mut self, parts: &mut QueryState<Self::Parts>, world: &mut World, machine: Entity);
 }
 
-/// Makes the struct of all components of a kind of machine: those that each has, and those that some have.
+/// Makes the struct of all components of a kind of machine: those that each has, those that some have, and those that
+/// only runs with frames use, which stay where they are.
 macro_rules! own {
     (
         $(#[$doc:meta])* $own:ident as $parts:ident {
             $($field:ident: $component:ty,)*
         } some {
             $($other:ident: $optional:ty,)*
+        } shown {
+            $($shown:ty,)*
         }
     ) => {
         $(#[$doc])*
@@ -50,6 +53,7 @@ macro_rules! own {
                     $($field: machine.take().expect(concat!("each has a ", stringify!($component))),)*
                     $($other: machine.take(),)*
                 };
+                $(machine.remove::<$shown>();)*
                 assert!(
                     machine.archetype().components().is_empty(),
                     concat!("a component of this machine is not in the list of ", stringify!($own))

@@ -32,7 +32,6 @@ own! {
         status: GuidanceStatus,
         pilot: Pilot,
         actuation: Actuation,
-        log: Log,
         lookout: Lookout,
         sensor_faults: SensorFaults,
         drive_faults: DriveFaults,
@@ -42,5 +41,7 @@ own! {
         mapping: Mapping,
         battery: Battery,
         consulting: Consulting,
+    } shown {
+        Log,
     }
 }

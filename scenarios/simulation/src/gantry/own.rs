@@ -17,5 +17,6 @@ own! {
         decision: GantryDecision,
     } some {
         consulting: Consulting,
+    } shown {
     }
 }
