@@ -315,31 +315,40 @@ impl Carried {
                 }
             }
         }
-        for j in 1..my {
-            self.sweep(&carrier, 0, j, inner);
-        }
-        for i in 1..mx {
-            self.sweep(&carrier, 1, i * inner, 1);
-        }
+        self.sweep(&carrier, 0, [1, my - 1], [inner, 1]);
+        self.sweep(&carrier, 1, [inner, mx - 1], [1, inner]);
     }
 
-    /// Implicit step along one grid line (Thomas's algorithm) with given ends.
-    fn sweep(&mut self, carrier: &[Vector2<f64>], axis: usize, start: usize, stride: usize) {
+    /// Implicit step along so many neighbouring grid lines (Thomas's algorithm) with given ends. The first begins at
+    /// node `start`; the strides are from node to node in a line, and from line to line. No line waits for another, so
+    /// the processor works on several at once.
+    fn sweep(
+        &mut self,
+        carrier: &[Vector2<f64>],
+        axis: usize,
+        [start, lines]: [usize; 2],
+        [stride, next]: [usize; 2],
+    ) {
         let (n, h) = (self.cells[axis], self.h[axis]);
-        let mut upper = vec![0.0; n];
+        let mut upper = vec![0.0; n * lines];
         for k in 1..n {
-            let at = start + k * stride;
-            let a = carrier[at][axis];
-            let d = self.half_k.max(0.5 * a.abs() * h) * self.dt / (h * h);
-            let c = 0.5 * a * self.dt / h;
-            // −(d + c) u_{k−1} + (1 + 2d) u_k − (d − c) u_{k+1} = old u_k; the two ends are known.
-            let pivot = 1.0 + 2.0 * d - (d + c) * upper[k - 1];
-            upper[k] = (d - c) / pivot;
-            self.u[at] = (self.u[at] + self.u[at - stride] * (d + c)) / pivot;
+            let (before, now) = upper[(k - 1) * lines..].split_at_mut(lines);
+            for (line, (before, now)) in before.iter().zip(now).enumerate() {
+                let at = start + k * stride + line * next;
+                let a = carrier[at][axis];
+                let d = self.half_k.max(0.5 * a.abs() * h) * self.dt / (h * h);
+                let c = 0.5 * a * self.dt / h;
+                // −(d + c) u_{k−1} + (1 + 2d) u_k − (d − c) u_{k+1} = old u_k; the two ends are known.
+                let pivot = 1.0 + 2.0 * d - (d + c) * before;
+                *now = (d - c) / pivot;
+                self.u[at] = (self.u[at] + self.u[at - stride] * (d + c)) / pivot;
+            }
         }
         for k in (1..n).rev() {
-            let at = start + k * stride;
-            self.u[at] = self.u[at] + self.u[at + stride] * upper[k];
+            for (line, upper) in upper[k * lines..(k + 1) * lines].iter().enumerate() {
+                let at = start + k * stride + line * next;
+                self.u[at] = self.u[at] + self.u[at + stride] * *upper;
+            }
         }
     }
 }

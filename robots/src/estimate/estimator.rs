@@ -47,7 +47,7 @@ pub struct Start {
 #[derive(Component, Clone, Debug)]
 pub enum Estimator {
     /// Compass, Doppler log and long-baseline jumps.
-    DeadReckoning(DeadReckoning),
+    DeadReckoning(Box<DeadReckoning>),
 }
 
 impl Estimator {
@@ -56,7 +56,7 @@ impl Estimator {
     pub fn new(spec: &EstimatorSpec, start: Start, dt_s: f64) -> Self {
         match spec {
             EstimatorSpec::DeadReckoning(s) => {
-                Self::DeadReckoning(DeadReckoning::new(s, start, dt_s))
+                Self::DeadReckoning(Box::new(DeadReckoning::new(s, start, dt_s)))
             }
         }
     }

@@ -22,8 +22,8 @@ use world::clock::Clock;
 pub struct SensorFaults {
     faults: Vec<(Span, Instrument, Amiss)>,
     scale: Option<Scale>,
-    /// The last reading of each instrument.
-    last: Readings,
+    /// The last reading of each instrument. Apart, because most robots have no faults.
+    last: Box<Readings>,
 }
 
 /// The scale of a fluorometer.
@@ -51,7 +51,7 @@ impl SensorFaults {
                 full_v: spec.full_scale_v.get(),
                 threshold: spec.threshold.get(),
             }),
-            last: Readings::default(),
+            last: Box::default(),
         }
     }
 

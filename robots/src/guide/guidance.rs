@@ -42,7 +42,7 @@ enum Mode {
 /// State of the guidance.
 #[derive(Component, Clone, Debug)]
 pub struct Guidance {
-    spec: GuidanceSpec,
+    spec: Box<GuidanceSpec>,
     filter: RateFilter,
     mode: Mode,
     goal_id: Option<u32>,
@@ -53,7 +53,7 @@ pub struct Guidance {
     /// Whether the vehicle hovers.
     hovers: bool,
     /// Of the area of the last step.
-    sides: Option<Sides>,
+    sides: Option<Box<Sides>>,
 }
 
 impl Guidance {
@@ -62,7 +62,7 @@ impl Guidance {
     pub fn new(spec: &GuidanceSpec) -> Self {
         Self {
             filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),
-            spec: spec.clone(),
+            spec: Box::new(spec.clone()),
             mode: Mode::Free,
             goal_id: None,
             done: false,
@@ -105,9 +105,12 @@ impl Guidance {
         area: &Area,
         dt_s: f64,
     ) -> (Command, GuidanceStatus) {
-        let known = self.sides.filter(|sides| sides.area() == area);
+        let known = self.sides.as_deref().copied();
+        let known = known.filter(|sides| sides.area() == area);
         let sides = &known.unwrap_or_else(|| area.sides());
-        self.sides = Some(*sides);
+        if known.is_none() {
+            self.sides = Some(Box::new(*sides));
+        }
         if let Some(command) = straight(goal) {
             // Neither cage nor filter stands between the searcher and the autopilot or the drives.
             self.filter.reset();

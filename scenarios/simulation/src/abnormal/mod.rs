@@ -155,9 +155,9 @@ struct Episode {
     count: usize,
 }
 
-/// The present events of a robot.
+/// The present events of a robot. In one place, because runs that share a world exchange it.
 #[derive(Component, Clone, Debug, Default)]
-pub struct Lookout([Episode; Abnormality::WATCHED.len()]);
+pub struct Lookout(Box<[Episode; Abnormality::WATCHED.len()]>);
 
 impl Lookout {
     /// Notes whether something is wrong now; `None` if this tick has no reading.

@@ -172,7 +172,7 @@ fn spawn(
         (
             Searching {
                 strategy,
-                rng: Stream::new(seed, id, "strategy"),
+                rng: Box::new(Stream::new(seed, id, "strategy")),
             },
             Briefing {
                 area: setting.area,

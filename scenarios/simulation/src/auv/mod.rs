@@ -42,8 +42,8 @@ pub struct Hull {
 pub struct Searching {
     /// The strategy.
     pub strategy: Box<dyn Strategy>,
-    /// Its random numbers.
-    pub rng: Stream,
+    /// Its random numbers. Apart, because few strategies draw any.
+    pub rng: Box<Stream>,
 }
 
 /// What a robot is told before its mission.

@@ -94,7 +94,7 @@ pub(crate) struct Consulting {
     drives: Option<usize>,
     asked: u64,
     pub(crate) kept: Kept,
-    question: Option<Question>,
+    question: Option<Box<Question>>,
     told: Option<Told>,
 }
 
@@ -131,14 +131,14 @@ impl Consulting {
 
     /// Asks.
     pub(crate) fn ask(&mut self, clock: &Clock, robot: &str, see: impl FnOnce(&mut Kept) -> Seen) {
-        self.question = Some(Question {
+        self.question = Some(Box::new(Question {
             robot: robot.to_string(),
             number: self.asked,
             step: clock.step,
             t_s: clock.t_s(),
             deadline_s: self.deadline_s,
             seen: see(&mut self.kept),
-        });
+        }));
         self.asked += 1;
     }
 
@@ -284,7 +284,7 @@ pub(crate) fn take_questions(world: &mut World) -> Vec<Question> {
             break;
         };
         if let Some(mut consulting) = world.get_mut::<Consulting>(entity) {
-            open.extend(consulting.question.take());
+            open.extend(consulting.question.take().map(|question| *question));
         }
     }
     open
