@@ -48,9 +48,8 @@ impl Moving {
         this
     }
 
-    /// Those that are released at a moment, not [sealed](Leaf::seal) yet.
-    pub(super) fn leaf(&self, path: Path, lookup: &Lookup, size: &Size, moment: &Moment) -> Leaf {
-        let mut leaf = Leaf::new();
+    /// The part of its way that each has gone at a moment, and how many are released.
+    fn parts(&self, moment: &Moment) -> ([f32; LEAF], usize) {
         let Moment { span, now_s, part } = *moment;
         let mut parts = [part; LEAF];
         let mut count = self.count;
@@ -65,13 +64,35 @@ impl Moving {
                 count = l;
             }
         }
+        (parts, count)
+    }
+
+    /// Whether any of them may be within a horizontal distance of a point at a moment. Empty places count, too.
+    pub(super) fn may_reach(&self, path: Path, p: [f32; 3], moment: &Moment, reach: f32) -> bool {
+        let (parts, _) = self.parts(moment);
+        let least = match path {
+            Path::Portable => least(self, &parts, p),
+            // SAFETY: this variant is only made after the feature was detected.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 => unsafe { least_avx2(self, &parts, p) },
+            // SAFETY: as above.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx512 => unsafe { least_avx512(self, &parts, p) },
+        };
+        least <= reach * reach
+    }
+
+    /// Those that are released at a moment, not [sealed](Leaf::seal) yet.
+    pub(super) fn leaf(&self, path: Path, lookup: &Lookup, size: &Size, moment: &Moment) -> Leaf {
+        let mut leaf = Leaf::new();
+        let (parts, count) = self.parts(moment);
         leaf.count = count;
         let way = Way {
             moving: self,
             parts,
             lookup,
             size,
-            now_s,
+            now_s: moment.now_s,
         };
         match path {
             Path::Portable => fill(&way, &mut leaf),
@@ -108,6 +129,41 @@ fn fill_avx512(way: &Way, leaf: &mut Leaf) {
     fill(way, leaf);
 }
 
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn least_avx2(moving: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
+    least(moving, parts, p)
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
+fn least_avx512(moving: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
+    least(moving, parts, p)
+}
+
+/// A coordinate when a part of the way is gone.
+#[inline(always)]
+fn on_way(start: f32, end: f32, part: f32) -> f32 {
+    let on = start + part * (end - start);
+    if part < 1.0 { on } else { end }
+}
+
+/// Least square of the horizontal distance from a point, m².
+#[inline(always)]
+fn least(m: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
+    const LANES: usize = 8;
+    let on = |d: usize, l: usize| on_way(m.start[d][l], m.end[d][l], parts[l]);
+    let mut least = [f32::MAX; LANES];
+    for from in (0..LEAF).step_by(LANES) {
+        for (k, least) in least.iter_mut().enumerate() {
+            let (dx, dy) = (p[0] - on(0, from + k), p[1] - on(1, from + k));
+            let away = dx * dx + dy * dy;
+            *least = if away < *least { away } else { *least };
+        }
+    }
+    least.into_iter().fold(f32::MAX, f32::min)
+}
+
 /// Places, beds and sizes. Empty places are those of a filament at the origin.
 #[inline(always)]
 #[expect(
@@ -127,9 +183,7 @@ fn fill(way: &Way, leaf: &mut Leaf) {
         .enumerate()
     {
         for l in 0..LEAF {
-            let (start, end) = (m.start[d][l], m.end[d][l]);
-            let on = start + parts[l] * (end - start);
-            to[l] = if parts[l] < 1.0 { on } else { end };
+            to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
         }
     }
     let mut at = [super::lookup::Column::default(); LEAF];
@@ -153,5 +207,91 @@ fn fill(way: &Way, leaf: &mut Leaf) {
     }
     for l in 0..LEAF {
         leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A leaf on its way from one place to another, the last filaments released within the step.
+    fn moving() -> Moving {
+        let mut new = Moving {
+            start: [[0.0; LEAF]; 3],
+            end: [[0.0; LEAF]; 3],
+            born_s: [f64::NEG_INFINITY; LEAF],
+            grown_m2: None,
+            count: 30,
+        };
+        for l in 0..30 {
+            let a = l as f32;
+            new.start = add(new.start, l, [400.0 + 0.3 * a, -200.0 - 0.2 * a, -3.0]);
+            new.end = add(new.end, l, [403.0 + 0.25 * a, -202.0, -3.5]);
+            new.born_s[l] = if l < 27 {
+                -60.0 + f64::from(l as u16)
+            } else {
+                1.0 + 0.5 * (l - 27) as f64
+            };
+        }
+        new
+    }
+
+    fn add(mut to: [[f32; LEAF]; 3], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 3] {
+        for (axis, v) in to.iter_mut().zip(p) {
+            axis[l] = v;
+        }
+        to
+    }
+
+    #[test]
+    fn may_reach_says_no_only_beyond_all_that_are_released() {
+        let (moving, span) = (
+            moving(),
+            Span {
+                from_s: 0.0,
+                to_s: 4.0,
+            },
+        );
+        let mut said = [0; 2];
+        for now_s in [0.0, 1.2, 2.5, 4.0] {
+            let moment = Moment {
+                span,
+                now_s,
+                part: span.part(now_s),
+            };
+            let (parts, released) = moving.parts(&moment);
+            assert!(
+                released
+                    == if now_s < 1.0 {
+                        27
+                    } else if now_s < 2.0 {
+                        28
+                    } else {
+                        30
+                    }
+            );
+            for n in 0..400 {
+                let p = [
+                    390.0 + (n % 20) as f32 * 1.5,
+                    -215.0 + (n / 20) as f32,
+                    -2.0,
+                ];
+                let away = |l: usize| {
+                    let [x, y] =
+                        [0, 1].map(|d| on_way(moving.start[d][l], moving.end[d][l], parts[l]));
+                    ((p[0] - x).powi(2) + (p[1] - y).powi(2)).sqrt()
+                };
+                let nearest = (0..30).map(away).fold(f32::MAX, f32::min);
+                let reach = 1.0 + (n % 7) as f32;
+                for path in Path::all() {
+                    let may = moving.may_reach(path, p, &moment, reach);
+                    if (nearest - reach).abs() > 1e-3 {
+                        assert_eq!(may, nearest < reach, "{path:?}, {p:?} at {now_s}");
+                    }
+                }
+                said[usize::from(nearest < reach)] += 1;
+            }
+        }
+        assert!(said[0] > 100 && said[1] > 100, "{said:?}");
     }
 }
