@@ -4,16 +4,18 @@
 //! read in between. All three give the same run, bit for bit.
 
 mod asking;
+mod progress;
 mod watch;
 mod water;
 
 pub use asking::{NotControlled, consulted, controlled};
 pub use watch::{Unwatched, Watch};
 
+pub(crate) use progress::Progress;
+
 use crate::apparatus::Apparatus;
 use crate::assemble::Simulation;
 use crate::control::Controller;
-use crate::control::consulting::Open;
 use crate::error::AssembleError;
 use crate::fleet::Fleet;
 use crate::frame::{Frame, PlumeFrame};
@@ -24,6 +26,7 @@ use crate::scenario::{Loaded, Scenario, SuccessSpec};
 use crate::score::Score;
 use crate::topic::{Published, Topics};
 use nalgebra::Vector3;
+use progress::RunPhase;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
 use world::clock::Clock;
@@ -48,16 +51,6 @@ pub struct Ended {
     pub flow_at_sources: Vec<Vector3<f64>>,
 }
 
-/// How far a run has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum RunPhase {
-    Assembled,
-    SpunUp,
-    /// An observer stopped it.
-    Stopped,
-    Ended,
-}
-
 /// One run of a scenario.
 pub struct Trial {
     /// Its world and its tick.
@@ -65,37 +58,6 @@ pub struct Trial {
     scenario: Scenario,
     controllers: BTreeMap<String, Box<dyn Controller>>,
     pub(crate) progress: Progress,
-}
-
-/// What a run has come to, beside the state of its world.
-pub(crate) struct Progress {
-    phase: RunPhase,
-    /// The sources of its ocean (ENU), m.
-    sources: Vec<Vector3<f64>>,
-    flow_sums: Vec<Vector3<f64>>,
-    flow_samples: u32,
-    frame: Option<Frame>,
-    water_shown: bool,
-    /// Time of the ocean at which the mission began, s.
-    began_s: f64,
-    /// The first part of a tick is done, and these questions are not answered yet.
-    open: Option<Vec<Open>>,
-}
-
-impl Progress {
-    /// Before the spin-up, with these sources.
-    pub(crate) fn new(sources: Vec<Vector3<f64>>) -> Self {
-        Self {
-            phase: RunPhase::Assembled,
-            flow_sums: vec![Vector3::zeros(); sources.len()],
-            sources,
-            flow_samples: 0,
-            frame: None,
-            water_shown: false,
-            began_s: 0.0,
-            open: None,
-        }
-    }
 }
 
 impl Trial {

@@ -23,6 +23,7 @@
 mod alike;
 mod caught;
 mod common;
+mod run;
 mod shared;
 #[cfg(test)]
 mod tests;

@@ -5,8 +5,9 @@
 //! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
 //! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
-use super::common::{Belongings, Common, Worlds};
-use super::{LaneError, caught, lend, take_back, taken, through};
+use super::common::{Common, Worlds};
+use super::run::{At, Run, Seat};
+use super::{LaneError, caught, taken, through};
 use crate::assemble::Simulation;
 use crate::control::{Consultation, Heard, Question};
 use crate::ocean::system::drift;
@@ -31,30 +32,6 @@ pub struct Shared {
     /// When machines ask.
     asking: Vec<Every>,
     runs: Vec<Option<Run>>,
-}
-
-struct Run {
-    seat: Seat,
-    at: At,
-    failed: Option<String>,
-}
-
-/// Where a run takes its turns.
-enum Seat {
-    /// In the common world.
-    Common(Box<Belongings>),
-    /// In a world of its own.
-    Own(Box<Trial>),
-}
-
-/// Where a run is in the present tick.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum At {
-    /// It has asked.
-    Asked,
-    /// It has done its part, up to the step of the ocean.
-    Acted,
-    Over,
 }
 
 /// How a run in a place stands.
@@ -368,35 +345,6 @@ fn ask(trial: &mut Trial) -> (At, Vec<Question>) {
         (At::Acted, questions)
     } else {
         (At::Asked, questions)
-    }
-}
-
-impl Run {
-    /// Does something while it is the turn of this run; `None` if it has failed.
-    fn with<T>(
-        &mut self,
-        common: &mut Option<Box<Common>>,
-        ocean: &mut Option<Ocean>,
-        work: impl FnOnce(&mut Trial) -> T,
-    ) -> Option<T> {
-        if self.failed.is_some() {
-            return None;
-        }
-        let done = match (&mut self.seat, common) {
-            (Seat::Common(own), Some(common)) => common.with(own, ocean, work),
-            (Seat::Common(_), None) => Err("there is no world for its turn".to_string()),
-            (Seat::Own(trial), _) => {
-                lend(ocean, trial);
-                let done = caught(|| work(trial));
-                take_back(ocean, trial);
-                done
-            }
-        };
-        done.map_err(|said| {
-            self.failed = Some(said);
-            self.at = At::Over;
-        })
-        .ok()
     }
 }
 

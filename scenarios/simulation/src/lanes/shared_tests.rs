@@ -1,7 +1,7 @@
 use super::*;
 use crate::extend::Extend;
 use crate::scenario::{load_text, template};
-use bevy_ecs::prelude::{Local, ResMut, Resource};
+use bevy_ecs::prelude::{Local, Resource};
 use nalgebra::Vector2;
 use robots::handoff::{Answer, GantryBehaviour, HeadOrder, Manoeuvre, MoveOrder, Order};
 use robots::strategy::{ExternalSpec, StrategySpec};
@@ -199,13 +199,10 @@ fn systems_of_other_crates_keep_their_values_for_each_run() {
     struct Ticks(u64);
     let registry = Registry::default().with_systems(|systems| {
         systems.insert(Ticks::default());
-        systems.add(
-            Stage::Report,
-            |mut own: Local<u64>, mut ticks: ResMut<Ticks>| {
-                *own += 1;
-                ticks.0 = *own;
-            },
-        );
+        systems.add(Stage::Report, |world: &mut World, mut own: Local<u64>| {
+            *own += 1;
+            world.resource_mut::<Ticks>().0 = *own;
+        });
     });
     let mut loaded = channel();
     let plain = digests(&loaded, "auv0", answer);
