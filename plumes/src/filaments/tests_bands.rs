@@ -67,6 +67,54 @@ fn neither_questions_nor_threads_change_anything() {
 }
 
 #[test]
+fn while_it_rests_it_can_be_looked_at_in_any_order() {
+    let mut water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
+    let settings = super::PlumeSettings {
+        refresh_s: 10.0,
+        grid: GridShape::fitting(&duck_area()),
+    };
+    let spec = source(0.2, 100.0, 0.001, 0.03);
+    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    plume.pace(0.0, f64::INFINITY, 5.0);
+    let feel = |plume: &Plume, t_s: f64| {
+        assert_eq!(plume.now_s().to_bits(), t_s.to_bits());
+        let all: Vec<[f32; 5]> = plume.iter().collect();
+        let near = all.iter().step_by(all.len() / 20).map(|f| f.map(f64::from));
+        let felt = near.map(|f| plume.at(&Vector3::new(f[0], f[1], f[2])).to_bits());
+        felt.collect::<Vec<u64>>()
+    };
+    let (dt_s, mut rested) = (0.05, 0);
+    let time = |n: u32| dt_s * f64::from(n);
+    for n in 1..=2400 {
+        water.advance(time(n));
+        plume.advance(&water, time(n));
+        if n < 2000 || !plume.rests_until(time(n + 1)) {
+            continue;
+        }
+        rested += 1;
+        // A copy goes on as a run alone would; this one looks ahead and back.
+        let mut alone = plume.clone();
+        let now = feel(&plume, time(n));
+        alone.advance(&water, time(n + 1));
+        for _ in 0..2 {
+            plume.look_at(time(n + 1));
+            assert_eq!(feel(&plume, time(n + 1)), feel(&alone, time(n + 1)));
+            plume.look_at(time(n));
+            assert_eq!(feel(&plume, time(n)), now);
+        }
+    }
+    assert!(rested > 100, "{rested}");
+}
+
+#[test]
+#[should_panic(expected = "the plume takes a step before 1 s: advance it")]
+fn a_plume_that_steps_is_not_only_looked_at() {
+    let mut plume = plume(1.0, &Terrain::Level { depth_m: 40.0 });
+    plume.pace(0.0, f64::INFINITY, 0.5);
+    plume.look_at(1.0);
+}
+
+#[test]
 fn the_columns_around_filaments_hold_the_flow_of_the_period() {
     let mut water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
     let settings = super::PlumeSettings {
