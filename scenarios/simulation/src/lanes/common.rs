@@ -190,25 +190,23 @@ impl Common {
         }
     }
 
-    /// Does something while a run has its turn in an ocean; an error is what it said in a panic.
-    pub(super) fn with<T>(
+    /// Does something in an ocean with the run that has its turn; an error is what it said in a panic.
+    pub(super) fn work<T>(
         &mut self,
-        run: &mut Belongings,
         ocean: &mut Option<Ocean>,
         work: impl FnOnce(&mut Trial) -> T,
     ) -> Result<T, String> {
-        self.exchange(run);
         lend(ocean, &mut self.trial);
         let done = caught(|| work(&mut self.trial));
         take_back(ocean, &mut self.trial);
-        self.exchange(run);
         if done.is_err() {
             self.trial.simulation.recover();
         }
         done
     }
 
-    fn exchange(&mut self, run: &mut Belongings) {
+    /// Gives a run its turn, and takes what is in the world, of whoever had it before.
+    pub(super) fn exchange(&mut self, run: &mut Belongings) {
         let world = &mut self.trial.simulation.world;
         run.beside.exchange(world);
         self.robots.exchange(world, &mut run.robots);

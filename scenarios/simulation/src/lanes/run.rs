@@ -1,9 +1,20 @@
-//! A run in an ocean that others share: where it takes its turns, and how far it is in the present tick.
+//! Runs in an ocean that they share: where each takes its turns, and how far it is in the present tick.
 
 use super::common::{Belongings, Common};
 use super::{caught, lend, take_back};
 use crate::ocean::Ocean;
 use crate::trial::Trial;
+
+/// The runs in the places of an ocean.
+pub(super) struct Runs {
+    pub(super) all: Vec<Option<Run>>,
+    /// The world in which they take turns, while they have one.
+    pub(super) common: Option<Box<Common>>,
+    /// The place of the run whose values are in that world.
+    within: Option<usize>,
+    /// What was in it before, of nobody.
+    nobody: Option<Box<Belongings>>,
+}
 
 /// A run in a place of an ocean.
 pub(super) struct Run {
@@ -15,8 +26,8 @@ pub(super) struct Run {
 
 /// Where a run takes its turns.
 pub(super) enum Seat {
-    /// In the common world.
-    Common(Box<Belongings>),
+    /// In the common world, where its values are if they are not here.
+    Common(Option<Box<Belongings>>),
     /// In a world of its own.
     Own(Box<Trial>),
 }
@@ -31,19 +42,39 @@ pub(super) enum At {
     Over,
 }
 
-impl Run {
-    /// Does something while it is the turn of this run; `None` if it has failed.
-    pub(super) fn with<T>(
+impl Runs {
+    /// So many empty places.
+    pub(super) fn new(places: usize) -> Self {
+        Self {
+            all: (0..places).map(|_| None).collect(),
+            common: None,
+            within: None,
+            nobody: None,
+        }
+    }
+
+    /// Empties a place, or puts a run into it.
+    pub(super) fn put(&mut self, place: usize, run: Option<Run>) {
+        if self.within == Some(place) {
+            self.vacate();
+        }
+        self.all[place] = run;
+    }
+
+    /// Does something while it is the turn of the run in a place; `None` if there is none or it has failed.
+    pub(super) fn turn<T>(
         &mut self,
-        common: &mut Option<Box<Common>>,
+        place: usize,
         ocean: &mut Option<Ocean>,
         work: impl FnOnce(&mut Trial) -> T,
     ) -> Option<T> {
-        if self.failed.is_some() {
+        self.enter(place);
+        let run = self.all.get_mut(place)?.as_mut()?;
+        if run.failed.is_some() {
             return None;
         }
-        let done = match (&mut self.seat, common) {
-            (Seat::Common(own), Some(common)) => common.with(own, ocean, work),
+        let done = match (&mut run.seat, &mut self.common) {
+            (Seat::Common(_), Some(common)) => common.work(ocean, work),
             (Seat::Common(_), None) => Err("there is no world for its turn".to_string()),
             (Seat::Own(trial), _) => {
                 lend(ocean, trial);
@@ -53,9 +84,42 @@ impl Run {
             }
         };
         done.map_err(|said| {
-            self.failed = Some(said);
-            self.at = At::Over;
+            run.failed = Some(said);
+            run.at = At::Over;
         })
         .ok()
+    }
+
+    /// Brings the values of a run into the common world. Those of the run before go where these were.
+    fn enter(&mut self, place: usize) {
+        if self.within == Some(place) {
+            return;
+        }
+        let (Some(common), Some(Some(run))) = (&mut self.common, self.all.get_mut(place)) else {
+            return;
+        };
+        let Seat::Common(own) = &mut run.seat else {
+            return;
+        };
+        let mut own = own.take().expect("only the run whose turn it is has none");
+        common.exchange(&mut own);
+        let before = self.within.replace(place);
+        self.hand_over(before, own);
+    }
+
+    /// Takes the values of the run in the common world out of it.
+    pub(super) fn vacate(&mut self) {
+        if let (Some(common), Some(mut own)) = (&mut self.common, self.nobody.take()) {
+            common.exchange(&mut own);
+            let before = self.within.take();
+            self.hand_over(before, own);
+        }
+    }
+
+    fn hand_over(&mut self, place: Option<usize>, values: Box<Belongings>) {
+        match place.and_then(|place| self.all[place].as_mut()) {
+            Some(run) => run.seat = Seat::Common(Some(values)),
+            None => self.nobody = Some(values),
+        }
     }
 }

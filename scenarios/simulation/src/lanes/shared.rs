@@ -5,8 +5,8 @@
 //! whoever else is in the ocean. A run that begins in the first step with the ocean's seed is the run of
 //! [`Trial`] alone. The runs take turns in one world (file `common`), if none has systems of other crates.
 
-use super::common::{Common, Worlds};
-use super::run::{At, Run, Seat};
+use super::common::Worlds;
+use super::run::{At, Run, Runs, Seat};
 use super::{LaneError, caught, taken, through};
 use crate::assemble::Simulation;
 use crate::control::{Consultation, Heard, Question};
@@ -31,7 +31,7 @@ pub struct Shared {
     clock: Clock,
     /// When machines ask.
     asking: Vec<Every>,
-    runs: Vec<Option<Run>>,
+    runs: Runs,
 }
 
 /// How a run in a place stands.
@@ -92,7 +92,7 @@ impl Shared {
             asking: asking
                 .map(|(_, c)| Every::period(c.period_s, step_s))
                 .collect(),
-            runs: (0..places).map(|_| None).collect(),
+            runs: Runs::new(places),
         })
     }
 
@@ -118,43 +118,55 @@ impl Shared {
         place: usize,
         seed: impl Into<Seed>,
     ) -> Result<Vec<Question>, LaneError> {
-        self.runs[place] = None;
-        let seed = seed.into();
-        let mut common = self.common()?;
-        let begun = self.begun(&mut common, place, seed);
-        self.keep(common);
+        self.runs.put(place, None);
+        let kept = self.hold()?;
+        self.runs.vacate();
+        let begun = self.begun(place, seed.into());
+        if !kept {
+            self.release();
+        }
         begun
     }
 
-    fn begun(
-        &mut self,
-        common: &mut Option<Box<Common>>,
-        place: usize,
-        seed: Seed,
-    ) -> Result<Vec<Question>, LaneError> {
-        let seat = match common {
+    fn begun(&mut self, place: usize, seed: Seed) -> Result<Vec<Question>, LaneError> {
+        let seat = match &mut self.runs.common {
             Some(common) => {
                 let own = common.launch(&self.worlds.loaded, seed, &mut self.ocean)?;
-                Seat::Common(Box::new(own))
+                Seat::Common(Some(Box::new(own)))
             }
             None => Seat::Own(Box::new(self.assembled(seed)?)),
         };
-        let mut run = Run {
+        let run = Run {
             seat,
             at: At::Acted,
             failed: None,
         };
+        self.runs.put(place, Some(run));
         let step = self.clock.step;
-        let asked = run.with(common, &mut self.ocean, |trial| {
+        let asked = self.turn(place, |trial| {
             trial.begin_at(step);
             ask(trial)
         });
-        run.at = asked.as_ref().map_or(At::Over, |(at, _)| *at);
-        if let Some(said) = run.failed {
+        if let Some(said) = self.failure(place) {
+            let said = said.to_string();
+            self.runs.put(place, None);
             return Err(LaneError::Panicked(said));
         }
-        self.runs[place] = Some(run);
+        self.stands(place, asked.as_ref().map_or(At::Over, |(at, _)| *at));
         Ok(asked.map_or_else(Vec::new, |(_, questions)| questions))
+    }
+
+    fn stands(&mut self, place: usize, at: At) {
+        if let Some(Some(run)) = self.runs.all.get_mut(place) {
+            run.at = at;
+        }
+    }
+
+    /// The places of the runs that are there in the present tick.
+    fn are_at(&self, at: At) -> Vec<usize> {
+        let runs = self.runs.all.iter().enumerate();
+        let there = runs.filter(|(_, run)| run.as_ref().is_some_and(|run| run.at == at));
+        there.map(|(place, _)| place).collect()
     }
 
     /// A run in a world of its own.
@@ -178,23 +190,26 @@ impl Shared {
         Ok(Trial::of(scenario, simulation, sources))
     }
 
-    /// The world in which runs take turns; `None` if each has one of its own.
-    fn common(&mut self) -> Result<Option<Box<Common>>, LaneError> {
-        let common = self.worlds.are_common();
-        common
-            .then(|| self.worlds.take(&self.origin, &mut self.ocean))
-            .transpose()
+    /// Takes a world in which the runs take turns, unless each has one of its own. Returns whether it was there before.
+    fn hold(&mut self) -> Result<bool, LaneError> {
+        if self.runs.common.is_some() || !self.worlds.are_common() {
+            return Ok(true);
+        }
+        self.runs.common = Some(self.worlds.take(&self.origin, &mut self.ocean)?);
+        Ok(false)
     }
 
-    fn keep(&self, common: Option<Box<Common>>) {
-        if let Some(common) = common {
+    /// Leaves the world to others.
+    fn release(&mut self) {
+        self.runs.vacate();
+        if let Some(common) = self.runs.common.take() {
             self.worlds.put_back(common);
         }
     }
 
     /// Ends the run in a place before its time.
     pub fn leave(&mut self, place: usize) {
-        self.runs[place] = None;
+        self.runs.put(place, None);
     }
 
     /// Steps the ocean and all runs until some of them ask; returns the questions, by place. Those left open by the
@@ -208,24 +223,19 @@ impl Shared {
     /// The same for each run that asks or has ended in this call, while the ocean is with it: `see` gets its place, the
     /// run and its questions.
     pub fn pass(&mut self, mut see: impl FnMut(usize, &Trial, Vec<Question>)) {
-        // There was one when the runs began. Whoever has no world then fails and says so.
-        let mut common = self.common().unwrap_or_default();
-        for run in self.runs.iter_mut().flatten().filter(|r| r.at == At::Asked) {
-            run.at = At::Acted;
-            run.with(&mut common, &mut self.ocean, |trial| {
-                trial.search(&mut Unwatched)
-            });
+        // There was a world when the runs began. Whoever has none now fails and says so.
+        let _ = self.hold();
+        for place in self.are_at(At::Asked) {
+            self.stands(place, At::Acted);
+            self.turn(place, |trial| trial.search(&mut Unwatched));
         }
         let mut asked = false;
-        while !asked && self.runs.iter().flatten().any(|r| r.at == At::Acted) {
+        while !asked && !self.are_at(At::Acted).is_empty() {
             self.pass_step();
             let quiet = self.quiet_steps();
             let mut reached = self.clock.step;
-            for (place, run) in self.runs.iter_mut().enumerate() {
-                let Some(run) = run.as_mut().filter(|r| r.at == At::Acted) else {
-                    continue;
-                };
-                let at = run.with(&mut common, &mut self.ocean, |trial| {
+            for place in self.are_at(At::Acted) {
+                let at = self.turn(place, |trial| {
                     let mut at = At::Over;
                     through(trial, quiet, |trial| {
                         let questions;
@@ -242,14 +252,15 @@ impl Shared {
                     reached = reached.max(trial.simulation.clock().step);
                     at
                 });
-                run.at = at.unwrap_or(At::Over);
-                asked |= run.at == At::Asked;
+                let at = at.unwrap_or(At::Over);
+                self.stands(place, at);
+                asked |= at == At::Asked;
             }
             self.clock.step = reached;
             let t_s = self.clock.t_s();
             self.ocean.as_mut().expect(BACK).look_at(t_s);
         }
-        self.keep(common);
+        self.release();
     }
 
     /// Steps after the present one in which the ocean rests and nobody asks before the last of them.
@@ -266,7 +277,7 @@ impl Shared {
     /// # Panics
     /// If a run goes on in it.
     pub fn wait_for(&mut self, step: u64) {
-        let idle = self.runs.iter().flatten().all(|r| r.at == At::Over);
+        let idle = self.runs.all.iter().flatten().all(|r| r.at == At::Over);
         assert!(idle, "the ocean waits only while nobody is in it");
         while self.clock.step < step {
             self.pass_step();
@@ -287,48 +298,50 @@ impl Shared {
     /// Answers an open question of a robot in a place; `None` if there is none. With the last answer the run goes on
     /// to the next step of the ocean.
     pub fn answer(&mut self, place: usize, robot: &str, heard: Heard) -> Option<Consultation> {
-        self.turn(place, |trial| {
-            let told = trial.answer(robot, heard, &mut Unwatched)?;
-            let acts = !trial.waits();
-            if acts {
-                // Now rather than with all others, because what this run needs is in the processor's caches.
-                trial.search(&mut Unwatched);
-            }
-            Some((told, acts))
-        })
-        .flatten()
-        .map(|(told, acts)| {
-            if acts && let Some(Some(run)) = self.runs.get_mut(place) {
-                run.at = At::Acted;
-            }
-            told
-        })
+        // The world is held until the runs go on: others will be answered, too.
+        let _ = self.hold();
+        let (told, acts) = self
+            .turn(place, |trial| {
+                let told = trial.answer(robot, heard, &mut Unwatched)?;
+                let acts = !trial.waits();
+                if acts {
+                    // Now rather than with all others, because what this run needs is in the processor's caches.
+                    trial.search(&mut Unwatched);
+                }
+                Some((told, acts))
+            })
+            .flatten()?;
+        if acts && self.failure(place).is_none() {
+            self.stands(place, At::Acted);
+        }
+        Some(told)
     }
 
     /// Reads a run with its ocean; `None` if there is none in the place, or if it has failed.
     pub fn look<T>(&mut self, place: usize, look: impl FnOnce(&Trial) -> T) -> Option<T> {
-        self.turn(place, |trial| look(trial))
+        let kept = self.hold().unwrap_or(true);
+        let seen = self.turn(place, |trial| look(trial));
+        if !kept {
+            self.release();
+        }
+        seen
     }
 
     /// Does something while the run in a place has its turn.
     fn turn<T>(&mut self, place: usize, work: impl FnOnce(&mut Trial) -> T) -> Option<T> {
-        let mut common = self.common().unwrap_or_default();
-        let run = self.runs.get_mut(place).and_then(Option::as_mut);
-        let done = run.and_then(|run| run.with(&mut common, &mut self.ocean, work));
-        self.keep(common);
-        done
+        self.runs.turn(place, &mut self.ocean, work)
     }
 
     /// What a run that failed said.
     #[must_use]
     pub fn failure(&self, place: usize) -> Option<&str> {
-        self.runs.get(place)?.as_ref()?.failed.as_deref()
+        self.runs.all.get(place)?.as_ref()?.failed.as_deref()
     }
 
     /// How the run in a place stands.
     #[must_use]
     pub fn standing(&self, place: usize) -> Standing {
-        match self.runs.get(place).and_then(Option::as_ref) {
+        match self.runs.all.get(place).and_then(Option::as_ref) {
             None => Standing::Empty,
             Some(run) if run.failed.is_some() => Standing::Failed,
             Some(run) if run.at == At::Over => Standing::Ended,

@@ -228,6 +228,7 @@ fn a_run_that_panics_in_the_middle_of_a_tick_does_not_touch_the_others() {
         let mut open = begin(&mut shared, 0, 11);
         open.extend(begin(&mut shared, 1, 12));
         if panics {
+            shared.hold().expect("there was one");
             let broken: Option<()> = shared.turn(1, |trial| {
                 // Without its ocean no instrument can be read.
                 let away = crate::ocean::Ocean::away();
