@@ -1,8 +1,8 @@
 //! A world in which several runs of one scenario take turns.
 //!
 //! Systems keep their state, a world its tables; both are the same for all runs of a scenario, and larger than what a
-//! run has of its own. So runs that share an ocean share them, too: a run's own values are exchanged for those in the
-//! world before its turn and after it. Then hundreds of runs fit into the processor's caches.
+//! run has of its own. So runs share them: when a run's turn comes, its own values are exchanged for those of the run
+//! before (file `run`). Then hundreds of runs fit into the processor's caches.
 //!
 //! Systems of other crates may keep values that nobody can exchange. Their runs have worlds of their own.
 
@@ -33,7 +33,7 @@ pub struct Worlds {
 
 /// A world, and the machines in it that the runs exchange.
 pub(super) struct Common {
-    /// What is in the world at the moment: the run that has its turn, or between the turns nobody's.
+    /// What is in the world at the moment: the run that had its turn last, or nobody's.
     trial: Trial,
     robots: Machines<RobotOwn>,
     gantries: Machines<GantryOwn>,
