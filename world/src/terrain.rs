@@ -17,8 +17,8 @@ pub enum Terrain {
     Slope {
         /// Point (east, north) at which the depth is the mean of the two.
         middle: Vector2<f64>,
-        /// Direction in which the water gets shallower.
-        shoreward: Heading,
+        /// Unit vector (east, north) of the direction in which the water gets shallower.
+        shoreward: Vector2<f64>,
         /// Least depth, m.
         shallow_m: f64,
         /// Greatest depth, m.
@@ -40,7 +40,7 @@ impl Terrain {
             .fold(0.0, f64::max);
         Terrain::Slope {
             middle: area.centre,
-            shoreward,
+            shoreward: u,
             shallow_m,
             deep_m,
             run_m: 2.0 * reach,
@@ -59,7 +59,7 @@ impl Terrain {
                 deep_m,
                 run_m,
             } => {
-                let s = (Vector2::new(x, y) - middle).dot(&shoreward.unit()) / run_m + 0.5;
+                let s = (Vector2::new(x, y) - middle).dot(&shoreward) / run_m + 0.5;
                 -(deep_m + (shallow_m - deep_m) * s.clamp(0.0, 1.0))
             }
         }
@@ -92,8 +92,7 @@ impl Terrain {
             ..
         } = self
         {
-            let u = shoreward.unit();
-            let (at, pace) = ((from.xy() - middle).dot(&u), dir.xy().dot(&u));
+            let (at, pace) = ((from.xy() - middle).dot(shoreward), dir.xy().dot(shoreward));
             for (bend, edge) in bends.iter_mut().zip([-0.5 * run_m, 0.5 * run_m]) {
                 let way = (edge - at) / pace;
                 if way > 0.0 && way < max_m {
@@ -162,7 +161,7 @@ mod tests {
     fn rays_end_on_level_slope_and_the_flats_beyond() {
         let t = Terrain::Slope {
             middle: Vector2::zeros(),
-            shoreward: Heading::from_deg(90.0),
+            shoreward: Heading::from_deg(90.0).unit(),
             shallow_m: 4.0,
             deep_m: 8.0,
             run_m: 100.0,

@@ -46,7 +46,7 @@ impl Ground {
             run_m,
         } = *terrain
         {
-            let gradient = shoreward.unit() / run_m;
+            let gradient = shoreward / run_m;
             Self::Plane {
                 part: 0.5 - middle.dot(&gradient),
                 gradient,
@@ -88,7 +88,7 @@ mod tests {
     fn same_bed_as_the_terrain() {
         let terrain = Terrain::Slope {
             middle: Vector2::new(10.0, -40.0),
-            shoreward: Heading::from_deg(250.0),
+            shoreward: Heading::from_deg(250.0).unit(),
             shallow_m: 4.0,
             deep_m: 8.0,
             run_m: 100.0,

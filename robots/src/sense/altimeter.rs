@@ -189,7 +189,7 @@ mod tests {
     fn on_a_slope_the_beam_ends_on_the_bed() {
         let slope = Terrain::Slope {
             middle: Vector2::zeros(),
-            shoreward: Heading::from_deg(0.0),
+            shoreward: Heading::from_deg(0.0).unit(),
             shallow_m: 4.0,
             deep_m: 14.0,
             run_m: 100.0,

@@ -96,7 +96,7 @@ fn noise_and_dropout_are_those_asked_for() {
 fn beams_that_look_down_end_on_the_bed() {
     let slope = Terrain::Slope {
         middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(0.0),
+        shoreward: Heading::from_deg(0.0).unit(),
         shallow_m: 4.0,
         deep_m: 14.0,
         run_m: 100.0,

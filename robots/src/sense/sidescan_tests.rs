@@ -119,7 +119,7 @@ fn on_a_slope_the_bottom_comes_back_from_where_it_is() {
     // Rising to the east by one in ten.
     let slope = Terrain::Slope {
         middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(90.0),
+        shoreward: Heading::from_deg(90.0).unit(),
         shallow_m: 3.0,
         deep_m: 13.0,
         run_m: 100.0,

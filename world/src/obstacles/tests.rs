@@ -90,7 +90,7 @@ fn a_block_stands_on_the_bed_and_turns_with_its_heading() {
 fn no_gap_is_left_on_a_slope() {
     let slope = Terrain::Slope {
         middle: Vector2::zeros(),
-        shoreward: Heading::from_deg(90.0),
+        shoreward: Heading::from_deg(90.0).unit(),
         shallow_m: 4.0,
         deep_m: 8.0,
         run_m: 100.0,
