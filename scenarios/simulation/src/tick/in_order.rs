@@ -68,7 +68,8 @@ pub(super) fn execute(schedule: &mut Schedule, in_order: bool) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use bevy_ecs::prelude::{Commands, IntoScheduleConfigs, Resource};
+    use bevy_ecs::prelude::{IntoScheduleConfigs, Resource};
+    use bevy_ecs::system::Commands;
 
     #[derive(Resource, Default)]
     struct Noted(Vec<u8>);
