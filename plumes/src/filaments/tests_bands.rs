@@ -29,15 +29,21 @@ fn digest(plume: &Plume) -> String {
     digest.hex()
 }
 
-/// A plume off Duck, 400 s old, in small steps of the caller.
-fn off_duck(threads: usize, ask: bool) -> (String, f64) {
-    let mut water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
+/// The water off Duck, and a source that releases so many filaments a second.
+fn begun_off_duck(rate_hz: f64) -> (Water, Plume) {
+    let water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
     let settings = super::PlumeSettings {
         refresh_s: 10.0,
         grid: GridShape::fitting(&duck_area()),
     };
-    let spec = source(0.2, 100.0, 0.001, 0.03);
-    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    let spec = source(0.2, rate_hz, 0.001, 0.03);
+    let plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    (water, plume)
+}
+
+/// A plume off Duck, 400 s old, in small steps of the caller.
+fn off_duck(threads: usize, ask: bool) -> (String, f64) {
+    let (mut water, mut plume) = begun_off_duck(100.0);
     plume.use_threads(super::threads(threads));
     plume.pace(0.0, f64::INFINITY, 5.0);
     let mut felt = 0.0;
@@ -68,13 +74,7 @@ fn neither_questions_nor_threads_change_anything() {
 
 #[test]
 fn while_it_rests_it_can_be_looked_at_in_any_order() {
-    let mut water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = super::PlumeSettings {
-        refresh_s: 10.0,
-        grid: GridShape::fitting(&duck_area()),
-    };
-    let spec = source(0.2, 100.0, 0.001, 0.03);
-    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    let (mut water, mut plume) = begun_off_duck(100.0);
     plume.pace(0.0, f64::INFINITY, 5.0);
     let feel = |plume: &Plume, t_s: f64| {
         assert_eq!(plume.now_s().to_bits(), t_s.to_bits());
@@ -116,13 +116,7 @@ fn a_plume_that_steps_is_not_only_looked_at() {
 
 #[test]
 fn the_columns_around_filaments_hold_the_flow_of_the_period() {
-    let mut water: Water = duck().build(&duck_area(), &duck_bed(), 7).unwrap();
-    let settings = super::PlumeSettings {
-        refresh_s: 10.0,
-        grid: GridShape::fitting(&duck_area()),
-    };
-    let spec = source(0.2, 50.0, 0.001, 0.03);
-    let mut plume = Plume::new(&[spec], &duck_area(), &duck_bed(), 3, settings).unwrap();
+    let (mut water, mut plume) = begun_off_duck(50.0);
     plume.pace(0.0, f64::INFINITY, 5.0);
     for n in 1..=60 {
         water.advance(5.0 * f64::from(n - 1));
