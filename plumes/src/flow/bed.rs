@@ -15,6 +15,7 @@ use world::math;
 use world::ranges::Positive;
 
 use crate::error::PlumeError;
+use crate::flow::number::Number;
 
 /// Von Kármán's constant.
 pub const KARMAN: f64 = 0.4;
@@ -72,31 +73,32 @@ impl BoundaryLayer {
     }
 
     /// ln(top/z0).
-    fn ln_top(&self, top_m: f64) -> f64 {
+    fn ln_top<N: Number>(&self, top_m: N) -> N {
         let (deep_m, ln_deep) = self.deep;
-        if top_m == deep_m {
-            ln_deep
+        if top_m.value() == deep_m {
+            ln_deep.into()
         } else {
-            math::ln(top_m / self.z0)
+            (top_m / self.z0).ln()
         }
     }
 
     /// Height at which the free current is reached in water of this depth, m.
     #[must_use]
-    pub fn top(&self, depth_m: f64) -> f64 {
-        self.delta.min(depth_m).max(3.0 * self.z0)
+    pub fn top<N: Number>(&self, depth_m: N) -> N {
+        let top = N::from(self.delta).least(depth_m);
+        top.greatest(N::from(3.0 * self.z0))
     }
 
     /// Part of the free current that is left at a height above the bed.
     #[must_use]
-    pub fn factor(&self, height_m: f64, depth_m: f64) -> f64 {
+    pub fn factor<N: Number>(&self, height_m: N, depth_m: N) -> N {
         let top = self.top(depth_m);
-        if height_m >= top {
-            1.0
-        } else if height_m <= self.z0 {
-            0.0
+        if height_m.value() >= top.value() {
+            1.0.into()
+        } else if height_m.value() <= self.z0 {
+            0.0.into()
         } else {
-            math::ln(height_m / self.z0) / self.ln_top(top)
+            (height_m / self.z0).ln() / self.ln_top(top)
         }
     }
 

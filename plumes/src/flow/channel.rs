@@ -30,6 +30,7 @@ use crate::flow::bed::KARMAN;
 use crate::flow::catalogue::{CurrentParams, Place};
 use crate::flow::eddies::EddiesSpec;
 use crate::flow::flume::Flume;
+use crate::flow::number::Number;
 use crate::flow::water::Water;
 
 /// Intensities at the bed in units of u_*: along, across, up (Nezu & Nakagawa 1993).
@@ -181,12 +182,12 @@ fn roughness_length(u_star: f64, k_s: f64, nu: f64) -> f64 {
 impl Channel {
     /// Mean speed at a height above the bed, m/s.
     #[must_use]
-    pub fn speed(&self, height_m: f64) -> f64 {
-        let h = height_m.clamp(0.0, self.depth_m);
-        let viscous = self.u_star_m_s * self.u_star_m_s * h / self.viscosity_m2_s;
-        let log = self.u_star_m_s / KARMAN * math::ln((h / self.z0).max(1.0));
+    pub fn speed<N: Number>(&self, height_m: N) -> N {
+        let h = height_m.within(N::from(0.0), N::from(self.depth_m));
+        let viscous = h * (self.u_star_m_s * self.u_star_m_s) / self.viscosity_m2_s;
+        let log = (h / self.z0).greatest(N::from(1.0)).ln() * (self.u_star_m_s / KARMAN);
         // Below its zero the log law, and with it the water, stands still: on a smooth bed, a ninth of a wall unit.
-        viscous.min(log)
+        viscous.least(log)
     }
 
     fn depth_mean(&self) -> f64 {

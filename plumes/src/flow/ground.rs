@@ -7,6 +7,7 @@
 //!
 //! *Deviations*: at least a centimetre of water everywhere, so that a dry corner does not divide by zero.
 
+use crate::flow::number::{Number, along, still};
 use nalgebra::Vector2;
 use world::terrain::Terrain;
 
@@ -14,11 +15,11 @@ const SHALLOWEST_M: f64 = 0.01;
 
 /// The bed under a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Floor {
+pub struct Floor<N = f64> {
     /// Height, m (negative).
-    pub z: f64,
+    pub z: N,
     /// Slope (east, north).
-    pub slope: Vector2<f64>,
+    pub slope: Vector2<N>,
 }
 
 /// A terrain prepared for fast evaluation.
@@ -57,23 +58,29 @@ impl Ground {
         }
     }
 
-    pub(crate) fn floor(&self, p: Vector2<f64>) -> Floor {
+    pub(crate) fn floor<N: Number>(&self, p: Vector2<N>) -> Floor<N> {
         let (z, slope) = match self {
-            Self::Level(z) => (*z, Vector2::zeros()),
+            Self::Level(z) => (N::from(*z), still(Vector2::zeros())),
             Self::Plane { part, gradient, z } => {
-                let s = part + p.dot(gradient);
+                let s = along(*gradient, p) + *part;
                 let rise = z[1] - z[0];
-                let on_slope = if s > 0.0 && s < 1.0 { rise } else { 0.0 };
-                (z[0] + rise * s.clamp(0.0, 1.0), gradient * on_slope)
+                let on_slope = s.value() > 0.0 && s.value() < 1.0;
+                let on_slope = if on_slope { rise } else { 0.0 };
+                (
+                    s.within(N::from(0.0), N::from(1.0)) * rise + z[0],
+                    still(gradient * on_slope),
+                )
             }
             Self::Other(terrain) => {
-                let n = terrain.normal(p.x, p.y);
+                let (x, y) = (p.x.value(), p.y.value());
+                let n = terrain.normal(x, y);
                 let slope = Vector2::new(-n.x / n.z, -n.y / n.z);
-                (terrain.bed_z(p.x, p.y), slope)
+                let z = N::known(terrain.bed_z(x, y), [p.x, p.y], || slope.into());
+                (z, still(slope))
             }
         };
         Floor {
-            z: z.min(-SHALLOWEST_M),
+            z: z.least(N::from(-SHALLOWEST_M)),
             slope,
         }
     }

@@ -19,12 +19,12 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::limits::shown;
-use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::seeds::{Seed, Stream};
 
 use crate::error::PlumeError;
 use crate::flow::ground::Floor;
+use crate::flow::number::{Number, along, still, times};
 
 /// Fastest wave of an interface, m/s.
 const FASTEST_M_S: f64 = 15.0;
@@ -240,14 +240,25 @@ impl InterfaceSpec {
 }
 
 /// Height of a surface that the water follows: level, slope and rate of rise.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Sheet {
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sheet<N = f64> {
     /// Height, m.
-    pub z: f64,
+    pub z: N,
     /// Slope (east, north).
-    pub slope: Vector2<f64>,
+    pub slope: Vector2<N>,
     /// Rate of rise at a fixed place, m/s.
-    pub rate: f64,
+    pub rate: N,
+}
+
+impl<N: Number> Sheet<N> {
+    /// A level surface at rest.
+    pub(super) fn level(z: f64) -> Self {
+        Self {
+            z: z.into(),
+            slope: still(Vector2::zeros()),
+            rate: 0.0.into(),
+        }
+    }
 }
 
 /// Velocity and density at one height, with their vertical gradients.
@@ -265,50 +276,54 @@ pub struct Profile {
 
 /// The layers at one place and time.
 #[derive(Clone, Copy, Debug)]
-pub struct LayeredColumn<'a> {
+pub struct LayeredColumn<'a, N = f64> {
     of: &'a Layered,
-    u: [Vector2<f64>; MAX_LAYERS],
-    faces: [Sheet; MAX_FACES],
+    u: [Vector2<N>; MAX_LAYERS],
+    faces: [Sheet<N>; MAX_FACES],
 }
 
 impl Layered {
     /// The layers over the floor at (east, north) `p` and time `t_s`.
     #[must_use]
-    pub fn column(&self, p: Vector2<f64>, floor: &Floor, t_s: f64) -> LayeredColumn<'_> {
-        let n = self.u.len();
+    pub fn column<N: Number>(
+        &self,
+        p: Vector2<N>,
+        floor: &Floor<N>,
+        t_s: N,
+    ) -> LayeredColumn<'_, N> {
         let mut column = LayeredColumn {
             of: self,
-            u: [Vector2::zeros(); MAX_LAYERS],
-            faces: [Sheet::default(); MAX_FACES],
+            u: [still(Vector2::zeros()); MAX_LAYERS],
+            faces: [Sheet::level(0.0); MAX_FACES],
         };
-        column.u[..n].copy_from_slice(&self.u);
-        let mut ceiling = 0.0;
+        for (u, mean) in column.u.iter_mut().zip(&self.u) {
+            *u = still(*mean);
+        }
+        let mut ceiling = N::from(0.0);
         for (i, face) in self.faces.iter().enumerate() {
             // Mean thicknesses, at least twice the reach of the waves, so that a thin layer does not get too fast.
-            let below = self.faces.get(i + 1).map_or(floor.z, |f| f.z);
+            let below = (self.faces.get(i + 1)).map_or(floor.z, |f| N::from(f.z));
             let above = if i == 0 { 0.0 } else { self.faces[i - 1].z };
-            let least = (2.0 * face.reach).max(GAP * -floor.z);
-            let (h_up, h_low) = ((above - face.z).max(least), (face.z - below).max(least));
-            let mut sheet = Sheet {
-                z: face.z,
-                ..Sheet::default()
-            };
+            let least = N::from(2.0 * face.reach).greatest(-floor.z * GAP);
+            let h_up = N::from(above - face.z).greatest(least);
+            let h_low = (N::from(face.z) - below).greatest(least);
+            let mut sheet = Sheet::level(face.z);
             for w in &face.waves {
-                let (s, c) = math::sin_cos(w.k.dot(&p) - w.omega * t_s + w.phase);
-                let rise = w.amplitude * s;
+                let (s, c) = (along(w.k, p) - t_s * w.omega + w.phase).sin_cos();
+                let rise = s * w.amplitude;
                 sheet.z += rise;
-                sheet.slope += w.k * (w.amplitude * c);
-                sheet.rate -= w.omega * w.amplitude * c;
+                sheet.slope += times(w.k, c * w.amplitude);
+                sheet.rate -= c * (w.omega * w.amplitude);
                 let (up, low) = (self.u[i].dot(&w.travels), self.u[i + 1].dot(&w.travels));
-                column.u[i] -= w.travels * ((w.speed - up) * rise / h_up);
-                column.u[i + 1] += w.travels * ((w.speed - low) * rise / h_low);
+                column.u[i] -= times(w.travels, rise * (w.speed - up) / h_up);
+                column.u[i + 1] += times(w.travels, rise * (w.speed - low) / h_low);
             }
             // Room for this interface and those below it.
             let lowest = 1.0 - GAP * (self.faces.len() - i) as f64;
             let highest = ceiling + GAP;
-            let part = if sheet.z < lowest * floor.z {
-                Some(lowest)
-            } else if sheet.z > highest * floor.z {
+            let part = if sheet.z.value() < lowest * floor.z.value() {
+                Some(N::from(lowest))
+            } else if sheet.z.value() > (highest * floor.z).value() {
                 Some(highest)
             } else {
                 None
@@ -317,7 +332,7 @@ impl Layered {
                 sheet = Sheet {
                     z: part * floor.z,
                     slope: floor.slope * part,
-                    rate: 0.0,
+                    rate: 0.0.into(),
                 };
             }
             ceiling = sheet.z / floor.z;

@@ -30,6 +30,7 @@ use world::seeds::{Seed, Stream};
 use crate::error::PlumeError;
 use crate::flow::catalogue::{CurrentParams, Place};
 use crate::flow::coloured_noise::{ColouredNoise, NoiseStep};
+use crate::flow::number::{Number, along, times};
 use crate::flow::solenoidal::Solenoidal;
 use crate::flow::water::Water;
 
@@ -278,17 +279,18 @@ impl Meander {
 
     /// Velocity at (east, north), m/s.
     #[must_use]
-    pub fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64> {
-        let at = (t_s / self.dt_s - self.first as f64).clamp(0.0, (self.levels.len() - 1) as f64);
-        let k = (at as usize).min(self.levels.len() - 2);
-        let [along, across] = self.axes;
-        let d = p - self.centre;
+    pub fn velocity<N: Number>(&self, p: Vector2<N>, t_s: N) -> Vector2<N> {
+        let last = N::from((self.levels.len() - 1) as f64);
+        let at = (t_s / self.dt_s - self.first as f64).within(N::from(0.0), last);
+        let k = (at.value() as usize).min(self.levels.len() - 2);
+        let d = Vector2::new(p.x - self.centre.x, p.y - self.centre.y);
+        let local = |n: usize| along(self.axes[n], d) + self.half[n];
         let u = self.grid.velocity(
-            Vector2::new(d.dot(&along), d.dot(&across)) + self.half,
+            Vector2::new(local(0), local(1)),
             [&self.levels[k], &self.levels[k + 1]],
             at - k as f64,
         );
-        along * u.x + across * u.y
+        times(self.axes[0], u.x) + times(self.axes[1], u.y)
     }
 }
 

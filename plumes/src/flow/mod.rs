@@ -13,7 +13,10 @@ pub mod ground;
 pub mod layered;
 pub mod meander;
 pub mod mixing;
+pub mod number;
 mod solenoidal;
+#[cfg(test)]
+mod tests_sample;
 #[cfg(test)]
 mod tests_sea;
 #[cfg(test)]

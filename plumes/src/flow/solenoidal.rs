@@ -10,6 +10,8 @@
 
 use nalgebra::Vector2;
 
+use crate::flow::number::Number;
+
 /// Projector for one rectangle of `cells` of size `h`.
 #[derive(Clone, Debug)]
 pub(crate) struct Solenoidal {
@@ -25,11 +27,12 @@ pub(crate) struct Solenoidal {
 }
 
 /// The three splines that are not zero in a cell, or their slopes per cell, at t in [0, 1].
-fn splines(t: f64) -> ([f64; 3], [f64; 3]) {
-    let r = 1.0 - t;
+fn splines<N: Number>(t: N) -> ([N; 3], [N; 3]) {
+    let one = N::from(1.0);
+    let r = one - t;
     (
-        [0.5 * r * r, 0.5 + t * r, 0.5 * t * t],
-        [-r, 1.0 - 2.0 * t, t],
+        [r * 0.5 * r, t * r + 0.5, t * 0.5 * t],
+        [-r, one - t * 2.0, t],
     )
 }
 
@@ -186,21 +189,22 @@ impl Solenoidal {
 
     /// Velocity at a place (m from the rectangle's corner), interpolated between two sets of coefficients at part `f`.
     #[inline]
-    pub(crate) fn velocity(&self, p: Vector2<f64>, c: [&[f64]; 2], f: f64) -> Vector2<f64> {
+    pub(crate) fn velocity<N: Number>(&self, p: Vector2<N>, c: [&[f64]; 2], f: N) -> Vector2<N> {
+        let zero = N::from(0.0);
         let place = |d: usize| {
-            let s = (p[d] / self.h[d]).clamp(0.0, self.cells[d] as f64);
-            let i = (s as usize).min(self.cells[d] - 1);
+            let s = (p[d] / self.h[d]).within(zero, N::from(self.cells[d] as f64));
+            let i = (s.value() as usize).min(self.cells[d] - 1);
             (i, s - i as f64)
         };
         let ((i, s), (j, t)) = (place(0), place(1));
         let ((bx, dx), (by, dy)) = (splines(s), splines(t));
-        let mut u = Vector2::<f64>::zeros();
+        let mut u = Vector2::new(zero, zero);
         for a in 0..3 {
             let at = (i + a) * (self.cells[1] + 2) + j;
             let (c0, c1) = (&c[0][at..at + 3], &c[1][at..at + 3]);
-            let (mut value, mut slope) = (0.0, 0.0);
+            let (mut value, mut slope) = (zero, zero);
             for b in 0..3 {
-                let k = c0[b] + f * (c1[b] - c0[b]);
+                let k = f * (c1[b] - c0[b]) + c0[b];
                 value += k * by[b];
                 slope += k * dy[b];
             }

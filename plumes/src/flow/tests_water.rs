@@ -248,29 +248,6 @@ fn divergence_is_what_the_files_say() {
     );
 }
 
-/// The overridden method gives the same as central differences of the velocity.
-#[test]
-fn sample_agrees_with_plain_differences() {
-    struct Plain(Water);
-    impl Flow for Plain {
-        fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-            self.0.velocity(p, t_s)
-        }
-        fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
-            self.0.density(p, t_s)
-        }
-    }
-    let w = build(&duck());
-    let plain = Plain(w.clone());
-    for p in places(50) {
-        let p = Vector3::new(p.x, p.y, -2.0);
-        let (a, b) = (w.sample(&p, 1.0), plain.sample(&p, 1.0));
-        assert_eq!((a.velocity, a.density_kg_m3), (b.velocity, b.density_kg_m3));
-        // The same differences, divided in another order.
-        assert!((a.gradient - b.gradient).norm() < 1e-12 && (a.rate - b.rate).norm() < 1e-12);
-    }
-}
-
 #[test]
 fn mixing_is_never_negative_and_ends_at_the_bed() {
     let w = build(&duck());

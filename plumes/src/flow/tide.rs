@@ -17,12 +17,12 @@ use nalgebra::Vector2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use world::catalogue::Entry;
-use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::registry::Listed;
 
 use crate::error::PlumeError;
 use crate::flow::catalogue::{CurrentParams, Place};
+use crate::flow::number::{Number, still, times};
 use crate::flow::water::Water;
 
 /// The tide's current: a sum of constituents.
@@ -135,12 +135,13 @@ impl TideSpec {
 impl Tide {
     /// (east, north) above the bed's boundary layer, m/s.
     #[must_use]
-    pub fn velocity(&self, t_s: f64) -> Vector2<f64> {
+    pub fn velocity<N: Number>(&self, t_s: N) -> Vector2<N> {
         let of = |c: &Constituent| {
-            let (sin, cos) = math::sin_cos(c.omega_rad_s * t_s - c.phase_rad);
-            c.major * cos + c.minor * sin
+            let (sin, cos) = (t_s * c.omega_rad_s - c.phase_rad).sin_cos();
+            times(c.major, cos) + times(c.minor, sin)
         };
-        self.constituents.iter().map(of).sum()
+        let parts = self.constituents.iter().map(of);
+        parts.fold(still(Vector2::zeros()), |sum, u| sum + u)
     }
 }
 

@@ -43,6 +43,7 @@ use crate::flow::ground::{Floor, Ground};
 use crate::flow::layered::{Layered, LayeredColumn};
 use crate::flow::meander::Meander;
 use crate::flow::mixing::MixingSpec;
+use crate::flow::number::{Number, still};
 use crate::flow::tide::Tide;
 use crate::flow::waves::Waves;
 
@@ -96,12 +97,12 @@ pub struct Water {
 
 /// The water over one place at one time; cheap to evaluate at many heights.
 #[derive(Clone, Copy, Debug)]
-pub struct Column<'a> {
+pub struct Column<'a, N = f64> {
     water: &'a Water,
-    floor: Floor,
+    floor: Floor<N>,
     // Part of the current that is the same at all heights.
-    plane: Vector2<f64>,
-    layers: Option<LayeredColumn<'a>>,
+    plane: Vector2<N>,
+    layers: Option<LayeredColumn<'a, N>>,
 }
 
 impl WaterSpec {
@@ -254,15 +255,15 @@ impl Water {
 
     /// The water over (east, north) `p` at time `t_s`, its velocity as it would be without obstacles.
     #[must_use]
-    pub fn column(&self, p: Vector2<f64>, t_s: f64) -> Column<'_> {
+    pub fn column<N: Number>(&self, p: Vector2<N>, t_s: N) -> Column<'_, N> {
         let floor = self.ground.floor(p);
         let tides = self.tides.iter().map(|t| t.velocity(t_s));
         let wandering = tides.chain(self.meanders.iter().map(|m| m.velocity(p, t_s)));
-        let wandering = wandering.chain(self.others.iter().map(|o| o.velocity(p, t_s)));
+        let wandering = wandering.chain(self.others.iter().map(|o| other(&**o, p, t_s)));
         Column {
             water: self,
             floor,
-            plane: wandering.fold(self.uniform, |sum, u| sum + u),
+            plane: wandering.fold(still(self.uniform), |sum, u| sum + u),
             layers: self.layered.as_ref().map(|l| l.column(p, &floor, t_s)),
         }
     }
@@ -276,4 +277,26 @@ impl Water {
         let channel = self.channel().map(|c| c.along * c.mean_m_s);
         mean + channel.unwrap_or_default()
     }
+}
+
+/// A current of which only values are known, as numbers that may ask for its slopes.
+fn other<N: Number>(current: &dyn PlaneCurrent, p: Vector2<N>, t_s: N) -> Vector2<N> {
+    /// Small compared with a current's scales, large compared with rounding at places of 10³ m; m and s.
+    const H: f64 = 1e-3;
+    let place = Vector2::new(p.x.value(), p.y.value());
+    let (now_s, here) = (t_s.value(), current.velocity(place, t_s.value()));
+    let part = |d: usize| {
+        N::known(here[d], [p.x, p.y, t_s], || {
+            let at = |dx: f64, dy: f64, dt: f64| {
+                current.velocity(place + Vector2::new(dx, dy), now_s + dt)[d]
+            };
+            let back = H.min(now_s);
+            [
+                (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) / (2.0 * H),
+                (at(0.0, H, 0.0) - at(0.0, -H, 0.0)) / (2.0 * H),
+                (at(0.0, 0.0, H) - at(0.0, 0.0, -back)) / (H + back),
+            ]
+        })
+    };
+    Vector2::new(part(0), part(1))
 }

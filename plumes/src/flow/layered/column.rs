@@ -8,16 +8,62 @@
 
 use super::{LayeredColumn, Profile, Sheet};
 use crate::flow::ground::Floor;
+use crate::flow::number::Number;
 use nalgebra::Vector2;
-use world::math;
 
-impl LayeredColumn<'_> {
+impl<N: Number> LayeredColumn<'_, N> {
     /// The interfaces, top first.
     #[must_use]
-    pub fn faces(&self) -> &[Sheet] {
+    pub fn faces(&self) -> &[Sheet<N>] {
         &self.faces[..self.of.faces.len()]
     }
 
+    /// The share of the layer above an interface in the water at a height.
+    fn share(&self, face: usize, z: N) -> N {
+        // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
+        let x = (z - self.faces[face].z) / self.of.faces[face].thickness;
+        N::from(1.0) / ((x * -4.0).exp() + 1.0)
+    }
+
+    /// Horizontal velocity at a height, m/s: that of [`LayeredColumn::profile`], without the rest.
+    #[must_use]
+    pub fn velocity(&self, z: N) -> Vector2<N> {
+        let n = self.of.u.len();
+        (0..n - 1).fold(self.u[n - 1], |u, i| {
+            u + (self.u[i] - self.u[i + 1]) * self.share(i, z)
+        })
+    }
+
+    /// Density at a height, kg/m³: that of [`LayeredColumn::profile`], without the rest.
+    #[must_use]
+    pub fn density(&self, z: N) -> f64 {
+        let rho = &self.of.density;
+        (0..rho.len() - 1).fold(rho[rho.len() - 1], |density, i| {
+            density + (rho[i] - rho[i + 1]) * self.share(i, z).value()
+        })
+    }
+
+    /// The layer-following surface through a height between floor and surface: linear between bed, interfaces and
+    /// surface.
+    #[must_use]
+    pub fn sheet(&self, z: N, floor: &Floor<N>) -> Sheet<N> {
+        let mut upper = Sheet::level(0.0);
+        for lower in self.faces() {
+            if z.value() >= lower.z.value() {
+                return between(lower, &upper, z);
+            }
+            upper = *lower;
+        }
+        let bed = Sheet {
+            z: floor.z,
+            slope: floor.slope,
+            rate: 0.0.into(),
+        };
+        between(&bed, &upper, z)
+    }
+}
+
+impl LayeredColumn<'_> {
     /// Height of the lowest interface across which the density changes, m. It limits the turbulence of the bed from
     /// above.
     #[must_use]
@@ -27,22 +73,6 @@ impl LayeredColumn<'_> {
             .rev()
             .find(|&i| rho[i] < rho[i + 1]);
         lowest.map(|i| self.faces[i].z)
-    }
-
-    /// The share of the layer above an interface in the water at a height.
-    fn share(&self, face: usize, z: f64) -> f64 {
-        // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
-        let x = (z - self.faces[face].z) / self.of.faces[face].thickness;
-        1.0 / (1.0 + math::exp(-4.0 * x))
-    }
-
-    /// Horizontal velocity at a height, m/s: that of [`Self::profile`], without the rest.
-    #[must_use]
-    pub fn velocity(&self, z: f64) -> Vector2<f64> {
-        let n = self.of.u.len();
-        (0..n - 1).fold(self.u[n - 1], |u, i| {
-            u + (self.u[i] - self.u[i + 1]) * self.share(i, z)
-        })
     }
 
     /// Velocity, density and gradients at a height, m.
@@ -67,28 +97,9 @@ impl LayeredColumn<'_> {
         }
         p
     }
-
-    /// The layer-following surface through a height between floor and surface: linear between bed, interfaces and
-    /// surface.
-    #[must_use]
-    pub fn sheet(&self, z: f64, floor: &Floor) -> Sheet {
-        let mut upper = Sheet::default();
-        for lower in self.faces() {
-            if z >= lower.z {
-                return between(lower, &upper, z);
-            }
-            upper = *lower;
-        }
-        let bed = Sheet {
-            z: floor.z,
-            slope: floor.slope,
-            rate: 0.0,
-        };
-        between(&bed, &upper, z)
-    }
 }
 
-fn between(lower: &Sheet, upper: &Sheet, z: f64) -> Sheet {
+fn between<N: Number>(lower: &Sheet<N>, upper: &Sheet<N>, z: N) -> Sheet<N> {
     let f = (z - lower.z) / (upper.z - lower.z);
     Sheet {
         z,

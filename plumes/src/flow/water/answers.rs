@@ -1,6 +1,7 @@
 //! The trait [`Flow`] for the whole water.
 
 use super::Water;
+use crate::flow::number::Jet;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use world::fields::{Flow, Mixing, SideWalls, WaterSample};
 
@@ -102,8 +103,6 @@ impl Flow for Water {
     }
 
     fn sample(&self, p: &Vector3<f64>, t_s: f64) -> WaterSample {
-        // Small compared with layer thicknesses (0.1 m), large compared with rounding at positions of 10³ m.
-        const H: f64 = 1e-3;
         if let Some(blocked) = &self.blocked
             && let Some((velocity, gradient, rate)) =
                 blocked.sample(p, &self.ground.floor(p.xy()), t_s)
@@ -119,22 +118,15 @@ impl Flow for Water {
             }
             return sample;
         }
-        let here = self.column(p.xy(), t_s);
-        let at = |dx: f64, dy: f64, dt: f64| {
-            let place = Vector2::new(p.x + dx, p.y + dy);
-            self.column(place, t_s + dt).velocity(p.z)
-        };
-        let twice = 1.0 / (2.0 * H);
-        let back = H.min(t_s);
+        let [x, y, z, t] = Jet::coordinates(p, t_s);
+        let column = self.column(Vector2::new(x, y), t);
+        let velocity = column.velocity(z);
+        let slopes = |k: usize| velocity.map(|u| u.slopes[k]);
         let mut sample = WaterSample {
-            velocity: here.velocity(p.z),
-            gradient: Matrix3::from_columns(&[
-                (at(H, 0.0, 0.0) - at(-H, 0.0, 0.0)) * twice,
-                (at(0.0, H, 0.0) - at(0.0, -H, 0.0)) * twice,
-                (here.velocity(p.z + H) - here.velocity(p.z - H)) * twice,
-            ]),
-            rate: (at(0.0, 0.0, H) - at(0.0, 0.0, -back)) / (H + back),
-            density_kg_m3: here.density(p.z),
+            velocity: velocity.map(|u| u.value),
+            gradient: Matrix3::from_columns(&[slopes(0), slopes(1), slopes(2)]),
+            rate: slopes(3),
+            density_kg_m3: column.density(z),
         };
         if let Some(eddies) = self.eddies() {
             eddies.add_to(&mut sample, p, t_s);

@@ -10,8 +10,55 @@ use super::Column;
 use crate::flow::bed::KARMAN;
 use crate::flow::layered::{LayeredColumn, Profile, Sheet};
 use crate::flow::mixing;
+use crate::flow::number::{Number, dot, still, times};
 use nalgebra::{Vector2, Vector3};
 use world::fields::Mixing;
+
+impl<N: Number> Column<'_, N> {
+    /// The part of the layers in the current, m/s.
+    fn layered(&self, z: N) -> Vector2<N> {
+        let layers = self.layers.as_ref();
+        layers.map_or(still(Vector2::zeros()), |layers| layers.velocity(z))
+    }
+
+    pub(super) fn inside(&self, z: N) -> N {
+        z.within(self.floor.z, N::from(0.0))
+    }
+
+    /// Velocity at a height, m/s.
+    #[must_use]
+    pub fn velocity(&self, z: N) -> Vector3<N> {
+        let z = self.inside(z);
+        self.velocity_in(z, self.layered(z))
+    }
+
+    /// Velocity at a height in the water, of which the layers are this part.
+    fn velocity_in(&self, z: N, layered: Vector2<N>) -> Vector3<N> {
+        let bed = self.water.bed;
+        let factor = bed.map_or(N::from(1.0), |bed| {
+            bed.factor(z - self.floor.z, -self.floor.z)
+        });
+        let mut u = (self.plane + layered) * factor;
+        if let Some(flume) = &self.water.flume {
+            u += times(flume.channel.along, flume.channel.speed(z - self.floor.z));
+        }
+        let (slope, rate) = match &self.layers {
+            Some(layers) => {
+                let sheet = layers.sheet(z, &self.floor);
+                (sheet.slope, sheet.rate)
+            }
+            None => (self.floor.slope * (z / self.floor.z), N::from(0.0)),
+        };
+        Vector3::new(u.x, u.y, rate + dot(u, slope))
+    }
+
+    /// Density at a height, kg/m³.
+    #[must_use]
+    pub fn density(&self, z: N) -> f64 {
+        let layers = self.layers.as_ref();
+        layers.map_or(self.water.density, |l| l.density(self.inside(z)))
+    }
+}
 
 impl Column<'_> {
     /// Height of the bed, m.
@@ -31,50 +78,8 @@ impl Column<'_> {
         self.plane + self.layered(z)
     }
 
-    /// The part of the layers in the current, m/s.
-    fn layered(&self, z: f64) -> Vector2<f64> {
-        let layers = self.layers.as_ref();
-        layers.map_or(Vector2::zeros(), |layers| layers.velocity(z))
-    }
-
     pub(super) fn profile(&self, z: f64) -> Option<Profile> {
         self.layers.as_ref().map(|l| l.profile(z))
-    }
-
-    pub(super) fn inside(&self, z: f64) -> f64 {
-        z.clamp(self.floor.z, 0.0)
-    }
-
-    /// Velocity at a height, m/s.
-    #[must_use]
-    pub fn velocity(&self, z: f64) -> Vector3<f64> {
-        let z = self.inside(z);
-        self.velocity_in(z, self.layered(z))
-    }
-
-    /// Velocity at a height in the water, of which the layers are this part.
-    fn velocity_in(&self, z: f64, layered: Vector2<f64>) -> Vector3<f64> {
-        let bed = self.water.bed;
-        let factor = bed.map_or(1.0, |bed| bed.factor(z - self.floor.z, -self.floor.z));
-        let mut u = (self.plane + layered) * factor;
-        if let Some(flume) = &self.water.flume {
-            u += flume.channel.along * flume.channel.speed(z - self.floor.z);
-        }
-        let (slope, rate) = match &self.layers {
-            Some(layers) => {
-                let sheet = layers.sheet(z, &self.floor);
-                (sheet.slope, sheet.rate)
-            }
-            None => (self.floor.slope * (z / self.floor.z), 0.0),
-        };
-        Vector3::new(u.x, u.y, rate + u.dot(&slope))
-    }
-
-    /// Density at a height, kg/m³.
-    #[must_use]
-    pub fn density(&self, z: f64) -> f64 {
-        let layers = self.layers.as_ref();
-        layers.map_or(self.water.density, |l| l.profile(self.inside(z)).density)
     }
 
     /// Friction velocity at the bed, m/s; zero without bed friction.

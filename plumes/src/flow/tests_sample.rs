@@ -1,0 +1,87 @@
+//! A hull's sample of the water beside differences of its velocity.
+
+use nalgebra::{Vector2, Vector3};
+use std::sync::Arc;
+use world::fields::Flow;
+use world::math;
+use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
+use world::terrain::Terrain;
+
+use super::tests_water::{duck, duck_area, duck_bed, places};
+use crate::flow::catalogue::{CurrentSpec, PlaneCurrent};
+use crate::flow::tide::{ConstituentSpec, TideSpec};
+use crate::flow::uniform::UniformSpec;
+use crate::flow::water::Water;
+
+/// A current of which the water knows nothing but its values.
+#[derive(Debug)]
+struct Turning;
+
+impl PlaneCurrent for Turning {
+    fn velocity(&self, p: Vector2<f64>, t_s: f64) -> Vector2<f64> {
+        let (sin, cos) = math::sin_cos(0.01 * p.x - 0.02 * p.y + 0.005 * t_s);
+        Vector2::new(0.1 * sin, 0.05 * cos)
+    }
+}
+
+/// Slopes are those of central differences, and the velocity is the same to the last bit: over a slope and a
+/// level bed, with every kind of current, inside the boundary layer, inside the interface and above it.
+#[test]
+fn sample_agrees_with_differences() {
+    struct Plain(Water);
+    impl Flow for Plain {
+        fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+            self.0.velocity(p, t_s)
+        }
+        fn density(&self, p: &Vector3<f64>, t_s: f64) -> f64 {
+            self.0.density(p, t_s)
+        }
+    }
+    let mut tidal = duck();
+    tidal.currents.push(CurrentSpec::new(TideSpec {
+        constituents: vec![ConstituentSpec {
+            period_h: Positive::new(12.42),
+            major_m_s: NonNegative::new(0.3),
+            minor_m_s: Finite::new(0.1),
+            heading_deg: HeadingDeg::new(30.0),
+            phase_deg: Finite::new(40.0),
+        }],
+    }));
+    tidal.currents.push(CurrentSpec::new(UniformSpec {
+        speed_m_s: NonNegative::new(0.2),
+        heading_deg: HeadingDeg::new(100.0),
+    }));
+    let mut layers_only = duck();
+    layers_only.currents.pop();
+    for (spec, bed) in [
+        (&duck(), duck_bed()),
+        (&tidal, duck_bed()),
+        (&layers_only, Terrain::Level { depth_m: 6.0 }),
+    ] {
+        let mut w = spec.build(&duck_area(), &bed, 7).unwrap();
+        w.add(Arc::new(Turning));
+        // Between two levels of the meander, where its slope in time has no kink.
+        w.advance(301.3);
+        let plain = Plain(w.clone());
+        for (n, p) in places(400).enumerate() {
+            let part = 0.02 + 0.96 * (n as f64 * 0.618_034).fract();
+            let p = Vector3::new(p.x, p.y, w.column(p, 301.3).bed_z() * part);
+            let (a, b) = (w.sample(&p, 301.3), plain.sample(&p, 301.3));
+            assert_eq!((a.velocity, a.density_kg_m3), (b.velocity, b.density_kg_m3));
+            // Differences over 2 mm: their truncation beside the interface and the bed, and at a kink half the step.
+            let scale = 1e-5 * (1.0 + b.gradient.norm());
+            assert!(
+                (a.gradient - b.gradient).norm() < scale,
+                "{p}: {} {}",
+                a.gradient,
+                b.gradient
+            );
+            assert!(
+                (a.rate - b.rate).norm() < 1e-6,
+                "{p}: {} {}",
+                a.rate,
+                b.rate
+            );
+        }
+    }
+}
