@@ -74,12 +74,6 @@ impl Leaf {
 
     /// Works out what follows from the sizes, which `h` and `v` hold until then, of filaments of `kg` each.
     pub(super) fn seal(&mut self, path: Path, kg: f64) {
-        self.h[self.count..].fill(1.0);
-        self.v[self.count..].fill(1.0);
-        for n in 0..self.count {
-            self.reach = self.reach.max(CUT_SIGMAS * self.v[n]);
-            self.highest_bed = self.highest_bed.max(self.bed[n]);
-        }
         match path {
             Path::Portable => seal(self, kg),
             // SAFETY: this variant is only made after the feature was detected.
@@ -125,18 +119,35 @@ fn seal_avx512(leaf: &mut Leaf, kg: f64) {
     seal(leaf, kg);
 }
 
-/// Replaces sizes by factors of exponents, and sets peaks.
+/// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
 #[inline(always)]
+#[expect(
+    clippy::needless_range_loop,
+    reason = "one index into many arrays is what becomes vector code"
+)]
 fn seal(leaf: &mut Leaf, kg: f64) {
+    const LANES: usize = 8;
     let tau = std::f64::consts::TAU;
-    let scale = WITHIN_CUT * tau * tau.sqrt();
-    for n in 0..LEAF {
-        let (sh, sv) = (f64::from(leaf.h[n]), f64::from(leaf.v[n]));
-        leaf.h[n] = (1.0 / (16.0 * sh * sh)) as f32;
-        leaf.v[n] = (1.0 / (16.0 * sv * sv)) as f32;
-        leaf.peak[n] = (kg / (scale * sh * sh * sv)) as f32;
+    let peak_of_one = (kg / (WITHIN_CUT * tau * tau.sqrt())) as f32;
+    let (mut tallest, mut highest) = ([0.0_f32; LANES], [f32::MIN; LANES]);
+    for from in (0..LEAF).step_by(LANES) {
+        for l in 0..LANES {
+            let n = from + l;
+            let used = n < leaf.count;
+            let sh = if used { leaf.h[n] } else { 1.0 };
+            let sv = if used { leaf.v[n] } else { 1.0 };
+            let tall = if used { sv } else { 0.0 };
+            let bed = if used { leaf.bed[n] } else { f32::MIN };
+            tallest[l] = if tall > tallest[l] { tall } else { tallest[l] };
+            highest[l] = if bed > highest[l] { bed } else { highest[l] };
+            leaf.h[n] = 1.0 / (16.0 * sh * sh);
+            leaf.v[n] = 1.0 / (16.0 * sv * sv);
+            let peak = peak_of_one / (sh * sh * sv);
+            leaf.peak[n] = if used { peak } else { 0.0 };
+        }
     }
-    leaf.peak[leaf.count..].fill(0.0);
+    leaf.reach = CUT_SIGMAS * tallest.into_iter().fold(0.0, f32::max);
+    leaf.highest_bed = highest.into_iter().fold(f32::MIN, f32::max);
 }
 
 #[cfg(target_arch = "x86_64")]

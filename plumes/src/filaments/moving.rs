@@ -4,7 +4,7 @@
 //!
 //! *Parameters*: none.
 //!
-//! *Deviations*: on the straight way over a bed that is not straight, a filament is raised to the bed.
+//! *Deviations*: the bed rises evenly between those under both ends of the way.
 
 use super::bands::{Moment, Span};
 use super::leaf::{LEAF, Leaf};
@@ -13,12 +13,14 @@ use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
 use crate::path::Path;
+use std::ops::Range;
 
 /// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]
 pub(super) struct Moving {
-    start: [[f32; LEAF]; 3],
-    end: [[f32; LEAF]; 3],
+    /// East, north, up, and the bed.
+    start: [[f32; LEAF]; 4],
+    end: [[f32; LEAF]; 4],
     born_s: [f64; LEAF],
     /// Variance by which each is wider for its own entrainment, m², of a buoyant release.
     grown_m2: Option<[f32; LEAF]>,
@@ -26,25 +28,32 @@ pub(super) struct Moving {
 }
 
 impl Moving {
-    /// Members of a group that begins at `from`.
-    pub(super) fn new(s: &Store, from: usize, members: &[u16]) -> Self {
+    /// These members of a store.
+    pub(super) fn new(s: &Store, lookup: &Lookup, members: Range<usize>) -> Self {
+        let n = members.len();
         let mut this = Self {
-            start: [[0.0; LEAF]; 3],
-            end: [[0.0; LEAF]; 3],
+            start: [[0.0; LEAF]; 4],
+            end: [[0.0; LEAF]; 4],
             born_s: [f64::NEG_INFINITY; LEAF],
-            grown_m2: s.rise.as_ref().map(|_| [0.0; LEAF]),
-            count: members.len(),
+            grown_m2: None,
+            count: n,
         };
-        for (l, m) in members.iter().enumerate() {
-            let i = from + usize::from(*m);
-            for (d, (start, end)) in s.start.iter().zip([&s.x, &s.y, &s.z]).enumerate() {
-                (this.start[d][l], this.end[d][l]) = (start[i], end[i]);
-            }
-            this.born_s[l] = s.born_s[i];
-            if let (Some(grown), Some(rise)) = (&mut this.grown_m2, &s.rise) {
-                grown[l] = rise.grown_m2[i];
-            }
+        for (to, from) in this.start.iter_mut().zip(&s.start) {
+            to[..n].copy_from_slice(&from[members.clone()]);
         }
+        for (to, from) in this.end.iter_mut().zip([&s.x, &s.y, &s.z, &s.bed]) {
+            to[..n].copy_from_slice(&from[members.clone()]);
+        }
+        let [x, y, _, bed] = &mut this.start;
+        for ((bed, x), y) in bed.iter_mut().zip(x).zip(y).take(n) {
+            *bed = lookup.bed(lookup.column(*x, *y));
+        }
+        this.born_s[..n].copy_from_slice(&s.born_s[members.clone()]);
+        this.grown_m2 = s.rise.as_ref().map(|rise| {
+            let mut grown = [0.0; LEAF];
+            grown[..n].copy_from_slice(&rise.grown_m2[members]);
+            grown
+        });
         this
     }
 
@@ -83,14 +92,13 @@ impl Moving {
     }
 
     /// Those that are released at a moment, not [sealed](Leaf::seal) yet.
-    pub(super) fn leaf(&self, path: Path, lookup: &Lookup, size: &Size, moment: &Moment) -> Leaf {
+    pub(super) fn leaf(&self, path: Path, size: &Size, moment: &Moment) -> Leaf {
         let mut leaf = Leaf::new();
         let (parts, count) = self.parts(moment);
         leaf.count = count;
         let way = Way {
             moving: self,
             parts,
-            lookup,
             size,
             now_s: moment.now_s,
         };
@@ -112,7 +120,6 @@ struct Way<'a> {
     moving: &'a Moving,
     /// The part of its way that each filament has gone.
     parts: [f32; LEAF],
-    lookup: &'a Lookup,
     size: &'a Size,
     now_s: f64,
 }
@@ -174,24 +181,14 @@ fn fill(way: &Way, leaf: &mut Leaf) {
     let Way {
         moving: m,
         parts,
-        lookup,
         size,
         now_s,
     } = way;
-    for (d, to) in [&mut leaf.x, &mut leaf.y, &mut leaf.z]
-        .into_iter()
-        .enumerate()
-    {
+    let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z, &mut leaf.bed];
+    for (d, to) in places.into_iter().enumerate() {
         for l in 0..LEAF {
             to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
         }
-    }
-    let mut at = [super::lookup::Column::default(); LEAF];
-    for l in 0..LEAF {
-        at[l] = lookup.column(leaf.x[l], leaf.y[l]);
-    }
-    for l in 0..LEAF {
-        leaf.bed[l] = lookup.bed(at[l]);
     }
     for l in 0..LEAF {
         let (z, bed) = (leaf.z[l], leaf.bed[l]);
@@ -217,8 +214,8 @@ mod tests {
     /// A leaf on its way from one place to another, the last filaments released within the step.
     fn moving() -> Moving {
         let mut new = Moving {
-            start: [[0.0; LEAF]; 3],
-            end: [[0.0; LEAF]; 3],
+            start: [[0.0; LEAF]; 4],
+            end: [[0.0; LEAF]; 4],
             born_s: [f64::NEG_INFINITY; LEAF],
             grown_m2: None,
             count: 30,
@@ -236,7 +233,7 @@ mod tests {
         new
     }
 
-    fn add(mut to: [[f32; LEAF]; 3], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 3] {
+    fn add(mut to: [[f32; LEAF]; 4], l: usize, p: [f32; 3]) -> [[f32; LEAF]; 4] {
         for (axis, v) in to.iter_mut().zip(p) {
             axis[l] = v;
         }

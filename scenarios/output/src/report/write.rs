@@ -1,6 +1,7 @@
 //! Writes everything that a run leaves into one folder.
 
 use super::{film, html};
+use crate::charts::png;
 use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
@@ -8,6 +9,7 @@ use crate::results::{RunReport, belief_track, odour};
 use rheotaxis::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::thread;
 use world::area::Area;
 use world::files::Folder;
 
@@ -34,18 +36,22 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
             kept.write(&format!("odour-{name}.csv"), csv.as_bytes());
         }
     }
+    let figures = figures(run);
+    // The pictures are painted while the animation is made.
+    let (film, painted) = thread::scope(|scope| {
+        let painter = scope.spawn(|| figures.iter().map(Figure::png).collect::<Vec<_>>());
+        let film = guarded(|| film::film(run));
+        (film, painter.join().expect("each picture is guarded"))
+    });
     let mut shown = Vec::new();
-    for Figure { name, title, svg } in figures(run) {
-        match svg {
-            Ok(svg) => {
-                kept.figure(&name, &svg);
-                shown.push((title, svg));
-            }
-            Err(cause) => kept.draw(&format!("{name}.png"), Err(cause)),
+    for (Figure { name, title, svg }, png) in figures.into_iter().zip(painted) {
+        if let Ok(svg) = svg {
+            kept.write(&format!("{name}.svg"), svg.as_bytes());
+            shown.push((title, svg));
         }
+        kept.draw(&format!("{name}.png"), png);
     }
     // A broken animation is no reason to lose the page.
-    let film = guarded(|| film::film(run));
     let film = match film.transpose() {
         Some(Ok(film)) => Some(film),
         Some(Err(cause)) => {
@@ -79,6 +85,11 @@ pub struct Figure {
 impl Figure {
     fn new(name: String, title: String, svg: Result<String, String>) -> Self {
         Self { name, title, svg }
+    }
+
+    /// The drawing as PNG, or the reason why there is none.
+    fn png(&self) -> Result<Vec<u8>, String> {
+        guarded(|| png(self.svg.as_deref().map_err(String::clone)?)).flatten()
     }
 }
 
