@@ -1,17 +1,17 @@
-//! Finds the filaments that contribute at a point: groups in the order of release, divided into leaves.
+//! Finds the filaments that contribute at a point: groups in the order of release, scanned or divided into leaves.
 //!
-//! *Source*: bounding boxes of two levels, as in a packed R-tree (Roussopoulos & Leifker 1985, Proc. SIGMOD, 17), packed
-//! by time of release.
+//! *Source*: none.
 //!
-//! *Parameters*: 1024 filaments in a group, 32 in a leaf; speed in `benches/filaments.rs`.
+//! *Parameters*: see `group` and `part`; speed in `benches/filaments.rs`.
 //!
-//! *Deviations*: neighbours in the order of release are neighbours in the water, so nothing is sorted, and most groups
-//! are never near a robot. Bounds hold for the whole step that the filaments take; only the leaves that are asked for
-//! are worked out for the time of the question. Answers do not depend on earlier questions, so a viewer that asks too
-//! changes nothing.
+//! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
+//! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or halved repeatedly
+//! (`part`) once it is asked often. The bounds hold for the whole step that the filaments take. Both ways of searching
+//! give the same sum to the last bit (`felt`), so answers do not depend on earlier questions, and a viewer that asks
+//! too changes nothing.
 
 use super::bands::{Bands, MOST};
-use super::group::{Asked, GROUP, Group};
+use super::group::{GROUP, Group};
 use super::image::Spot;
 pub use super::leaf::CUT_SIGMAS;
 use super::lookup::Lookup;
@@ -81,22 +81,13 @@ impl Index {
         let Some(spot) = Spot::new(q.room, q.lookup, p, q.reach()) else {
             return 0.0;
         };
-        let p = spot.p;
         self.asked.get_or_init(|| ());
         let mut total = 0.0;
         for (s, bands) in q.stores.iter().zip(&self.stores) {
             for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
                 let groups = groups.get_or_init(|| q.groups(s, band));
-                let asked = Asked {
-                    p,
-                    spot: &spot,
-                    q,
-                    s,
-                    moment: q.bands.moment(band, q.now_s),
-                    axes: groups.axes,
-                };
                 for group in &groups.all {
-                    total += group.felt(&asked);
+                    total += group.felt(q, &spot, s, band, groups.axes);
                 }
             }
         }
@@ -112,15 +103,14 @@ impl Question<'_> {
         f64::from(CUT_SIGMAS * 1.000_01 * largest)
     }
 
-    /// The groups of a band. `steepest` is the slope of bed and solids: over a steep slope, a filament near a wall is
-    /// felt over a larger range of heights. 0 without walls.
+    /// The groups of a band.
     fn groups(&self, s: &Store, band: usize) -> Groups {
-        let (range, steepest) = (s.band(band, self.bands), self.room.steepness());
+        let range = s.band(band, self.bands);
         let end_s = self.bands.span(band).to_s.max(self.now_s);
         let mut all = Vec::with_capacity(range.len().div_ceil(GROUP));
         for from in range.clone().step_by(GROUP) {
             let members = from..range.end.min(from + GROUP);
-            all.push(Group::new(s, members, end_s, steepest));
+            all.push(Group::new(self, s, members, end_s));
         }
         let mut axes = [0, 1, 2];
         if !range.is_empty() {

@@ -20,8 +20,18 @@ pub const CUT_SIGMAS: f32 = 4.0;
 /// Part of the mass within the cut: erf(4/√2) − √(2/π)·4·e⁻⁸.
 const WITHIN_CUT: f64 = 0.998_865_98;
 
+/// Most quanta in a filament's peak: with its images it has less than 2⁵¹. Only in water less deep than two filaments
+/// are high could there be more.
+pub(super) const MOST: f32 = 281_474_976_710_656.0;
+
 /// Filaments in a leaf.
 pub(super) const LEAF: usize = 32;
+
+/// Concentration at the centre of a filament of `kg` with horizontal and vertical sizes (m), kg/m³.
+pub(super) fn peak(kg: f64, [horizontal, vertical]: [f64; 2]) -> f64 {
+    let tau = std::f64::consts::TAU;
+    kg / (WITHIN_CUT * tau * tau.sqrt() * horizontal * horizontal * vertical)
+}
 
 /// Neighbouring filaments in arrays of fixed length; empty places have no mass.
 #[derive(Clone, Debug)]
@@ -33,7 +43,7 @@ pub(super) struct Leaf {
     /// 1 / (16 σ²), horizontal and vertical, because exponents are computed as eighths. Until it is sealed: the sizes.
     pub(super) h: [f32; LEAF],
     pub(super) v: [f32; LEAF],
-    /// Concentration at the centre, kg/m³.
+    /// Concentration at the centre, in quanta.
     peak: [f32; LEAF],
     pub(super) count: usize,
     /// Greatest vertical reach, m; highest bed, m; least depth, m.
@@ -72,7 +82,8 @@ impl Leaf {
         self.count = to;
     }
 
-    /// Works out what follows from the sizes, which `h` and `v` hold until then, of filaments of `kg` each.
+    /// Works out what follows from the sizes, which `h` and `v` hold until then, of filaments of `kg` each, in which the
+    /// unit of mass is that of a quantum in a m³.
     pub(super) fn seal(&mut self, path: Path, kg: f64) {
         match path {
             Path::Portable => seal(self, kg),
@@ -85,9 +96,9 @@ impl Leaf {
         }
     }
 
-    /// Concentration at a point in the water, kg/m³.
+    /// Concentration at a point in the water, in quanta.
     #[inline]
-    pub(super) fn at(&self, path: Path, p: [f32; 3]) -> f32 {
+    pub(super) fn at(&self, path: Path, p: [f32; 3]) -> i64 {
         let images = if self.reach > -self.highest_bed {
             2
         } else if p[2] - self.highest_bed <= self.reach || -p[2] <= self.reach {
@@ -127,8 +138,7 @@ fn seal_avx512(leaf: &mut Leaf, kg: f64) {
 )]
 fn seal(leaf: &mut Leaf, kg: f64) {
     const LANES: usize = 8;
-    let tau = std::f64::consts::TAU;
-    let peak_of_one = (kg / (WITHIN_CUT * tau * tau.sqrt())) as f32;
+    let peak_of_one = peak(kg, [1.0; 2]) as f32;
     let (mut tallest, mut highest) = ([0.0_f32; LANES], [f32::MIN; LANES]);
     for from in (0..LEAF).step_by(LANES) {
         for l in 0..LANES {
@@ -143,6 +153,7 @@ fn seal(leaf: &mut Leaf, kg: f64) {
             leaf.h[n] = 1.0 / (16.0 * sh * sh);
             leaf.v[n] = 1.0 / (16.0 * sv * sv);
             let peak = peak_of_one / (sh * sh * sv);
+            let peak = if peak < MOST { peak } else { MOST };
             leaf.peak[n] = if used { peak } else { 0.0 };
         }
     }
@@ -152,18 +163,18 @@ fn seal(leaf: &mut Leaf, kg: f64) {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn sum_avx2(leaf: &Leaf, images: u8, p: [f32; 3]) -> f32 {
+fn sum_avx2(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
     sum(leaf, images, p)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(leaf: &Leaf, images: u8, p: [f32; 3]) -> f32 {
+fn sum_avx512(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
     sum(leaf, images, p)
 }
 
 #[inline(always)]
-fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> f32 {
+fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
     match images {
         0 => sum_with::<0>(leaf, p),
         1 => sum_with::<1>(leaf, p),
@@ -176,9 +187,11 @@ fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> f32 {
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
+fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> i64 {
     const LANES: usize = 8;
-    let mut total = [0.0_f32; LANES];
+    // Added to a number below 2⁵¹, it leaves the nearest whole number in the last bits of the sum.
+    const WHOLE: f64 = 6_755_399_441_055_744.0;
+    let mut total = [0_i64; LANES];
     for from in (0..LEAF).step_by(LANES) {
         for l in 0..LANES {
             let n = from + l;
@@ -196,11 +209,11 @@ fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> f32 {
                     felt += term(z - 2.0 * bed) + term(z + 2.0 * bed);
                 }
             }
-            total[l] += leaf.peak[n] * felt;
+            let whole = f64::from(leaf.peak[n] * felt) + WHOLE;
+            total[l] += (whole.to_bits() - WHOLE.to_bits()).cast_signed();
         }
     }
-    ((total[0] + total[4]) + (total[2] + total[6]))
-        + ((total[1] + total[5]) + (total[3] + total[7]))
+    total.into_iter().sum()
 }
 
 /// exp(−8w) for w ≤ 1, zero beyond.
@@ -249,20 +262,20 @@ mod tests {
         }
         leaf.count = 30;
         let open = leaf.clone();
-        leaf.seal(Path::Portable, 1e-6);
+        leaf.seal(Path::Portable, 1e6);
         for path in Path::all() {
             let mut sealed = open.clone();
-            sealed.seal(path, 1e-6);
+            sealed.seal(path, 1e6);
             assert_eq!(format!("{sealed:?}"), format!("{leaf:?}"), "{path:?}");
         }
         for n in 0..1000 {
             let a = n as f32 * 0.01;
             let p = [a - 3.0, 2.0 - a, -0.004 * a];
-            let portable = leaf.at(Path::Portable, p).to_bits();
+            let portable = leaf.at(Path::Portable, p);
             for path in Path::all() {
-                assert_eq!(leaf.at(path, p).to_bits(), portable, "{path:?}");
+                assert_eq!(leaf.at(path, p), portable, "{path:?}");
             }
         }
-        assert!(leaf.at(Path::Portable, [1.0, -1.0, -1.5]) > 0.0);
+        assert!(leaf.at(Path::Portable, [1.0, -1.0, -1.5]) > 1000);
     }
 }

@@ -13,7 +13,6 @@ use super::rise::widened;
 use super::size::Size;
 use super::store::Store;
 use crate::path::Path;
-use std::ops::Range;
 
 /// Up to [`LEAF`] filaments in the order of release, with both ends of the step that they take.
 #[derive(Clone, Debug)]
@@ -28,32 +27,31 @@ pub(super) struct Moving {
 }
 
 impl Moving {
-    /// These members of a store.
-    pub(super) fn new(s: &Store, lookup: &Lookup, members: Range<usize>) -> Self {
-        let n = members.len();
+    /// Members of a group that begins at `from`.
+    pub(super) fn new(s: &Store, lookup: &Lookup, from: usize, members: &[u16]) -> Self {
         let mut this = Self {
             start: [[0.0; LEAF]; 4],
             end: [[0.0; LEAF]; 4],
             born_s: [f64::NEG_INFINITY; LEAF],
-            grown_m2: None,
-            count: n,
+            grown_m2: s.rise.as_ref().map(|_| [0.0; LEAF]),
+            count: members.len(),
         };
-        for (to, from) in this.start.iter_mut().zip(&s.start) {
-            to[..n].copy_from_slice(&from[members.clone()]);
+        let at = |m: &u16| from + usize::from(*m);
+        let ends = [&s.x, &s.y, &s.z, &s.bed];
+        for (to, of) in this.start.iter_mut().zip(&s.start) {
+            gather(to, of, members.iter().map(at));
         }
-        for (to, from) in this.end.iter_mut().zip([&s.x, &s.y, &s.z, &s.bed]) {
-            to[..n].copy_from_slice(&from[members.clone()]);
+        for (to, of) in this.end.iter_mut().zip(ends) {
+            gather(to, of, members.iter().map(at));
+        }
+        gather(&mut this.born_s, &s.born_s, members.iter().map(at));
+        if let (Some(grown), Some(rise)) = (&mut this.grown_m2, &s.rise) {
+            gather(grown, &rise.grown_m2, members.iter().map(at));
         }
         let [x, y, _, bed] = &mut this.start;
-        for ((bed, x), y) in bed.iter_mut().zip(x).zip(y).take(n) {
+        for ((bed, x), y) in bed.iter_mut().zip(x).zip(y).take(members.len()) {
             *bed = lookup.bed(lookup.column(*x, *y));
         }
-        this.born_s[..n].copy_from_slice(&s.born_s[members.clone()]);
-        this.grown_m2 = s.rise.as_ref().map(|rise| {
-            let mut grown = [0.0; LEAF];
-            grown[..n].copy_from_slice(&rise.grown_m2[members]);
-            grown
-        });
         this
     }
 
@@ -115,6 +113,12 @@ impl Moving {
     }
 }
 
+fn gather<T: Copy>(to: &mut [T; LEAF], of: &[T], members: impl Iterator<Item = usize>) {
+    for (to, m) in to.iter_mut().zip(members) {
+        *to = of[m];
+    }
+}
+
 /// What the places, beds and sizes at a moment follow from.
 struct Way<'a> {
     moving: &'a Moving,
@@ -150,7 +154,7 @@ fn least_avx512(moving: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
 
 /// A coordinate when a part of the way is gone.
 #[inline(always)]
-fn on_way(start: f32, end: f32, part: f32) -> f32 {
+pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
     let on = start + part * (end - start);
     if part < 1.0 { on } else { end }
 }

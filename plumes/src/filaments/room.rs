@@ -107,15 +107,6 @@ impl Room {
         self.cells.is_none() && self.sides.is_none() && self.solids.is_empty()
     }
 
-    /// Steepest slope of the bed that the kernel of a filament near a wall follows; 0 without walls.
-    pub(super) fn steepness(&self) -> f32 {
-        if self.is_open() {
-            0.0
-        } else {
-            self.steepest as f32
-        }
-    }
-
     /// Whether there are walls at which the drift itself does not reflect filaments.
     pub(super) fn has_solids(&self) -> bool {
         self.cells.is_some() || !self.solids.is_empty()

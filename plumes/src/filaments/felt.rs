@@ -1,0 +1,106 @@
+//! What a group of filaments contributes at a point, in whole quanta.
+//!
+//! *Source*: none. Sums of whole numbers do not depend on their order (as in reproducible summation, Demmel & Nguyen
+//! 2015, IEEE Trans. Comput. 64, 2060). So a group may be searched in any way, with the same bits.
+//!
+//! *Parameters*: none.
+//!
+//! *Deviations*: a contribution is rounded to a quantum. It is 2⁻³⁰ of the peak of the group's largest filament or less,
+//! unless the smallest is more than 2¹⁸ times as strong; then it is 2⁻⁴⁸ of the peak of that one.
+
+use super::bands::Moment;
+use super::image::{Felt, Spot};
+use super::index::Question;
+use super::leaf::{Leaf, MOST, peak};
+use super::moving::Moving;
+use super::store::Store;
+
+/// A question to one group.
+pub(super) struct Asked<'a> {
+    pub(super) p: [f32; 3],
+    pub(super) spot: &'a Spot<'a>,
+    pub(super) q: &'a Question<'a>,
+    pub(super) s: &'a Store,
+    pub(super) moment: Moment,
+    /// The first member.
+    pub(super) from: usize,
+    /// Farthest along each axis from which a member is felt, m.
+    pub(super) reach: [f32; 3],
+    /// Quanta in a kg/m³.
+    pub(super) quanta: f64,
+}
+
+/// Filaments at a time, and those that feel a wall and are therefore not in the leaf.
+#[derive(Clone, Debug)]
+pub(super) struct Present {
+    leaf: Leaf,
+    walled: Vec<Felt>,
+}
+
+/// Quanta in the peak of the largest filament, if the smallest allows it.
+const FINE: f64 = 1_073_741_824.0;
+
+/// Quanta in a kg/m³ for filaments of `kg` between these sizes (horizontal and vertical, m): a power of two.
+pub(super) fn quanta(kg: f64, smallest: [f32; 2], largest: [f32; 2]) -> f64 {
+    let [strongest, weakest] = [smallest, largest].map(|size| peak(kg, size.map(f64::from)));
+    let fine = (FINE / weakest).min(f64::from(MOST) / strongest);
+    // Its mantissa is that of one.
+    f64::from_bits(fine.to_bits() & !((1 << 52) - 1))
+}
+
+impl Asked<'_> {
+    /// Whether any of these filaments may contribute.
+    pub(super) fn may_feel(&self, moving: &Moving) -> bool {
+        moving.may_reach(self.q.path, self.p, &self.moment, self.flat_reach())
+    }
+
+    /// Farthest distance in the plane from which a member is felt, m: of a kernel between walls, the diagonal.
+    pub(super) fn flat_reach(&self) -> f32 {
+        self.reach[0]
+    }
+}
+
+impl Present {
+    pub(super) fn of(moving: &Moving, asked: &Asked) -> Self {
+        let Asked { s, q, spot, .. } = asked;
+        let mut leaf = moving.leaf(q.path, &s.size, &asked.moment);
+        let mut walled = Vec::new();
+        if !spot.room.is_open() {
+            leaf.retain(|p, sizes| {
+                let felt = Felt::new(spot.room, spot.lookup, p, sizes, s.filament_kg);
+                let free = felt.is_none();
+                walled.extend(felt);
+                free
+            });
+        }
+        leaf.seal(q.path, s.filament_kg * asked.quanta);
+        Self { leaf, walled }
+    }
+
+    /// Its contribution, in quanta.
+    pub(super) fn felt(&self, asked: &Asked) -> i64 {
+        let walled = self.walled.iter();
+        let walled = walled.map(|felt| (felt.add(asked.spot) * asked.quanta).round() as i64);
+        self.leaf.at(asked.q.path, asked.p) + walled.sum::<i64>()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quanta_are_fine_enough_for_the_weakest_and_not_too_many_for_the_strongest() {
+        for (smallest, largest) in [(0.03_f32, 0.5_f32), (0.03, 6.0), (1e-4, 2.0), (1.0, 1.0)] {
+            let per = quanta(5e-6, [smallest; 2], [largest, largest.min(0.5)]);
+            assert_eq!(per.to_bits() << 12, 0, "a power of two");
+            let weak = peak(5e-6, [f64::from(largest), f64::from(largest.min(0.5))]) * per;
+            let strong = peak(5e-6, [f64::from(smallest); 2]) * per;
+            assert!(
+                strong <= f64::from(MOST) && weak >= 2_f64.powi(6),
+                "{weak} {strong}"
+            );
+            assert!(weak >= 2_f64.powi(29) || strong >= 2_f64.powi(47));
+        }
+    }
+}
