@@ -2,7 +2,7 @@
 //!
 //! *Source*: see `index`.
 //!
-//! *Parameters*: 1024 filaments in a group; a tree from the 33rd question within a step.
+//! *Parameters*: 1024 filaments in a group; a tree from the 33rd question about one time.
 //!
 //! *Deviations*: none.
 
@@ -21,7 +21,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Most filaments in a group.
 pub(super) const GROUP: usize = 1024;
 
-/// To make a tree takes as long as so many questions without one.
+/// To make a tree takes as long as so many questions without one. What it holds of one time is of no use at the next.
 const SCANS: u32 = 32;
 
 /// Up to [`GROUP`] neighbours in the order of release.
@@ -37,7 +37,7 @@ pub(super) struct Group {
     tree: OnceLock<Box<Tree>>,
 }
 
-/// How often a group was asked within a step.
+/// How often a group was asked about the present time.
 #[derive(Debug, Default)]
 struct Count(AtomicU32);
 
@@ -75,6 +75,7 @@ impl Group {
 
     /// Forgets what holds only for the present time.
     pub(super) fn forget(&mut self) {
+        *self.asked.0.get_mut() = 0;
         if let Some(tree) = self.tree.get_mut() {
             tree.forget();
         }
