@@ -81,6 +81,7 @@ fn a_hundred_thousand_filaments_fit() {
     let times = [
         ("spin_up_s", "500"),
         ("limit_s", "360"),
+        ("step_s", "0.02"),
         ("frame_period_s", "0.02"),
     ];
     let (peak_mb, filaments) = peak(dir.path(), "210", &times);

@@ -17,9 +17,9 @@ use world::frames::Truth;
 
 /// Steps of a tenth of a second, in which no instrument reads faster.
 const TENTHS: [(&str, &str); 3] = [
-    ("compass: (rate_hz: 25", "compass: (rate_hz: 10"),
-    ("depth: (rate_hz: 25", "depth: (rate_hz: 10"),
-    ("step_s: 0.02", "step_s: 0.1"),
+    ("compass: (rate_hz: 20", "compass: (rate_hz: 10"),
+    ("depth: (rate_hz: 20", "depth: (rate_hz: 10"),
+    ("step_s: 0.05", "step_s: 0.1"),
 ];
 /// Frames as seldom as somebody needs who reads only the result.
 const QUIET: (&str, &str) = (
