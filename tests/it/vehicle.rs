@@ -215,7 +215,7 @@ fn steps_of_a_twentieth_of_a_second_are_exact_enough_for_a_mission() {
         auv.water.gradient = gradient;
         // Every ten seconds to the other side: far more often than any search turns.
         while auv.t_s() < 240.0 - 0.5 * step_s {
-            let side = if (auv.t_s() / 10.0 + 1e-9) as u64 % 2 == 0 {
+            let side = if ((auv.t_s() / 10.0 + 1e-9) as u64).is_multiple_of(2) {
                 1.0
             } else {
                 -1.0

@@ -132,10 +132,6 @@ fn seal_avx512(leaf: &mut Leaf, kg: f64) {
 
 /// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
 #[inline(always)]
-#[expect(
-    clippy::needless_range_loop,
-    reason = "one index into many arrays is what becomes vector code"
-)]
 fn seal(leaf: &mut Leaf, kg: f64) {
     const LANES: usize = 8;
     let peak_of_one = peak(kg, [1.0; 2]) as f32;

@@ -208,10 +208,14 @@ impl Sub for Jet {
 impl Mul for Jet {
     type Output = Self;
 
+    #[expect(
+        clippy::suspicious_arithmetic_impl,
+        reason = "the rule of the product adds"
+    )]
     #[inline]
     fn mul(self, other: Self) -> Self {
-        let product = self.value * other.value;
-        self.joined(other, product, |a, b| a * other.value + self.value * b)
+        let of_product = |a: f64, b: f64| a * other.value + self.value * b;
+        self.joined(other, self.value * other.value, of_product)
     }
 }
 

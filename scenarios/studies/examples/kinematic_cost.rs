@@ -114,8 +114,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     quiet.push(QUIET);
     let usual = [QUIET];
     for (name, vehicle, changes) in [
-        ("REMUS, steps of 0.02 s", "Remus100()", &usual[..]),
-        ("point, steps of 0.02 s", "Kinematic()", &usual),
+        ("REMUS, steps of 0.05 s", "Remus100()", &usual[..]),
+        ("point, steps of 0.05 s", "Kinematic()", &usual),
         ("point, steps of 0.1 s", "Kinematic()", &quiet),
     ] {
         let loaded = duck(vehicle, changes)?;
