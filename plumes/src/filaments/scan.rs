@@ -1,7 +1,7 @@
 //! Finds the members of a group near a point by looking at every one.
 //!
 //! *Source*: none. Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
-//! after each of their steps. So a tree pays only where many questions are asked within a step.
+//! after each of their steps, and its leaves at each time. So a tree pays only where many ask about one time.
 //!
 //! *Parameters*: none.
 //!
