@@ -31,7 +31,7 @@ pub(super) struct Asked<'a> {
 }
 
 /// Filaments at a time, and those that feel a wall and are therefore not in the leaf.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Present {
     leaf: Leaf,
     walled: Vec<Felt>,
@@ -61,10 +61,12 @@ impl Asked<'_> {
 }
 
 impl Present {
-    pub(super) fn of(moving: &Moving, asked: &Asked) -> Self {
+    /// Becomes those of a leaf on its way that are released at the present time.
+    pub(super) fn work_out(&mut self, moving: &Moving, asked: &Asked) {
         let Asked { s, q, spot, .. } = asked;
-        let mut leaf = moving.leaf(q.path, &s.size, &asked.moment);
-        let mut walled = Vec::new();
+        let Self { leaf, walled } = self;
+        moving.fill(q.path, &s.size, &asked.moment, leaf);
+        walled.clear();
         if !spot.room.is_open() {
             leaf.retain(|p, sizes| {
                 let felt = Felt::new(spot.room, spot.lookup, p, sizes, s.filament_kg);
@@ -74,7 +76,6 @@ impl Present {
             });
         }
         leaf.seal(q.path, s.filament_kg * asked.quanta);
-        Self { leaf, walled }
     }
 
     /// Its contribution, in quanta.

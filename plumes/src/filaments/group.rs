@@ -12,8 +12,8 @@ use super::index::Question;
 use super::leaf::CUT_SIGMAS;
 use super::part::Tree;
 use super::scan;
+use super::side::Side;
 use super::store::Store;
-use crate::path::Path;
 use std::ops::Range;
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicU32, Ordering};
@@ -31,8 +31,8 @@ pub(super) struct Group {
     /// Farthest along each axis from which a member is felt during the step, m.
     reach: [f32; 3],
     quanta: f64,
-    /// Least and greatest coordinates during the step: east, north, up. Most groups are ruled out by one of them.
-    sides: [OnceLock<[f32; 2]>; 3],
+    /// Between which coordinates they move during the step: east, north, up. Most groups are ruled out by one of them.
+    sides: [OnceLock<Box<Side>>; 3],
     asked: Count,
     tree: OnceLock<Box<Tree>>,
 }
@@ -91,11 +91,13 @@ impl Group {
         axes: [usize; 3],
     ) -> f64 {
         let p = spot.p;
-        let near = |d: usize| {
-            let [lo, hi] = self.side(q.path, s, d);
-            p[d] >= lo - self.reach[d] && p[d] <= hi + self.reach[d]
-        };
+        let near = |d: usize| self.side(q, s, d).near(p[d], self.reach[d]);
         if !axes.into_iter().all(near) {
+            return 0.0;
+        }
+        let sides = [0, 1, 2].map(|d| self.side(q, s, d));
+        let runs = Side::runs(q.path, sides, p, self.reach);
+        if runs == 0 {
             return 0.0;
         }
         let asked = Asked {
@@ -109,7 +111,7 @@ impl Group {
             quanta: self.quanta,
         };
         let total = if self.asked.0.fetch_add(1, Ordering::Relaxed) < SCANS {
-            scan::felt(&asked, self.members.len())
+            scan::felt(&asked, self.members.len(), runs)
         } else {
             let tree = || Box::new(Tree::new(s, self.members.clone()));
             self.tree.get_or_init(tree).felt(&asked)
@@ -117,73 +119,11 @@ impl Group {
         total as f64 / self.quanta
     }
 
-    fn side(&self, path: Path, s: &Store, d: usize) -> [f32; 2] {
-        *self.sides[d].get_or_init(|| {
+    fn side(&self, q: &Question, s: &Store, d: usize) -> &Side {
+        self.sides[d].get_or_init(|| {
             let ways = [&s.start[d], [&s.x, &s.y, &s.z][d]];
             let ways = ways.map(|way| &way[self.members.clone()]);
-            match path {
-                Path::Portable => extent(ways),
-                // SAFETY: this variant is only made after the feature was detected.
-                #[cfg(target_arch = "x86_64")]
-                Path::Avx2 => unsafe { extent_avx2(ways) },
-                // SAFETY: as above.
-                #[cfg(target_arch = "x86_64")]
-                Path::Avx512 => unsafe { extent_avx512(ways) },
-            }
+            Box::new(Side::new(q.path, ways))
         })
-    }
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn extent_avx2(ways: [&[f32]; 2]) -> [f32; 2] {
-    extent(ways)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn extent_avx512(ways: [&[f32]; 2]) -> [f32; 2] {
-    extent(ways)
-}
-
-/// Least and greatest value.
-#[inline(always)]
-fn extent(ways: [&[f32]; 2]) -> [f32; 2] {
-    const LANES: usize = 16;
-    let mut lo = [f32::MAX; LANES];
-    let mut hi = [f32::MIN; LANES];
-    for way in ways {
-        let (full, rest) = way.as_chunks::<LANES>();
-        let mut last = [f32::NAN; LANES];
-        last[..rest.len()].copy_from_slice(rest);
-        for c in full.iter().chain([&last]) {
-            for l in 0..LANES {
-                // What is no number does not count.
-                lo[l] = if c[l] < lo[l] { c[l] } else { lo[l] };
-                hi[l] = if c[l] > hi[l] { c[l] } else { hi[l] };
-            }
-        }
-    }
-    let (lo, hi) = (lo.into_iter(), hi.into_iter());
-    [lo.fold(f32::MAX, f32::min), hi.fold(f32::MIN, f32::max)]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn extent_holds_every_member_and_no_more() {
-        let mut rng = world::seeds::Stream::new(3, "test", "sides");
-        for n in [1, 15, 16, 17, 500, 1024] {
-            let mut way = || -> Vec<f32> { (0..n).map(|_| rng.normal() as f32).collect() };
-            let (start, end) = (way(), way());
-            let all = || start.iter().chain(&end).copied();
-            let want = [
-                all().fold(f32::MAX, f32::min),
-                all().fold(f32::MIN, f32::max),
-            ];
-            assert_eq!(extent([&start, &end]), want);
-        }
     }
 }

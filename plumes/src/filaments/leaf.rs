@@ -51,8 +51,8 @@ pub(super) struct Leaf {
     highest_bed: f32,
 }
 
-impl Leaf {
-    pub(super) fn new() -> Self {
+impl Default for Leaf {
+    fn default() -> Self {
         Self {
             x: [0.0; LEAF],
             y: [0.0; LEAF],
@@ -66,7 +66,9 @@ impl Leaf {
             highest_bed: f32::MIN,
         }
     }
+}
 
+impl Leaf {
     /// Keeps the filaments of which `keep` says so, given place and sizes (m), in their order.
     pub(super) fn retain(&mut self, mut keep: impl FnMut([f32; 3], [f32; 2]) -> bool) {
         let mut to = 0;
@@ -249,7 +251,7 @@ mod tests {
 
     #[test]
     fn all_versions_give_the_same_bits() {
-        let mut leaf = Leaf::new();
+        let mut leaf = Leaf::default();
         for n in 0..30 {
             let a = n as f32;
             (leaf.x[n], leaf.y[n], leaf.z[n]) = (0.1 * a, -0.07 * a, -1.0 - 0.05 * a);

@@ -26,6 +26,7 @@ mod room;
 mod sampled;
 mod scan;
 mod series;
+mod side;
 mod size;
 mod solids;
 mod step;

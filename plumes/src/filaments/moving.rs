@@ -26,33 +26,39 @@ pub(super) struct Moving {
     count: usize,
 }
 
-impl Moving {
-    /// Members of a group that begins at `from`.
-    pub(super) fn new(s: &Store, lookup: &Lookup, from: usize, members: &[u16]) -> Self {
-        let mut this = Self {
+impl Default for Moving {
+    fn default() -> Self {
+        Self {
             start: [[0.0; LEAF]; 4],
             end: [[0.0; LEAF]; 4],
             born_s: [f64::NEG_INFINITY; LEAF],
-            grown_m2: s.rise.as_ref().map(|_| [0.0; LEAF]),
-            count: members.len(),
-        };
+            grown_m2: None,
+            count: 0,
+        }
+    }
+}
+
+impl Moving {
+    /// Becomes these members of a group that begins at `from`. What is left in other places does not count.
+    pub(super) fn take(&mut self, s: &Store, lookup: &Lookup, from: usize, members: &[u16]) {
+        self.count = members.len();
         let at = |m: &u16| from + usize::from(*m);
         let ends = [&s.x, &s.y, &s.z, &s.bed];
-        for (to, of) in this.start.iter_mut().zip(&s.start) {
+        for (to, of) in self.start.iter_mut().zip(&s.start) {
             gather(to, of, members.iter().map(at));
         }
-        for (to, of) in this.end.iter_mut().zip(ends) {
+        for (to, of) in self.end.iter_mut().zip(ends) {
             gather(to, of, members.iter().map(at));
         }
-        gather(&mut this.born_s, &s.born_s, members.iter().map(at));
-        if let (Some(grown), Some(rise)) = (&mut this.grown_m2, &s.rise) {
+        gather(&mut self.born_s, &s.born_s, members.iter().map(at));
+        if let Some(rise) = &s.rise {
+            let grown = self.grown_m2.get_or_insert([0.0; LEAF]);
             gather(grown, &rise.grown_m2, members.iter().map(at));
         }
-        let [x, y, _, bed] = &mut this.start;
+        let [x, y, _, bed] = &mut self.start;
         for ((bed, x), y) in bed.iter_mut().zip(x).zip(y).take(members.len()) {
             *bed = lookup.bed(lookup.column(*x, *y));
         }
-        this
     }
 
     /// The part of its way that each has gone at a moment, and how many are released.
@@ -89,9 +95,8 @@ impl Moving {
         least <= reach * reach
     }
 
-    /// Those that are released at a moment, not [sealed](Leaf::seal) yet.
-    pub(super) fn leaf(&self, path: Path, size: &Size, moment: &Moment) -> Leaf {
-        let mut leaf = Leaf::new();
+    /// Puts those that are released at a moment into a leaf, not [sealed](Leaf::seal) yet.
+    pub(super) fn fill(&self, path: Path, size: &Size, moment: &Moment, leaf: &mut Leaf) {
         let (parts, count) = self.parts(moment);
         leaf.count = count;
         let way = Way {
@@ -101,15 +106,14 @@ impl Moving {
             now_s: moment.now_s,
         };
         match path {
-            Path::Portable => fill(&way, &mut leaf),
+            Path::Portable => fill(&way, leaf),
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { fill_avx2(&way, &mut leaf) },
+            Path::Avx2 => unsafe { fill_avx2(&way, leaf) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { fill_avx512(&way, &mut leaf) },
+            Path::Avx512 => unsafe { fill_avx512(&way, leaf) },
         }
-        leaf
     }
 }
 

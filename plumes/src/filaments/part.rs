@@ -144,10 +144,13 @@ impl Part {
 
     fn part(&self, asked: &Asked, boxes: &Boxes) -> Inside {
         if self.members.len() <= LEAF {
-            return Inside::Leaf(Box::new(LeafInStep {
-                moving: Moving::new(asked.s, asked.q.lookup, asked.from, &self.members),
+            let mut leaf = Box::new(LeafInStep {
+                moving: Moving::default(),
                 present: OnceLock::new(),
-            }));
+            });
+            leaf.moving
+                .take(asked.s, asked.q.lookup, asked.from, &self.members);
+            return Inside::Leaf(leaf);
         }
         Inside::Halves(Box::new(self.halves(asked, boxes)))
     }
@@ -193,7 +196,11 @@ impl LeafInStep {
             // Half of all leaves that are asked do not contribute, and to see this from their horizontal places takes
             // a fraction of the time in which a leaf is worked out.
             None if !asked.may_feel(&self.moving) => return 0,
-            None => (self.present).get_or_init(|| Box::new(Present::of(&self.moving, asked))),
+            None => self.present.get_or_init(|| {
+                let mut present = Box::new(Present::default());
+                present.work_out(&self.moving, asked);
+                present
+            }),
         };
         present.felt(asked)
     }

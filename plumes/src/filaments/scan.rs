@@ -1,4 +1,4 @@
-//! Finds the members of a group near a point by looking at every one.
+//! Finds the members of a group near a point by looking at every one of its runs that may be near.
 //!
 //! *Source*: none. Vector code looks at sixteen filaments in some twenty instructions, while a tree must be made anew
 //! after each of their steps, and its leaves at each time. So a tree pays only where many ask about one time.
@@ -8,24 +8,19 @@
 //! *Deviations*: none.
 
 use super::felt::{Asked, Present};
-use super::group::GROUP;
 use super::leaf::LEAF;
 use super::moving::{Moving, on_way};
+use super::side::{RUN, RUNS};
 use crate::path::Path;
-
-const LANES: usize = 16;
 
 /// Coordinates of the members at the start and at the end of their step.
 type Ways<'a> = [[&'a [f32]; 2]; 3];
 
-/// Which members may contribute.
-struct Near {
-    members: [u16; GROUP],
-    count: usize,
-}
+/// Which members may contribute: a bit for each member of each run.
+type Near = [u32; RUNS];
 
-/// The sum of the contributions of a group of `n`, in quanta.
-pub(super) fn felt(asked: &Asked, n: usize) -> i64 {
+/// The sum of the contributions of a group of `n`, in quanta. Only these `runs` of it (a bit each) may be near.
+pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
     let Asked {
         s, from, moment, ..
     } = asked;
@@ -36,84 +31,105 @@ pub(super) fn felt(asked: &Asked, n: usize) -> i64 {
     let range = *from..from + on_time;
     let way = |d: usize| [&s.start[d], [&s.x, &s.y, &s.z][d]].map(|v| &v[range.clone()]);
     let ways = [way(0), way(1), way(2)];
-    let mut near = Near {
-        members: [0; GROUP],
-        count: 0,
-    };
+    let mut near = [0; RUNS];
     match asked.q.path {
-        Path::Portable => look(asked, ways, &mut near),
+        Path::Portable => look(asked, &ways, runs, &mut near),
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx2 => unsafe { look_avx2(asked, ways, &mut near) },
+        Path::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
         // SAFETY: as above.
         #[cfg(target_arch = "x86_64")]
-        Path::Avx512 => unsafe { look_avx512(asked, ways, &mut near) },
+        Path::Avx512 => unsafe { look_avx512(asked, &ways, runs, &mut near) },
     }
     for m in on_time..n {
-        near.members[near.count] = m as u16;
-        near.count += 1;
+        near[m / RUN] |= 1 << (m % RUN);
     }
-    let mut total = 0;
-    for some in near.members[..near.count].chunks(LEAF) {
-        let moving = Moving::new(s, asked.q.lookup, *from, some);
-        total += Present::of(&moving, asked).felt(asked);
+    if near.iter().all(|run| *run == 0) {
+        return 0;
+    }
+    sum(asked, &near)
+}
+
+/// The sum of the contributions of these members, in quanta.
+fn sum(asked: &Asked, near: &Near) -> i64 {
+    let Asked { s, q, from, .. } = asked;
+    let (mut moving, mut present) = (Moving::default(), Present::default());
+    let (mut some, mut count, mut total) = ([0; LEAF], 0, 0);
+    let mut add = |some: &[u16]| {
+        moving.take(s, q.lookup, *from, some);
+        present.work_out(&moving, asked);
+        total += present.felt(asked);
+    };
+    for (run, left) in near.iter().enumerate() {
+        let mut left = *left;
+        while left != 0 {
+            some[count] = (run * RUN) as u16 + left.trailing_zeros() as u16;
+            left &= left - 1;
+            count += 1;
+            if count == LEAF {
+                add(&some);
+                count = 0;
+            }
+        }
+    }
+    if count > 0 {
+        add(&some[..count]);
     }
     total
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn look_avx2(asked: &Asked, ways: Ways, near: &mut Near) {
-    look(asked, ways, near);
+fn look_avx2(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+    look(asked, ways, runs, near);
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn look_avx512(asked: &Asked, ways: Ways, near: &mut Near) {
-    look(asked, ways, near);
+fn look_avx512(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+    look(asked, ways, runs, near);
 }
 
 /// Notes the members within reach.
 #[inline(always)]
-fn look(asked: &Asked, ways: Ways, near: &mut Near) {
-    let parts = ways.map(|ends| ends.map(|end| end.as_chunks::<LANES>()));
-    for n in 0..parts[0][0].0.len() {
-        let ends = parts.map(|ends| ends.map(|(full, _)| &full[n]));
-        let found = within(asked, ends);
-        near.note(n * LANES, found);
-    }
-    let rest = parts[0][0].1.len();
-    if rest > 0 {
-        let mut ends = [[[0.0; LANES]; 2]; 3];
-        for (to, from) in ends.iter_mut().flatten().zip(parts.iter().flatten()) {
-            to[..rest].copy_from_slice(from.1);
+fn look(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+    let n = ways[0][0].len();
+    let mut left = runs;
+    while left != 0 {
+        let run = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let from = run * RUN;
+        if from + RUN <= n {
+            near[run] = within(asked, ways, from);
+        } else if from < n {
+            let mut last = [[[0.0; RUN]; 2]; 3];
+            for d in 0..3 {
+                for end in 0..2 {
+                    last[d][end][..n - from].copy_from_slice(&ways[d][end][from..]);
+                }
+            }
+            let [[x, x1], [y, y1], [z, z1]] = &last;
+            near[run] = within(asked, &[[x, x1], [y, y1], [z, z1]], 0) & ((1 << (n - from)) - 1);
         }
-        let found = within(asked, ends.each_ref().map(|e| e.each_ref()));
-        near.note(ways[0][0].len() - rest, found & ((1 << rest) - 1));
     }
 }
 
-/// One bit for each that is within reach.
+/// One bit for each of a run that is within reach.
 #[inline(always)]
-fn within(asked: &Asked, ends: [[&[f32; LANES]; 2]; 3]) -> u32 {
+fn within(asked: &Asked, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
     let flat = asked.flat_reach();
-    let mut inside = [0_u32; LANES];
-    for l in 0..LANES {
-        let away = |d: usize| p[d] - on_way(ends[d][0][l], ends[d][1][l], part);
-        let (dx, dy, dz) = (away(0), away(1), away(2));
+    let [[x, x1], [y, y1], [z, z1]] = ways;
+    let (x, x1) = (&x[from..from + RUN], &x1[from..from + RUN]);
+    let (y, y1) = (&y[from..from + RUN], &y1[from..from + RUN]);
+    let (z, z1) = (&z[from..from + RUN], &z1[from..from + RUN]);
+    let mut inside = [0_u32; RUN];
+    for l in 0..RUN {
+        let dx = p[0] - on_way(x[l], x1[l], part);
+        let dy = p[1] - on_way(y[l], y1[l], part);
+        let dz = p[2] - on_way(z[l], z1[l], part);
         let near = (dx * dx + dy * dy <= flat * flat) & (dz.abs() <= asked.reach[2]);
         inside[l] = u32::from(near) << l;
     }
     inside.into_iter().fold(0, |all, one| all | one)
-}
-
-impl Near {
-    fn note(&mut self, from: usize, mut found: u32) {
-        while found != 0 {
-            self.members[self.count] = from as u16 + found.trailing_zeros() as u16;
-            self.count += 1;
-            found &= found - 1;
-        }
-    }
 }

@@ -160,32 +160,31 @@ impl Sweep<'_> {
                     *kicked = c.size.kicked(middle - born);
                 }
             }
-            let start = [b.x, b.y, b.z];
             if let Some(carrier) = self.carrier {
                 carrier.carry(self.path, self.cells, self.grid, b, way);
             }
-            let carried = [b.x, b.y, b.z];
+            let carried = self.room.has_solids().then(|| [b.x, b.y, b.z]);
             kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&way.gone) {
                     *outside |= gone;
                 }
             }
-            if self.room.has_solids() {
-                c.swept.turned += self.keep_out(&carried, b, work);
+            if let Some(carried) = &carried {
+                c.swept.turned += self.keep_out(carried, b, work);
             }
             self.note(b, &mut c.swept.columns);
             if b.outside[..n].iter().any(|o| *o != 0) {
                 for l in 0..n {
                     if b.outside[l] == 0 {
-                        c.put(b, &start, l, from + l, to, 1);
+                        c.put(b, l, from + l, to, 1);
                         to += 1;
                     } else {
                         c.swept.gone.push(from + l);
                     }
                 }
             } else {
-                c.put(b, &start, 0, from, to, n);
+                c.put(b, 0, from, to, n);
                 to += n;
             }
         }
@@ -195,8 +194,20 @@ impl Sweep<'_> {
     /// Notes the columns of the cells in which filaments of a block have arrived. The cells in which they started were
     /// noted before.
     fn note(&self, b: &Block, columns: &mut Vec<u32>) {
-        for l in (0..b.used).filter(|l| b.moved[*l] != 0) {
-            columns.push(self.cells.column(b.x[l], b.y[l]).at);
+        for (n, some) in b.moved.as_chunks::<32>().0.iter().enumerate() {
+            // Few have moved to another column; a word tells which without a look at each.
+            let mut bits = 0;
+            for (l, moved) in some.iter().enumerate() {
+                bits |= moved.wrapping_neg() & (1 << l);
+            }
+            while bits != 0 {
+                let l = 32 * n + bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                if l >= b.used {
+                    return;
+                }
+                columns.push(self.cells.column(b.x[l], b.y[l]).at);
+            }
         }
     }
 
@@ -298,23 +309,18 @@ fn chunks(store: &mut Store, band: Range<usize>, many: usize) -> Vec<Chunk<'_>> 
 }
 
 impl Chunk<'_> {
-    /// Writes `n` filaments of a block, from its place `l` on, to `to`; their labels are at `from`.
-    fn put(
-        &mut self,
-        b: &Block,
-        start: &[[f32; BLOCK]; 3],
-        l: usize,
-        from: usize,
-        to: usize,
-        n: usize,
-    ) {
-        self.x[to..to + n].copy_from_slice(&b.x[l..l + n]);
-        self.y[to..to + n].copy_from_slice(&b.y[l..l + n]);
-        self.z[to..to + n].copy_from_slice(&b.z[l..l + n]);
-        self.bed[to..to + n].copy_from_slice(&b.bed[l..l + n]);
-        for (to_start, start) in self.start.iter_mut().zip(start) {
-            to_start[to..to + n].copy_from_slice(&start[l..l + n]);
+    /// Writes `n` filaments of a block, from its place `l` on, to `to`. They were at `from`, where their step starts.
+    fn put(&mut self, b: &Block, l: usize, from: usize, to: usize, n: usize) {
+        let ends = [
+            (&mut *self.x, &b.x),
+            (&mut *self.y, &b.y),
+            (&mut *self.z, &b.z),
+        ];
+        for ((end, moved), start) in ends.into_iter().zip(&mut self.start) {
+            start[to..to + n].copy_from_slice(&end[from..from + n]);
+            end[to..to + n].copy_from_slice(&moved[l..l + n]);
         }
+        self.bed[to..to + n].copy_from_slice(&b.bed[l..l + n]);
         if from != to {
             self.number.copy_within(from..from + n, to);
             self.born_s.copy_within(from..from + n, to);

@@ -74,7 +74,7 @@ impl Scene {
         let place = |i| Some((i, s.place(i, &moment)?));
         let there: Vec<_> = (0..s.len()).filter_map(place).collect();
         let leaf = |part: &[(usize, [f32; 3])]| {
-            let mut leaf = Leaf::new();
+            let mut leaf = Leaf::default();
             for (n, (i, p)) in part.iter().enumerate() {
                 let sh = s.size.horizontal(now_s - s.born_s[*i]);
                 (leaf.x[n], leaf.y[n], leaf.z[n]) = (p[0], p[1], p[2]);

@@ -264,7 +264,14 @@ impl Meander {
         // Old levels go as new ones come, so a long way ahead needs no more memory than a short one.
         while self.first + (self.levels.len() as u64) <= last {
             self.carried.advance();
-            self.levels.push_back(self.grid.project(&self.carried.u));
+            // A level that nobody will ask about is not worked out.
+            let new = self.first + self.levels.len() as u64;
+            if new < needed.min(last) {
+                self.levels.clear();
+                self.first = new + 1;
+            } else {
+                self.levels.push_back(self.grid.project(&self.carried.u));
+            }
             self.forget(needed);
         }
         self.forget(needed);
