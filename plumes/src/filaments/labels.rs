@@ -59,12 +59,8 @@ impl Labels {
 
     /// Removes rows by their sorted places.
     pub(super) fn remove(&mut self, gone: &[usize]) {
-        let patterns = self.patterns;
-        let entries: Vec<usize> = (gone.iter())
-            .flat_map(|n| n * patterns..(n + 1) * patterns)
-            .collect();
-        super::rise::remove(&mut self.at, &entries);
-        super::rise::remove(&mut self.number, &entries);
+        super::rise::remove(&mut self.at, gone, self.patterns);
+        super::rise::remove(&mut self.number, gone, self.patterns);
     }
 
     /// A filament has moved upwards through the water, m.

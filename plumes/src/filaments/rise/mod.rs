@@ -78,8 +78,8 @@ impl Rise {
 
     /// Removes elements by their sorted places.
     pub(super) fn remove(&mut self, gone: &[usize]) {
-        remove(&mut self.elements, gone);
-        remove(&mut self.grown_m2, gone);
+        remove(&mut self.elements, gone, 1);
+        remove(&mut self.grown_m2, gone, 1);
     }
 
     /// Works out the sizes of filaments anew from their elements and heights.
@@ -91,14 +91,18 @@ impl Rise {
     }
 }
 
-/// Removes entries by their sorted places.
-pub(super) fn remove<T>(list: &mut Vec<T>, gone: &[usize]) {
-    let (mut n, mut next) = (0, gone.iter().peekable());
-    list.retain(|_| {
-        let here = next.next_if(|g| **g == n).is_some();
-        n += 1;
-        !here
-    });
+/// Removes rows of `each` entries by their sorted places.
+pub(super) fn remove<T: Copy>(list: &mut Vec<T>, gone: &[usize], each: usize) {
+    let Some(first) = gone.first() else { return };
+    let mut to = first * each;
+    for (n, row) in gone.iter().enumerate() {
+        let next = gone.get(n + 1).map_or(list.len(), |next| next * each);
+        let stays = (row + 1) * each..next;
+        let many = stays.len();
+        list.copy_within(stays, to);
+        to += many;
+    }
+    list.truncate(to);
 }
 
 /// Size of a filament that its own entrainment has widened, m.
@@ -152,5 +156,31 @@ impl Store {
             }
         }
         rise.size(range, &self.z);
+    }
+}
+
+#[cfg(test)]
+mod tests_remove {
+    use super::remove;
+
+    #[test]
+    fn rows_are_removed_by_their_places() {
+        for gone in [
+            &[][..],
+            &[0],
+            &[6],
+            &[2, 3],
+            &[0, 3, 6],
+            &[0, 1, 2, 3, 4, 5, 6],
+        ] {
+            for each in [1, 3] {
+                let row = |n: &usize| n / each;
+                let mut list: Vec<usize> = (0..7 * each).collect();
+                let mut want = list.clone();
+                want.retain(|n| !gone.contains(&row(n)));
+                remove(&mut list, gone, each);
+                assert_eq!(list, want, "{gone:?} of {each}");
+            }
+        }
     }
 }
