@@ -7,7 +7,7 @@
 //! *Deviations*: the bed rises evenly between those under both ends of the way.
 
 use super::bands::{Moment, Span};
-use super::leaf::{LEAF, Leaf};
+use super::leaf::{LEAF, Leaf, eights};
 use super::lookup::Lookup;
 use super::rise::widened;
 use super::size::Size;
@@ -179,39 +179,42 @@ fn least(m: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
     least.into_iter().fold(f32::MAX, f32::min)
 }
 
-/// Places, beds and sizes. Empty places are those of a filament at the origin.
+/// Places, beds and sizes, eight at a time; what is in empty places does not count.
 #[inline(always)]
 #[expect(
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
 fn fill(way: &Way, leaf: &mut Leaf) {
+    const LANES: usize = 8;
     let Way {
         moving: m,
         parts,
         size,
         now_s,
     } = way;
-    let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z, &mut leaf.bed];
-    for (d, to) in places.into_iter().enumerate() {
-        for l in 0..LEAF {
-            to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
+    for from in eights(leaf.count) {
+        let places = [&mut leaf.x, &mut leaf.y, &mut leaf.z, &mut leaf.bed];
+        for (d, to) in places.into_iter().enumerate() {
+            for l in from..from + LANES {
+                to[l] = on_way(m.start[d][l], m.end[d][l], parts[l]);
+            }
         }
-    }
-    for l in 0..LEAF {
-        let (z, bed) = (leaf.z[l], leaf.bed[l]);
-        leaf.z[l] = if z > bed { z } else { bed };
-    }
-    for l in 0..LEAF {
-        leaf.h[l] = size.horizontal(now_s - m.born_s[l]);
-    }
-    if let Some(grown) = &m.grown_m2 {
-        for l in 0..LEAF {
-            leaf.h[l] = widened(leaf.h[l], grown[l]);
+        for l in from..from + LANES {
+            let (z, bed) = (leaf.z[l], leaf.bed[l]);
+            leaf.z[l] = if z > bed { z } else { bed };
         }
-    }
-    for l in 0..LEAF {
-        leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);
+        for l in from..from + LANES {
+            leaf.h[l] = size.horizontal(now_s - m.born_s[l]);
+        }
+        if let Some(grown) = &m.grown_m2 {
+            for l in from..from + LANES {
+                leaf.h[l] = widened(leaf.h[l], grown[l]);
+            }
+        }
+        for l in from..from + LANES {
+            leaf.v[l] = size.vertical(leaf.h[l], leaf.bed[l]);
+        }
     }
 }
 
