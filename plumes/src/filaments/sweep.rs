@@ -163,7 +163,11 @@ impl Sweep<'_> {
             if let Some(carrier) = self.carrier {
                 carrier.carry(self.path, self.cells, self.grid, b, way);
             }
-            let carried = self.room.has_solids().then(|| [b.x, b.y, b.z]);
+            // Copied only where there are solids.
+            let carried = match self.room.has_solids() {
+                true => Some([b.x, b.y, b.z]),
+                false => None,
+            };
             kernel::step(self.path, self.cells, &self.grid.data, self.key, b, work);
             if self.carrier.is_some() {
                 for (outside, gone) in b.outside.iter_mut().zip(&way.gone) {
