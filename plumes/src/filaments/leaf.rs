@@ -27,10 +27,13 @@ pub(super) const MOST: f32 = 281_474_976_710_656.0;
 /// Filaments in a leaf.
 pub(super) const LEAF: usize = 32;
 
-/// The first places of each eight in which so many filaments are. The compiler sees that all eight are in the leaf.
+/// Filaments that are worked out at a time.
+pub(super) const LANES: usize = 8;
+
+/// The first places of the eights in which so many filaments are. The compiler sees that all eight are in the leaf.
 #[inline(always)]
 pub(super) fn eights(count: usize) -> impl Iterator<Item = usize> {
-    (0..count.div_ceil(8).min(LEAF / 8)).map(|n| 8 * n)
+    (0..count.div_ceil(LANES).min(LEAF / LANES)).map(|n| LANES * n)
 }
 
 /// Concentration at the centre of a filament of `kg` with horizontal and vertical sizes (m), kg/m³.
@@ -141,7 +144,6 @@ fn seal_avx512(leaf: &mut Leaf, kg: f64) {
 /// Replaces sizes by factors of exponents, sets peaks, and finds the reach and the highest bed.
 #[inline(always)]
 fn seal(leaf: &mut Leaf, kg: f64) {
-    const LANES: usize = 8;
     let peak_of_one = peak(kg, [1.0; 2]) as f32;
     let (mut tallest, mut highest) = ([0.0_f32; LANES], [f32::MIN; LANES]);
     for from in eights(leaf.count) {
@@ -192,7 +194,6 @@ fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
     reason = "one index into many arrays is what becomes vector code"
 )]
 fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> i64 {
-    const LANES: usize = 8;
     // Added to a number below 2⁵¹, it leaves the nearest whole number in the last bits of the sum.
     const WHOLE: f64 = 6_755_399_441_055_744.0;
     let mut total = [0_i64; LANES];

@@ -7,7 +7,7 @@
 //! *Deviations*: the bed rises evenly between those under both ends of the way.
 
 use super::bands::{Moment, Span};
-use super::leaf::{LEAF, Leaf, eights};
+use super::leaf::{LANES, LEAF, Leaf, eights};
 use super::lookup::Lookup;
 use super::rise::widened;
 use super::size::Size;
@@ -166,7 +166,6 @@ pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
 /// Least square of the horizontal distance from a point, m².
 #[inline(always)]
 fn least(m: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
-    const LANES: usize = 8;
     let on = |d: usize, l: usize| on_way(m.start[d][l], m.end[d][l], parts[l]);
     let mut least = [f32::MAX; LANES];
     for from in (0..LEAF).step_by(LANES) {
@@ -186,7 +185,6 @@ fn least(m: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
     reason = "one index into many arrays is what becomes vector code"
 )]
 fn fill(way: &Way, leaf: &mut Leaf) {
-    const LANES: usize = 8;
     let Way {
         moving: m,
         parts,

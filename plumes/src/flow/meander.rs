@@ -261,18 +261,17 @@ impl Meander {
     pub fn advance(&mut self, t_s: f64) {
         let last = ((t_s + AHEAD_S) / self.dt_s).ceil() as u64;
         let needed = ((t_s - BEHIND_S) / self.dt_s).floor().max(0.0) as u64;
-        // Old levels go as new ones come, so a long way ahead needs no more memory than a short one.
         while self.first + (self.levels.len() as u64) <= last {
             self.carried.advance();
-            // A level that nobody will ask about is not worked out.
+            // A level that nobody will ask about is not worked out, so a long way ahead needs no more time or memory for
+            // levels than a short one.
             let new = self.first + self.levels.len() as u64;
-            if new < needed.min(last) {
+            if new < needed {
                 self.levels.clear();
                 self.first = new + 1;
             } else {
                 self.levels.push_back(self.grid.project(&self.carried.u));
             }
-            self.forget(needed);
         }
         self.forget(needed);
     }

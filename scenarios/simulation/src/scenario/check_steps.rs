@@ -20,7 +20,7 @@ struct Asked {
 
 thread_local! {
     /// The latest answer. The arms of a campaign differ in their searchers and have the same water and steps; to work it
-    /// out takes a tenth of a mission.
+    /// out takes a twentieth of a lane at Duck.
     static LATEST: RefCell<Option<(Asked, Vec<Found>)>> = const { RefCell::new(None) };
 }
 
