@@ -5,6 +5,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{load, template};
 use rheotaxis::trial::{Trial, Watch};
 use std::path::Path;
+use std::sync::Arc;
 
 /// The channel with these changes.
 #[track_caller]
@@ -102,7 +103,7 @@ fn frames_carry_what_goes_wrong_and_nothing_else() {
     #[derive(Default)]
     struct Last(Vec<String>);
     impl Watch for Last {
-        fn frame(&mut self, frame: &Frame) {
+        fn frame(&mut self, frame: &Arc<Frame>) {
             self.0 = frame
                 .abnormal
                 .iter()

@@ -6,6 +6,7 @@ use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::{Loaded, load_text, template};
 use rheotaxis::trial::{Ended, Trial, Watch};
 use robots::handoff::Actuation;
+use std::sync::Arc;
 use world::registry::Registry;
 
 /// A scenario of the catalogue with these faults and changes.
@@ -43,7 +44,7 @@ fn channel(faults: &str, limit_s: f64) -> Loaded {
 struct States(Vec<(f64, RobotFrame)>);
 
 impl Watch for States {
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.0.push((frame.t_s, frame.robots[0].clone()));
     }
 }

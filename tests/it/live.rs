@@ -23,6 +23,7 @@ use rheotaxis::trial::{Trial, Watch};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::net::TcpListener;
+use std::sync::Arc;
 use zenoh::bytes::Encoding;
 use zenoh::sample::{Sample, SampleKind};
 use zenoh::{Config, Wait};
@@ -279,7 +280,7 @@ fn every_message_keeps_its_published_schema() {
 /// Hands on what it sees.
 struct Publishing(Live);
 impl Watch for Publishing {
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.0.publish(frame);
     }
 }

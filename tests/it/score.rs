@@ -6,6 +6,7 @@ use rheotaxis::scenario::{Id, Loaded, ReachedSpec, SuccessSpec, load};
 use rheotaxis::score::Score;
 use rheotaxis::trial::{Ended, Trial, Unwatched, Watch};
 use std::path::Path;
+use std::sync::Arc;
 use world::ranges::{Finite, NonNegative, Positive};
 
 /// A search in a channel, cut short.
@@ -55,7 +56,7 @@ fn reaching_a_source_does_not_hang_on_how_often_frames_are_taken() {
 struct Order(Vec<Vec<String>>);
 
 impl Watch for Order {
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         let ids = frame.robots.iter().map(|r| r.id.clone());
         self.0.push(ids.collect());
     }

@@ -6,11 +6,13 @@
 //! *Parameters*: cells and spacing (m) of the rectangle.
 //!
 //! *Deviations*: Chorin projects with a pressure and keeps the field on the grid, where interpolation brings divergence
-//! back. The curl of a spline is continuous and free of divergence at every point, not only at nodes.
+//! back. The curl of a spline is continuous and free of divergence at every point, not only at nodes. The solution is
+//! written once, without fused multiply-add, and compiled for each version of `path`, with the same bits.
 
 use nalgebra::Vector2;
 
 use crate::flow::number::Number;
+use crate::path::Path;
 
 /// Projector for one rectangle of `cells` of size `h`.
 #[derive(Clone, Debug)]
@@ -24,6 +26,7 @@ pub(crate) struct Solenoidal {
     band: usize,
     // The contribution of each corner of a cell to each spline in it, for x and y.
     shares: [[[f64; 2]; 4]; 9],
+    path: Path,
 }
 
 /// The three splines that are not zero in a cell, or their slopes per cell, at t in [0, 1].
@@ -79,6 +82,7 @@ impl Solenoidal {
             below: vec![0.0; n * band],
             band,
             shares: shares(h),
+            path: Path::detect(),
         };
         let mut mass = [[0.0; 3]; 3];
         let mut stiff = [[0.0; 3]; 3];
@@ -142,6 +146,22 @@ impl Solenoidal {
 
     /// Coefficients of the stream function of the field nearest to `u` at the nodes (index i·(my + 1) + j).
     pub(crate) fn project(&self, u: &[Vector2<f64>]) -> Vec<f64> {
+        match self.path {
+            Path::Portable => self.solved(u),
+            // SAFETY: this variant is only made after the feature was detected.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 | Path::Avx512 => unsafe { self.solved_avx2(u) },
+        }
+    }
+
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn solved_avx2(&self, u: &[Vector2<f64>]) -> Vec<f64> {
+        self.solved(u)
+    }
+
+    #[inline(always)]
+    fn solved(&self, u: &[Vector2<f64>]) -> Vec<f64> {
         let mut c = self.sums(u);
         let n = c.len();
         let (w, row) = (self.band, self.band + 1);
@@ -168,18 +188,28 @@ impl Solenoidal {
         c
     }
 
-    /// Right-hand side of the normal equations.
+    /// Right-hand side of the normal equations. Each sum takes the cells round it in their order, though the
+    /// processor works on several sums at once.
+    #[inline(always)]
     fn sums(&self, u: &[Vector2<f64>]) -> Vec<f64> {
         let [mx, my] = self.cells;
+        let (x, y): (Vec<f64>, Vec<f64>) = u.iter().map(|v| (v.x, v.y)).unzip();
         let mut c = vec![0.0; (mx + 2) * (my + 2)];
-        for (i, j) in (0..mx).flat_map(|i| (0..my).map(move |j| (i, j))) {
-            let at = i * (my + 1) + j;
-            let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
+        for i in 0..mx {
+            // The nodes of a row of cells: at their first and their last edge, from either corner on.
+            let from = [0, 1].map(|p| (i + p) * (my + 1));
+            let corners = from.map(|at| [0, 1].map(|q| at + q..at + q + my));
+            let corners = corners.as_flattened();
+            let x: [&[f64]; 4] = std::array::from_fn(|k| &x[corners[k].clone()]);
+            let y: [&[f64]; 4] = std::array::from_fn(|k| &y[corners[k].clone()]);
             for (a, shares) in self.shares.chunks_exact(3).enumerate() {
-                let first = (i + a) * (my + 2) + j;
-                for (c, shares) in c[first..first + 3].iter_mut().zip(shares) {
-                    for (node, share) in corners.iter().zip(shares) {
-                        *c += share[0] * node.x - share[1] * node.y;
+                // A later cell holds an earlier spline of the same number.
+                for (b, share) in shares.iter().enumerate().rev() {
+                    let first = (i + a) * (my + 2) + b;
+                    for (j, c) in c[first..first + my].iter_mut().enumerate() {
+                        for k in 0..4 {
+                            *c += share[k][0] * x[k][j] - share[k][1] * y[k][j];
+                        }
                     }
                 }
             }
@@ -265,18 +295,35 @@ mod tests {
         }
     }
 
-    /// Column by column, the coefficients are those of substitution row by row, to the last bit.
+    /// The sums cell by cell.
+    fn cell_by_cell(s: &Solenoidal, u: &[Vector2<f64>]) -> Vec<f64> {
+        let [mx, my] = s.cells;
+        let mut c = vec![0.0; (mx + 2) * (my + 2)];
+        for (i, j) in (0..mx).flat_map(|i| (0..my).map(move |j| (i, j))) {
+            let at = i * (my + 1) + j;
+            let corners = [u[at], u[at + 1], u[at + my + 1], u[at + my + 2]];
+            for (l, shares) in s.shares.iter().enumerate() {
+                let c = &mut c[(i + l / 3) * (my + 2) + j + l % 3];
+                for (node, share) in corners.iter().zip(shares) {
+                    *c += share[0] * node.x - share[1] * node.y;
+                }
+            }
+        }
+        c
+    }
+
+    /// In every version, the coefficients are those of sums cell by cell and substitution row by row, to the last bit.
     #[test]
-    fn columns_give_the_bits_of_rows() {
+    fn all_versions_give_the_bits_of_rows() {
         for cells in [[2, 2], [9, 7], [20, 6]] {
             let mut rng = world::seeds::Stream::new(4, "test", "field");
             let nodes = (cells[0] + 1) * (cells[1] + 1);
             let field: Vec<_> = (0..nodes)
                 .map(|_| Vector2::new(rng.normal(), rng.normal()))
                 .collect();
-            let s = Solenoidal::new(cells, [10.0, 12.0]);
+            let mut s = Solenoidal::new(cells, [10.0, 12.0]);
             let (w, row) = (s.band, s.band + 1);
-            let mut rows = s.sums(&field);
+            let mut rows = cell_by_cell(&s, &field);
             for i in 0..rows.len() {
                 let from = i.saturating_sub(w);
                 let l = &s.factor[i * row + w - (i - from)..=i * row + w];
@@ -293,7 +340,10 @@ mod tests {
                 }
             }
             let bits = |all: &[f64]| all.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-            assert_eq!(bits(&s.project(&field)), bits(&rows), "{cells:?}");
+            for path in Path::all() {
+                s.path = path;
+                assert_eq!(bits(&s.project(&field)), bits(&rows), "{cells:?} {path:?}");
+            }
         }
     }
 

@@ -14,11 +14,12 @@ use rheotaxis::control::{Consultation, Heard};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Ended, Trial, Watch};
+use rheotaxis::trial::{Ended, Trial, Watch, controlled};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::available_parallelism;
 use std::time::Duration;
 
 use super::run::RunError;
@@ -60,6 +61,11 @@ impl Onlooker {
             progress.say(&removed);
         }
         results.write_into(&out, !args.no_record)?;
+        // Where somebody keeps pace with the run, each frame is written at once.
+        let at_once = times.is_some() || !controlled(&loaded.scenario).is_empty();
+        if cores(args) > 1 && !at_once {
+            results = results.beside();
+        }
         Ok(Self {
             results,
             live,
@@ -125,6 +131,15 @@ impl Onlooker {
     }
 }
 
+/// How many cores the run may use.
+fn cores(args: &RunArgs) -> usize {
+    let here = available_parallelism().map_or(1, usize::from);
+    match args.threads {
+        0 => here,
+        asked => asked.min(here),
+    }
+}
+
 /// Starts publishing over zenoh.
 fn live(
     args: &RunArgs,
@@ -184,7 +199,7 @@ impl Watch for Onlooker {
         }
     }
 
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.results.frame(frame);
         if let Some(live) = &self.live {
             live.publish(frame);

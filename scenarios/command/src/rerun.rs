@@ -15,6 +15,7 @@ use rheotaxis::lanes::{LaneError, Lanes};
 use rheotaxis::scenario::{Loaded, ScenarioError, load, load_text_in, template};
 use rheotaxis::trial::{Ended, Trial, Watch};
 use std::path::Path;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use world::registry::Registry;
 
@@ -183,7 +184,7 @@ impl Watch for Again {
         !self.stop.load(Ordering::Relaxed)
     }
 
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.progress.frame(frame);
     }
 

@@ -8,6 +8,7 @@
 #![forbid(unsafe_code)]
 
 pub mod charts;
+mod decimal;
 pub mod figures;
 pub mod files;
 pub mod follow;

@@ -17,6 +17,7 @@ use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, Watch, controlled};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// Follows a run: its results, its columns, and Ctrl-C.
 struct Watcher {
@@ -34,7 +35,7 @@ impl Watch for Watcher {
     fn developed(&mut self, kept: bool) {
         self.results.developed(kept);
     }
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.results.frame(frame);
         RobotColumns::push(&mut self.robots, frame);
         GantryColumns::push(&mut self.gantries, frame);

@@ -14,6 +14,7 @@ use rheotaxis::topic::{Field, FieldKind, Topic, Topics};
 use rheotaxis::trial::{Trial, Unwatched, Watch};
 use robots::handoff::Readings;
 use serde::Serialize;
+use std::sync::Arc;
 use world::clock::Clock;
 use world::registry::Registry;
 use world::stage::Stage;
@@ -65,7 +66,7 @@ fn publish(
 struct Arrived(usize);
 
 impl Watch for Arrived {
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.0 += frame.published.len();
     }
 }

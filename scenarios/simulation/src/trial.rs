@@ -29,6 +29,7 @@ use nalgebra::Vector3;
 use progress::RunPhase;
 use robots::handoff::{Declaration, Outcome, Verdict};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 use world::clock::Clock;
 use world::digest::Digest;
 use world::seeds::Seed;
@@ -248,7 +249,7 @@ impl Trial {
     /// The newest frame; `None` before the first. `record.frame_period_s` of the scenario says how often there is one.
     #[must_use]
     pub fn frame(&self) -> Option<&Frame> {
-        self.progress.frame.as_ref()
+        self.progress.frame.as_deref()
     }
 
     /// The newest value of every key that was published, sorted by key.
@@ -284,7 +285,7 @@ impl Trial {
         for ping in std::mem::take(&mut outbox.pings) {
             watch.ping(&ping);
         }
-        if let Some(frame) = frame {
+        if let Some(frame) = frame.map(Arc::new) {
             watch.frame(&frame);
             self.progress.frame = Some(frame);
         }

@@ -4,6 +4,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::registry::Registry;
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::{Trial, Watch};
+use std::sync::Arc;
 use world::ranges::{NonNegative, Positive};
 
 /// Frames, and how many of them have a commanded height.
@@ -11,7 +12,7 @@ use world::ranges::{NonNegative, Positive};
 struct Heights(usize, usize);
 
 impl Watch for Heights {
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.0 += 1;
         self.1 += usize::from(frame.robots[0].asked_height().is_some());
     }

@@ -100,38 +100,41 @@ impl Shape {
         (f, -f / self.depth_m)
     }
 
+    /// All waves.
+    fn all_waves(&self) -> Vec<Wave> {
+        self.along().flat_map(|j| self.waves(j)).collect()
+    }
+
     /// Expected mean squares at a height for each potential of unit strength: [component][potential], averaged over the
     /// width.
-    fn shares(&self, height_m: f64) -> [[f64; 3]; 3] {
+    fn shares(&self, height_m: f64, waves: &[Wave]) -> [[f64; 3]; 3] {
         let (f, df) = self.fall(height_m);
         let mut v = [[0.0; 3]; 3];
-        for j in self.along() {
-            for w in self.waves(j) {
-                let (s, c) = math::sin_cos(w.k[2] * height_m);
-                let bent = df * s + f * w.k[2] * c;
-                // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a
-                // half, or one.
-                let even = w.std * w.std * if w.n == 0 { 1.0 } else { 0.5 };
-                let odd = w.std * w.std * if w.n == 0 { 0.0 } else { 0.5 };
-                v[0][2] += even * sq(f * w.k[1] * c);
-                v[0][1] += even * sq(bent);
-                v[1][0] += odd * sq(bent);
-                v[1][2] += odd * sq(f * w.k[0] * c);
-                v[2][1] += even * sq(f * w.k[0] * s);
-                v[2][0] += even * sq(f * w.k[1] * s);
-            }
+        for w in waves {
+            let (s, c) = math::sin_cos(w.k[2] * height_m);
+            let bent = df * s + f * w.k[2] * c;
+            // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a
+            // half, or one.
+            let even = w.std * w.std * if w.n == 0 { 1.0 } else { 0.5 };
+            let odd = w.std * w.std * if w.n == 0 { 0.0 } else { 0.5 };
+            v[0][2] += even * sq(f * w.k[1] * c);
+            v[0][1] += even * sq(bent);
+            v[1][0] += odd * sq(bent);
+            v[1][2] += odd * sq(f * w.k[0] * c);
+            v[2][1] += even * sq(f * w.k[0] * s);
+            v[2][0] += even * sq(f * w.k[1] * s);
         }
         v
     }
 
     /// Strengths of the three potentials.
-    fn strengths(&self, resolved: f64) -> [f64; 3] {
+    fn strengths(&self, resolved: f64, waves: &[Wave]) -> [f64; 3] {
         const N: usize = 13;
         let (mut v, mut want) = ([[0.0; 3]; 3], [0.0; 3]);
         for n in 0..N {
             let height = self.depth_m * (0.2 + 0.6 * n as f64 / (N - 1) as f64);
             let f2 = sq(self.fall(height).0);
-            let here = self.shares(height);
+            let here = self.shares(height, waves);
             for c in 0..3 {
                 want[c] += resolved * sq(INTENSITIES[c]) * f2;
                 for p in 0..3 {
@@ -149,8 +152,9 @@ impl Shape {
 
     /// Expected intensities at a height in units of u_*.
     pub(super) fn expected(&self, height_m: f64) -> [f64; 3] {
-        let a = self.strengths(self.spectrum.resolved());
-        let v = self.shares(height_m);
+        let waves = self.all_waves();
+        let a = self.strengths(self.spectrum.resolved(), &waves);
+        let v = self.shares(height_m, &waves);
         [0, 1, 2].map(|c: usize| (0..3).map(|p| a[p] * a[p] * v[c][p]).sum::<f64>().sqrt())
     }
 }
@@ -162,7 +166,7 @@ fn sq(x: f64) -> f64 {
 impl Stretch {
     /// Draws a stretch; `seed` identifies it.
     pub(super) fn new(shape: &Shape, seed: impl Into<Seed>) -> Self {
-        let strength = shape.strengths(shape.spectrum.resolved());
+        let strength = shape.strengths(shape.spectrum.resolved(), &shape.all_waves());
         let (ny, nz) = (shape.across + 1, shape.up + 1);
         let lines = ny * nz;
         let h = shape.spacing();
@@ -177,6 +181,10 @@ impl Stretch {
         let across: Vec<Vec<(f64, f64)>> = (0..most)
             .map(|n| (0..ny).map(|y| turn(n, shape.across, y)).collect())
             .collect();
+        let up: Vec<Vec<(f64, f64)>> = (0..=(shape.spectrum.k_c * shape.depth_m / PI) as usize)
+            .map(|m| (0..nz).map(|z| turn(m, shape.up, z)).collect())
+            .collect();
+        let falls: Vec<(f64, f64)> = (0..nz).map(|z| shape.fall(z as f64 * h[2])).collect();
         let mut sums = vec![[[0.0_f64; 2]; 3]; most * nz];
         for j in shape.along() {
             sums.fill([[0.0; 2]; 3]);
@@ -185,8 +193,7 @@ impl Stretch {
                 let a = [draw(), draw(), draw()];
                 let [kx, ky, kz] = w.k;
                 for z in 0..nz {
-                    let (f, df) = shape.fall(z as f64 * h[2]);
-                    let (s, c) = turn(w.m, shape.up, z);
+                    let ((f, df), (s, c)) = (falls[z], up[w.m][z]);
                     let bent = df * s + f * kz * c;
                     let to = &mut sums[w.n * nz + z];
                     let [ax, ay, az] = strength;

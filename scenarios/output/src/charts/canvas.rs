@@ -3,6 +3,8 @@
 use super::far::{self, Frame};
 use super::panel::Panel;
 use super::room::Room;
+use super::thin::thinned;
+use crate::decimal::push_decimal;
 use std::fmt::Write as _;
 
 /// Position of a text relative to its point.
@@ -90,7 +92,13 @@ impl<'a> Style<'a> {
             .expect(TEXT);
         }
         if let Some(o) = self.opacity {
-            write!(out, " opacity=\"{o:.2}\"").expect(TEXT);
+            // The same for one paint, and no layer of the whole sheet is made for it.
+            let of = match (self.fill, self.stroke) {
+                (Some(_), None) => "fill-",
+                (None, Some(_)) => "stroke-",
+                _ => "",
+            };
+            write!(out, " {of}opacity=\"{o:.2}\"").expect(TEXT);
         }
         if let Some(d) = self.dash {
             write!(out, " stroke-dasharray=\"{d}\"").expect(TEXT);
@@ -151,9 +159,11 @@ impl Canvas {
             if line.len() < 2 {
                 continue;
             }
-            for (k, [x, y]) in line.iter().enumerate() {
-                let op = if k == 0 { 'M' } else { 'L' };
-                write!(d, "{op}{x:.1} {y:.1}").expect(TEXT);
+            for (k, [x, y]) in thinned(line).into_iter().enumerate() {
+                d.push(if k == 0 { 'M' } else { 'L' });
+                push_decimal(&mut d, x, 1);
+                d.push(' ');
+                push_decimal(&mut d, y, 1);
             }
             if closed {
                 d.push('Z');

@@ -9,6 +9,7 @@ pub mod palette;
 pub mod panel;
 mod raster;
 pub mod room;
+mod thin;
 
 pub use canvas::escaped;
 pub use raster::{png, small_png};

@@ -1,9 +1,11 @@
 //! From SVG to PNG, with the font that the program contains (a part of DejaVu Sans, see `font/LICENSE`).
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder as _};
+use image::{ExtendedColorType, ImageEncoder as _, ImageError};
 use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::fontdb::Database;
 use resvg::usvg::{Options, Tree};
+use std::sync::{Arc, LazyLock};
 
 /// Pixels per pixel of the SVG: sharp in print at its natural size.
 const SCALE: f32 = 2.0;
@@ -23,12 +25,20 @@ pub fn small_png(svg: &str, most_px: u32) -> Result<Vec<u8>, String> {
     scaled(svg, |longest| (most_px as f32 / longest).min(SCALE))
 }
 
-fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
-    let mut options = Options::default();
-    let fonts = options.fontdb_mut();
+/// The fonts, read once.
+static FONT_BASE: LazyLock<Arc<Database>> = LazyLock::new(|| {
+    let mut fonts = Database::new();
     for font in FONTS {
         fonts.load_font_data(font.to_vec());
     }
+    Arc::new(fonts)
+});
+
+fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
+    let options = Options {
+        fontdb: Arc::clone(&FONT_BASE),
+        ..Options::default()
+    };
     let tree = Tree::from_str(svg, &options).map_err(|e| e.to_string())?;
     let size = tree.size();
     let scale = scale(size.width().max(size.height()));
@@ -40,12 +50,23 @@ fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
         Transform::from_scale(scale, scale),
         &mut pixels.as_mut(),
     );
+    packed(pixels).map_err(|e| e.to_string())
+}
+
+/// The pixels as PNG: in three channels if none lets anything through, as on every sheet of ours.
+fn packed(pixels: Pixmap) -> Result<Vec<u8>, ImageError> {
     let (w, h) = (pixels.width(), pixels.height());
     let mut png = Vec::new();
     // The best compression would take longer than the drawing, and save a quarter of the file.
-    PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive)
-        .write_image(&pixels.take_demultiplied(), w, h, ExtendedColorType::Rgba8)
-        .map_err(|e| e.to_string())?;
+    let encoder =
+        PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive);
+    if pixels.pixels().iter().all(|p| p.alpha() == u8::MAX) {
+        let rgb = pixels.pixels().iter();
+        let rgb: Vec<u8> = rgb.flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+        encoder.write_image(&rgb, w, h, ExtendedColorType::Rgb8)?;
+    } else {
+        encoder.write_image(&pixels.take_demultiplied(), w, h, ExtendedColorType::Rgba8)?;
+    }
     Ok(png)
 }
 

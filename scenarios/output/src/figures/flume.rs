@@ -26,13 +26,14 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     // The height of most probes: on the built-in head, that of both outer ones.
     let z = height(t);
     let n = [panel.width, panel.height].map(|px| (px / CELL_PX).ceil() as usize + 1);
-    let at_height = |z: f64| {
+    let at_height = |z: f64, n: [usize; 2]| {
         run.dye
             .and_then(|dye| Section::of(&axes, z, n, t.info.effluent_kg_m3, dye))
     };
-    let section = z.and_then(at_height);
-    // The field below the probes, at the height of the source.
-    let below = run.sources.first().and_then(|s| at_height(s.position.z));
+    let section = z.and_then(|z| at_height(z, n));
+    // The field below the probes, at the height of the source. Only its edge is drawn, so every other node will do.
+    let below =
+        (run.sources.first()).and_then(|s| at_height(s.position.z, n.map(|n| n.div_ceil(2) + 1)));
     panel.clip(&mut c);
     if let Some(section) = &section {
         let last = (section.levels.len() - 1) as f64;

@@ -1,6 +1,6 @@
 //! All that a run has left, when it is over.
 
-use super::Follower;
+use super::gatherer::Gatherer;
 use crate::charts::small_png;
 use crate::figures as draw;
 use crate::files::{ReportError, guarded};
@@ -14,6 +14,7 @@ use base64::engine::general_purpose::STANDARD;
 use rheotaxis::frame::PlumeFrame;
 use rheotaxis::ocean::Ocean;
 use rheotaxis::outcome::RunOutcome;
+use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Ended, Trial};
 use std::time::Duration;
 use world::files::Folder;
@@ -41,15 +42,23 @@ pub struct Gathered {
     failure: Option<ReportError>,
 }
 
+/// Whose results they are.
+pub(super) struct Whose {
+    pub(super) loaded: Loaded,
+    pub(super) out: Option<Folder>,
+    pub(super) spin_up_kept: bool,
+}
+
 impl Gathered {
-    /// From what a follower has gathered; `walls` are the times that spin-up and mission took.
+    /// From what was gathered; `walls` are the times that spin-up and mission took.
     pub(super) fn of(
-        mut gathered: Follower,
+        mut gathered: Gatherer,
+        whose: Whose,
         trial: &Trial,
         ended: &Ended,
         walls: [Duration; 2],
     ) -> Self {
-        let scenario = &gathered.loaded.scenario;
+        let scenario = &whose.loaded.scenario;
         let sources = SourceTruth::of(trial, ended);
         let end = RunEnd {
             outcome: match gathered.failure {
@@ -61,7 +70,7 @@ impl Gathered {
             score: trial.score().clone(),
             totals: Totals {
                 spin_up_s: scenario.time.spin_up_s.get(),
-                spin_up_kept: gathered.spin_up_kept,
+                spin_up_kept: whose.spin_up_kept,
                 ..totals(trial, ended, walls)
             },
         };
@@ -74,8 +83,8 @@ impl Gathered {
                 .map(|depth_m| -depth_m)
                 .collect(),
             obstacles: outlines(trial.simulation.ocean(), &scenario.permeable),
-            out: gathered.out,
-            scenario_text: gathered.run.scenario_text,
+            out: whose.out,
+            scenario_text: whose.loaded.text,
             track: gathered.track.finish(),
             gantries: gathered.probes.finish(),
             beliefs: gathered.beliefs,

@@ -5,18 +5,18 @@
     reason = "wall times are shown to people and stand in the summary; none enters the run"
 )]
 
+mod desk;
 mod gathered;
+mod gatherer;
 mod machines;
 
 pub use gathered::Gathered;
 
 use crate::files::ReportError;
-use crate::record::Recorder;
-use crate::results::{
-    BeliefTrack, Echoes, GantryInfo, Pictures, PlumeFilm, ProbeTables, RobotInfo, RunInfo,
-    SummaryBuilder, TrackTable,
-};
+use crate::results::{RobotInfo, RunInfo};
 use crate::scene::Scene;
+use desk::Desk;
+use gatherer::{Gatherer, Seen};
 use rheotaxis::control::Consultation;
 use rheotaxis::error::AssembleError;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
@@ -33,18 +33,10 @@ pub struct Follower {
     loaded: Loaded,
     scene: Option<Arc<Scene>>,
     robots: Vec<RobotInfo>,
-    gantries: Vec<GantryInfo>,
     out: Option<Folder>,
-    builder: SummaryBuilder,
-    track: TrackTable,
-    probes: ProbeTables,
-    beliefs: BeliefTrack,
-    pictures: Option<Pictures>,
-    echoes: Echoes,
-    recorder: Option<Recorder>,
-    failure: Option<ReportError>,
-    last_plume: Option<PlumeFrame>,
-    plume_film: PlumeFilm,
+    /// Whether there is a recording, for which the flow is looked at.
+    recording: bool,
+    desk: Desk,
     begun: Instant,
     mission_begun: Instant,
     spin_up_kept: bool,
@@ -65,28 +57,19 @@ impl Follower {
             seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         };
-        let (robots, gantries) = (machines::robots(loaded), machines::gantries(loaded)?);
+        let gatherer = Gatherer::new(loaded, &run)?;
         let now = Instant::now();
         Ok(Self {
-            builder: SummaryBuilder::new(&run),
-            track: TrackTable::in_memory(robots.clone()),
-            probes: ProbeTables::in_memory(gantries.clone()),
-            beliefs: BeliefTrack::default(),
-            pictures: None,
-            echoes: Echoes::default(),
-            recorder: None,
-            failure: None,
-            last_plume: None,
-            plume_film: PlumeFilm::default(),
+            robots: gatherer.robots.clone(),
+            desk: Desk::Here(Box::new(gatherer)),
             begun: now,
             mission_begun: now,
             spin_up_kept: false,
+            recording: false,
             out: None,
             loaded: loaded.clone(),
             scene: None,
             run,
-            robots,
-            gantries,
         })
     }
 
@@ -95,22 +78,29 @@ impl Follower {
     ///
     /// # Errors
     /// If the files cannot be written.
+    ///
+    /// # Panics
+    /// If it gathers [beside the run](Self::beside) by now.
     pub fn write_into(&mut self, out: &Folder, recording: bool) -> Result<(), ReportError> {
-        let path = out.file("track.csv").map_err(ReportError::from)?;
-        self.track = TrackTable::create(&path, self.robots.clone())?;
-        self.probes = ProbeTables::create(out, self.gantries.clone())?;
-        if recording {
-            // First, so that a scene that cannot be made leaves no file behind.
-            let scene = self.scene().map_err(Box::new)?;
-            let mut begun = begin_recording(out, &self.run)?
-                .with_map_period(self.loaded.scenario.record.map_period_s.get());
-            begun.scene(&scene)?;
-            self.recorder = Some(begun);
-        }
+        // First, so that a scene that cannot be made leaves no file behind.
+        let scene = recording.then(|| self.scene().map_err(Box::new));
+        let scene = scene.transpose()?;
+        let Desk::Here(gatherer) = &mut self.desk else {
+            panic!("files are opened before the run");
+        };
         let record = &self.loaded.scenario.record;
-        self.pictures = Some(Pictures::new(out, record.pictures));
+        gatherer.write_into(out, record, &self.run, scene.as_ref())?;
+        self.recording = recording;
         self.out = Some(out.clone());
         Ok(())
+    }
+
+    /// Gathers in a thread of its own from now on, and so writes tables and recording while the run goes on. They are
+    /// the same; but a few simulated seconds wait to be written, and are lost if the process is killed.
+    #[must_use]
+    pub fn beside(mut self) -> Self {
+        self.desk = self.desk.move_beside();
+        self
     }
 
     /// What tables and figures know beforehand about the robots, in the scenario's order.
@@ -140,38 +130,31 @@ impl Follower {
     /// Whether all that was gathered so far could be written. If not, the run should end.
     #[must_use]
     pub fn well(&self) -> bool {
-        self.failure.is_none()
-    }
-
-    /// Keeps the first error of writing.
-    fn note(&mut self, result: Result<(), ReportError>) {
-        if let Err(error) = result {
-            self.failure.get_or_insert(error);
-        }
+        self.desk.well()
     }
 
     /// The results of the run at its end. A recording is closed; the other files are written by [`Gathered::write`].
+    ///
+    /// # Panics
+    /// As the thread [beside the run](Self::beside) has, if it has.
     #[must_use]
-    pub fn finish(mut self, trial: &Trial, ended: &Ended) -> Gathered {
+    pub fn finish(self, trial: &Trial, ended: &Ended) -> Gathered {
         let walls: [Duration; 2] = [
             self.mission_begun - self.begun,
             self.mission_begun.elapsed(),
         ];
-        if let Some(recorder) = self.recorder.take() {
+        let mut gatherer = self.desk.finish();
+        if let Some(recorder) = gatherer.recorder.take() {
             let closed = recorder.finish(&ended.digest, ended.steps).map(drop);
-            self.note(closed);
+            gatherer.note(closed);
         }
-        Gathered::of(self, trial, ended, walls)
+        let run = gathered::Whose {
+            loaded: self.loaded,
+            out: self.out,
+            spin_up_kept: self.spin_up_kept,
+        };
+        Gathered::of(*gatherer, run, trial, ended, walls)
     }
-}
-
-/// Opens the recording. Its temporary file is listed too, so that the next run removes it if this one is killed.
-fn begin_recording(out: &Folder, run: &RunInfo) -> Result<Recorder, ReportError> {
-    let recorder = Recorder::create(&out.file("run.mcap")?, run)?;
-    if let Some(name) = recorder.temporary().file_name() {
-        out.file(&name.to_string_lossy())?;
-    }
-    Ok(recorder)
 }
 
 impl Watch for Follower {
@@ -185,62 +168,30 @@ impl Watch for Follower {
         self.spin_up_kept = kept;
     }
 
-    fn frame(&mut self, frame: &Frame) {
-        self.builder.observe(frame);
-        let rows = self.track.push(frame);
-        self.note(rows);
-        let scans = self.probes.push(frame);
-        self.note(scans);
-        self.beliefs.push(frame);
-        if let Some(recorder) = &mut self.recorder {
-            let recorded = recorder.frame(frame);
-            self.note(recorded);
-        }
+    fn frame(&mut self, frame: &Arc<Frame>) {
+        self.desk.take(Seen::Frame(Arc::clone(frame)));
     }
 
     fn plume(&mut self, plume: &PlumeFrame) {
-        if let Some(recorder) = &mut self.recorder {
-            let recorded = recorder.plume(plume);
-            self.note(recorded);
-        }
-        self.beliefs.plume(plume);
-        self.plume_film.push(plume);
-        self.last_plume = Some(plume.clone());
+        self.desk.take(Seen::Plume(plume.clone()));
     }
 
     fn water(&mut self, look: &dyn Fn() -> WaterFrame) {
-        if let Some(recorder) = &mut self.recorder {
-            let recorded = recorder.water(&look());
-            self.note(recorded);
+        if self.recording {
+            self.desk.take(Seen::Water(look()));
         }
     }
 
     fn consulted(&mut self, told: &Consultation) {
-        if let Some(recorder) = &mut self.recorder {
-            let recorded = recorder.consulted(told);
-            self.note(recorded);
-        }
+        self.desk.take(Seen::Consulted(told.clone()));
     }
 
     fn picture(&mut self, picture: &PictureFrame) {
-        let Some(pictures) = &mut self.pictures else {
-            return;
-        };
-        let kept = pictures.push(picture);
-        if let (Ok(Some(png)), Some(recorder)) = (&kept, &mut self.recorder) {
-            let recorded = recorder.picture(picture, png);
-            self.note(recorded);
-        }
-        self.note(kept.map(drop));
+        self.desk.take(Seen::Picture(picture.clone()));
     }
 
     fn ping(&mut self, ping: &PingFrame) {
-        if let Some(line) = self.echoes.push(ping)
-            && let Some(recorder) = &mut self.recorder
-        {
-            let recorded = recorder.echo(&ping.robot, line);
-            self.note(recorded);
-        }
+        self.desk.take(Seen::Ping(ping.clone()));
     }
 
     fn go_on(&mut self, _t_s: f64) -> bool {

@@ -55,12 +55,14 @@ pub(super) fn configured(
         "listen/endpoints",
         &serde_json::json!([endpoint]),
     )?;
-    if let Some(router) = joined {
-        set(
+    match joined {
+        Some(router) => set(
             &mut config,
             "connect/endpoints",
             &serde_json::json!([router]),
-        )?;
+        )?,
+        // A router waits so long for those whom it may find, half a second by default; it looks for nobody here.
+        None => set(&mut config, "scouting/delay", &0.into())?,
     }
     // Multicast is slow or refused on many machines; clients are told the endpoint instead.
     set(&mut config, "scouting/multicast/enabled", &false.into())?;

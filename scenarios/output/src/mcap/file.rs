@@ -87,6 +87,8 @@ impl McapFile {
             .library(library)
             // Compression in the caller's thread: the same bytes on any machine, and no threads of its own.
             .compression_threads(0)
+            // A recording is written once; a higher level costs more time than it saves bytes.
+            .compression_level(1)
             .create(BufWriter::new(file))
             .map_err(|source| RecordError::Write {
                 path: temporary.clone(),

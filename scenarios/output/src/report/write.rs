@@ -6,10 +6,10 @@ use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
 use crate::results::{RunReport, belief_track, odour};
+use rayon::prelude::*;
 use rheotaxis::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::PathBuf;
-use std::thread;
 use world::area::Area;
 use world::files::Folder;
 
@@ -37,12 +37,11 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
         }
     }
     let figures = figures(run);
-    // The pictures are painted while the animation is made.
-    let (film, painted) = thread::scope(|scope| {
-        let painter = scope.spawn(|| figures.iter().map(Figure::png).collect::<Vec<_>>());
-        let film = guarded(|| film::film(run));
-        (film, painter.join().expect("each picture is guarded"))
-    });
+    // The pictures are painted beside each other, and while the animation is made.
+    let (painted, film) = rayon::join(
+        || figures.par_iter().map(Figure::png).collect::<Vec<_>>(),
+        || guarded(|| film::film(run)),
+    );
     let mut shown = Vec::new();
     for (Figure { name, title, svg }, png) in figures.into_iter().zip(painted) {
         if let Ok(svg) = svg {

@@ -1,6 +1,8 @@
 //! `track.csv`: where each robot was, and what it believed, read and did. The same data are kept for the figures.
 
+use crate::decimal::push_decimal;
 use crate::files::ReportError;
+use csv::StringRecord;
 use rheotaxis::frame::{Frame, RobotFrame};
 use robots::handoff::{Behaviour, Declaration, Layer, Region, Vertical, region_name};
 use std::io::Write as _;
@@ -312,10 +314,10 @@ impl TrackTable {
             if let Some(file) = &mut self.file {
                 let mut fields = row(frame.t_s, r, &robot.info);
                 if self.regions {
-                    fields.push(r.regions.now.map_or_else(String::new, region_name));
+                    fields.push_field(&r.regions.now.map_or_else(String::new, region_name));
                 }
                 if self.layered {
-                    fields.push(r.holding_layer().unwrap_or("").to_string());
+                    fields.push_field(r.holding_layer().unwrap_or(""));
                 }
                 (file.write_record(&fields)).map_err(|e| file.get_ref().failed(e.into()))?;
             }
@@ -334,12 +336,22 @@ impl TrackTable {
 }
 
 /// The fields of a row.
-fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> Vec<String> {
-    let mut fields = vec![format!("{t_s:.3}"), r.id.clone()];
-    let written = numbers(r, info).into_iter().zip(COLUMNS);
-    let field = |(v, (_, d)): (Option<f64>, (_, usize))| v.map(|v| format!("{v:.d$}"));
-    fields.extend(written.map(|one| field(one).unwrap_or_default()));
-    fields.push(r.behaviour.name().to_string());
+fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> StringRecord {
+    let mut fields = StringRecord::with_capacity(256, COLUMNS.len() + 5);
+    let mut text = String::new();
+    let mut field = |fields: &mut StringRecord, number: Option<f64>, places: usize| {
+        text.clear();
+        if let Some(v) = number {
+            push_decimal(&mut text, v, places);
+        }
+        fields.push_field(&text);
+    };
+    field(&mut fields, Some(t_s), 3);
+    fields.push_field(&r.id);
+    for (number, (_, places)) in numbers(r, info).into_iter().zip(COLUMNS) {
+        field(&mut fields, number, places);
+    }
+    fields.push_field(r.behaviour.name());
     fields
 }
 

@@ -11,7 +11,9 @@ use serde::{Serialize, Serializer};
 
 /// A message as CDR. Four bytes before it say: plain CDR, little-endian.
 pub(super) fn cdr(message: &impl Serialize) -> Vec<u8> {
-    let mut bytes = vec![0, 1, 0, 0];
+    // Room for most messages at once; an odometry has 720 bytes.
+    let mut bytes = Vec::with_capacity(768);
+    bytes.extend([0, 1, 0, 0]);
     cdr_encoding::to_writer::<_, LittleEndian, _>(&mut bytes, message)
         .expect("a message of numbers, texts and sequences becomes CDR");
     bytes

@@ -3,6 +3,7 @@
 use crate::control::consulting::Open;
 use crate::frame::Frame;
 use nalgebra::Vector3;
+use std::sync::Arc;
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,7 +22,7 @@ pub(crate) struct Progress {
     pub(super) sources: Vec<Vector3<f64>>,
     pub(super) flow_sums: Vec<Vector3<f64>>,
     pub(super) flow_samples: u32,
-    pub(super) frame: Option<Frame>,
+    pub(super) frame: Option<Arc<Frame>>,
     pub(super) water_shown: bool,
     /// Time of the ocean at which the mission began, s.
     pub(super) began_s: f64,

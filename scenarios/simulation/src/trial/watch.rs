@@ -2,6 +2,7 @@
 
 use crate::control::Consultation;
 use crate::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
+use std::sync::Arc;
 
 /// An observer of a run: it records, publishes, sets the pace or shows progress. It can stop the run, and nothing
 /// else that it does reaches the run.
@@ -13,7 +14,7 @@ pub trait Watch {
     /// After the spin-up, if a cache was asked for it: whether it was there. Then no share was told.
     fn developed(&mut self, _kept: bool) {}
     /// A new frame.
-    fn frame(&mut self, _frame: &Frame) {}
+    fn frame(&mut self, _frame: &Arc<Frame>) {}
     /// Whether it looks at pictures of the plume. Otherwise none are made for it.
     fn sees_plume(&self) -> bool {
         true

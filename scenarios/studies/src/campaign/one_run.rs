@@ -11,6 +11,7 @@ use rheotaxis::frame::Frame;
 use rheotaxis::outcome::RunOutcome;
 use rheotaxis::scenario::Loaded;
 use rheotaxis::trial::{Trial, Watch};
+use std::sync::Arc;
 use std::time::Duration;
 use world::seeds::Seed;
 
@@ -112,7 +113,7 @@ impl Watch for Gatherer<'_> {
     fn sees_plume(&self) -> bool {
         false
     }
-    fn frame(&mut self, frame: &Frame) {
+    fn frame(&mut self, frame: &Arc<Frame>) {
         self.builder.observe(frame);
     }
     fn go_on(&mut self, _t_s: f64) -> bool {
