@@ -2,6 +2,7 @@
 //! waited for, and one that fails costs no other. And a folder used again holds files of one run.
 #![cfg(unix)]
 
+mod beside;
 mod kept;
 
 use crate::common::{self, command, with_fields};

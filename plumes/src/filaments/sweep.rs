@@ -178,18 +178,16 @@ impl Sweep<'_> {
                 c.swept.turned += self.keep_out(carried, b, work);
             }
             self.note(b, &mut c.swept.columns);
-            if b.outside[..n].iter().any(|o| *o != 0) {
-                for l in 0..n {
-                    if b.outside[l] == 0 {
-                        c.put(b, l, from + l, to, 1);
-                        to += 1;
-                    } else {
-                        c.swept.gone.push(from + l);
-                    }
+            // Those between two that leave are put down together.
+            let mut l = 0;
+            while l < n {
+                let stay = b.outside[l..n].iter().take_while(|o| **o == 0).count();
+                c.put(b, l, from + l, to, stay);
+                (l, to) = (l + stay, to + stay);
+                if l < n {
+                    c.swept.gone.push(from + l);
+                    l += 1;
                 }
-            } else {
-                c.put(b, 0, from, to, n);
-                to += n;
             }
         }
         c.swept.kept = to;

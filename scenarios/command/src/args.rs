@@ -182,7 +182,8 @@ pub struct RunArgs {
     /// ROS 2.
     #[command(flatten)]
     pub ros2: Ros2Args,
-    /// Threads for the plume; 0 means one for each core. The results are the same with any number.
+    /// Threads for the plume; 0 means one for each core. With more than one, a further one writes tables and recording,
+    /// a few simulated seconds behind, unless `--speed` or a controller sets the pace. The results are the same.
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub threads: usize,
 }
