@@ -1,19 +1,12 @@
-//! From SVG to PNG, with the font that the program contains (a part of DejaVu Sans, see `font/LICENSE`).
+//! From SVG to PNG: see `paint` for its pixels.
 
+use super::paint::painted;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder as _, ImageError};
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::fontdb::Database;
-use resvg::usvg::{Options, Tree};
-use std::sync::{Arc, LazyLock};
+use resvg::tiny_skia::Pixmap;
 
 /// Pixels per pixel of the SVG: sharp in print at its natural size.
 const SCALE: f32 = 2.0;
-
-const FONTS: [&[u8]; 2] = [
-    include_bytes!("font/DejaVuSans.ttf"),
-    include_bytes!("font/DejaVuSans-Bold.ttf"),
-];
 
 /// A figure as PNG bytes.
 pub fn png(svg: &str) -> Result<Vec<u8>, String> {
@@ -25,31 +18,8 @@ pub fn small_png(svg: &str, most_px: u32) -> Result<Vec<u8>, String> {
     scaled(svg, |longest| (most_px as f32 / longest).min(SCALE))
 }
 
-/// The fonts, read once.
-static FONT_BASE: LazyLock<Arc<Database>> = LazyLock::new(|| {
-    let mut fonts = Database::new();
-    for font in FONTS {
-        fonts.load_font_data(font.to_vec());
-    }
-    Arc::new(fonts)
-});
-
 fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
-    let options = Options {
-        fontdb: Arc::clone(&FONT_BASE),
-        ..Options::default()
-    };
-    let tree = Tree::from_str(svg, &options).map_err(|e| e.to_string())?;
-    let size = tree.size();
-    let scale = scale(size.width().max(size.height()));
-    let (w, h) = (size.width() * scale, size.height() * scale);
-    let mut pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32)
-        .ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
-    resvg::render(
-        &tree,
-        Transform::from_scale(scale, scale),
-        &mut pixels.as_mut(),
-    );
+    let pixels = painted(svg, |[width, height]| scale(width.max(height)))?;
     packed(pixels).map_err(|e| e.to_string())
 }
 
@@ -74,6 +44,8 @@ fn packed(pixels: Pixmap) -> Result<Vec<u8>, ImageError> {
 mod tests {
     use super::*;
     use crate::charts::canvas::{Anchor, Canvas};
+    use crate::charts::paint::FONTS;
+    use resvg::usvg::Options;
 
     fn dark_pixels(c: &Canvas) -> usize {
         let png = png(&c.svg("t")).unwrap();
