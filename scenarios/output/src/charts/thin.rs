@@ -57,6 +57,7 @@ fn farthest(line: &[[f64; 2]], a: usize, b: usize) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use world::math;
 
     fn distance(p: [f64; 2], line: &[[f64; 2]]) -> f64 {
         let to = |ends: &[[f64; 2]]| {
@@ -65,7 +66,8 @@ mod tests {
             let e = [p[0] - a[0], p[1] - a[1]];
             let along = (e[0] * d[0] + e[1] * d[1]) / (d[0] * d[0] + d[1] * d[1]);
             let along = along.clamp(0.0, 1.0);
-            (e[0] - along * d[0]).hypot(e[1] - along * d[1])
+            let off = [e[0] - along * d[0], e[1] - along * d[1]];
+            (off[0] * off[0] + off[1] * off[1]).sqrt()
         };
         line.windows(2).map(to).fold(f64::INFINITY, f64::min)
     }
@@ -75,7 +77,8 @@ mod tests {
         let spiral: Vec<[f64; 2]> = (0..5000)
             .map(|n| {
                 let t = f64::from(n) * 0.01;
-                [300.0 + 5.0 * t * t.cos(), 300.0 + 5.0 * t * t.sin()]
+                let (sin, cos) = math::sin_cos(t);
+                [300.0 + 5.0 * t * cos, 300.0 + 5.0 * t * sin]
             })
             .collect();
         let kept = thinned(&spiral);
