@@ -3,11 +3,14 @@
 use super::short;
 use output::files::begin_folder;
 use output::follow::Follower;
+use rheotaxis::frame::Frame;
 use rheotaxis::scenario::{Loaded, load};
-use rheotaxis::trial::Trial;
+use rheotaxis::trial::{Trial, Watch as _};
 use std::collections::BTreeMap;
 use std::fs;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::sync::Arc;
 
 fn loaded(dir: &Path) -> Loaded {
     let file = dir.join("s.ron");
@@ -98,4 +101,24 @@ fn one_that_is_dropped_has_written_all_it_was_shown() {
         newest.unwrap() as f64 * 1e-9 + 5.1 > last,
         "{newest:?} of {last} s"
     );
+}
+
+/// A fault of ours in the other thread ends the run as one in its own thread does.
+#[test]
+fn a_panic_comes_over() {
+    let dir = tempfile::tempdir().unwrap();
+    let loaded = loaded(dir.path());
+    let mut follower = follower(&loaded, &dir.path().join("out")).beside();
+    let late = Arc::new(Frame {
+        t_s: 1e10,
+        ..Frame::default()
+    });
+    let shown = catch_unwind(AssertUnwindSafe(|| {
+        for _ in 0..1000 {
+            follower.frame(&late);
+        }
+    }));
+    let said = shown.expect_err("no recording has such a time");
+    let said = said.downcast_ref::<String>().expect("a message");
+    assert!(said.contains("68 years"), "{said}");
 }

@@ -33,13 +33,16 @@ pub(super) struct Beside {
 
 impl Desk {
     /// Takes one thing in.
+    ///
+    /// # Panics
+    /// As the other thread has, if it has.
     pub(super) fn take(&mut self, seen: Seen) {
         match self {
             Self::Here(gatherer) => gatherer.take(seen),
             Self::Beside(beside) => {
                 beside.next.push(seen);
-                if beside.next.len() >= AT_ONCE {
-                    beside.send();
+                if beside.next.len() >= AT_ONCE && !beside.send() {
+                    beside.panic_too();
                 }
             }
         }
@@ -99,19 +102,23 @@ impl Desk {
             Self::Beside(mut beside) => match beside.end() {
                 Some(Ok(gatherer)) => gatherer,
                 Some(Err(panic)) => resume_unwind(panic),
-                None => unreachable!("only this and a drop end the thread"),
+                None => unreachable!("whoever takes the thread before ends the run"),
             },
         }
     }
 }
 
 impl Beside {
-    fn send(&mut self) {
+    /// Sends what has come together; false if the thread is no longer there.
+    fn send(&mut self) -> bool {
         let parcel = std::mem::replace(&mut self.next, Vec::with_capacity(AT_ONCE));
-        let sent = self.sender.as_ref().is_some_and(|s| s.send(parcel).is_ok());
-        if !sent {
-            // It has panicked: the run ends, and its end says how.
-            self.well.store(false, Ordering::Relaxed);
+        (self.sender.as_ref()).is_some_and(|s| s.send(parcel).is_ok())
+    }
+
+    /// Ends the run as its own thread would have: a thread that is no longer there has panicked.
+    fn panic_too(&mut self) {
+        if let Some(Err(panic)) = self.thread.take().map(JoinHandle::join) {
+            resume_unwind(panic);
         }
     }
 
