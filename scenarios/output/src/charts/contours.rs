@@ -5,7 +5,6 @@
 //! *Parameters*: the grid.
 //! *Deviations*: none.
 
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Values at the nodes of a regular grid.
@@ -26,18 +25,17 @@ type Edge = (usize, usize, u8);
 
 impl Grid {
     /// Evaluates a function over a rectangle.
-    pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64 + Sync) -> Self {
+    pub fn of(x: [f64; 2], y: [f64; 2], n: [usize; 2], f: impl Fn(f64, f64) -> f64) -> Self {
         let step = [
             (x[1] - x[0]) / (n[0] - 1) as f64,
             (y[1] - y[0]) / (n[1] - 1) as f64,
         ];
-        let mut values = vec![0.0; n[0] * n[1]];
-        let rows = values.par_chunks_mut(n[0].max(1)).enumerate();
-        rows.for_each(|(j, row)| {
-            for (i, value) in row.iter_mut().enumerate() {
-                *value = f(x[0] + i as f64 * step[0], y[0] + j as f64 * step[1]);
+        let mut values = Vec::with_capacity(n[0] * n[1]);
+        for j in 0..n[1] {
+            for i in 0..n[0] {
+                values.push(f(x[0] + i as f64 * step[0], y[0] + j as f64 * step[1]));
             }
-        });
+        }
         Self {
             n,
             origin: [x[0], y[0]],

@@ -6,10 +6,10 @@ use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
 use crate::results::{RunReport, belief_track, odour};
-use rayon::prelude::*;
 use rheotaxis::frame::PlumeFrame;
 use std::fmt::Write as _;
 use std::path::PathBuf;
+use std::thread;
 use world::area::Area;
 use world::files::Folder;
 
@@ -38,10 +38,7 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     }
     let figures = figures(run);
     // The pictures are painted beside each other, and while the animation is made.
-    let (painted, film) = rayon::join(
-        || figures.par_iter().map(Figure::png).collect::<Vec<_>>(),
-        || guarded(|| film::film(run)),
-    );
+    let (film, painted) = beside_each_other(&figures, Figure::png, || guarded(|| film::film(run)));
     let mut shown = Vec::new();
     for (Figure { name, title, svg }, png) in figures.into_iter().zip(painted) {
         if let Ok(svg) = svg {
@@ -68,6 +65,34 @@ pub fn write_all(out: &Folder, run: &RunReport<'_>) -> Result<Vec<PathBuf>, Repo
     );
     kept.write("report.html", page.as_bytes());
     kept.done()
+}
+
+/// What `here` makes in this thread, and what `each` makes of every item meanwhile, in two threads. They end with this
+/// call: a pool that stays would be dead in a process that is forked later.
+fn beside_each_other<T: Sync, R: Send, H>(
+    items: &[T],
+    each: impl Fn(&T) -> R + Sync,
+    here: impl FnOnce() -> H,
+) -> (H, Vec<R>) {
+    let (left, right) = (items.iter().step_by(2), items.iter().skip(1).step_by(2));
+    thread::scope(|scope| {
+        let each = &each;
+        let [left, right] = [
+            scope.spawn(move || left.map(each).collect::<Vec<R>>()),
+            scope.spawn(move || right.map(each).collect::<Vec<R>>()),
+        ];
+        let here = here();
+        let [left, right] = [left, right].map(|t| t.join().expect("each picture is guarded"));
+        let (mut left, mut right) = (left.into_iter(), right.into_iter());
+        let in_order = (0..items.len()).map(|n| {
+            if n % 2 == 0 {
+                left.next()
+            } else {
+                right.next()
+            }
+        });
+        (here, in_order.flatten().collect())
+    })
 }
 
 /// A figure of a run.
