@@ -100,3 +100,20 @@ def test_a_run_in_a_forked_process(channel):
     with os.fdopen(read, "rb") as pipe:
         assert pipe.read().decode() == expected
     os.waitpid(pid, 0)
+
+
+@pytest.mark.filterwarnings("ignore:.*fork.*:DeprecationWarning")
+def test_a_forked_process_paints_as_the_first_has(channel, tmp_path):
+    first, second = tmp_path / "first", tmp_path / "second"
+    rheotaxis.run(channel, files=first, threads=1)
+    pid = os.fork()
+    if pid == 0:
+        # One that waits for threads that did not come along is ended.
+        signal.alarm(60)
+        try:
+            rheotaxis.run(channel, files=second, threads=1)
+        finally:
+            os._exit(0)
+    os.waitpid(pid, 0)
+    assert (first / "map.png").read_bytes() == (second / "map.png").read_bytes()
+    assert (second / "report.html").exists()
