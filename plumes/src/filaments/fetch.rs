@@ -77,6 +77,12 @@ impl Levels {
         (self.below[l], self.part[l]) = (v.below, v.part);
         v.per_m
     }
+
+    /// Not zero if the stored level is another, in any bit, than this one.
+    #[inline(always)]
+    pub(super) fn differs(&self, l: usize, v: &Level) -> u32 {
+        (self.below[l] ^ v.below) | (self.part[l].to_bits() ^ v.part.to_bits())
+    }
 }
 
 /// u, v, w and K_z of a block.

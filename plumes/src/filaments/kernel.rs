@@ -36,7 +36,7 @@
 
 use super::fetch::{Columns, Fetched, Levels, fetch};
 use super::lookup::{Lookup, clamped};
-use super::noise::normals;
+use super::noise::{level_normals, normals};
 use crate::path::Path;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
@@ -91,13 +91,6 @@ impl Work {
     }
 }
 
-impl Work {
-    /// The two normals that kick a filament of the block upwards.
-    pub(super) fn upward(&self, l: usize) -> [f32; 2] {
-        [self.noise[2][l], self.noise[3][l]]
-    }
-}
-
 /// Moves all filaments of the block, each by its `dt`. Of a block with few filaments only the first places are worked
 /// on, with the same bits.
 pub(super) fn step(
@@ -111,6 +104,7 @@ pub(super) fn step(
     match block.used {
         0..=32 => step_first::<32>(path, cells, nodes, key, block, work),
         33..=64 => step_first::<64>(path, cells, nodes, key, block, work),
+        65..=96 => step_first::<96>(path, cells, nodes, key, block, work),
         _ => step_first::<BLOCK>(path, cells, nodes, key, block, work),
     }
 }
@@ -188,12 +182,6 @@ unsafe fn body<P: Pair, const N: usize>(
     } = work;
 
     for l in 0..N {
-        let n = normals(b.number[l], key);
-        for d in 0..4 {
-            noise[d][l] = n[d];
-        }
-    }
-    for l in 0..N {
         column.set(l, cells.column(b.x[l], b.y[l]));
     }
     for l in 0..N {
@@ -203,15 +191,34 @@ unsafe fn body<P: Pair, const N: usize>(
     column.weigh::<N>();
     // SAFETY: the caller promises the instructions of the pair.
     unsafe { fetch::<P, N>(cells, nodes, column, level, here, Some(slope)) };
+    // Where nothing mixes upwards, all that multiplies the two upward normals is zero.
+    let calm = all_zero(&here[3][..N]) && all_zero(&slope[..N]);
+    if calm {
+        for l in 0..N {
+            [noise[0][l], noise[1][l]] = level_normals(b.number[l], key);
+            (noise[2][l], noise[3][l]) = (0.0, 0.0);
+        }
+    } else {
+        for l in 0..N {
+            let n = normals(b.number[l], key);
+            for d in 0..4 {
+                noise[d][l] = n[d];
+            }
+        }
+    }
+    let mut changed = 0;
     for l in 0..N {
         kick[l] = (2.0 * here[3][l] * b.dt[l] * b.kicked[l]).sqrt() * noise[2][l];
-        level.set(
-            l,
-            cells.level(folded(b.z[l] + kick[l], b.bed[l], up[l]), up[l]),
-        );
+        let v = cells.level(folded(b.z[l] + kick[l], b.bed[l], up[l]), up[l]);
+        changed |= level.differs(l, &v);
+        level.set(l, v);
     }
-    // SAFETY: as above.
-    unsafe { fetch::<P, N>(cells, nodes, column, level, there, None) };
+    if calm && changed == 0 {
+        there.clone_from(here);
+    } else {
+        // SAFETY: as above.
+        unsafe { fetch::<P, N>(cells, nodes, column, level, there, None) };
+    }
     if let Some(k_h) = cells.even_k_h {
         for l in 0..N {
             let kick = (2.0 * k_h * b.dt[l] * b.kicked[l]).sqrt();
@@ -252,6 +259,13 @@ unsafe fn body<P: Pair, const N: usize>(
     for l in 0..N {
         b.z[l] = folded(b.z[l], b.bed[l], -1.0 / b.bed[l]);
     }
+}
+
+/// Whether all of these are zero.
+#[inline(always)]
+fn all_zero(values: &[f32]) -> bool {
+    // Not a search, so that the processor looks at several at once.
+    values.iter().fold(0, |bits, v| bits | v.to_bits()) << 1 == 0
 }
 
 /// Reflects a height into the water between `bed` (negative) and the surface at 0, as often as necessary; `up` is the

@@ -39,6 +39,21 @@ pub(super) fn normals(number: u32, key: [u32; 2]) -> [f32; 4] {
     [r1 * c1, r1 * s1, r2 * s2, r2 * c2]
 }
 
+/// The first two of these, alone.
+#[inline(always)]
+pub(super) fn level_normals(number: u32, key: [u32; 2]) -> [f32; 2] {
+    let h = mix(number.wrapping_mul(0x9e37_79b9) ^ key[0]);
+    let r = radius(mix(h ^ key[1]) >> 8);
+    let (s, c) = sin_cos_turn(mix(h.wrapping_sub(key[1]) ^ 0xbb67_ae85) >> 8);
+    [r * c, r * s]
+}
+
+/// The last two, which kick it upwards.
+pub(super) fn upward_normals(number: u32, key: [u32; 2]) -> [f32; 2] {
+    let [_, _, a, b] = normals(number, key);
+    [a, b]
+}
+
 #[inline(always)]
 fn mix(mut x: u32) -> u32 {
     x ^= x >> 16;
@@ -139,6 +154,17 @@ mod tests {
             );
             for r in [cross[d], serial[d], neighbour[d]] {
                 assert!((r / n).abs() < 1.6e-3, "correlation {d}: {}", r / n);
+            }
+        }
+    }
+
+    #[test]
+    fn level_normals_are_the_first_two() {
+        for step in 0..100 {
+            let key = step_key(11, step);
+            for number in 0..1000 {
+                let [a, b, ..] = normals(number, key);
+                assert_eq!(level_normals(number, key), [a, b]);
             }
         }
     }

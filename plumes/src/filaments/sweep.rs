@@ -11,6 +11,7 @@ use super::bands::Span;
 use super::carried::{Carrier, Way};
 use super::kernel::{self, BLOCK, Block, Work};
 use super::lookup::Lookup;
+use super::noise::upward_normals;
 use super::rebound::Kick;
 use super::room::Room;
 use super::size::Size;
@@ -175,7 +176,7 @@ impl Sweep<'_> {
                 }
             }
             if let Some(carried) = &carried {
-                c.swept.turned += self.keep_out(carried, b, work);
+                c.swept.turned += self.keep_out(carried, b);
             }
             self.note(b, &mut c.swept.columns);
             // Those between two that leave are put down together.
@@ -214,7 +215,7 @@ impl Sweep<'_> {
     }
 
     /// Reflects filaments of a block at walls through which their kicks led. Returns their number.
-    fn keep_out(&self, from: &[[f32; BLOCK]; 3], b: &mut Block, work: &Work) -> u64 {
+    fn keep_out(&self, from: &[[f32; BLOCK]; 3], b: &mut Block) -> u64 {
         let (room, cells) = (self.room, self.cells);
         let mut turned = 0;
         let near = room.near_walls(cells, from, [&b.x, &b.y, &b.z]);
@@ -224,7 +225,7 @@ impl Sweep<'_> {
                 continue;
             }
             let kick = Kick {
-                noise: work.upward(l),
+                noise: upward_normals(b.number[l], self.key),
                 dt_s: b.dt[l],
                 part: b.kicked[l],
             };
