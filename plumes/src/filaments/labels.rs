@@ -11,6 +11,10 @@
 use super::bands::Span;
 use super::store::Store;
 use crate::flow::eddies::{Life, Small};
+use crate::path::Path;
+#[cfg(target_arch = "x86_64")]
+use crate::quad::Avx;
+use crate::quad::{Pair, Twice};
 use nalgebra::Vector3;
 use std::ops::Range;
 use world::bits::{Reader, Unreadable, Writer};
@@ -142,6 +146,7 @@ impl Labels {
 
 /// Carries filaments with the small eddies through a step, or from their release on, and the water at the source, `p_W`.
 pub(super) fn carry(
+    path: Path,
     small: &Small,
     flow: &dyn Flow,
     p_W: Vector3<f64>,
@@ -152,6 +157,42 @@ pub(super) fn carry(
     let Some(mut labels) = store.labels.take() else {
         return;
     };
+    match path {
+        // SAFETY: a pair that every machine of the target has.
+        Path::Portable => unsafe { moved::<Twice>(&mut labels, small, store, range, span) },
+        // SAFETY: this variant is only made after the feature was detected.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx2 | Path::Avx512 => unsafe { moved_avx2(&mut labels, small, store, range, span) },
+    }
+    labels.pass_source(small, flow, p_W, span.to_s);
+    store.labels = Some(labels);
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn moved_avx2(
+    labels: &mut Labels,
+    small: &Small,
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
+    // SAFETY: the pair needs AVX, which is part of this function's features.
+    unsafe { moved::<Avx>(labels, small, store, range, span) };
+}
+
+/// Moves filaments and their rows.
+///
+/// # Safety
+/// The machine must have the instructions of `P`.
+#[inline(always)]
+unsafe fn moved<P: Pair>(
+    labels: &mut Labels,
+    small: &Small,
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
     for n in range {
@@ -161,13 +202,16 @@ pub(super) fn carry(
         let place = [store.x[n], store.y[n], store.z[n]];
         let row = labels.row(n, place, &lives);
         // Half the step ahead first, so that an even cloud stays even to second order.
-        let v = small.velocity(&lives, place[2], &weights, row);
+        // SAFETY: here and below, as the caller promises.
+        let v = unsafe { small.velocity::<P>(&lives, place[2], &weights, row) };
         let half = v.map(|v| 0.5 * dt * v);
         let mut ahead = [[0.0; 3]; MOST];
         for (ahead, at) in ahead.iter_mut().zip(row.iter()) {
             *ahead = std::array::from_fn(|d| at[d] + half[d]);
         }
-        let v = small.velocity(&lives, place[2] + half[2], &weights, &ahead[..row.len()]);
+        let ahead = &ahead[..row.len()];
+        // SAFETY: as above.
+        let v = unsafe { small.velocity::<P>(&lives, place[2] + half[2], &weights, ahead) };
         let way = v.map(|v| dt * v);
         for at in row {
             for d in 0..3 {
@@ -178,8 +222,6 @@ pub(super) fn carry(
         store.y[n] += way[1];
         store.z[n] += way[2];
     }
-    labels.pass_source(small, flow, p_W, span.to_s);
-    store.labels = Some(labels);
 }
 
 /// Most patterns.

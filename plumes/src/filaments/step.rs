@@ -218,7 +218,8 @@ impl Plume {
                 carry(flow, store, range.clone(), span);
             }
             if let Some(small) = &self.small {
-                labels::carry(small, flow, self.sources[n].p_W, store, range.clone(), span);
+                let p_W = self.sources[n].p_W;
+                labels::carry(self.path, small, flow, p_W, store, range.clone(), span);
                 fold(store, range.clone());
             }
             self.keep_out(n, before, range.start);

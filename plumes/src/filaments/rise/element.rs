@@ -67,7 +67,7 @@ pub(in crate::filaments) struct Element {
     pub(in crate::filaments) passed_m4_s2: f64,
 }
 
-/// Rates of change, and what limits a step.
+/// Rates of change of an element, its radius and how fast that grows.
 #[derive(Clone, Copy)]
 struct Rates {
     rise_m_s: f64,
@@ -75,7 +75,8 @@ struct Rates {
     own_m3_s: f64,
     force_m4_s2: f64,
     passed_m4_s3: f64,
-    longest_s: f64,
+    radius_m: f64,
+    growth_m_s: f64,
 }
 
 impl Thread {
@@ -120,17 +121,14 @@ impl Thread {
         let stirred_m_s = SHARED * math::cbrt(around.dissipation_m2_s3 * scale);
         let round = std::f64::consts::TAU * length;
         let force = self.volume_m3 * self.curve.at(e.shared_m3 / self.volume_m3) + e.passed_m4_s2;
-        let lift = force.abs() / e.shared_m3;
-        let longest_s = (r / (own_m_s + stirred_m_s))
-            .min((r / lift).sqrt())
-            .min(1.0 / around.n2_per_s2.abs().sqrt());
         Rates {
             rise_m_s: w,
             shared_m3_s: round * r * (own_m_s + stirred_m_s),
             own_m3_s: round * own_r * own_m_s,
             force_m4_s2: force,
             passed_m4_s3: -around.n2_per_s2 * e.momentum_m4_s,
-            longest_s: PART * longest_s,
+            radius_m: r,
+            growth_m_s: own_m_s + stirred_m_s,
         }
     }
 
@@ -146,8 +144,9 @@ impl Thread {
         let (mut z, mut left_s) = (z_m, dt_s);
         let least_s = dt_s / MOST_STEPS;
         while left_s > 0.0 {
-            let here = self.rates(e, &at(z));
-            let step_s = here.longest_s.max(least_s).min(left_s);
+            let around = at(z);
+            let here = self.rates(e, &around);
+            let step_s = here.longest_s(e, &around).max(least_s).min(left_s);
             let middle = self.rates(
                 &e.on(&here, 0.5 * step_s),
                 &at(z + 0.5 * step_s * here.rise_m_s),
@@ -161,6 +160,17 @@ impl Thread {
             }
         }
         z
+    }
+}
+
+impl Rates {
+    /// Longest step in which no scale of the element changes much, s.
+    fn longest_s(&self, e: &Element, around: &Around) -> f64 {
+        let lift = self.force_m4_s2.abs() / e.shared_m3;
+        let longest_s = (self.radius_m / self.growth_m_s)
+            .min((self.radius_m / lift).sqrt())
+            .min(1.0 / around.n2_per_s2.abs().sqrt());
+        PART * longest_s
     }
 }
 

@@ -17,17 +17,18 @@
 //! over seeds says (docs/results.md); with `own` each run draws a stretch. The patches move with the depth mean at all
 //! heights.
 
+use super::drawn::Drawn;
 use super::present::{Now, Patch, Turned};
 use super::small::{self, Small, SmallSpec};
 use super::spectrum::Spectrum;
-use super::stretch::{CELLS_A_WAVE, LENGTH, Shape, Stretch};
+use super::stretch::{CELLS_A_WAVE, LENGTH, Shape};
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
 use crate::path::Path;
 use nalgebra::{Vector2, Vector3};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-use std::sync::{Arc, Mutex};
+use std::sync::Arc;
 use world::area::Area;
 use world::cost::{Cost, Part};
 use world::fields::WaterSample;
@@ -71,14 +72,10 @@ pub struct Eddies {
     seed: Seed,
     path: Path,
     shape: Shape,
-    stretch: Arc<Stretch>,
+    stretch: Arc<Drawn>,
     small: Option<Arc<Small>>,
 }
 
-/// Stretches that this process has drawn, with what they were made from.
-static DRAWN: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
-/// If there are more different channels than this at once, stretches are drawn again.
-const KEPT: usize = 8;
 /// Memory of a node while it is drawn, bytes.
 const NODE_BYTES: f64 = 40.0;
 /// Time to draw a node, s.
@@ -144,11 +141,7 @@ impl EddiesSpec {
             period_s: pi * pi / 8.0 * energy / dissipation,
             seed,
             path: Path::detect(),
-            stretch: if self.own {
-                Arc::new(Stretch::new(&shape, seed))
-            } else {
-                drawn(&shape)
-            },
+            stretch: Arc::new(Drawn::new(shape, self.own.then_some(seed))),
             small: small.map(Arc::new),
             shape,
         })
@@ -172,19 +165,6 @@ impl EddiesSpec {
         }
         cost
     }
-}
-
-fn drawn(shape: &Shape) -> Arc<Stretch> {
-    let mut drawn = DRAWN.lock().expect("nobody panics while drawing");
-    if let Some((_, stretch)) = drawn.iter().find(|(s, _)| s == shape) {
-        return stretch.clone();
-    }
-    let stretch = Arc::new(Stretch::new(shape, 0));
-    if drawn.len() == KEPT {
-        drawn.remove(0);
-    }
-    drawn.push((*shape, stretch.clone()));
-    stretch
 }
 
 impl Eddies {
@@ -290,7 +270,7 @@ impl Eddies {
             }
         };
         Now {
-            nodes: &self.stretch.nodes,
+            nodes: self.stretch.nodes(),
             across: self.shape.across,
             up: self.shape.up,
             per_m: h.map(|h| (1.0 / h) as f32),

@@ -1,5 +1,6 @@
 //! Resolved turbulence of a channel: its spectrum, one long stretch of it, and how it moves and decays.
 
+mod drawn;
 mod field;
 mod fourier;
 mod present;

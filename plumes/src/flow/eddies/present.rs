@@ -11,7 +11,7 @@ use super::stretch::LENGTH;
 use crate::path::Path;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
-use crate::quad::{Pair, Twice};
+use crate::quad::{Pair, Quad, Twice};
 use nalgebra::Vector2;
 
 /// A patch of the stretch at one time: where it begins (cells), and its weight.
@@ -44,7 +44,8 @@ impl Now<'_> {
     /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
     pub(super) fn at(&self, q: [f32; 3]) -> [f32; 3] {
         // SAFETY: a pair that every machine of the target has.
-        unsafe { velocity::<Twice>(self, q) }
+        let v = unsafe { velocities::<Twice, 1>(self, &q.map(|q| [q])) };
+        v.map(|v| v[0])
     }
 
     /// Carries places (ENU, m) up to this time, the n-th for `dt_s[n]`.
@@ -66,81 +67,156 @@ fn carry_avx2(now: &Now, turned: &Turned, dt_s: &[f32], p: [&mut [f32]; 3]) {
     unsafe { carry::<Avx>(now, turned, dt_s, p) }
 }
 
+/// Filaments that are carried side by side.
+const BLOCK: usize = 8;
+
 /// # Safety
 /// The machine must have the instructions of `P`.
 #[inline(always)]
 unsafe fn carry<P: Pair>(now: &Now, turned: &Turned, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
     let (centre, a, l) = (turned.centre, turned.along, turned.left);
-    for n in 0..dt_s.len() {
-        let dt = dt_s[n];
-        let (dx, dy) = (x[n] - centre.x, y[n] - centre.y);
-        let q = [dx * a.x + dy * a.y, dx * l.x + dy * l.y, z[n]];
+    for from in (0..dt_s.len()).step_by(BLOCK) {
+        let used = BLOCK.min(dt_s.len() - from);
+        let block = from..from + used;
+        // Empty places are carried too, and left.
+        let of = |v: &[f32]| {
+            let mut some = [0.0; BLOCK];
+            some[..used].copy_from_slice(&v[block.clone()]);
+            some
+        };
+        let (dt, mut p) = (of(dt_s), [of(x), of(y), of(z)]);
+        let mut q = [[0.0; BLOCK]; 3];
+        for n in 0..BLOCK {
+            let (dx, dy) = (p[0][n] - centre.x, p[1][n] - centre.y);
+            q[0][n] = dx * a.x + dy * a.y;
+            q[1][n] = dx * l.x + dy * l.y;
+            q[2][n] = p[2][n];
+        }
         // Half the step ahead first, so that an even cloud stays even to second order.
         // SAFETY: the caller promises the instructions of the pair.
-        let v = unsafe { velocity::<P>(now, q) };
-        let half = 0.5 * dt;
-        let q = [q[0] + half * v[0], q[1] + half * v[1], q[2] + half * v[2]];
+        let v = unsafe { velocities::<P, BLOCK>(now, &q) };
+        for n in 0..BLOCK {
+            let half = 0.5 * dt[n];
+            for d in 0..3 {
+                q[d][n] += half * v[d][n];
+            }
+        }
         // SAFETY: as above.
-        let v = unsafe { velocity::<P>(now, q) };
-        x[n] += dt * (v[0] * a.x + v[1] * l.x);
-        y[n] += dt * (v[0] * a.y + v[1] * l.y);
-        z[n] += dt * v[2];
+        let v = unsafe { velocities::<P, BLOCK>(now, &q) };
+        for n in 0..BLOCK {
+            p[0][n] += dt[n] * (v[0][n] * a.x + v[1][n] * l.x);
+            p[1][n] += dt[n] * (v[0][n] * a.y + v[1][n] * l.y);
+            p[2][n] += dt[n] * v[2][n];
+        }
+        for (to, p) in [&mut *x, &mut *y, &mut *z].into_iter().zip(p) {
+            to[block.clone()].copy_from_slice(&p[..used]);
+        }
     }
 }
 
-/// # Safety
-/// The machine must have the instructions of `P`.
-#[inline(always)]
-unsafe fn velocity<P: Pair>(now: &Now, q: [f32; 3]) -> [f32; 3] {
-    let (k, h) = cell((q[2] + now.depth) * now.per_m[2], now.up);
-    let mut sum = [0.0_f32; 3];
-    for patch in &now.patches {
-        let side = if patch.mirrored { -1.0 } else { 1.0 };
-        let (j, g) = cell((side * q[1] + now.half_width) * now.per_m[1], now.across);
-        let at = q[0] * now.per_m[0] - patch.begin;
-        let floor = at.floor();
-        let f = at - floor;
-        let i = floor as i32 as usize & (LENGTH - 1);
-        let (row, column) = (now.up + 1, (now.up + 1) * (now.across + 1));
-        let near = i * column + j * row + k;
-        let far = ((i + 1) & (LENGTH - 1)) * column + j * row + k;
-        // SAFETY: the caller promises the instructions of the pair.
-        let [right, left] = unsafe {
-            [
-                line::<P>(now.nodes, near, far, h),
-                line::<P>(now.nodes, near + row, far + row, h),
-            ]
-        };
-        let [behind, ahead] = right.add(left.sub(right).times(g)).apart();
-        let v = behind.add(ahead.sub(behind).times(f)).array();
-        sum[0] += patch.weight * v[0];
-        sum[1] += patch.weight * side * v[1];
-        sum[2] += patch.weight * v[2];
-    }
-    sum
-}
-
-/// The velocities between two nodes and those above them, at this part of the way up.
+/// Velocities (along, left, up) at `N` places (along, left, up).
 ///
 /// # Safety
 /// The machine must have the instructions of `P`.
 #[inline(always)]
+unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [[f32; N]; 3] {
+    let (row, column) = (now.up + 1, (now.up + 1) * (now.across + 1));
+    let mut sum = [[0.0_f32; N]; 3];
+    let (mut near, mut far) = ([0_u32; N], [0_u32; N]);
+    let [mut f, mut g, mut h] = [[0.0_f32; N]; 3];
+    for patch in &now.patches {
+        let side = if patch.mirrored { -1.0 } else { 1.0 };
+        for n in 0..N {
+            let (k, part) = cell((q[2][n] + now.depth) * now.per_m[2], now.up);
+            h[n] = part;
+            let (j, part) = cell((side * q[1][n] + now.half_width) * now.per_m[1], now.across);
+            g[n] = part;
+            // Within what an integer holds; a place that is not a number lies at an end, and its part is none.
+            let at = q[0][n] * now.per_m[0] - patch.begin;
+            let floor = between(at, -FARTHEST, FARTHEST).floor();
+            f[n] = at - floor;
+            // SAFETY: as just limited.
+            let i = unsafe { floor.to_int_unchecked::<i32>() } as u32;
+            let line = j * row as u32 + k;
+            near[n] = (i & (LENGTH as u32 - 1)) * column as u32 + line;
+            far[n] = (i.wrapping_add(1) & (LENGTH as u32 - 1)) * column as u32 + line;
+        }
+        let highest = near
+            .iter()
+            .zip(&far)
+            .fold(0, |most, (a, b)| most.max(*a).max(*b));
+        assert!(
+            highest as usize + row + 1 < now.nodes.len(),
+            "a cell is not one of the eddies' grid: its nodes are not those of its shape"
+        );
+        // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
+        let one = |n: usize| unsafe {
+            let (near, far) = (near[n] as usize, far[n] as usize);
+            let right = line::<P>(now.nodes, near, far, h[n]);
+            let left = line::<P>(now.nodes, near + row, far + row, h[n]);
+            let [behind, ahead] = right.add(left.sub(right).times(g[n])).apart();
+            behind.add(ahead.sub(behind).times(f[n]))
+        };
+        let mut v = [[0.0; N]; 3];
+        for from in (0..N).step_by(4) {
+            // Beyond the last, a place is worked out again.
+            let place = |l: usize| one((from + l).min(N - 1));
+            let four = if N == 1 {
+                [place(0); 4]
+            } else {
+                [place(0), place(1), place(2), place(3)]
+            };
+            let four = Quad::columns(four);
+            for (v, four) in v.iter_mut().zip(four) {
+                for (v, four) in v[from..].iter_mut().zip(four) {
+                    *v = four;
+                }
+            }
+        }
+        for n in 0..N {
+            sum[0][n] += patch.weight * v[0][n];
+            sum[1][n] += patch.weight * side * v[1][n];
+            sum[2][n] += patch.weight * v[2][n];
+        }
+    }
+    sum
+}
+
+/// Farthest place along the stretch, in cells.
+const FARTHEST: f32 = 1e9;
+
+/// The velocities between two nodes and those above them, at this part of the way up.
+///
+/// # Safety
+/// These nodes and the next ones must exist, and the machine must have the instructions of `P`.
+#[inline(always)]
 unsafe fn line<P: Pair>(nodes: &[[f32; 4]], near: usize, far: usize, part: f32) -> P {
+    debug_assert!(near.max(far) + 1 < nodes.len());
     // SAFETY: as the caller promises.
     let [low, high] = unsafe {
+        let node = |n: usize| &*nodes.as_ptr().add(n);
         [
-            P::of(&nodes[near], &nodes[far]),
-            P::of(&nodes[near + 1], &nodes[far + 1]),
+            P::of(node(near), node(far)),
+            P::of(node(near + 1), node(far + 1)),
         ]
     };
     low.add(high.sub(low).times(part))
 }
 
+/// Limits a number; what is none becomes the lower limit.
+#[inline(always)]
+fn between(v: f32, low: f32, high: f32) -> f32 {
+    let v = if v > low { v } else { low };
+    if v < high { v } else { high }
+}
+
 /// Cell, and the position in it as a part.
 #[inline(always)]
-fn cell(c: f32, cells: usize) -> (usize, f32) {
-    let c = c.clamp(0.0, cells as f32);
-    let i = (c as i32 as usize).min(cells - 1);
+fn cell(c: f32, cells: usize) -> (u32, f32) {
+    let c = between(c, 0.0, cells as f32);
+    // SAFETY: just limited to the number of cells, which is small.
+    let i = unsafe { c.to_int_unchecked::<i32>() } as u32;
+    let i = i.min(cells as u32 - 1);
     (i, c - i as f32)
 }
 

@@ -25,6 +25,7 @@ pub(crate) mod tests;
 
 use crate::error::PlumeError;
 use crate::flow::channel::Channel;
+use crate::quad::Pair;
 use nalgebra::Vector2;
 pub(crate) use octave::{Life, Octave};
 use schemars::JsonSchema;
@@ -140,8 +141,11 @@ impl Small {
     }
 
     /// Velocity (east, north, up) at a height where the coordinates in the patterns are `labels`, m/s.
-    #[inline]
-    pub(crate) fn velocity(
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
+    #[inline(always)]
+    pub(crate) unsafe fn velocity<P: Pair>(
         &self,
         lives: &[Life],
         z: f32,
@@ -156,7 +160,8 @@ impl Small {
                 continue;
             }
             for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
-                let v = octave.velocity(life, &level, *label);
+                // SAFETY: as the caller promises.
+                let v = unsafe { octave.velocity::<P>(life, &level, *label) };
                 let drawn_out = shear * life.age_s * v[2];
                 let by = [
                     v[0] + drawn_out * self.along.x,

@@ -4,6 +4,7 @@
 
 use super::table::{LONGEST, Table, table};
 use crate::flow::channel::Channel;
+use crate::quad::Pair;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
 use std::sync::Arc;
 use world::math;
@@ -108,10 +109,19 @@ impl Octave {
 
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
     /// potential.
-    #[inline]
-    pub(super) fn velocity(&self, life: &Life, level: &Level, label: [f32; 3]) -> [f32; 3] {
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
+    #[inline(always)]
+    pub(super) unsafe fn velocity<P: Pair>(
+        &self,
+        life: &Life,
+        level: &Level,
+        label: [f32; 3],
+    ) -> [f32; 3] {
         let q = std::array::from_fn(|d| label[d] * self.per_m + life.begin[d]);
-        let (v, a) = self.table.at(q);
+        // SAFETY: as the caller promises.
+        let (v, a) = unsafe { self.table.at::<P>(q) };
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

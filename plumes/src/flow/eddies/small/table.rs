@@ -9,7 +9,7 @@
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::Fourier;
-use crate::quad::Quad;
+use crate::quad::{Pair, Quad};
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 use world::math;
@@ -84,8 +84,11 @@ impl Table {
     }
 
     /// Velocity and potential at a place in sides of the box.
-    #[inline]
-    pub(super) fn at(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `P`.
+    #[inline(always)]
+    pub(super) unsafe fn at<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
         let mut near = [0; 3];
         let mut far = [0; 3];
         let mut part = [0.0_f32; 3];
@@ -98,15 +101,15 @@ impl Table {
             near[d] = below as usize & (NODES - 1);
             far[d] = (near[d] + 1) & (NODES - 1);
         }
-        let none = Quad::new(&[0.0; 4]);
-        let (mut v, mut a) = (none, none);
+        // SAFETY: here and below, as the caller promises.
+        let mut both = unsafe { P::new(&[[0.0; 4]; 2]) };
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
             for (j, wj) in [(near[1], 1.0 - part[1]), (far[1], part[1])] {
                 let line = (i * NODES + j) * NODES;
                 for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
-                    let (node, weight) = (&self.nodes[line + k], wi * wj * wk);
-                    v = v.add(Quad::new(&node[0]).times(weight));
-                    a = a.add(Quad::new(&node[1]).times(weight));
+                    // SAFETY: as above.
+                    let node = unsafe { P::new(&self.nodes[line + k]) };
+                    both = both.add(node.times(wi * wj * wk));
                 }
             }
         }
@@ -114,6 +117,7 @@ impl Table {
             let [x, y, z, _] = q.array();
             [x, y, z]
         };
+        let [v, a] = both.apart();
         (three(v), three(a))
     }
 }
@@ -142,6 +146,12 @@ fn summed(field: &mut [[f64; 2]]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::quad::Twice;
+
+    fn at(table: &Table, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
+        // SAFETY: a pair that every machine of the target has.
+        unsafe { table.at::<Twice>(q) }
+    }
 
     /// At the nodes' centres, where the interpolation is smoothest: the curl of the potential is the velocity, and the
     /// velocity has no divergence. Differences over a cell see 6.4 nodes a wave.
@@ -157,7 +167,7 @@ mod tests {
                 let (mut low, mut high) = (q, q);
                 low[d] -= h;
                 high[d] += h;
-                let ((v0, a0), (v1, a1)) = (table.at(low), table.at(high));
+                let ((v0, a0), (v1, a1)) = (at(&table, low), at(&table, high));
                 let per = |a: [f32; 3], b: [f32; 3]| {
                     std::array::from_fn::<f64, 3, _>(|c| {
                         f64::from(b[c] - a[c]) / f64::from(2.0 * h)
@@ -166,7 +176,7 @@ mod tests {
                 (per(v0, v1), per(a0, a1))
             };
             let s = [slope(0), slope(1), slope(2)];
-            let v = table.at(q).0;
+            let v = at(&table, q).0;
             for c in 0..3 {
                 let (p, r) = ((c + 1) % 3, (c + 2) % 3);
                 let curl = s[p].1[r] - s[r].1[p];

@@ -1,0 +1,58 @@
+//! A stretch of eddies that is drawn when it is first asked: a check of a scenario builds its water, but asks it nothing.
+//!
+//! *Source*: none.
+//!
+//! *Parameters*: [`KEPT`], how many shared stretches a process keeps.
+//!
+//! *Deviations*: none.
+
+use super::stretch::{Shape, Stretch};
+use std::sync::{Arc, Mutex, OnceLock};
+use world::seeds::Seed;
+
+/// Stretches that all runs of this process share, with what they were made from.
+static SHARED: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
+/// If there are more different channels than this at once, stretches are drawn again.
+const KEPT: usize = 8;
+
+/// A stretch, drawn or to be drawn.
+#[derive(Debug)]
+pub(super) struct Drawn {
+    shape: Shape,
+    /// What identifies it; `None` for the one that all of this shape share.
+    seed: Option<Seed>,
+    stretch: OnceLock<Arc<Stretch>>,
+}
+
+impl Drawn {
+    pub(super) fn new(shape: Shape, seed: Option<Seed>) -> Self {
+        let stretch = OnceLock::new();
+        Self {
+            shape,
+            seed,
+            stretch,
+        }
+    }
+
+    /// Velocities at its nodes.
+    pub(super) fn nodes(&self) -> &[[f32; 4]] {
+        let draw = || match self.seed {
+            Some(seed) => Arc::new(Stretch::new(&self.shape, seed)),
+            None => shared(&self.shape),
+        };
+        &self.stretch.get_or_init(draw).nodes
+    }
+}
+
+fn shared(shape: &Shape) -> Arc<Stretch> {
+    let mut shared = SHARED.lock().expect("nobody panics while drawing");
+    if let Some((_, stretch)) = shared.iter().find(|(s, _)| s == shape) {
+        return stretch.clone();
+    }
+    let stretch = Arc::new(Stretch::new(shape, 0));
+    if shared.len() == KEPT {
+        shared.remove(0);
+    }
+    shared.push((*shape, stretch.clone()));
+    stretch
+}
