@@ -116,6 +116,10 @@ fn trace(
         for i in 0..n[0] - 1 {
             let corners = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
             let above = corners.map(|v| v >= level);
+            // Most cells lie on one side.
+            if above == [above[0]; 4] {
+                continue;
+            }
             let edges = [(i, j, 0), (i + 1, j, 1), (i, j + 1, 0), (i, j, 1)];
             let crossed: Vec<Edge> = (0..4)
                 .filter(|&k| above[k] != above[(k + 1) % 4])
