@@ -27,12 +27,15 @@ fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
 fn packed(pixels: Pixmap) -> Result<Vec<u8>, ImageError> {
     let (w, h) = (pixels.width(), pixels.height());
     let mut png = Vec::new();
-    // The best compression would take longer than the drawing, and save a quarter of the file.
-    let encoder =
-        PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Adaptive);
-    if pixels.pixels().iter().all(|p| p.alpha() == u8::MAX) {
-        let rgb = pixels.pixels().iter();
-        let rgb: Vec<u8> = rgb.flat_map(|p| [p.red(), p.green(), p.blue()]).collect();
+    // The best compression would take longer than the drawing, and save a quarter of the file. The best filter for each
+    // row takes as long as all the rest here, and saves a twentieth.
+    let encoder = PngEncoder::new_with_quality(&mut png, CompressionType::Fast, FilterType::Paeth);
+    let (rgba, _) = pixels.data().as_chunks::<4>();
+    if rgba.iter().fold(u8::MAX, |all, p| all & p[3]) == u8::MAX {
+        let mut rgb = vec![0; 3 * rgba.len()];
+        for (to, [red, green, blue, _]) in rgb.as_chunks_mut::<3>().0.iter_mut().zip(rgba) {
+            *to = [*red, *green, *blue];
+        }
         encoder.write_image(&rgb, w, h, ExtendedColorType::Rgb8)?;
     } else {
         encoder.write_image(&pixels.take_demultiplied(), w, h, ExtendedColorType::Rgba8)?;
