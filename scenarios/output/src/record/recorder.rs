@@ -352,7 +352,7 @@ pub(super) fn in_world(
 }
 
 fn believed_frame(id: &str) -> String {
-    format!("{id}/estimate")
+    [id, "/estimate"].concat()
 }
 
 /// `find suppressed, maintain holds, ...`, the lowest layer first.

@@ -56,9 +56,9 @@ impl WayRecorder {
     ) -> Result<(), RecordError> {
         for r in &frame.robots {
             let believed = r.estimate.p_WB();
-            self.pass(format!("/{}/truth/path", r.id), r.truth.pose.p_WB);
-            self.pass(format!("/{}/estimate/path", r.id), believed);
-            let plan = format!("/{}/plan", r.id);
+            self.pass(["/", &r.id, "/truth/path"].concat(), r.truth.pose.p_WB);
+            self.pass(["/", &r.id, "/estimate/path"].concat(), believed);
+            let plan = ["/", &r.id, "/plan"].concat();
             let known = self.plans.get(&plan);
             // Without a plan there is no topic; one that is given up leaves an empty path.
             if known.map_or(!r.planned.is_empty(), |k| *k != r.planned) {
@@ -73,7 +73,7 @@ impl WayRecorder {
             self.zone(file, t_ns, &r.id, believed.z, &r.zone)?;
         }
         for g in &frame.gantries {
-            self.pass(format!("/{}/head/path", g.id), g.head_W);
+            self.pass(["/", &g.id, "/head/path"].concat(), g.head_W);
             let declared: Vec<_> = g.declaration.iter().map(|d| d.position).collect();
             self.mark(file, t_ns, &g.id, g.head_W.z, [&[], &[], &declared])?;
         }
@@ -95,7 +95,7 @@ impl WayRecorder {
         z: f64,
         zone: &Arc<Zone>,
     ) -> Result<(), RecordError> {
-        let topic = format!("/{id}/zone");
+        let topic = ["/", id, "/zone"].concat();
         let known = self.zones.get(&topic);
         if known.map_or(zone.corners.is_empty(), |k| k == zone) {
             return Ok(());
@@ -117,7 +117,7 @@ impl WayRecorder {
         z: f64,
         flat: [&[Vector2<f64>]; 3],
     ) -> Result<(), RecordError> {
-        let topic = format!("/{id}/marks");
+        let topic = ["/", id, "/marks"].concat();
         let none = [const { Vec::new() }; 3];
         let told = self.marks.get(&topic);
         let known = told.unwrap_or(&none);

@@ -23,7 +23,7 @@ impl Names<'_> {
     /// Frame of a link.
     #[must_use]
     pub fn frame(&self, link: &str) -> String {
-        format!("{}/{link}", self.own)
+        [self.own, "/", link].concat()
     }
 }
 
