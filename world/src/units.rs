@@ -14,17 +14,33 @@ pub const SEA_WATER_KG_M3: f64 = 1025.0;
 /// kg/m³ in one µg/L.
 pub const KG_M3_PER_UG_L: f64 = 1e-6;
 
+/// Without its whole turns: an angle in [0, 2π), but for rounding.
+fn within_a_turn(angle_rad: f64) -> f64 {
+    // Nearly all angles are within a turn of the range. There it is known what the floor below would say: no quotient
+    // is rounded up to a whole number. Angles next to zero are left to the floor, for which they may be none.
+    if (0.0..TAU).contains(&angle_rad) {
+        // Of a negative zero, the plain way makes a positive one.
+        angle_rad + 0.0
+    } else if (-TAU..=-1e-300).contains(&angle_rad) {
+        angle_rad + TAU
+    } else if (TAU..2.0 * TAU).contains(&angle_rad) {
+        angle_rad - TAU
+    } else {
+        angle_rad - TAU * (angle_rad / TAU).floor()
+    }
+}
+
 /// Wraps an angle to (−π, π].
 #[must_use]
 pub fn wrap_pi(angle_rad: f64) -> f64 {
-    let a = angle_rad - TAU * (angle_rad / TAU).floor();
+    let a = within_a_turn(angle_rad);
     if a > PI { a - TAU } else { a }
 }
 
 /// Wraps an angle to [0, 2π).
 #[must_use]
 pub fn wrap_tau(angle_rad: f64) -> f64 {
-    let a = angle_rad - TAU * (angle_rad / TAU).floor();
+    let a = within_a_turn(angle_rad);
     if a >= TAU { 0.0 } else { a }
 }
 
@@ -116,6 +132,40 @@ mod tests {
             assert!(h.turn_to(Heading::of(h.unit())).abs() < 1e-12);
         }
         assert!((Heading::from_deg(90.0).unit() - Vector2::new(1.0, 0.0)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn within_a_turn_of_the_range_the_floor_is_known() {
+        let plain = |a: f64| a - TAU * (a / TAU).floor();
+        let same = |a: f64| assert_eq!(within_a_turn(a).to_bits(), plain(a).to_bits(), "{a:e}");
+        for edge in [
+            0.0,
+            1e-310,
+            1e-300,
+            1e-17,
+            1.0,
+            PI,
+            TAU,
+            2.0 * TAU,
+            3.0 * TAU,
+            1e17,
+        ] {
+            let (mut down, mut up) = (edge, edge);
+            for _ in 0..50 {
+                for a in [down, up, -down, -up] {
+                    same(a);
+                }
+                (down, up) = (down.next_down(), up.next_up());
+            }
+        }
+        let mut random = crate::seeds::Stream::new(1, "test", "angles");
+        for _ in 0..200_000 {
+            let (a, small) = (random.uniform() * 8.0 * TAU - 4.0 * TAU, random.normal());
+            for a in [a, small, small * 1e-12, TAU + small * 1e-14] {
+                same(a);
+            }
+        }
+        assert!(within_a_turn(f64::NAN).is_nan() && within_a_turn(f64::INFINITY).is_nan());
     }
 
     #[test]
