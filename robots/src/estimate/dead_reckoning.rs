@@ -54,6 +54,8 @@ pub struct DeadReckoning {
     depth_m: f64,
     altitude_m: Option<f64>,
     attitude: Attitude,
+    /// The same as a rotation.
+    R_WB: UnitQuaternion<f64>,
     /// Newest ground velocity, and whether the log had bottom lock in its last report.
     v_ground_body: Vector3<f64>,
     locked: bool,
@@ -68,6 +70,12 @@ impl DeadReckoning {
     /// Dead reckoning that begins at `start` and steps by `dt_s`.
     #[must_use]
     pub fn new(spec: &DeadReckoningSpec, start: Start, dt_s: f64) -> Self {
+        let attitude = Attitude {
+            heading: start.heading,
+            roll_rad: 0.0,
+            pitch_rad: 0.0,
+            rates_rad_s: Vector3::zeros(),
+        };
         Self {
             fix_gain: spec.fix_gain.get(),
             flow_filter_s: spec.flow_filter_s.get(),
@@ -75,12 +83,8 @@ impl DeadReckoning {
             position: start.position,
             depth_m: start.depth_m,
             altitude_m: None,
-            attitude: Attitude {
-                heading: start.heading,
-                roll_rad: 0.0,
-                pitch_rad: 0.0,
-                rates_rad_s: Vector3::zeros(),
-            },
+            attitude,
+            R_WB: attitude.R_WB(),
             v_ground_body: Vector3::zeros(),
             locked: false,
             v_before: None,
@@ -92,7 +96,7 @@ impl DeadReckoning {
     /// The estimate at the clock's time, after the readings of this step.
     pub fn step(&mut self, clock: &Clock, readings: &Readings) -> Estimate {
         self.take_in(readings);
-        let R_WB = self.attitude.R_WB();
+        let R_WB = self.R_WB;
         let v_now = (R_WB * self.v_ground_body).xy();
         if let Some(v_before) = self.v_before.replace(v_now) {
             self.position += (v_before + v_now) * (0.5 * self.dt_s);
@@ -136,6 +140,7 @@ impl DeadReckoning {
                 pitch_rad: a.pitch_rad,
                 rates_rad_s: a.rates_rad_s,
             };
+            self.R_WB = self.attitude.R_WB();
         }
         if let Some(dvl) = readings.dvl {
             self.locked = dvl.valid;

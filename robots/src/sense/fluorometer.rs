@@ -108,17 +108,27 @@ pub struct Fluorometer {
 struct Response {
     period_s: f64,
     tau_s: f64,
+    /// What is left of a difference after a period.
+    decay: f64,
     /// Newest input and output.
     state: Option<(f64, f64)>,
 }
 
 impl Response {
+    fn new(period_s: f64, tau_s: f64) -> Self {
+        Self {
+            period_s,
+            tau_s,
+            decay: math::exp(-period_s / tau_s),
+            state: None,
+        }
+    }
+
     fn next(&mut self, input: f64) -> f64 {
         let output = match self.state {
             Some((before, y)) if self.tau_s > 0.0 => {
                 let lag = (input - before) / self.period_s * self.tau_s;
-                let decay = math::exp(-self.period_s / self.tau_s);
-                input - lag + (y - before + lag) * decay
+                input - lag + (y - before + lag) * self.decay
             }
             _ => input,
         };
@@ -153,11 +163,7 @@ impl Fluorometer {
             threshold: spec.threshold.get(),
             noise_v: spec.noise_v.get(),
             levels: f64::from((1_u32 << spec.adc_bits) - 1),
-            response: Response {
-                period_s: every.period_s(on.dt_s),
-                tau_s: spec.response_s.get(),
-                state: None,
-            },
+            response: Response::new(every.period_s(on.dt_s), spec.response_s.get()),
             rng: on.stream("fluorometer"),
         })
     }

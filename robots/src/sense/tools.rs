@@ -34,7 +34,12 @@ pub(super) fn range_down(below: &Below, from: &Vector3<f64>, dir: &Vector3<f64>)
     let mut range = 0.0;
     for _ in 0..PASSES {
         let end = from + dir * range;
+        let before = range;
         range = ((from.z - terrain.bed_z(end.x, end.y)) / -dir.z).max(0.0);
+        // Then all further passes say the same.
+        if range == before {
+            break;
+        }
     }
     Some(below.obstacles.ray(from, dir, range).unwrap_or(range))
 }

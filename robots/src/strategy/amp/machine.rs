@@ -20,9 +20,10 @@ use crate::handoff::{
     detects,
 };
 use crate::memory::{FixMove, PlumeMemory};
-use nalgebra::Vector2;
+use nalgebra::{Vector2, Vector3};
 use std::sync::Arc;
 use world::seeds::Stream;
+use world::units::Heading;
 
 /// The behaviours it is composed of.
 #[derive(Debug)]
@@ -63,6 +64,10 @@ pub struct Amp {
     rule: DeclareSpec,
     /// What the rule looked at last.
     zone: Arc<Zone>,
+    /// The path of somebody who plans none.
+    unplanned: Arc<Vec<Vector3<f64>>>,
+    /// The newest flow (east, north), m/s, and its up-flow direction: it is measured more seldom than asked.
+    flow: Option<(Vector2<f64>, Heading)>,
     post: PostDeclaration,
     heeds_on_the_way: bool,
     behaviours: Behaviours,
@@ -84,6 +89,8 @@ impl Amp {
             vertical,
             rule: spec.declare.clone(),
             zone: Arc::default(),
+            unplanned: Arc::default(),
+            flow: None,
             post: PostDeclaration::new(&spec.after_declaration)?,
             heeds_on_the_way: spec
                 .start_at
@@ -198,7 +205,10 @@ impl Amp {
 
     fn observe(&mut self, seen: &Observation) -> bool {
         if let Some(flow) = seen.estimate.flow {
-            self.memory.up_flow = Some(flow.up_flow());
+            let known = self.flow.filter(|(of, _)| same_bits(of, &flow.velocity));
+            let (_, up_flow) = known.unwrap_or_else(|| (flow.velocity, flow.up_flow()));
+            self.flow = Some((flow.velocity, up_flow));
+            self.memory.up_flow = Some(up_flow);
         }
         self.memory.take_fixes(seen, self.fixes);
         let heeded = match self.now {
@@ -214,6 +224,10 @@ impl Amp {
         }
         detected
     }
+}
+
+fn same_bits(a: &Vector2<f64>, b: &Vector2<f64>) -> bool {
+    a.map(f64::to_bits) == b.map(f64::to_bits)
 }
 
 impl Strategy for Amp {
@@ -271,7 +285,7 @@ impl Strategy for Amp {
             declared,
             lost_points: self.memory.lost.all().iter().map(|l| l.position).collect(),
             zone: self.zone.clone(),
-            planned: Arc::default(),
+            planned: self.unplanned.clone(),
             regions: Default::default(),
             layers: Arc::default(),
             picture: self.now == Behaviour::Survey && self.post.picture(),
