@@ -20,11 +20,24 @@ pub(super) fn cage(
     sides: &Sides,
     width_m: f64,
 ) -> Heading {
+    let wanted = course.unit();
+    altered(wanted, position, sides, width_m).unwrap_or_else(|| Heading::of(wanted))
+}
+
+/// The course to take instead of one with this unit vector; `None` if no edge stands against it.
+pub(super) fn altered(
+    wanted: Vector2<f64>,
+    position: Vector2<f64>,
+    sides: &Sides,
+    width_m: f64,
+) -> Option<Heading> {
     let (nearest_m, normal) = sides.edge_distance(position);
     if nearest_m < 0.0 {
-        return Heading::of(-normal);
+        return Some(Heading::of(-normal));
     }
-    let wanted = course.unit();
+    if nearest_m >= width_m {
+        return None;
+    }
     let mut left = wanted;
     for (distance_m, normal) in sides.edges(position) {
         let outward = wanted.dot(&normal);
@@ -33,9 +46,9 @@ pub(super) fn cage(
         }
     }
     if left.norm() < 1e-9 {
-        return Heading::of(-normal);
+        return Some(Heading::of(-normal));
     }
-    Heading::of(left)
+    (left != wanted).then(|| Heading::of(left))
 }
 
 /// Whether a position is farther outside than allowed.

@@ -12,14 +12,14 @@ use nalgebra::Vector2;
 use world::units::Heading;
 
 /// Heading and speed (m/s) through the water that give `speed_m_s` over ground along `course` in `flow` (m/s, where
-/// it goes).
+/// it goes); `along` is the course as a unit vector.
 pub(super) fn compensate(
     course: Heading,
+    along: Vector2<f64>,
     speed_m_s: f64,
     flow: Vector2<f64>,
     limit_m_s: f64,
 ) -> (Heading, f64) {
-    let along = course.unit();
     let through_water = along * speed_m_s - flow;
     if through_water.norm() <= limit_m_s {
         let speed = through_water.norm();
@@ -45,17 +45,21 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    fn plainly(course: Heading, speed: f64, flow: Vector2<f64>, limit: f64) -> (Heading, f64) {
+        compensate(course, course.unit(), speed, flow, limit)
+    }
+
     #[test]
     fn crabs_into_a_cross_flow() {
         // 1 m/s north in 0.5 m/s eastward water: V_f = (-0.5, 1).
-        let (h, v) = compensate(Heading::from_deg(0.0), 1.0, Vector2::new(0.5, 0.0), 2.0);
+        let (h, v) = plainly(Heading::from_deg(0.0), 1.0, Vector2::new(0.5, 0.0), 2.0);
         assert!((h.deg() - (360.0 - 26.565_051)).abs() < 1e-5, "{}", h.deg());
         assert!((v - 1.25f64.sqrt()).abs() < 1e-12);
     }
 
     #[test]
     fn head_flow_beyond_the_limit_takes_what_is_left() {
-        let (h, v) = compensate(Heading::from_deg(90.0), 2.0, Vector2::new(-0.5, 0.0), 2.0);
+        let (h, v) = plainly(Heading::from_deg(90.0), 2.0, Vector2::new(-0.5, 0.0), 2.0);
         assert!((h.deg() - 90.0).abs() < 1e-9 && (v - 2.0).abs() < 1e-12);
     }
 
@@ -67,7 +71,7 @@ mod tests {
             course in 0.0..360.0, speed in 0.1..2.5, east in -1.2..1.2, north in -1.2..1.2,
         ) {
             let (course, flow) = (Heading::from_deg(course), Vector2::new(east, north));
-            let (h, v) = compensate(course, speed, flow, 2.0);
+            let (h, v) = plainly(course, speed, flow, 2.0);
             prop_assert!(v <= 2.0 + 1e-9);
             let ground = h.unit() * v + flow;
             // Flow is at most 1.7 m/s, so the course can be kept; the limit only costs speed.

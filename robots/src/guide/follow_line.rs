@@ -49,10 +49,11 @@ impl FollowLine {
         self.alpha
     }
 
-    /// Whether the vehicle is near enough to the start, in place and direction, to begin.
-    pub(super) fn entered(&self, position: Vector2<f64>, moving: Heading) -> bool {
+    /// Whether the vehicle is near enough to the start, in place and direction, to begin; `moving` gives the course
+    /// over ground.
+    pub(super) fn entered(&self, position: Vector2<f64>, moving: impl FnOnce() -> Heading) -> bool {
         (position - self.from).norm() < self.limits.start_m
-            && moving.turn_to(self.alpha).abs() < self.limits.start_angle_rad
+            && moving().turn_to(self.alpha).abs() < self.limits.start_angle_rad
     }
 
     /// Distance from the line, positive to its left, m.
@@ -120,9 +121,9 @@ mod tests {
     fn entered_only_in_place_and_direction() {
         let l = north();
         let near = Vector2::new(3.0, -5.0);
-        assert!(l.entered(near, Heading::from_deg(350.0)));
-        assert!(!l.entered(near, Heading::from_deg(340.0)));
-        assert!(!l.entered(Vector2::new(3.0, -15.0), Heading::from_deg(0.0)));
+        assert!(l.entered(near, || Heading::from_deg(350.0)));
+        assert!(!l.entered(near, || Heading::from_deg(340.0)));
+        assert!(!l.entered(Vector2::new(3.0, -15.0), || Heading::from_deg(0.0)));
     }
 
     proptest! {

@@ -37,8 +37,12 @@ impl GoToPoint {
         }
     }
 
-    /// Course to take, and whether the point has been reached.
-    pub(super) fn step(&mut self, position: Vector2<f64>, moving: Heading) -> (Heading, bool) {
+    /// Course to take, and whether the point has been reached; `moving` gives the course over ground.
+    pub(super) fn step(
+        &mut self,
+        position: Vector2<f64>,
+        moving: impl FnOnce() -> Heading,
+    ) -> (Heading, bool) {
         let to = self.point - position;
         let distance_m = to.norm();
         self.arrived |= distance_m < self.radius_m;
@@ -51,7 +55,7 @@ impl GoToPoint {
         }
         if self.wound_rad.abs() > TAU {
             self.wound_rad = 0.0;
-            self.away = Some(moving);
+            self.away = Some(moving());
         }
         match self.away {
             Some(course) if distance_m < self.clear_m => (course, self.arrived),
@@ -77,7 +81,7 @@ mod tests {
             (-1.0, 1.0, 315.0),
         ] {
             let mut g = GoToPoint::new(Vector2::new(50.0 * east, 50.0 * north), 10.0, 15.0);
-            let (h, arrived) = g.step(Vector2::zeros(), Heading::from_deg(0.0));
+            let (h, arrived) = g.step(Vector2::zeros(), || Heading::from_deg(0.0));
             assert!((h.deg() - deg).abs() < 1e-9 && !arrived);
         }
     }
@@ -93,7 +97,7 @@ mod tests {
             let mut h = Heading::from_deg(heading);
             let mut arrived = false;
             for _ in 0..3000 {
-                let (want, done) = g.step(p, h);
+                let (want, done) = g.step(p, || h);
                 arrived = done;
                 if done { break; }
                 let most = 10f64.to_radians() * 0.1;

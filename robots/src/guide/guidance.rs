@@ -7,12 +7,13 @@
 //! *Deviations*: those of the modes, each stated in its file. A line whose ends coincide is a point. For a vehicle
 //! that the water does not carry, nothing is compensated for, and its speed is that over ground.
 
-use super::cage::{cage, lost};
+use super::cage::{altered, cage, lost};
 use super::dubins::{Follower, FollowerLimits, Pose};
 use super::flow_compensation::compensate;
 use super::follow_line::{FollowLine, LineLimits};
 use super::go_to_point::GoToPoint;
 use super::hover::{Hovering, Wanted};
+use super::known::Known;
 use super::rate_filter::RateFilter;
 use super::spec::GuidanceSpec;
 use crate::handoff::{
@@ -45,6 +46,8 @@ pub struct Guidance {
     spec: Box<GuidanceSpec>,
     filter: RateFilter,
     mode: Mode,
+    /// The newest course wanted.
+    known: Known,
     goal_id: Option<u32>,
     done: bool,
     aborted: bool,
@@ -64,6 +67,7 @@ impl Guidance {
             filter: RateFilter::new(spec.heading_rate_deg_s.get().to_radians()),
             spec: Box::new(spec.clone()),
             mode: Mode::Free,
+            known: Known::of(Heading::from_rad(0.0)),
             goal_id: None,
             done: false,
             aborted: false,
@@ -122,11 +126,10 @@ impl Guidance {
             return (command, self.status(goal.id));
         }
 
-        let moving = course_over_ground(est);
         if self.goal_id != Some(goal.id) {
             self.goal_id = Some(goal.id);
             self.done = false;
-            self.mode = self.start(est, goal, moving);
+            self.mode = self.start(est, goal);
         }
         self.aborted |= lost(est.position, sides, self.spec.abort_outside_m.get());
         if let Mode::Hover(hovering) = &mut self.mode {
@@ -139,12 +142,17 @@ impl Guidance {
             self.done |= wanted.done;
             return (self.moved(est, goal, &wanted, sides), self.status(goal.id));
         }
-        let wanted = self.course(est, goal, moving, dt_s);
-        let course = cage(wanted, est.position, sides, self.spec.cage_m.get());
+        let wanted = self.course(est, goal, dt_s);
+        self.known.exchange(wanted);
+        let (known, cage_m) = (&self.known, self.spec.cage_m.get());
+        let (course, along) = match altered(known.unit, est.position, sides, cage_m) {
+            Some(course) => (course, course.unit()),
+            None => known.again,
+        };
         let drift = est.flow.filter(|_| self.carried);
         let drift = drift.map_or_else(Vector2::zeros, |f| f.velocity);
         let limit = self.spec.water_speed_limit_m_s.get();
-        let (heading, water_speed_m_s) = compensate(course, goal.speed_m_s, drift, limit);
+        let (heading, water_speed_m_s) = compensate(course, along, goal.speed_m_s, drift, limit);
         let setpoint = Setpoint {
             heading: self.filter.step(heading, est.attitude.heading, dt_s),
             water_speed_m_s,
@@ -178,14 +186,14 @@ impl Guidance {
         }
     }
 
-    fn start(&self, est: &Estimate, goal: &Goal, moving: Heading) -> Mode {
+    fn start(&self, est: &Estimate, goal: &Goal) -> Mode {
         let s = &self.spec;
         let gain_rad_m = s.line_gain_deg_m.get().to_radians();
         let capture_rad = s.line_capture_deg.get().to_radians();
         let to_pose = |end: Pose| {
             let from = Pose {
                 position: est.position,
-                heading: moving,
+                heading: course_over_ground(est),
             };
             let limits = FollowerLimits {
                 radius_m: s.turn_radius_m.get(),
@@ -244,14 +252,12 @@ impl Guidance {
         }
     }
 
-    fn course(&mut self, est: &Estimate, goal: &Goal, moving: Heading, dt_s: f64) -> Heading {
-        let at = Pose {
-            position: est.position,
-            heading: moving,
-        };
+    fn course(&mut self, est: &Estimate, goal: &Goal, dt_s: f64) -> Heading {
+        // Asked only when it matters: it needs five sines.
+        let moving = || course_over_ground(est);
         // When the line's start is reached, the line itself begins in the same tick.
         if let Mode::ToLine(follower, line) = &mut self.mode {
-            let (course, over) = follower.step(at, goal.speed_m_s, dt_s);
+            let (course, over) = follower.step(est.position, moving, goal.speed_m_s, dt_s);
             if !over && !line.entered(est.position, moving) {
                 return course;
             }
@@ -268,13 +274,13 @@ impl Guidance {
                 line.course(est.position)
             }
             Mode::ToPose(follower) | Mode::ToLine(follower, _) => {
-                let (course, over) = follower.step(at, goal.speed_m_s, dt_s);
+                let (course, over) = follower.step(est.position, moving, goal.speed_m_s, dt_s);
                 self.done |= over;
                 course
             }
             Mode::Hover(_) | Mode::Free => match goal.manoeuvre {
                 Manoeuvre::Course { course } => course,
-                _ => moving,
+                _ => moving(),
             },
         }
     }

@@ -8,6 +8,7 @@ mod follow_line;
 mod go_to_point;
 mod guidance;
 mod hover;
+mod known;
 mod rate_filter;
 mod spec;
 

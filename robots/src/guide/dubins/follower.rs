@@ -41,6 +41,8 @@ pub(in crate::guide) struct Follower {
     limits: FollowerLimits,
     path: DubinsPath,
     s_m: f64,
+    /// Pose of the path there.
+    foot: Pose,
     left_s: f64,
 }
 
@@ -59,36 +61,44 @@ impl Follower {
             limits,
             path,
             s_m: 0.0,
+            foot: path.at(0.0),
             left_s: 3.0 * path.length_m() / speed_m_s.max(0.1) + GRACE_S,
         }
     }
 
-    /// Course to take, and whether the path (or the time for it) has ended.
+    /// Course to take, and whether the path (or the time for it) has ended; `moving` gives the course over ground.
     pub(in crate::guide) fn step(
         &mut self,
-        at: Pose,
+        position: Vector2<f64>,
+        moving: impl FnOnce() -> Heading,
         speed_m_s: f64,
         dt_s: f64,
     ) -> (Heading, bool) {
         self.left_s -= dt_s;
-        self.s_m = self
-            .path
-            .nearest(at.position, self.s_m, self.s_m + WINDOW_M);
-        if (self.path.at(self.s_m).position - at.position).norm() > self.limits.replan_m {
+        let before = (self.s_m, self.foot);
+        (self.s_m, self.foot) = (self.path).nearest(position, before, self.s_m + WINDOW_M);
+        if (self.foot.position - position).norm() > self.limits.replan_m {
+            let at = Pose {
+                position,
+                heading: moving(),
+            };
             self.path = DubinsPath::shortest(at, self.end, self.limits.radius_m);
             self.s_m = 0.0;
+            self.foot = self.path.at(0.0);
         }
         let l = &self.limits;
-        let turn = (l.gain_rad_m * self.off_m(at.position)).clamp(-l.capture_rad, l.capture_rad);
-        let ahead = self.path.at(self.s_m + LOOK_AHEAD_S * speed_m_s);
+        let turn = (l.gain_rad_m * self.off_m(position)).clamp(-l.capture_rad, l.capture_rad);
+        let ahead = self.path.heading(self.s_m + LOOK_AHEAD_S * speed_m_s);
         let at_end = self.s_m >= self.path.length_m() - 0.5;
-        (ahead.heading.turned(turn), at_end || self.left_s <= 0.0)
+        (ahead.turned(turn), at_end || self.left_s <= 0.0)
     }
 
     /// Distance from the path, positive to its left, m.
     fn off_m(&self, position: Vector2<f64>) -> f64 {
-        let foot = self.path.at(self.s_m);
-        let (v, a) = (position - foot.position, foot.heading.unit());
+        let (v, a) = (
+            position - self.foot.position,
+            self.path.unit(self.foot.heading),
+        );
         a.x * v.y - a.y * v.x
     }
 }
@@ -118,7 +128,7 @@ mod tests {
                     at.position += by;
                 }
             }
-            let (want, done) = f.step(at, 2.0, 0.1);
+            let (want, done) = f.step(at.position, || at.heading, 2.0, 0.1);
             if done {
                 return (at, k, true);
             }

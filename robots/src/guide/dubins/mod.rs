@@ -1,5 +1,6 @@
 //! Go To Point With Heading: the path, and how the vehicle follows it.
 
+mod arc;
 mod follower;
 mod path;
 

@@ -7,8 +7,9 @@
 //! *Deviations*: none. As in the paper the CCC paths are left out, though one of them can be shorter for poses that
 //! are near each other.
 
+use super::arc::Arc;
 use nalgebra::Vector2;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::TAU;
 use world::math;
 use world::units::{Heading, wrap_tau};
 
@@ -24,14 +25,16 @@ pub struct Pose {
 /// A path of two arcs joined by a straight.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DubinsPath {
-    start: Pose,
-    radius_m: f64,
-    /// +1 clockwise, -1 anticlockwise.
-    turns: [f64; 2],
+    arcs: [Arc; 2],
     /// Lengths of arc, straight, arc, m.
     lengths_m: [f64; 3],
-    /// Poses where the straight part and the second arc begin.
-    joints: [Pose; 2],
+    /// Pose where the straight part begins.
+    leave: Pose,
+    /// Direction of the straight part, and its unit vector (east, north).
+    course: Heading,
+    along: Vector2<f64>,
+    /// Pose at the end of the path.
+    end: Pose,
 }
 
 impl DubinsPath {
@@ -54,8 +57,8 @@ impl DubinsPath {
     }
 
     fn candidate(start: Pose, end: Pose, radius_m: f64, turns: [f64; 2]) -> Option<Self> {
-        let centre = |p: Pose, turn: f64| p.position + side(p.heading, turn) * radius_m;
-        let between = centre(end, turns[1]) - centre(start, turns[0]);
+        let first = Arc::new(start, turns[0], radius_m);
+        let between = Arc::new(end, turns[1], radius_m).centre - first.centre;
         let distance_m = between.norm();
         if !distance_m.is_finite() {
             return None;
@@ -85,22 +88,26 @@ impl DubinsPath {
             // Rounding must not turn no turn at all into a whole circle.
             if TAU - angle < 1e-9 { 0.0 } else { angle }
         };
-        let arcs = [
+        let lengths_m = [
             swept(start.heading, course, turns[0]) * radius_m,
+            straight_m,
             swept(course, end.heading, turns[1]) * radius_m,
         ];
-        let leave = along_arc(start, turns[0], radius_m, arcs[0]);
+        let (leave, along) = (first.at(lengths_m[0]), course.unit());
         let enter = Pose {
-            position: leave.position + course.unit() * straight_m,
+            position: leave.position + along * straight_m,
             heading: course,
         };
-        Some(Self {
-            start,
-            radius_m,
-            turns,
-            lengths_m: [arcs[0], straight_m, arcs[1]],
-            joints: [leave, enter],
-        })
+        let mut path = Self {
+            arcs: [first, Arc::new(enter, turns[1], radius_m)],
+            lengths_m,
+            leave,
+            course,
+            along,
+            end: enter,
+        };
+        path.end = path.at(path.length_m());
+        Some(path)
     }
 
     /// Whole length, m.
@@ -115,76 +122,83 @@ impl DubinsPath {
         let [a, b, c] = self.lengths_m;
         let s = s_m.clamp(0.0, a + b + c);
         if s <= a {
-            along_arc(self.start, self.turns[0], self.radius_m, s)
+            self.arcs[0].at(s)
         } else if s <= a + b {
             Pose {
-                position: self.joints[0].position + self.joints[1].heading.unit() * (s - a),
-                heading: self.joints[1].heading,
+                position: self.leave.position + self.along * (s - a),
+                heading: self.course,
             }
         } else {
-            along_arc(self.joints[1], self.turns[1], self.radius_m, s - a - b)
+            self.arcs[1].at(s - a - b)
         }
     }
 
-    /// Place along the path, m, between `from_m` and `to_m`, that is nearest to `p`.
+    /// Direction after `s_m` metres, held within the path.
     #[must_use]
-    pub fn nearest(&self, p: Vector2<f64>, from_m: f64, to_m: f64) -> f64 {
+    pub fn heading(&self, s_m: f64) -> Heading {
         let [a, b, c] = self.lengths_m;
-        let feet = [
-            self.arc_foot(self.start, self.turns[0], p, a),
-            a + (p - self.joints[0].position).dot(&self.joints[1].heading.unit()),
-            a + b + self.arc_foot(self.joints[1], self.turns[1], p, c),
-        ];
-        let spans = [(0.0, a), (a, a + b), (a + b, a + b + c)];
-        let mut best = (f64::INFINITY, from_m);
-        for (foot, (lo, hi)) in feet.into_iter().zip(spans) {
-            let (lo, hi) = (f64::max(lo, from_m), f64::min(hi, to_m));
+        let s = s_m.clamp(0.0, a + b + c);
+        if s <= a {
+            self.arcs[0].heading(s)
+        } else if s <= a + b {
+            self.course
+        } else {
+            self.arcs[1].heading(s - a - b)
+        }
+    }
+
+    /// Unit vector of a direction of the path (east, north).
+    #[must_use]
+    pub fn unit(&self, heading: Heading) -> Vector2<f64> {
+        if heading == self.course {
+            self.along
+        } else {
+            heading.unit()
+        }
+    }
+
+    /// Place along the path, m, between `from_m` and `to_m`, that is nearest to `p`, and the pose there. `from` is the
+    /// pose at `from_m`.
+    #[must_use]
+    pub fn nearest(&self, p: Vector2<f64>, (from_m, from): (f64, Pose), to_m: f64) -> (f64, Pose) {
+        let [a, b, c] = self.lengths_m;
+        let ends = [0.0, a, a + b, a + b + c];
+        // Poses that are known need no sines.
+        let pose = |s: f64| match s {
+            s if s == from_m => from,
+            s if s == a => self.leave,
+            s if s == ends[3] => self.end,
+            s => self.at(s),
+        };
+        let mut best = (f64::INFINITY, from_m, from);
+        for part in 0..3 {
+            let (lo, hi) = (ends[part].max(from_m), ends[part + 1].min(to_m));
             if lo > hi {
                 continue;
             }
             // The foot on an arc is known up to a whole circle; the ends cover what clamping misses.
-            for s in [foot.clamp(lo, hi), lo, hi] {
-                let d = (self.at(s).position - p).norm();
+            let foot = match part {
+                0 => self.arcs[0].foot(p, a),
+                1 => a + (p - self.leave.position).dot(&self.along),
+                _ => a + b + self.arcs[1].foot(p, c),
+            };
+            let foot = foot.clamp(lo, hi);
+            let others = [lo, hi].into_iter().filter(|s| *s != foot);
+            for s in std::iter::once(foot).chain(others) {
+                let at = pose(s);
+                let d = (at.position - p).norm();
                 if d < best.0 - 1e-12 {
-                    best = (d, s);
+                    best = (d, s, at);
                 }
             }
         }
-        best.1
-    }
-
-    /// Length along an arc from its start to the point nearest to `p`, in [0, circumference).
-    fn arc_foot(&self, start: Pose, turn: f64, p: Vector2<f64>, length_m: f64) -> f64 {
-        let centre = start.position + side(start.heading, turn) * self.radius_m;
-        let from = Heading::of(start.position - centre);
-        let to = Heading::of(p - centre);
-        let s = wrap_tau(turn * (to.rad() - from.rad())) * self.radius_m;
-        // Just behind the start is behind, not a whole circle ahead.
-        let behind = s - TAU * self.radius_m;
-        if s > length_m && -behind < s - length_m {
-            behind
-        } else {
-            s
-        }
-    }
-}
-
-/// Unit vector to the side of a turn: right for clockwise.
-fn side(heading: Heading, turn: f64) -> Vector2<f64> {
-    heading.turned(turn * FRAC_PI_2).unit()
-}
-
-fn along_arc(start: Pose, turn: f64, radius_m: f64, s_m: f64) -> Pose {
-    let centre = start.position + side(start.heading, turn) * radius_m;
-    let heading = start.heading.turned(turn * s_m / radius_m);
-    Pose {
-        position: centre + side(heading, turn).scale(-radius_m),
-        heading,
+        (best.1, best.2)
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::arc::side;
     use super::*;
     use proptest::prelude::*;
     use std::f64::consts::PI;
@@ -194,6 +208,30 @@ mod tests {
             position: Vector2::new(east, north),
             heading: Heading::from_deg(deg),
         }
+    }
+
+    /// The nearest place by all feet and all ends.
+    fn plainly_nearest(path: &DubinsPath, p: Vector2<f64>, from_m: f64, to_m: f64) -> (f64, Pose) {
+        let [a, b, c] = path.lengths_m;
+        let feet = [
+            path.arcs[0].foot(p, a),
+            a + (p - path.leave.position).dot(&path.course.unit()),
+            a + b + path.arcs[1].foot(p, c),
+        ];
+        let mut best = (f64::INFINITY, from_m);
+        for (foot, (lo, hi)) in (feet.into_iter()).zip([(0.0, a), (a, a + b), (a + b, a + b + c)]) {
+            let (lo, hi) = (f64::max(lo, from_m), f64::min(hi, to_m));
+            if lo > hi {
+                continue;
+            }
+            for s in [foot.clamp(lo, hi), lo, hi] {
+                let d = (path.at(s).position - p).norm();
+                if d < best.0 - 1e-12 {
+                    best = (d, s);
+                }
+            }
+        }
+        (best.1, path.at(best.1))
     }
 
     #[test]
@@ -251,8 +289,29 @@ mod tests {
             let s = share * path.length_m();
             let on = path.at(s);
             let p = on.position + side(on.heading, 1.0) * aside;
-            let found = path.nearest(p, (s - 5.0).max(0.0), s + 5.0);
-            prop_assert!((path.at(found).position - p).norm() <= aside.abs() + 1e-9);
+            let from = (s - 5.0).max(0.0);
+            let (found, there) = path.nearest(p, (from, path.at(from)), s + 5.0);
+            prop_assert!((there.position - p).norm() <= aside.abs() + 1e-9);
+            prop_assert_eq!(there, path.at(found));
+        }
+
+        #[test]
+        fn what_is_known_of_a_path_leaves_the_nearest_place_as_it_is(
+            e2 in -80.0..80.0, n2 in -80.0..80.0, h2 in 0.0..360.0,
+            shares in prop::collection::vec(-0.1..1.1, 8), aside in -30.0..30.0f64, window in 0.0..60.0f64,
+        ) {
+            let path = DubinsPath::shortest(pose(0.0, 0.0, 10.0), pose(e2, n2, h2), 15.0);
+            let [a, b, c] = path.lengths_m;
+            let edges = [0.0, a, a + b, a + b + c];
+            let places = shares.iter().map(|share: &f64| (share * (a + b + c)).max(0.0));
+            for from in places.chain(edges) {
+                let on = path.at(from + 0.5 * window);
+                let p = on.position + side(on.heading, 1.0) * aside;
+                let found = path.nearest(p, (from, path.at(from)), from + window);
+                prop_assert_eq!(found, plainly_nearest(&path, p, from, from + window));
+                prop_assert_eq!(path.heading(from), path.at(from).heading);
+                prop_assert_eq!(path.unit(on.heading), on.heading.unit());
+            }
         }
     }
 }
