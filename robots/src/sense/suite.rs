@@ -195,10 +195,16 @@ impl SensorSuite {
     /// The readings of all instruments in this step.
     pub fn read(&mut self, around: &Around) -> Readings {
         let mut readings = Readings::default();
-        for sensor in &mut self.0 {
-            sensor.sense(around, &mut readings);
-        }
+        self.read_into(around, &mut readings);
         readings
+    }
+
+    /// The same in the place of earlier readings.
+    pub fn read_into(&mut self, around: &Around, readings: &mut Readings) {
+        readings.clear();
+        for sensor in &mut self.0 {
+            sensor.sense(around, readings);
+        }
     }
 }
 
@@ -235,10 +241,12 @@ mod tests {
             ))
         };
         let mut suite = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
+        let mut again = SensorSuite::new(spec, &mounts, OnBoard::new(robot_id, 1, 0.02)).unwrap();
+        let mut kept = Readings::default();
         let t = at(0.0, 0.0, -5.0);
         let optics = Optics::new(&OpticsSpec::default()).unwrap();
         run(5_000, 0.02, |c| {
-            Some(suite.read(&Around {
+            let around = Around {
                 clock: c,
                 truth: &t,
                 flow: &Still,
@@ -247,7 +255,11 @@ mod tests {
                 obstacles: &Obstacles::default(),
                 optics: &optics,
                 asked: Asked::default(),
-            }))
+            };
+            again.read_into(&around, &mut kept);
+            let fresh = suite.read(&around);
+            assert!(fresh == kept, "nothing of the step before is left");
+            Some(fresh)
         })
     }
 

@@ -141,9 +141,9 @@ impl Simulation {
         self.tick.recover();
     }
 
-    /// Whether it makes frames.
-    pub(crate) fn makes_frames(&self) -> bool {
-        self.tick.frames == Frames::Made
+    /// Whether the latest tick has left anything to be shown.
+    pub(crate) fn waits(&self) -> bool {
+        self.tick.waits
     }
 
     /// The time.

@@ -44,7 +44,9 @@ pub(crate) struct Tick {
     /// Which of these parts need nothing but to run their systems in order.
     in_order: [bool; 4],
     /// Whether it makes frames.
-    pub(crate) frames: Frames,
+    frames: Frames,
+    /// Whether anything waits in the outbox after the latest report.
+    pub(crate) waits: bool,
 }
 
 impl Tick {
@@ -58,6 +60,7 @@ impl Tick {
             frame: part(Part::Frame, &[], turns, own),
             in_order: [false; 4],
             frames,
+            waits: false,
         };
         tick.act.add_systems(
             move_bodies
@@ -122,9 +125,13 @@ impl Tick {
     /// The part after it, with a frame if one is due. Then the time passes.
     pub(crate) fn report(&mut self, world: &mut World) {
         self.report.run(world);
-        if self.frames == Frames::Made && open_frame(world) {
-            self.frame.run(world);
-            close_frame(world);
+        if self.frames == Frames::Made {
+            let (due, waits) = open_frame(world);
+            if due {
+                self.frame.run(world);
+                close_frame(world);
+            }
+            self.waits = waits;
         }
         world.resource_mut::<Clock>().advance();
     }

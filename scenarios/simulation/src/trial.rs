@@ -273,7 +273,7 @@ impl Trial {
     }
 
     fn show(&mut self, watch: &mut dyn Watch) {
-        if !self.simulation.makes_frames() {
+        if !self.simulation.waits() {
             return;
         }
         let mut outbox = self.simulation.world.resource_mut::<Outbox>();

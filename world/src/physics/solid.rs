@@ -310,10 +310,11 @@ impl Physics {
     pub fn step(&mut self) {
         let dt_s = self.dt_s;
         for body in &mut self.bodies {
-            let free = body.free.unwrap_or_else(|| body.glide(dt_s));
-            body.free = Some(free);
+            if body.free.is_none() {
+                body.free = Some(body.glide(dt_s));
+            }
             assert!(
-                free.is_finite(),
+                body.free.as_ref().is_some_and(Truth::is_finite),
                 "body {}: state is no longer finite after {:?}; use a shorter time.step_s or weaker forces",
                 body.id,
                 body.truth

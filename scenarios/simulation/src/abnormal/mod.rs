@@ -161,7 +161,23 @@ pub struct Lookout(Box<[Episode; Abnormality::WATCHED.len()]>);
 
 impl Lookout {
     /// Notes whether something is wrong now; `None` if this tick has no reading.
+    #[inline]
     pub(crate) fn see(
+        &mut self,
+        what: Abnormality,
+        wrong: Option<bool>,
+        robot: &str,
+        t_s: f64,
+        p_W: Vector3<f64>,
+        events: &mut Vec<Abnormal>,
+    ) {
+        // As a rule nothing is wrong, and nothing was.
+        if wrong == Some(true) || self.0[what as usize].began.is_some() {
+            self.note(what, wrong, robot, t_s, p_W, events);
+        }
+    }
+
+    fn note(
         &mut self,
         what: Abnormality,
         wrong: Option<bool>,

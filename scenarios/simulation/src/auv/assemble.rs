@@ -1,8 +1,9 @@
 //! Brings robots into a run.
 
+use super::report::system as kept;
 use super::shown::system as shown;
 use super::yard::{Yard, build};
-use super::{Briefing, Hull, Log, Mapping, Robots, Searching, system};
+use super::{Briefing, Hull, Log, Mapping, Now, Robots, Searching, system};
 use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::{Apparatus, BodiesMove, Launch, Systems};
 use crate::control::consulting::{Asking, Consulting};
@@ -76,21 +77,16 @@ impl Apparatus for RobotSpec {
                     system::read_bodies.after(BodiesMove),
                 ),
             )
-            .add(
-                Stage::Report,
-                (
-                    system::digest_robots.before(digest_plume),
-                    system::keep_score,
-                    system::watch,
-                )
-                    .chain(),
-            )
             .add_to_frame(shown::picture);
-        if systems.has::<FaultLog>() {
-            systems.add(Stage::Report, system::tell_faults.after(system::watch));
-        }
         if systems.has_frames() {
-            systems.add(Stage::Report, shown::keep_log.after(system::watch));
+            let report = kept::report_and_log.before(digest_plume);
+            systems.add(Stage::Report, report);
+        } else {
+            systems.add(Stage::Report, kept::report.before(digest_plume));
+        }
+        if systems.has::<FaultLog>() {
+            let tell = system::tell_faults.after(kept::report);
+            systems.add(Stage::Report, tell.after(kept::report_and_log));
         }
     }
 }
@@ -192,6 +188,7 @@ fn spawn(
             Lookout::default(),
         ),
         (
+            Now(Clock::new(dt_s)),
             SensorFaults::new(&spec.faults, &spec.sensors, dt_s),
             DriveFaults::new(&spec.faults, dt_s, &drives),
         ),

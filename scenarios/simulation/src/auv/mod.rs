@@ -3,6 +3,7 @@
 mod assemble;
 pub(crate) mod message;
 mod own;
+mod report;
 mod shown;
 pub(crate) mod system;
 pub mod topics;
@@ -21,8 +22,14 @@ use robots::map::Mapper;
 use robots::strategy::Strategy;
 use robots::vehicles::Craft;
 use world::area::Area;
+use world::clock::Clock;
 use world::physics::BodyId;
 use world::seeds::Stream;
+
+/// The time aboard: the clock, which is nearer at hand here than among the resources. The instruments set it at the
+/// beginning of each tick.
+#[derive(Component, Clone, Copy, Debug)]
+pub(crate) struct Now(pub(crate) Clock);
 
 /// All robots, in the scenario's order.
 #[derive(Resource, Clone, Debug, Default)]

@@ -1,6 +1,6 @@
 //! All components of a robot: what it keeps while the robot of another run has its turn in the same world.
 
-use super::{Briefing, Hull, Log, Mapping, Searching};
+use super::{Briefing, Hull, Log, Mapping, Now, Searching};
 use crate::abnormal::{FaultLog, Lookout};
 use crate::apparatus::own;
 use crate::control::consulting::Consulting;
@@ -19,6 +19,7 @@ own! {
     RobotOwn as RobotParts {
         id: SearcherId,
         truth: Truth,
+        now: Now,
         hull: Hull,
         suite: SensorSuite,
         readings: Readings,

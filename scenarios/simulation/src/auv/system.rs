@@ -1,28 +1,26 @@
 //! The systems of robots: each passes components and the ocean to plain state machines.
 
-use super::{Briefing, Hull, Mapping, Robots, Searching};
-use crate::abnormal::{Abnormality, FaultLog, Lookout, OUTSIDE_M};
+use super::{Briefing, Hull, Mapping, Now, Searching};
+use crate::abnormal::FaultLog;
 use crate::assemble::WaterLight;
 use crate::control::Seen;
 use crate::control::consulting::{Consulting, Kept};
 use crate::ocean::Ocean;
 use crate::score::Score;
-use crate::searchers::{SearcherId, whole};
-use bevy_ecs::prelude::{Local, Query, Res, ResMut};
+use crate::searchers::SearcherId;
+use bevy_ecs::prelude::{Query, Res, ResMut};
 use nalgebra::Vector3;
 use robots::actuate::Pilot;
 use robots::estimate::Estimator;
 use robots::faults::{DriveFaults, SensorFaults};
 use robots::guide::Guidance;
 use robots::handoff::{
-    Actuation, Behaviour, Belief, Command, Decision, Estimate, GuidanceStatus, Observation,
-    Readings,
+    Actuation, Belief, Command, Decision, Estimate, GuidanceStatus, Observation, Readings, Told,
 };
 use robots::map::MapObservation;
 use robots::sense::{Around, Asked, SensorSuite};
 use robots::vehicles::Battery;
 use world::clock::Clock;
-use world::digest::Digest;
 use world::frames::Truth;
 use world::physics::Physics;
 
@@ -31,6 +29,7 @@ pub(crate) fn read_instruments(
     ocean: Res<Ocean>,
     light: Res<WaterLight>,
     mut robots: Query<(
+        &mut Now,
         &Truth,
         &Decision,
         &mut SensorSuite,
@@ -38,8 +37,9 @@ pub(crate) fn read_instruments(
         &mut Readings,
     )>,
 ) {
-    for (truth, decision, mut suite, mut faults, mut readings) in &mut robots {
-        *readings = suite.read(&Around {
+    for (mut now, truth, decision, mut suite, mut faults, mut readings) in &mut robots {
+        now.0 = *clock;
+        let around = Around {
             clock: &clock,
             truth,
             flow: &*ocean,
@@ -48,17 +48,15 @@ pub(crate) fn read_instruments(
             obstacles: &ocean.obstacles,
             optics: &light.0,
             asked: Asked::from(decision),
-        });
+        };
+        suite.read_into(&around, &mut readings);
         faults.alter(&clock, &mut readings);
     }
 }
 
-pub(crate) fn estimate_state(
-    clock: Res<Clock>,
-    mut robots: Query<(&Readings, &mut Estimator, &mut Estimate)>,
-) {
-    for (readings, mut estimator, mut estimate) in &mut robots {
-        *estimate = estimator.step(&clock, readings);
+pub(crate) fn estimate_state(mut robots: Query<(&Now, &Readings, &mut Estimator, &mut Estimate)>) {
+    for (now, readings, mut estimator, mut estimate) in &mut robots {
+        *estimate = estimator.step(&now.0, readings);
     }
 }
 
@@ -90,11 +88,12 @@ type Perceived<'a> = (
     Option<&'a Belief>,
 );
 
-/// What a robot sees in this tick.
-fn observation(clock: &Clock, parts: Perceived) -> Observation {
+/// What a robot sees in this tick, with what it was told.
+fn observation(parts: Perceived, told: Option<Told>) -> Observation {
     let (readings, estimate, guidance, briefing, belief) = parts;
     Observation {
-        t_s: clock.t_s(),
+        // The estimate is of this tick.
+        t_s: estimate.t_s,
         estimate: *estimate,
         chemical: readings.chemical,
         guidance: *guidance,
@@ -106,7 +105,7 @@ fn observation(clock: &Clock, parts: Perceived) -> Observation {
         sidescan: readings.sidescan.clone(),
         picture: readings.picture.clone(),
         other: readings.other.clone(),
-        told: None,
+        told,
     }
 }
 
@@ -121,7 +120,7 @@ pub(crate) fn ask(
         }
         if decision.outcome.is_none() && consulting.due(&clock) {
             consulting.ask(&clock, &id.name, |kept| {
-                let seen = Box::new(observation(&clock, parts));
+                let seen = Box::new(observation(parts, None));
                 Seen::Robot(seen, Box::new(kept.take_robot()))
             });
         }
@@ -135,20 +134,18 @@ type Deciding<'a> = (
     Option<&'a mut Consulting>,
 );
 
-pub(crate) fn decide(clock: Res<Clock>, mut robots: Query<Deciding>) {
+pub(crate) fn decide(mut robots: Query<Deciding>) {
     for (parts, mut searching, mut decision, consulting) in &mut robots {
-        let seen = Observation {
-            told: consulting.and_then(|mut c| c.take_told()),
-            ..observation(&clock, parts)
-        };
+        let told = consulting.and_then(|mut c| c.take_told());
+        let seen = observation(parts, told);
         let searching = &mut *searching;
         *decision = searching.strategy.step(&seen, &mut searching.rng);
     }
 }
 
 pub(crate) fn guide(
-    clock: Res<Clock>,
     mut robots: Query<(
+        &Now,
         &Estimate,
         &Decision,
         &Briefing,
@@ -157,12 +154,13 @@ pub(crate) fn guide(
         &mut GuidanceStatus,
     )>,
 ) {
-    for (estimate, decision, briefing, mut guidance, mut command, mut status) in &mut robots {
-        (*command, *status) = guidance.step(estimate, &decision.goal, &briefing.area, clock.dt_s);
+    for (now, estimate, decision, briefing, mut guidance, mut command, mut status) in &mut robots {
+        (*command, *status) = guidance.step(estimate, &decision.goal, &briefing.area, now.0.dt_s);
     }
 }
 
 type Actuated<'a> = (
+    &'a Now,
     &'a Command,
     &'a Estimate,
     &'a mut Pilot,
@@ -172,26 +170,32 @@ type Actuated<'a> = (
     &'a Hull,
 );
 
-pub(crate) fn actuate(clock: Res<Clock>, mut robots: Query<Actuated>) {
-    for (command, estimate, mut pilot, mut faults, mut set, battery, hull) in &mut robots {
-        *set = pilot.step(command, estimate, clock.dt_s);
-        faults.alter(&clock, &mut set);
+pub(crate) fn actuate(mut robots: Query<Actuated>) {
+    for (now, command, estimate, mut pilot, mut faults, mut set, battery, hull) in &mut robots {
+        *set = pilot.step(command, estimate, now.0.dt_s);
+        faults.alter(&now.0, &mut set);
         if battery.is_some_and(Battery::is_empty) {
             *set = hull.vehicle.idle();
         }
     }
 }
 
+type Pushed<'a> = (
+    &'a Now,
+    &'a Truth,
+    &'a Actuation,
+    &'a mut Hull,
+    Option<&'a mut Battery>,
+);
+
 pub(crate) fn push_bodies(
-    clock: Res<Clock>,
     ocean: Res<Ocean>,
-    roster: Res<Robots>,
     mut physics: ResMut<Physics>,
-    mut robots: Query<(&Truth, &Actuation, &mut Hull, Option<&mut Battery>)>,
+    mut robots: Query<Pushed>,
 ) {
-    let mut each = robots.iter_many_mut(&roster.0);
-    while let Some((truth, set, mut hull, battery)) = each.fetch_next().map(whole) {
-        let (t_s, dt_s) = (clock.t_s(), clock.dt_s);
+    // Each pushes its own body: their order does not matter.
+    for (now, truth, set, mut hull, battery) in &mut robots {
+        let (t_s, dt_s) = (now.0.t_s(), now.0.dt_s);
         let push = hull.vehicle.step(truth, &*ocean, t_s, set, dt_s);
         physics.push(hull.body, push);
         if let Some(mut battery) = battery {
@@ -201,7 +205,6 @@ pub(crate) fn push_bodies(
 }
 
 pub(crate) fn read_bodies(
-    clock: Res<Clock>,
     physics: Res<Physics>,
     mut robots: Query<(&SearcherId, &Hull, &mut Truth)>,
 ) {
@@ -209,145 +212,9 @@ pub(crate) fn read_bodies(
         *truth = physics.truth(hull.body);
         assert!(
             truth.is_finite(),
-            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the \
-             water there",
-            id.name,
-            clock.step
+            "the state of robot {} is not finite: a force on it was not; check its parameters and the water there",
+            id.name
         );
-    }
-}
-
-type Digested<'a> = (
-    &'a Truth,
-    &'a Estimate,
-    &'a Decision,
-    &'a Actuation,
-    Option<(&'a Belief, &'a mut Mapping)>,
-);
-
-pub(crate) fn digest_robots(
-    roster: Res<Robots>,
-    mut digest: ResMut<Digest>,
-    mut robots: Query<Digested>,
-    // Of the newest behaviour: some are hashed, and they seldom change.
-    mut number: Local<Option<(Behaviour, f64)>>,
-) {
-    let mut each = robots.iter_many_mut(&roster.0);
-    while let Some((truth, estimate, decision, set, map)) = each.fetch_next().map(whole) {
-        digest.f64s(truth.pose.p_WB.as_slice());
-        digest.f64s(truth.pose.R_WB.coords.as_slice());
-        digest.f64s(truth.v_WB_B.as_slice());
-        digest.f64s(truth.w_WB_B.as_slice());
-        digest.f64s(estimate.position.as_slice());
-        digest.f64s(&[estimate.depth_m, estimate.attitude.heading.rad()]);
-        for (_, value) in set.named() {
-            digest.f64s(&[value]);
-        }
-        let behaviour = decision.behaviour;
-        let known = number.filter(|(known, _)| *known == behaviour);
-        let (_, behaviour) =
-            *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number())));
-        digest.f64s(&[f64::from(decision.goal.id), behaviour]);
-        // Only when it is new: a map is large and changes seldom.
-        if let Some((belief, mut mapping)) = map
-            && mapping.digested != Some(belief.updates)
-        {
-            digest.f64s(&belief.p);
-            mapping.digested = Some(belief.updates);
-        }
-    }
-}
-
-/// Whether a thruster is at its limit; `None` without thrusters to share out among, and with an empty battery.
-fn saturated(pilot: &Pilot, battery: Option<&Battery>) -> Option<bool> {
-    pilot
-        .saturated()
-        .filter(|_| !battery.is_some_and(Battery::is_empty))
-}
-
-type Scored<'a> = (
-    &'a Pilot,
-    Option<&'a Battery>,
-    &'a SearcherId,
-    &'a Truth,
-    &'a Estimate,
-    &'a Readings,
-    &'a Decision,
-);
-
-pub(crate) fn keep_score(
-    clock: Res<Clock>,
-    roster: Res<Robots>,
-    mut score: ResMut<Score>,
-    robots: Query<Scored>,
-) {
-    for parts in robots.iter_many(&roster.0).map(whole) {
-        let (pilot, battery, id, truth, estimate, readings, decision) = parts;
-        let p_W = truth.pose.p_WB;
-        score.at(id.place, &p_W);
-        score.outcome(id.place, decision.outcome);
-        let own = &mut score.searchers[id.place];
-        if let Some(declaration) = decision.declared {
-            own.declared(declaration);
-        }
-        if let Some(battery) = battery {
-            own.powered(clock.t_next_s(), battery);
-        }
-        if let Some(saturated) = saturated(pilot, battery) {
-            own.allotted(saturated, clock.dt_s);
-        }
-        own.misplaced((estimate.position - p_W.xy()).norm());
-        if readings.chemical.is_some_and(|c| c.detected) {
-            own.detected(clock.t_next_s(), p_W.xy());
-        }
-    }
-}
-
-type Watched<'a> = (
-    &'a SearcherId,
-    &'a Truth,
-    &'a Readings,
-    &'a Hull,
-    &'a Pilot,
-    Option<&'a Battery>,
-    &'a mut Lookout,
-);
-
-pub(crate) fn watch(
-    clock: Res<Clock>,
-    ocean: Res<Ocean>,
-    physics: Res<Physics>,
-    mut score: ResMut<Score>,
-    mut robots: Query<Watched>,
-) {
-    let events = &mut score.abnormal;
-    for (id, truth, readings, hull, pilot, battery, mut lookout) in &mut robots {
-        let p = truth.pose.p_WB;
-        let outside_m = -ocean.sides.edge_distance(p.xy()).0;
-        let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
-        for (what, wrong) in [
-            (Abnormality::LeftArea, Some(outside_m > OUTSIDE_M)),
-            (
-                Abnormality::NoBottomLock,
-                deaf(readings.dvl.map(|r| r.valid)),
-            ),
-            (
-                Abnormality::NoAltitude,
-                deaf(readings.altimeter.map(|r| r.valid)),
-            ),
-            (Abnormality::NoFlow, deaf(readings.adcp.map(|r| r.valid))),
-            (
-                Abnormality::Touched,
-                Some(physics.contacts(hull.body).touching),
-            ),
-            (
-                Abnormality::ThrustersSaturated,
-                saturated(pilot, battery).or(pilot.saturated().map(|_| false)),
-            ),
-            (Abnormality::BatteryEmpty, battery.map(Battery::is_empty)),
-        ] {
-            lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
-        }
     }
 }
 

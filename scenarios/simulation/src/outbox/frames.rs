@@ -8,8 +8,8 @@ use bevy_ecs::prelude::World;
 use world::clock::Clock;
 
 /// Opens a frame if one is due, and notes whether the plume is to be pictured. The last state of a mission is shown
-/// even between two frames.
-pub(crate) fn open_frame(world: &mut World) -> bool {
+/// even between two frames. Returns whether there is a frame, and whether anything will wait for the trial.
+pub(crate) fn open_frame(world: &mut World) -> (bool, bool) {
     let clock = *world.resource::<Clock>();
     let ended = world.resource_mut::<Score>().take_ended();
     let mut outbox = world.resource_mut::<Outbox>();
@@ -22,7 +22,7 @@ pub(crate) fn open_frame(world: &mut World) -> bool {
         step: clock.step + 1,
         ..Frame::default()
     });
-    due
+    (due, due || !outbox.is_empty())
 }
 
 /// Completes the frame that is open.

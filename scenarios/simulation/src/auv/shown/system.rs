@@ -1,42 +1,14 @@
-//! The systems that show robots: what happens between two frames, and the frames.
+//! The system that puts robots into frames.
 
 use crate::auv::{Briefing, Log, Robots};
-use crate::frame::{PictureFrame, PingFrame, RobotFrame};
+use crate::frame::RobotFrame;
 use crate::ocean::Ocean;
 use crate::outbox::Outbox;
 use crate::score::Score;
 use crate::searchers::{SearcherId, whole};
 use bevy_ecs::prelude::{Query, Res, ResMut};
-use robots::handoff::{Actuation, Belief, Command, Decision, Estimate, Readings};
-use world::clock::Clock;
+use robots::handoff::{Actuation, Belief, Command, Decision, Estimate};
 use world::frames::Truth;
-
-/// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
-pub(crate) fn keep_log(
-    clock: Res<Clock>,
-    roster: Res<Robots>,
-    mut outbox: ResMut<Outbox>,
-    mut robots: Query<(&SearcherId, &Truth, &Estimate, &Readings, &mut Log)>,
-) {
-    let t_s = clock.t_s();
-    let mut each = robots.iter_many_mut(&roster.0);
-    while let Some((id, truth, estimate, readings, mut log)) = each.fetch_next().map(whole) {
-        let name = &id.name;
-        let picture = readings.picture.as_ref();
-        (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));
-        let ping = readings.sidescan.as_ref();
-        (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, name, p, estimate)));
-        log.heard.hear(t_s, readings);
-        if let Some(reading) = readings.chemical {
-            log.chemical = Some(reading);
-            log.detected |= reading.detected;
-        }
-        if readings.lbl.is_some() {
-            let moved_m = estimate.fix_jump_m();
-            log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
-        }
-    }
-}
 
 type Pictured<'a> = (
     &'a SearcherId,

@@ -1,0 +1,153 @@
+//! What is kept of one robot.
+
+use super::system::Reported;
+use crate::abnormal::{Abnormal, Abnormality, Lookout, OUTSIDE_M};
+use crate::auv::{Log, Mapping};
+use crate::frame::{PictureFrame, PingFrame};
+use crate::ocean::Ocean;
+use crate::outbox::Outbox;
+use crate::score::Score;
+use bevy_ecs::change_detection::Mut;
+use robots::actuate::Pilot;
+use robots::handoff::{Behaviour, Belief};
+use robots::vehicles::Battery;
+use world::clock::Clock;
+use world::digest::Digest;
+use world::physics::Physics;
+
+/// Adds it to the digest; `number` is that of the newest behaviour.
+pub(super) fn digest(
+    (_, truth, estimate, _, decision, set, ..): &Reported,
+    map: Option<(&Belief, Mut<Mapping>)>,
+    digest: &mut Digest,
+    number: &mut Option<(Behaviour, f64)>,
+) {
+    let (p, R, v, w) = (
+        &truth.pose.p_WB,
+        &truth.pose.R_WB.coords,
+        &truth.v_WB_B,
+        &truth.w_WB_B,
+    );
+    let believed = &estimate.position;
+    digest.f64s(&[
+        p.x,
+        p.y,
+        p.z,
+        R.x,
+        R.y,
+        R.z,
+        R.w,
+        v.x,
+        v.y,
+        v.z,
+        w.x,
+        w.y,
+        w.z,
+        believed.x,
+        believed.y,
+        estimate.depth_m,
+        estimate.attitude.heading.rad(),
+    ]);
+    for (_, value) in set.named() {
+        digest.f64(value);
+    }
+    let behaviour = decision.behaviour;
+    let known = number.filter(|(known, _)| *known == behaviour);
+    let (_, behaviour) = *number.insert(known.unwrap_or_else(|| (behaviour, behaviour.number())));
+    digest.f64(f64::from(decision.goal.id));
+    digest.f64(behaviour);
+    // Only when it is new: a map is large and changes seldom.
+    if let Some((belief, mut mapping)) = map
+        && mapping.digested != Some(belief.updates)
+    {
+        digest.f64s(&belief.p);
+        mapping.digested = Some(belief.updates);
+    }
+}
+
+/// Whether a thruster is at its limit; `None` without thrusters to share out among, and with an empty battery.
+fn saturated(pilot: &Pilot, battery: Option<&Battery>) -> Option<bool> {
+    pilot
+        .saturated()
+        .filter(|_| !battery.is_some_and(Battery::is_empty))
+}
+
+/// Keeps its score.
+pub(super) fn score(
+    (id, truth, estimate, readings, decision, _, _, pilot, battery): &Reported,
+    clock: &Clock,
+    score: &mut Score,
+) {
+    let p_W = truth.pose.p_WB;
+    score.at(id.place, &p_W);
+    score.outcome(id.place, decision.outcome);
+    let own = &mut score.searchers[id.place];
+    if let Some(declaration) = decision.declared {
+        own.declared(declaration);
+    }
+    if let Some(battery) = battery {
+        own.powered(clock.t_next_s(), battery);
+    }
+    if let Some(saturated) = saturated(pilot, *battery) {
+        own.allotted(saturated, clock.dt_s);
+    }
+    own.misplaced((estimate.position - p_W.xy()).norm());
+    if readings.chemical.is_some_and(|c| c.detected) {
+        own.detected(clock.t_next_s(), p_W.xy());
+    }
+}
+
+/// Watches for what is abnormal.
+pub(super) fn watch(
+    (id, truth, _, readings, _, _, hull, pilot, battery): &Reported,
+    clock: &Clock,
+    ocean: &Ocean,
+    physics: &Physics,
+    lookout: &mut Lookout,
+    events: &mut Vec<Abnormal>,
+) {
+    let p = truth.pose.p_WB;
+    let outside_m = -ocean.sides.edge_distance(p.xy()).0;
+    let deaf = |valid: Option<bool>| valid.map(|valid| !valid);
+    let touching = physics.contacts(hull.body).touching;
+    let strained = pilot
+        .saturated()
+        .map(|_| saturated(pilot, *battery) == Some(true));
+    let mut see = |what, wrong| lookout.see(what, wrong, &id.name, clock.t_s(), p, events);
+    see(Abnormality::LeftArea, Some(outside_m > OUTSIDE_M));
+    see(
+        Abnormality::NoBottomLock,
+        deaf(readings.dvl.map(|r| r.valid)),
+    );
+    see(
+        Abnormality::NoAltitude,
+        deaf(readings.altimeter.map(|r| r.valid)),
+    );
+    see(Abnormality::NoFlow, deaf(readings.adcp.map(|r| r.valid)));
+    see(Abnormality::Touched, Some(touching));
+    see(Abnormality::ThrustersSaturated, strained);
+    see(Abnormality::BatteryEmpty, battery.map(Battery::is_empty));
+}
+
+/// Notes what happens between two frames, and passes on pictures and pings, which come at times of their own.
+pub(super) fn log(
+    (id, truth, estimate, readings, ..): &Reported,
+    clock: &Clock,
+    log: &mut Log,
+    outbox: &mut Outbox,
+) {
+    let (t_s, name) = (clock.t_s(), &id.name);
+    let picture = readings.picture.as_ref();
+    (outbox.pictures).extend(picture.map(|p| PictureFrame::new(t_s, name, p, truth, estimate)));
+    let ping = readings.sidescan.as_ref();
+    (outbox.pings).extend(ping.map(|p| PingFrame::new(t_s, name, p, estimate)));
+    log.heard.hear(t_s, readings);
+    if let Some(reading) = readings.chemical {
+        log.chemical = Some(reading);
+        log.detected |= reading.detected;
+    }
+    if readings.lbl.is_some() {
+        let moved_m = estimate.fix_jump_m();
+        log.fix_m = Some(log.fix_m.map_or(moved_m, |m| m.max(moved_m)));
+    }
+}
