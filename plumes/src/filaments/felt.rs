@@ -11,11 +11,12 @@
 use super::bands::Moment;
 use super::image::{Felt, Spot};
 use super::index::Question;
-use super::leaf::{Leaf, MOST, peak};
+use super::leaf::{CUT_SIGMAS, Leaf, MOST, peak};
 use super::moving::Moving;
 use super::store::Store;
 
 /// A question to one group.
+#[derive(Clone, Copy)]
 pub(super) struct Asked<'a> {
     pub(super) p: [f32; 3],
     pub(super) spot: &'a Spot<'a>,
@@ -48,15 +49,39 @@ pub(super) fn quanta(kg: f64, smallest: [f32; 2], largest: [f32; 2]) -> f64 {
     f64::from_bits(fine.to_bits() & !((1 << 52) - 1))
 }
 
-impl Asked<'_> {
-    /// Whether any of these filaments may contribute.
-    pub(super) fn may_feel(&self, moving: &Moving) -> bool {
-        moving.may_reach(self.q.path, self.p, &self.moment, self.flat_reach())
-    }
+/// Farthest along each axis from which a filament of these sizes (horizontal and vertical, m) is felt, m.
+pub(super) fn reach(q: &Question, sizes: [f32; 2]) -> [f32; 3] {
+    let [flat, high] = sizes.map(|size| CUT_SIGMAS * 1.000_1 * size);
+    // The kernel of a filament near a wall ends at its cut along each of two horizontal axes.
+    let flat = if q.room.is_open() {
+        flat
+    } else {
+        std::f32::consts::SQRT_2 * flat
+    };
+    // A filament is mirrored at the bed below it, which over a slope may be higher than the point.
+    [flat, flat, high + 2.0 * q.room.steepest as f32 * flat]
+}
 
+impl Asked<'_> {
     /// Farthest distance in the plane from which a member is felt, m: of a kernel between walls, the diagonal.
     pub(super) fn flat_reach(&self) -> f32 {
         self.reach[0]
+    }
+
+    /// Farthest along each axis from which a filament of these sizes (horizontal and vertical, m) is felt, m.
+    pub(super) fn reach_of(&self, sizes: [f32; 2]) -> [f32; 3] {
+        reach(self.q, sizes)
+    }
+
+    /// A filament of these sizes (m), if it feels a wall.
+    pub(super) fn walled(&self, p: [f32; 3], sizes: [f32; 2]) -> Option<Felt> {
+        let Spot { room, lookup, .. } = self.spot;
+        Felt::new(room, lookup, p, sizes, self.s.filament_kg)
+    }
+
+    /// The contribution of a filament that feels a wall.
+    pub(super) fn in_quanta(&self, felt: &Felt) -> i64 {
+        (felt.add(self.spot) * self.quanta).round() as i64
     }
 }
 
@@ -69,7 +94,7 @@ impl Present {
         walled.clear();
         if !spot.room.is_open() {
             leaf.retain(|p, sizes| {
-                let felt = Felt::new(spot.room, spot.lookup, p, sizes, s.filament_kg);
+                let felt = asked.walled(p, sizes);
                 let free = felt.is_none();
                 walled.extend(felt);
                 free
@@ -81,7 +106,7 @@ impl Present {
     /// Its contribution, in quanta.
     pub(super) fn felt(&self, asked: &Asked) -> i64 {
         let walled = self.walled.iter();
-        let walled = walled.map(|felt| (felt.add(asked.spot) * asked.quanta).round() as i64);
+        let walled = walled.map(|felt| asked.in_quanta(felt));
         self.leaf.at(asked.q.path, asked.p) + walled.sum::<i64>()
     }
 }

@@ -2,15 +2,16 @@
 //!
 //! *Source*: see `index`.
 //!
-//! *Parameters*: 1024 filaments in a group; a tree from the 33rd question about one time.
+//! *Parameters*: 1024 filaments in a group; a crowd from the 33rd question about one time.
 //!
 //! *Deviations*: none.
 
-use super::felt::{Asked, quanta};
+use super::boxes::Ends;
+use super::crowd::Crowd;
+use super::felt::{Asked, quanta, reach};
 use super::image::Spot;
 use super::index::Question;
-use super::leaf::CUT_SIGMAS;
-use super::part::Tree;
+use super::order::order;
 use super::scan;
 use super::side::Side;
 use super::store::Store;
@@ -21,8 +22,8 @@ use std::sync::atomic::{AtomicU32, Ordering};
 /// Most filaments in a group.
 pub(super) const GROUP: usize = 1024;
 
-/// To make a tree takes as long as so many questions without one. What it holds of one time is of no use at the next.
-const SCANS: u32 = 32;
+/// To make a crowd takes as long as so many questions without one. It holds for one time only.
+pub(super) const SCANS: u32 = 32;
 
 /// Up to [`GROUP`] neighbours in the order of release.
 #[derive(Clone, Debug)]
@@ -31,19 +32,35 @@ pub(super) struct Group {
     /// Farthest along each axis from which a member is felt during the step, m.
     reach: [f32; 3],
     quanta: f64,
+    per_quantum: f64,
     /// Between which coordinates they move during the step: east, north, up. Most groups are ruled out by one of them.
     sides: [OnceLock<Box<Side>>; 3],
     asked: Count,
-    tree: OnceLock<Box<Tree>>,
+    /// Holds for the step.
+    order: OnceLock<Vec<u16>>,
+    crowd: OnceLock<Box<Crowd>>,
 }
 
-/// How often a group was asked about the present time.
+/// How often something was asked about the present time.
 #[derive(Debug, Default)]
-struct Count(AtomicU32);
+pub(super) struct Count(AtomicU32);
 
 impl Clone for Count {
     fn clone(&self) -> Self {
         Self(AtomicU32::new(self.0.load(Ordering::Relaxed)))
+    }
+}
+
+impl Count {
+    /// One more; returns whether that is often. If several threads ask at once, some of them may not be counted.
+    pub(super) fn often(&self) -> bool {
+        let before = self.0.load(Ordering::Relaxed);
+        self.0.store(before.saturating_add(1), Ordering::Relaxed);
+        before >= SCANS
+    }
+
+    pub(super) fn forget(&mut self) {
+        *self.0.get_mut() = 0;
     }
 }
 
@@ -55,53 +72,58 @@ impl Group {
         let largest = [horizontal, s.size.vertical(horizontal, f32::MIN)];
         let smallest = s.size.horizontal(0.0);
         let smallest = [smallest, s.size.vertical(smallest, f32::MIN)];
-        let [flat, high] = largest.map(|size| CUT_SIGMAS * 1.000_1 * size);
-        // The kernel of a filament near a wall ends at its cut along each of two horizontal axes.
-        let flat = if q.room.is_open() {
-            flat
-        } else {
-            std::f32::consts::SQRT_2 * flat
-        };
+        let quanta = quanta(s.filament_kg, smallest, largest);
         Self {
             members,
-            // A filament is mirrored at the bed below it, which over a slope may be higher than the point.
-            reach: [flat, flat, high + 2.0 * q.room.steepest as f32 * flat],
-            quanta: quanta(s.filament_kg, smallest, largest),
+            reach: reach(q, largest),
+            quanta,
+            per_quantum: 1.0 / quanta,
             sides: Default::default(),
             asked: Count::default(),
-            tree: OnceLock::new(),
+            order: OnceLock::new(),
+            crowd: OnceLock::new(),
         }
     }
 
     /// Forgets what holds only for the present time.
     pub(super) fn forget(&mut self) {
-        *self.asked.0.get_mut() = 0;
-        if let Some(tree) = self.tree.get_mut() {
-            tree.forget();
-        }
+        self.asked.forget();
+        self.crowd.take();
     }
 
-    /// What its members contribute at a point, kg/m³. `axes` begins with the one along which the band is longest.
-    pub(super) fn felt(
-        &self,
-        q: &Question,
-        spot: &Spot,
-        s: &Store,
-        band: usize,
-        axes: [usize; 3],
-    ) -> f64 {
-        let p = spot.p;
+    /// Whether one of its members may be felt at a point during the step. `axes` begins with the one along which the
+    /// band is longest.
+    pub(super) fn near(&self, q: &Question, s: &Store, p: [f32; 3], axes: [usize; 3]) -> bool {
         let near = |d: usize| self.side(q, s, d).near(p[d], self.reach[d]);
-        if !axes.into_iter().all(near) {
-            return 0.0;
-        }
-        let sides = [0, 1, 2].map(|d| self.side(q, s, d));
-        let runs = Side::runs(q.path, sides, p, self.reach);
-        if runs == 0 {
-            return 0.0;
-        }
-        let asked = Asked {
-            p,
+        axes.into_iter().all(near)
+    }
+
+    /// The box that holds all points at which one of its members is felt during the step.
+    pub(super) fn ends(&self, q: &Question, s: &Store) -> Ends {
+        [0, 1, 2].map(|d| self.side(q, s, d).ends(self.reach[d]))
+    }
+
+    /// What its members contribute at a point [near](Self::near) them, kg/m³.
+    #[inline]
+    pub(super) fn felt(&self, q: &Question, spot: &Spot, s: &Store, band: usize) -> f64 {
+        let asked = || self.asked_by(q, spot, s, band);
+        let total = match self.crowd.get() {
+            Some(crowd) => crowd.felt(q.path, spot.p, asked),
+            None => self.first_felt(&asked()),
+        };
+        // The number of quanta is a power of two.
+        total as f64 * self.per_quantum
+    }
+
+    fn asked_by<'a>(
+        &self,
+        q: &'a Question,
+        spot: &'a Spot,
+        s: &'a Store,
+        band: usize,
+    ) -> Asked<'a> {
+        Asked {
+            p: spot.p,
             spot,
             q,
             s,
@@ -109,14 +131,38 @@ impl Group {
             from: self.members.start,
             reach: self.reach,
             quanta: self.quanta,
-        };
-        let total = if self.asked.0.fetch_add(1, Ordering::Relaxed) < SCANS {
-            scan::felt(&asked, self.members.len(), runs)
+        }
+    }
+
+    /// The same in quanta as long as there is no crowd.
+    #[inline(never)]
+    fn first_felt(&self, asked: &Asked) -> i64 {
+        let Asked { q, s, p, .. } = *asked;
+        let sides = [0, 1, 2].map(|d| self.side(q, s, d));
+        let runs = Side::runs(q.path, sides, p, self.reach);
+        if runs == 0 {
+            0
+        } else if self.asked.often() {
+            let crowd = self.crowd.get_or_init(|| self.crowd(asked));
+            crowd.felt(q.path, p, || *asked)
         } else {
-            let tree = || Box::new(Tree::new(s, self.members.clone()));
-            self.tree.get_or_init(tree).felt(&asked)
-        };
-        total as f64 / self.quanta
+            scan::felt(asked, self.members.len(), runs)
+        }
+    }
+
+    /// Its members at the present time.
+    fn crowd(&self, asked: &Asked) -> Box<Crowd> {
+        let order = self.order.get_or_init(|| {
+            // Those that are released within the step stay last.
+            let born_s = &asked.s.born_s[self.members.clone()];
+            let on_time = born_s.partition_point(|b| *b <= asked.moment.span.from_s);
+            let range = self.members.start..self.members.start + on_time;
+            let ends = [&asked.s.x, &asked.s.y, &asked.s.z].map(|end| &end[range.clone()]);
+            let mut order = order(ends, self.reach);
+            order.extend(on_time as u16..self.members.len() as u16);
+            order
+        });
+        Box::new(Crowd::new(asked, order))
     }
 
     fn side(&self, q: &Question, s: &Store, d: usize) -> &Side {

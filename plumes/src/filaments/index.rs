@@ -2,16 +2,17 @@
 //!
 //! *Source*: none.
 //!
-//! *Parameters*: see `group` and `part`; speed in `benches/filaments.rs`.
+//! *Parameters*: see `group` and `crowd`; speed in `benches/filaments.rs`.
 //!
 //! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
-//! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or halved repeatedly
-//! (`part`) once it is asked often. The bounds hold for the whole step that the filaments take. Both ways of searching
-//! give the same sum to the last bit (`felt`), so answers do not depend on earlier questions, and a viewer that asks
-//! too changes nothing.
+//! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or made a crowd
+//! (`crowd`) once it is asked often; then the bounds of all groups of the band are looked at together, too. The bounds
+//! hold for the whole step that the filaments take. All ways of searching give the same sum to the last bit (`felt`), so
+//! answers do not depend on earlier questions, and a viewer that asks too changes nothing.
 
 use super::bands::{Bands, MOST};
-use super::group::{GROUP, Group};
+use super::boxes::{BOXES, Boxes, set};
+use super::group::{Count, GROUP, Group};
 use super::image::Spot;
 pub use super::leaf::CUT_SIGMAS;
 use super::lookup::Lookup;
@@ -35,6 +36,9 @@ struct Groups {
     all: Vec<Group>,
     /// The axes, from the one along which the band is longest.
     axes: [usize; 3],
+    asked: Count,
+    /// A box around each group, once the band is asked often.
+    boxes: OnceLock<Vec<Boxes>>,
 }
 
 /// What a question is answered from.
@@ -69,7 +73,10 @@ impl Index {
         }
         let groups = self.stores.iter_mut().flatten();
         let groups = groups.filter_map(OnceLock::get_mut);
-        groups.flat_map(|g| &mut g.all).for_each(Group::forget);
+        for groups in groups {
+            groups.asked.forget();
+            groups.all.iter_mut().for_each(Group::forget);
+        }
     }
 
     /// Concentration at a point, kg/m³; zero above the surface. In a solid it is that of the nearest water.
@@ -86,18 +93,48 @@ impl Index {
         for (s, bands) in q.stores.iter().zip(&self.stores) {
             for (band, groups) in bands.iter().enumerate().take(q.bands.last() + 1) {
                 let groups = groups.get_or_init(|| q.groups(s, band));
-                for group in &groups.all {
-                    total += group.felt(q, &spot, s, band, groups.axes);
-                }
+                groups.add(q, &spot, s, band, &mut total);
             }
         }
         total
     }
 }
 
+impl Groups {
+    /// Adds what each contributes at a point, kg/m³, in their order.
+    fn add(&self, q: &Question, spot: &Spot, s: &Store, band: usize, total: &mut f64) {
+        let boxes = match self.boxes.get() {
+            None if self.asked.often() => Some(self.boxes.get_or_init(|| self.boxes(q, s))),
+            boxes => boxes,
+        };
+        if let Some(boxes) = boxes {
+            for (boxes, groups) in boxes.iter().zip(self.all.chunks(BOXES)) {
+                for k in set(boxes.hold(q.path, spot.p)) {
+                    *total += groups[k].felt(q, spot, s, band);
+                }
+            }
+        } else {
+            for group in &self.all {
+                if group.near(q, s, spot.p, self.axes) {
+                    *total += group.felt(q, spot, s, band);
+                }
+            }
+        }
+    }
+
+    fn boxes(&self, q: &Question, s: &Store) -> Vec<Boxes> {
+        let some = self.all.chunks(BOXES);
+        let boxes = some.map(|groups| Boxes::new(groups.iter().map(|g| g.ends(q, s))));
+        boxes.collect()
+    }
+}
+
 impl Question<'_> {
-    /// Longest reach of any filament, m.
+    /// Longest reach of any filament, m; 0 in open water, where nobody needs it.
     fn reach(&self) -> f64 {
+        if self.room.is_open() {
+            return 0.0;
+        }
         let oldest = |s: &Store| Some(s.largest(0..s.len(), self.now_s - s.born_s.first()?));
         let largest = self.stores.iter().filter_map(oldest).fold(0.0, f32::max);
         f64::from(CUT_SIGMAS * 1.000_01 * largest)
@@ -117,6 +154,11 @@ impl Question<'_> {
             let long = |d: usize| (s.start[d][range.start] - s.start[d][range.end - 1]).abs();
             axes.sort_by(|a, b| long(*b).total_cmp(&long(*a)));
         }
-        Groups { all, axes }
+        Groups {
+            all,
+            axes,
+            asked: Count::default(),
+            boxes: OnceLock::new(),
+        }
     }
 }

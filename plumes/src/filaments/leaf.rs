@@ -53,7 +53,7 @@ pub(super) struct Leaf {
     pub(super) h: [f32; LEAF],
     pub(super) v: [f32; LEAF],
     /// Concentration at the centre, in quanta.
-    peak: [f32; LEAF],
+    pub(super) peak: [f32; LEAF],
     pub(super) count: usize,
     /// Greatest vertical reach, m; highest bed, m; least depth, m.
     reach: f32,
@@ -110,13 +110,11 @@ impl Leaf {
     /// Concentration at a point in the water, in quanta.
     #[inline]
     pub(super) fn at(&self, path: Path, p: [f32; 3]) -> i64 {
-        let images = if self.reach > -self.highest_bed {
-            2
-        } else if p[2] - self.highest_bed <= self.reach || -p[2] <= self.reach {
-            1
-        } else {
-            0
-        };
+        let images = [
+            -p[2] <= self.reach,
+            p[2] - self.highest_bed <= self.reach,
+            self.reach > -self.highest_bed,
+        ];
         match path {
             Path::Portable => sum(self, images, p),
             // SAFETY: this variant is only made after the feature was detected.
@@ -169,22 +167,24 @@ fn seal(leaf: &mut Leaf, kg: f64) {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
-fn sum_avx2(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
+fn sum_avx2(leaf: &Leaf, images: [bool; 3], p: [f32; 3]) -> i64 {
     sum(leaf, images, p)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn sum_avx512(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
+fn sum_avx512(leaf: &Leaf, images: [bool; 3], p: [f32; 3]) -> i64 {
     sum(leaf, images, p)
 }
 
 #[inline(always)]
-fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
+fn sum(leaf: &Leaf, images: [bool; 3], p: [f32; 3]) -> i64 {
     match images {
-        0 => sum_with::<0>(leaf, p),
-        1 => sum_with::<1>(leaf, p),
-        _ => sum_with::<2>(leaf, p),
+        [_, _, true] => sum_with::<true, true, true>(leaf, p),
+        [true, true, _] => sum_with::<true, true, false>(leaf, p),
+        [true, false, _] => sum_with::<true, false, false>(leaf, p),
+        [false, true, _] => sum_with::<false, true, false>(leaf, p),
+        [false, false, _] => sum_with::<false, false, false>(leaf, p),
     }
 }
 
@@ -193,32 +193,79 @@ fn sum(leaf: &Leaf, images: u8, p: [f32; 3]) -> i64 {
     clippy::needless_range_loop,
     reason = "one index into many arrays is what becomes vector code"
 )]
-fn sum_with<const IMAGES: u8>(leaf: &Leaf, p: [f32; 3]) -> i64 {
-    // Added to a number below 2⁵¹, it leaves the nearest whole number in the last bits of the sum.
-    const WHOLE: f64 = 6_755_399_441_055_744.0;
-    let mut total = [0_i64; LANES];
-    for from in eights(leaf.count) {
-        for l in 0..LANES {
-            let n = from + l;
-            let (dx, dy, z) = (p[0] - leaf.x[n], p[1] - leaf.y[n], leaf.z[n]);
-            let flat = (dx * dx + dy * dy) * leaf.h[n];
-            let term = |centre: f32| {
-                let dz = p[2] - centre;
-                falling(flat + dz * dz * leaf.v[n])
-            };
-            let mut felt = term(z);
-            if IMAGES >= 1 {
-                let bed = leaf.bed[n];
-                felt += term(-z) + term(2.0 * bed - z);
-                if IMAGES >= 2 {
-                    felt += term(z - 2.0 * bed) + term(z + 2.0 * bed);
-                }
-            }
-            let whole = f64::from(leaf.peak[n] * felt) + WHOLE;
-            total[l] += (whole.to_bits() - WHOLE.to_bits()).cast_signed();
-        }
+fn sum_with<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
+    leaf: &Leaf,
+    p: [f32; 3],
+) -> i64 {
+    let mut felt = [0.0; LEAF];
+    let used = leaf.count.next_multiple_of(LANES).min(LEAF);
+    for n in 0..used {
+        let at = [leaf.x[n], leaf.y[n], leaf.z[n], leaf.bed[n]];
+        felt[n] = felt_by::<SURFACE, BED, AGAIN>(at, [leaf.h[n], leaf.v[n], leaf.peak[n]], p);
     }
-    total.into_iter().sum()
+    let mut whole = Whole::default();
+    for from in eights(leaf.count) {
+        whole.add(&felt, from);
+    }
+    whole.sum()
+}
+
+/// What one filament contributes at a point, in quanta, given its place and bed, and its sealed sizes and peak. An
+/// image that is not felt adds a zero; so where none is felt, the bits are those without it.
+#[inline(always)]
+pub(super) fn felt_by<const SURFACE: bool, const BED: bool, const AGAIN: bool>(
+    [x, y, z, bed]: [f32; 4],
+    [h, v, peak]: [f32; 3],
+    p: [f32; 3],
+) -> f32 {
+    let (dx, dy) = (p[0] - x, p[1] - y);
+    let flat = (dx * dx + dy * dy) * h;
+    let term = |centre: f32| {
+        let dz = p[2] - centre;
+        falling(flat + dz * dz * v)
+    };
+    let mut felt = term(z);
+    match (SURFACE, BED) {
+        (true, true) => felt += term(-z) + term(2.0 * bed - z),
+        (true, false) => felt += term(-z),
+        (false, true) => felt += term(2.0 * bed - z),
+        (false, false) => {}
+    }
+    if AGAIN {
+        felt += term(z - 2.0 * bed) + term(z + 2.0 * bed);
+    }
+    peak * felt
+}
+
+/// A sum of contributions, each rounded to a whole number of quanta.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Whole {
+    /// Sums of the bits of [`Self::NUMBER`] and the contributions, wrapped, and how many are in each.
+    bits: [u64; LANES],
+    count: u64,
+}
+
+impl Whole {
+    /// Added to a number below 2⁵¹, it leaves the nearest whole number in the last bits of the sum.
+    const NUMBER: f64 = 6_755_399_441_055_744.0;
+
+    /// Adds the eight contributions from a place on, apart from where they are worked out: there, vector code works on
+    /// eight numbers of 32 bits at a time, here on four of 64 bits.
+    #[inline(always)]
+    pub(super) fn add<const N: usize>(&mut self, felt: &[f32; N], from: usize) {
+        for l in 0..LANES {
+            let whole = f64::from(felt[from + l]) + Self::NUMBER;
+            self.bits[l] = self.bits[l].wrapping_add(whole.to_bits());
+        }
+        self.count += 1;
+    }
+
+    #[inline(always)]
+    pub(super) fn sum(self) -> i64 {
+        let numbers = (self.count * LANES as u64).wrapping_mul(Self::NUMBER.to_bits());
+        let bits = self.bits.into_iter().fold(0, u64::wrapping_add);
+        bits.wrapping_sub(numbers).cast_signed()
+    }
 }
 
 /// exp(−8w) for w ≤ 1, zero beyond.

@@ -1,7 +1,9 @@
 //! Filaments: store, drift, concentration.
 
 mod bands;
+mod boxes;
 mod carried;
+mod crowd;
 mod cut_off;
 mod displaced;
 mod evenness;
@@ -18,7 +20,7 @@ mod lookup;
 mod moving;
 mod noise;
 mod open_place;
-mod part;
+mod order;
 mod plume;
 mod rebound;
 mod rise;

@@ -80,21 +80,6 @@ impl Moving {
         (parts, count)
     }
 
-    /// Whether any of them may be within a horizontal distance of a point at a moment. Empty places count, too.
-    pub(super) fn may_reach(&self, path: Path, p: [f32; 3], moment: &Moment, reach: f32) -> bool {
-        let (parts, _) = self.parts(moment);
-        let least = match path {
-            Path::Portable => least(self, &parts, p),
-            // SAFETY: this variant is only made after the feature was detected.
-            #[cfg(target_arch = "x86_64")]
-            Path::Avx2 => unsafe { least_avx2(self, &parts, p) },
-            // SAFETY: as above.
-            #[cfg(target_arch = "x86_64")]
-            Path::Avx512 => unsafe { least_avx512(self, &parts, p) },
-        };
-        least <= reach * reach
-    }
-
     /// Puts those that are released at a moment into a leaf, not [sealed](Leaf::seal) yet.
     pub(super) fn fill(&self, path: Path, size: &Size, moment: &Moment, leaf: &mut Leaf) {
         let (parts, count) = self.parts(moment);
@@ -144,38 +129,11 @@ fn fill_avx512(way: &Way, leaf: &mut Leaf) {
     fill(way, leaf);
 }
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn least_avx2(moving: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
-    least(moving, parts, p)
-}
-
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
-fn least_avx512(moving: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
-    least(moving, parts, p)
-}
-
 /// A coordinate when a part of the way is gone.
 #[inline(always)]
 pub(super) fn on_way(start: f32, end: f32, part: f32) -> f32 {
     let on = start + part * (end - start);
     if part < 1.0 { on } else { end }
-}
-
-/// Least square of the horizontal distance from a point, m².
-#[inline(always)]
-fn least(m: &Moving, parts: &[f32; LEAF], p: [f32; 3]) -> f32 {
-    let on = |d: usize, l: usize| on_way(m.start[d][l], m.end[d][l], parts[l]);
-    let mut least = [f32::MAX; LANES];
-    for from in (0..LEAF).step_by(LANES) {
-        for (k, least) in least.iter_mut().enumerate() {
-            let (dx, dy) = (p[0] - on(0, from + k), p[1] - on(1, from + k));
-            let away = dx * dx + dy * dy;
-            *least = if away < *least { away } else { *least };
-        }
-    }
-    least.into_iter().fold(f32::MAX, f32::min)
 }
 
 /// Places, beds and sizes, eight at a time; what is in empty places does not count.
@@ -219,6 +177,7 @@ fn fill(way: &Way, leaf: &mut Leaf) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::release::ReleaseSpec;
 
     /// A leaf on its way from one place to another, the last filaments released within the step.
     fn moving() -> Moving {
@@ -231,6 +190,8 @@ mod tests {
         };
         for l in 0..30 {
             let a = l as f32;
+            // Above the bed.
+            (new.start[3][l], new.end[3][l]) = (-5.0, -5.0);
             new.start = add(new.start, l, [400.0 + 0.3 * a, -200.0 - 0.2 * a, -3.0]);
             new.end = add(new.end, l, [403.0 + 0.25 * a, -202.0, -3.5]);
             new.born_s[l] = if l < 27 {
@@ -250,54 +211,25 @@ mod tests {
     }
 
     #[test]
-    fn may_reach_says_no_only_beyond_all_that_are_released() {
-        let (moving, span) = (
-            moving(),
-            Span {
-                from_s: 0.0,
-                to_s: 4.0,
-            },
-        );
-        let mut said = [0; 2];
-        for now_s in [0.0, 1.2, 2.5, 4.0] {
-            let moment = Moment {
-                span,
-                now_s,
-                part: span.part(now_s),
-            };
-            let (parts, released) = moving.parts(&moment);
-            assert!(
-                released
-                    == if now_s < 1.0 {
-                        27
-                    } else if now_s < 2.0 {
-                        28
-                    } else {
-                        30
-                    }
-            );
-            for n in 0..400 {
-                let p = [
-                    390.0 + (n % 20) as f32 * 1.5,
-                    -215.0 + (n / 20) as f32,
-                    -2.0,
-                ];
-                let away = |l: usize| {
-                    let [x, y] =
-                        [0, 1].map(|d| on_way(moving.start[d][l], moving.end[d][l], parts[l]));
-                    ((p[0] - x).powi(2) + (p[1] - y).powi(2)).sqrt()
-                };
-                let nearest = (0..30).map(away).fold(f32::MAX, f32::min);
-                let reach = 1.0 + (n % 7) as f32;
-                for path in Path::all() {
-                    let may = moving.may_reach(path, p, &moment, reach);
-                    if (nearest - reach).abs() > 1e-3 {
-                        assert_eq!(may, nearest < reach, "{path:?}, {p:?} at {now_s}");
-                    }
+    fn all_that_are_released_are_on_their_ways() {
+        let (moving, size) = (moving(), Size::new(&ReleaseSpec::default()));
+        let (from_s, to_s) = (0.0, 4.0);
+        let span = Span { from_s, to_s };
+        for (now_s, released) in [(0.0, 27), (1.2, 28), (2.5, 30), (4.0, 30)] {
+            let part = span.part(now_s);
+            let moment = Moment { span, now_s, part };
+            for path in Path::all() {
+                let mut leaf = Leaf::default();
+                moving.fill(path, &size, &moment, &mut leaf);
+                assert_eq!(leaf.count, released, "{path:?} at {now_s}");
+                for l in 0..released {
+                    let from_s = moving.born_s[l].max(0.0);
+                    let part = Span { from_s, to_s }.part(now_s);
+                    let on = |d: usize| on_way(moving.start[d][l], moving.end[d][l], part);
+                    assert_eq!([leaf.x[l], leaf.y[l], leaf.z[l]], [on(0), on(1), on(2)]);
+                    assert_eq!(leaf.h[l], size.horizontal(now_s - moving.born_s[l]));
                 }
-                said[usize::from(nearest < reach)] += 1;
             }
         }
-        assert!(said[0] > 100 && said[1] > 100, "{said:?}");
     }
 }

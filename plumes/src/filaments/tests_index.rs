@@ -27,21 +27,26 @@ struct Scene {
 
 impl Scene {
     fn new(n: usize) -> Self {
+        Self::over(n, &Terrain::Level { depth_m: 6.0 })
+    }
+
+    fn over(n: usize, bed: &Terrain) -> Self {
         let area = Area {
             centre: Vector2::zeros(),
             length_m: 400.0,
             width_m: 400.0,
             axis: Heading::from_deg(90.0),
         };
-        let bed = Terrain::Level { depth_m: 6.0 };
-        let grid = FlowGrid::new(&area, &bed, GridShape::default());
+        let grid = FlowGrid::new(&area, bed, GridShape::default());
         let mut s = Store::new(Size::new(&ReleaseSpec::default()), 1e-6);
         let mut r = Stream::new(5, "test", "cloud");
         for k in 0..n {
             let age = (n - k) as f64 * 0.2;
-            let p = [0.1 * age, 0.2 * age.sqrt() * r.normal(), -6.0 * r.uniform()];
+            let [x, y] = [0.1 * age, 0.2 * age.sqrt() * r.normal()];
+            let p = [x, y, bed.bed_z(x, y) * r.uniform()];
             // The last ones are released during the step.
-            s.push(p.map(|v| v as f32), -6.0, 3.0 - age);
+            let end = bed.bed_z(x + 2.0, y - 1.0) as f32;
+            s.push(p.map(|v| v as f32), end, 3.0 - age);
             s.x[k] += 2.0;
             s.y[k] -= 1.0;
         }
@@ -147,6 +152,47 @@ fn answers_do_not_depend_on_what_was_asked_before() {
         }
     }
     assert!(hits > 100, "{hits}");
+}
+
+#[test]
+fn crowds_answer_as_scans_do_with_every_path_and_over_any_bed() {
+    let area = Area {
+        centre: Vector2::new(55.0, 0.0),
+        length_m: 110.0,
+        width_m: 60.0,
+        axis: Heading::from_deg(90.0),
+    };
+    let steep = Terrain::sloping_over(&area, Heading::from_deg(70.0), 0.5, 9.0);
+    let (flat, deep) = (
+        Terrain::Level { depth_m: 1.2 },
+        Terrain::Level { depth_m: 6.0 },
+    );
+    let mut r = Stream::new(8, "test", "probe");
+    for (bed, n) in [(&steep, 5000), (&flat, 3000), (&deep, 40), (&deep, 3000)] {
+        let scene = Scene::over(n, bed);
+        for path in Path::all() {
+            let mut index = fresh();
+            let mut hits = 0;
+            for now_s in [-1.0, 2.9] {
+                index.forget();
+                for k in 0..400 {
+                    // Beside a filament, within a few times its size.
+                    let (s, of) = (&scene.stores[0], (r.uniform() * n as f64) as usize);
+                    let Some(at) = s.place(of, &scene.bands.moment(0, now_s)) else {
+                        continue;
+                    };
+                    let size = f64::from(s.size.horizontal(now_s - s.born_s[of]));
+                    let mut p = Vector3::from_fn(|d, _| f64::from(at[d]) + size * r.normal());
+                    p.z = p.z.clamp(bed.bed_z(p.x, p.y), 0.0);
+                    let crowd = scene.at(&index, path, now_s, &p);
+                    let scan = scene.at(&fresh(), Path::Portable, now_s, &p);
+                    assert_eq!(crowd.to_bits(), scan.to_bits(), "{path:?} {n} {k}");
+                    hits += usize::from(crowd > 0.0);
+                }
+            }
+            assert!(hits > 200, "{n}: {hits}");
+        }
+    }
 }
 
 #[test]
