@@ -149,23 +149,15 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [
             highest as usize + row + 1 < now.nodes.len(),
             "a cell is not one of the eddies' grid: its nodes are not those of its shape"
         );
-        // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
-        let one = |n: usize| unsafe {
-            let (near, far) = (near[n] as usize, far[n] as usize);
-            let right = line::<P>(now.nodes, near, far, h[n]);
-            let left = line::<P>(now.nodes, near + row, far + row, h[n]);
-            let [behind, ahead] = right.add(left.sub(right).times(g[n])).apart();
-            behind.add(ahead.sub(behind).times(f[n]))
-        };
         let mut v = [[0.0; N]; 3];
         for from in (0..N).step_by(4) {
-            // Beyond the last, a place is worked out again.
-            let place = |l: usize| one((from + l).min(N - 1));
-            let four = if N == 1 {
-                [place(0); 4]
-            } else {
-                [place(0), place(1), place(2), place(3)]
-            };
+            let mut four = [Quad::new(&[0.0; 4]); 4];
+            for (l, four) in four.iter_mut().enumerate().take(N - from) {
+                let n = from + l;
+                let (near, far) = (near[n] as usize, far[n] as usize);
+                // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
+                *four = unsafe { one::<P>(now.nodes, [near, far], row, [f[n], g[n], h[n]]) };
+            }
             let four = Quad::columns(four);
             for (v, four) in v.iter_mut().zip(four) {
                 for (v, four) in v[from..].iter_mut().zip(four) {
@@ -185,6 +177,30 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [
 /// Farthest place along the stretch, in cells.
 const FARTHEST: f32 = 1e9;
 
+/// `[along, left, up, 0]` velocity in a cell from two of its nodes, the stride to those on the left, and the position in
+/// it as parts. A function of its own and not a closure, because only a function is certain to become part of code that
+/// may use the instructions of `P`.
+///
+/// # Safety
+/// The cell's eight nodes must exist, and the machine must have the instructions of `P`.
+#[inline(always)]
+unsafe fn one<P: Pair>(
+    nodes: &[[f32; 4]],
+    [near, far]: [usize; 2],
+    row: usize,
+    [f, g, h]: [f32; 3],
+) -> Quad {
+    // SAFETY: as the caller promises.
+    let [right, left] = unsafe {
+        [
+            line::<P>(nodes, near, far, h),
+            line::<P>(nodes, near + row, far + row, h),
+        ]
+    };
+    let [behind, ahead] = right.add(left.sub(right).times(g)).apart();
+    behind.add(ahead.sub(behind).times(f))
+}
+
 /// The velocities between two nodes and those above them, at this part of the way up.
 ///
 /// # Safety
@@ -194,10 +210,10 @@ unsafe fn line<P: Pair>(nodes: &[[f32; 4]], near: usize, far: usize, part: f32) 
     debug_assert!(near.max(far) + 1 < nodes.len());
     // SAFETY: as the caller promises.
     let [low, high] = unsafe {
-        let node = |n: usize| &*nodes.as_ptr().add(n);
+        let first = nodes.as_ptr();
         [
-            P::of(node(near), node(far)),
-            P::of(node(near + 1), node(far + 1)),
+            P::of(&*first.add(near), &*first.add(far)),
+            P::of(&*first.add(near + 1), &*first.add(far + 1)),
         ]
     };
     low.add(high.sub(low).times(part))
