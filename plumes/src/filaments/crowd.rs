@@ -69,6 +69,7 @@ impl Crowd {
         let (mut leaflets, mut walled) =
             (Vec::with_capacity(order.len() / LEAFLET + 2), Vec::new());
         let (mut moving, mut leaf) = (Moving::default(), Leaf::default());
+        let open = asked.spot.room.is_open();
         for members in order.chunks(LEAF) {
             moving.take(asked.s, asked.q.lookup, asked.from, members);
             moving.fill(asked.q.path, &asked.s.size, &asked.moment, &mut leaf);
@@ -82,7 +83,7 @@ impl Crowd {
                     *ends = wider(*ends, [p[d] - reach[d], p[d] + reach[d]]);
                 }
                 images[of].add(p[2], leaf.bed[n], sizes[1]);
-                if let Some(felt) = asked.walled(p, sizes) {
+                if !open && let Some(felt) = asked.walled(p, sizes) {
                     walled.push((nth, felt));
                     *wall = true;
                 }

@@ -7,8 +7,8 @@
 //! *Deviations*: neighbours in the order of release are neighbours in the water. So a group needs only its bounds and
 //! no sorting, and most groups are never near a robot. A group that is asked is scanned (`scan`), or made a crowd
 //! (`crowd`) once it is asked often; then the bounds of all groups of the band are looked at together, too. The bounds
-//! hold for the whole step that the filaments take. All ways of searching give the same sum to the last bit (`felt`), so
-//! answers do not depend on earlier questions, and a viewer that asks too changes nothing.
+//! hold for the whole step that the filaments take. All ways of searching give the same sum to the last bit (`felt`),
+//! so answers do not depend on earlier questions, and a viewer that asks too changes nothing.
 
 use super::bands::{Bands, MOST};
 use super::boxes::{BOXES, Boxes, set};

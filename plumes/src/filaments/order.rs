@@ -7,29 +7,28 @@
 //! *Deviations*: members are halved along their longest side, in units of the kernel's reach, so that all leaves but
 //! the last are full. They are halved by where their step ends, so that the order holds for all of the step.
 
-use super::boxes::{EMPTY, wider};
+use super::boxes::{EMPTY, Ends, wider};
 use super::crowd::LEAFLET;
 
 /// Members of a group by number, of those at `ends` (m, along the three axes), felt as far as `reach` (m).
 pub(super) fn order(ends: [&[f32]; 3], reach: [f32; 3]) -> Vec<u16> {
     let mut members: Vec<u32> = (0..ends[0].len() as u32).collect();
-    halve(&mut members, &ends, &reach.map(|reach| 1.0 / reach));
+    let side = |d: usize| (ends[d].iter()).fold(EMPTY[d], |all, x| wider(all, [*x, *x]));
+    let sides = [side(0), side(1), side(2)];
+    halve(&mut members, &ends, &reach.map(|reach| 1.0 / reach), sides);
     members.into_iter().map(|m| m as u16).collect()
 }
 
 /// Bits of a member's number in a group.
 const NUMBER: u32 = 10;
 
-fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3]) {
+/// Halves members that lie between these `sides`. Halves are only cut where they were halved, because to find their own
+/// sides takes as long as all the rest.
+fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3], sides: Ends) {
     let n = members.len();
     if n <= LEAFLET {
         return;
     }
-    let side = |d: usize| {
-        let on = members.iter().map(|m| ends[d][*m as usize]);
-        on.fold(EMPTY[d], |all, x| wider(all, [x, x]))
-    };
-    let sides = [side(0), side(1), side(2)];
     let long = |d: usize| (sides[d][1] - sides[d][0]) * weight[d];
     let mut d = 0;
     for other in 1..3 {
@@ -45,16 +44,21 @@ fn halve(members: &mut [u32], ends: &[&[f32]; 3], weight: &[f32; 3]) {
         0.0
     };
     for m in &mut *members {
-        *m |= (((ends[d][*m as usize] - lo) * scale) as u32) << NUMBER;
+        // Where two differ by less than the unit, one may lie just beyond the side.
+        let key = ((ends[d][*m as usize] - lo) * scale).min(4_194_300.0);
+        *m |= (key as u32) << NUMBER;
     }
     let half = n.div_ceil(LEAFLET) / 2 * LEAFLET;
     members.select_nth_unstable(half);
     for m in &mut *members {
         *m &= (1 << NUMBER) - 1;
     }
+    let cut = ends[d][members[half] as usize];
     let (low, high) = members.split_at_mut(half);
-    halve(low, ends, weight);
-    halve(high, ends, weight);
+    let (mut below, mut above) = (sides, sides);
+    (below[d][1], above[d][0]) = (cut, cut);
+    halve(low, ends, weight, below);
+    halve(high, ends, weight, above);
 }
 
 #[cfg(test)]
