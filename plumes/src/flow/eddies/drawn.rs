@@ -7,6 +7,7 @@
 //! *Deviations*: none.
 
 use super::stretch::{Shape, Stretch};
+use std::fmt;
 use std::sync::{Arc, Mutex, OnceLock};
 use world::seeds::Seed;
 
@@ -16,12 +17,21 @@ static SHARED: Mutex<Vec<(Shape, Arc<Stretch>)>> = Mutex::new(Vec::new());
 const KEPT: usize = 8;
 
 /// A stretch, drawn or to be drawn.
-#[derive(Debug)]
 pub(super) struct Drawn {
     shape: Shape,
     /// What identifies it; `None` for the one that all of this shape share.
     seed: Option<Seed>,
     stretch: OnceLock<Arc<Stretch>>,
+}
+
+/// What it is drawn from, all of which its velocities follow from; whether it is drawn yet makes no difference.
+impl fmt::Debug for Drawn {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Drawn")
+            .field("shape", &self.shape)
+            .field("seed", &self.seed)
+            .finish_non_exhaustive()
+    }
 }
 
 impl Drawn {
