@@ -138,35 +138,3 @@ pub struct Readings {
     /// Readings of other instruments, by name.
     pub other: Vec<(&'static str, f64)>,
 }
-
-impl Readings {
-    /// Makes it empty, in its place: it is large.
-    pub fn clear(&mut self) {
-        let Self {
-            chemical,
-            dvl,
-            adcp,
-            attitude,
-            depth,
-            ctd,
-            altimeter,
-            lbl,
-            ranging,
-            sidescan,
-            picture,
-            other,
-        } = self;
-        *chemical = None;
-        *dvl = None;
-        *adcp = None;
-        *attitude = None;
-        *depth = None;
-        *ctd = None;
-        *altimeter = None;
-        *lbl = None;
-        *ranging = None;
-        *sidescan = None;
-        *picture = None;
-        other.clear();
-    }
-}

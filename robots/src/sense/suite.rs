@@ -201,11 +201,41 @@ impl SensorSuite {
 
     /// The same in the place of earlier readings.
     pub fn read_into(&mut self, around: &Around, readings: &mut Readings) {
-        readings.clear();
+        empty(readings);
         for sensor in &mut self.0 {
             sensor.sense(around, readings);
         }
     }
+}
+
+/// Makes readings empty, in their place: they are large.
+fn empty(readings: &mut Readings) {
+    let Readings {
+        chemical,
+        dvl,
+        adcp,
+        attitude,
+        depth,
+        ctd,
+        altimeter,
+        lbl,
+        ranging,
+        sidescan,
+        picture,
+        other,
+    } = readings;
+    *chemical = None;
+    *dvl = None;
+    *adcp = None;
+    *attitude = None;
+    *depth = None;
+    *ctd = None;
+    *altimeter = None;
+    *lbl = None;
+    *ranging = None;
+    *sidescan = None;
+    *picture = None;
+    other.clear();
 }
 
 #[cfg(test)]

@@ -1,4 +1,10 @@
 //! An arc of a path, with what does not change along it.
+//!
+//! *Source*: as for the path.
+//!
+//! *Parameters*: none of its own.
+//!
+//! *Deviations*: none.
 
 use super::path::Pose;
 use nalgebra::Vector2;
