@@ -161,7 +161,6 @@ pub struct Lookout(Box<[Episode; Abnormality::WATCHED.len()]>);
 
 impl Lookout {
     /// Notes whether something is wrong now; `None` if this tick has no reading.
-    #[inline]
     pub(crate) fn see(
         &mut self,
         what: Abnormality,
@@ -171,22 +170,11 @@ impl Lookout {
         p_W: Vector3<f64>,
         events: &mut Vec<Abnormal>,
     ) {
-        // As a rule nothing is wrong, and nothing was.
-        if wrong == Some(true) || self.0[what as usize].began.is_some() {
-            self.note(what, wrong, robot, t_s, p_W, events);
-        }
-    }
-
-    fn note(
-        &mut self,
-        what: Abnormality,
-        wrong: Option<bool>,
-        robot: &str,
-        t_s: f64,
-        p_W: Vector3<f64>,
-        events: &mut Vec<Abnormal>,
-    ) {
         let episode = &mut self.0[what as usize];
+        // As a rule nothing is wrong, and nothing was.
+        if wrong != Some(true) && episode.began.is_none() {
+            return;
+        }
         match wrong {
             Some(true) => {
                 let (began_s, place) = *episode.began.get_or_insert((t_s, p_W));

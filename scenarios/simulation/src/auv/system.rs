@@ -206,14 +206,16 @@ pub(crate) fn push_bodies(
 
 pub(crate) fn read_bodies(
     physics: Res<Physics>,
-    mut robots: Query<(&SearcherId, &Hull, &mut Truth)>,
+    mut robots: Query<(&Now, &SearcherId, &Hull, &mut Truth)>,
 ) {
-    for (id, hull, mut truth) in &mut robots {
+    for (now, id, hull, mut truth) in &mut robots {
         *truth = physics.truth(hull.body);
         assert!(
             truth.is_finite(),
-            "the state of robot {} is not finite: a force on it was not; check its parameters and the water there",
-            id.name
+            "the state of robot {} is not finite after step {}: a force on it was not; check its parameters and the \
+             water there",
+            id.name,
+            now.0.step
         );
     }
 }
