@@ -80,9 +80,12 @@ unsafe fn carry<P: Pair>(now: &Now, turned: &Turned, dt_s: &[f32], [x, y, z]: [&
         let block = from..from + used;
         // Empty places are carried too, and left.
         let of = |v: &[f32]| {
-            let mut some = [0.0; BLOCK];
-            some[..used].copy_from_slice(&v[block.clone()]);
-            some
+            // Of a known length, which takes no call.
+            v[block.clone()].try_into().unwrap_or_else(|_| {
+                let mut some = [0.0; BLOCK];
+                some[..used].copy_from_slice(&v[block.clone()]);
+                some
+            })
         };
         let (dt, mut p) = (of(dt_s), [of(x), of(y), of(z)]);
         let mut q = [[0.0; BLOCK]; 3];
@@ -109,7 +112,11 @@ unsafe fn carry<P: Pair>(now: &Now, turned: &Turned, dt_s: &[f32], [x, y, z]: [&
             p[2][n] += dt[n] * v[2][n];
         }
         for (to, p) in [&mut *x, &mut *y, &mut *z].into_iter().zip(p) {
-            to[block.clone()].copy_from_slice(&p[..used]);
+            let to = &mut to[block.clone()];
+            match <&mut [f32; BLOCK]>::try_from(&mut *to) {
+                Ok(to) => *to = p,
+                Err(_) => to.copy_from_slice(&p[..used]),
+            }
         }
     }
 }

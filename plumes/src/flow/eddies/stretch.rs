@@ -14,7 +14,7 @@
 //! resolved part. Near bed and surface the vertical one falls to zero within about 0.2 H. Between nodes the field is
 //! trilinear: waves of four cells are smoothed, and a divergence of a few per cent of the gradients remains.
 
-use super::fourier::Fourier;
+use super::fourier::{Four, Fourier};
 use super::spectrum::{ELONGATION, Spectrum};
 use crate::flow::channel::INTENSITIES;
 use std::f64::consts::{PI, TAU};
@@ -60,15 +60,19 @@ impl Shape {
         [along, self.width_m / self.across as f64, along]
     }
 
+    /// Greatest number of half waves in an extent.
+    fn most(&self, extent_m: f64) -> usize {
+        (self.spectrum.k_c * extent_m / PI) as usize
+    }
+
     /// All waves whose number along the stream is j.
     fn waves(&self, j: usize) -> Vec<Wave> {
         let k_c = self.spectrum.k_c;
         let kx = TAU * j as f64 / (LENGTH as f64 * self.spacing()[0]);
         let mut waves = Vec::new();
-        let most = |extent: f64| (k_c * extent / PI) as usize;
-        for n in 0..=most(self.width_m) {
+        for n in 0..=self.most(self.width_m) {
             let ky = n as f64 * PI / self.width_m;
-            for m in 0..=most(self.depth_m) {
+            for m in 0..=self.most(self.depth_m) {
                 let kz = m as f64 * PI / self.depth_m;
                 if kx * kx + ky * ky + kz * kz > k_c * k_c {
                     break;
@@ -100,18 +104,20 @@ impl Shape {
         (f, -f / self.depth_m)
     }
 
-    /// All waves.
-    fn all_waves(&self) -> Vec<Wave> {
-        self.along().flat_map(|j| self.waves(j)).collect()
+    /// All waves, by their number along the stream.
+    fn all_waves(&self) -> Vec<(usize, Vec<Wave>)> {
+        self.along().map(|j| (j, self.waves(j))).collect()
     }
 
     /// Expected mean squares at a height for each potential of unit strength: [component][potential], averaged over the
     /// width.
-    fn shares(&self, height_m: f64, waves: &[Wave]) -> [[f64; 3]; 3] {
+    fn shares(&self, height_m: f64, waves: &[(usize, Vec<Wave>)]) -> [[f64; 3]; 3] {
         let (f, df) = self.fall(height_m);
+        let of = |m: usize| math::sin_cos(m as f64 * PI / self.depth_m * height_m);
+        let turns: Vec<(f64, f64)> = (0..=self.most(self.depth_m)).map(of).collect();
         let mut v = [[0.0; 3]; 3];
-        for w in waves {
-            let (s, c) = math::sin_cos(w.k[2] * height_m);
+        for w in waves.iter().flat_map(|(_, waves)| waves) {
+            let (s, c) = turns[w.m];
             let bent = df * s + f * w.k[2] * c;
             // Real part of a coefficient with variance std² in each part: mean square std²; cos² or sin² across: a
             // half, or one.
@@ -128,7 +134,7 @@ impl Shape {
     }
 
     /// Strengths of the three potentials.
-    fn strengths(&self, resolved: f64, waves: &[Wave]) -> [f64; 3] {
+    fn strengths(&self, resolved: f64, waves: &[(usize, Vec<Wave>)]) -> [f64; 3] {
         const N: usize = 13;
         let (mut v, mut want) = ([[0.0; 3]; 3], [0.0; 3]);
         for n in 0..N {
@@ -166,29 +172,35 @@ fn sq(x: f64) -> f64 {
 impl Stretch {
     /// Draws a stretch; `seed` identifies it.
     pub(super) fn new(shape: &Shape, seed: impl Into<Seed>) -> Self {
-        let strength = shape.strengths(shape.spectrum.resolved(), &shape.all_waves());
+        let all_waves = shape.all_waves();
+        let strength = shape.strengths(shape.spectrum.resolved(), &all_waves);
         let (ny, nz) = (shape.across + 1, shape.up + 1);
         let lines = ny * nz;
         let h = shape.spacing();
+        let fourier = Fourier::new(LENGTH);
         let mut rng = Stream::new(seed, "eddies", "waves");
-        // Coefficients along the stream, by component, line and number.
         let count = shape.along().count() + 1;
-        let mut lines_of = vec![[[0.0_f64; 2]; 3]; lines * count];
-        let most = (shape.spectrum.k_c * shape.width_m / PI) as usize + 1;
+        // Coefficients along the stream, by line and number.
+        let mut lines_of = vec![Four::default(); lines * count];
         let turn = |n: usize, cells: usize, at: usize| {
             math::sin_cos(PI * ((n * at) % (2 * cells)) as f64 / cells as f64)
         };
-        let across: Vec<Vec<(f64, f64)>> = (0..most)
-            .map(|n| (0..ny).map(|y| turn(n, shape.across, y)).collect())
+        let across: Vec<Vec<(f64, f64)>> = (0..ny)
+            .map(|y| {
+                (0..=shape.most(shape.width_m))
+                    .map(|n| turn(n, shape.across, y))
+                    .collect()
+            })
             .collect();
-        let up: Vec<Vec<(f64, f64)>> = (0..=(shape.spectrum.k_c * shape.depth_m / PI) as usize)
+        let up: Vec<Vec<(f64, f64)>> = (0..=shape.most(shape.depth_m))
             .map(|m| (0..nz).map(|z| turn(m, shape.up, z)).collect())
             .collect();
         let falls: Vec<(f64, f64)> = (0..nz).map(|z| shape.fall(z as f64 * h[2])).collect();
-        let mut sums = vec![[[0.0_f64; 2]; 3]; most * nz];
-        for j in shape.along() {
-            sums.fill([[0.0; 2]; 3]);
-            for w in shape.waves(j) {
+        let mut sums = vec![Four::default(); (shape.most(shape.width_m) + 1) * nz];
+        let mut row = vec![Four::default(); nz];
+        for (j, waves) in &all_waves {
+            sums.fill(Four::default());
+            for w in waves {
                 let mut draw = || [w.std * rng.normal(), w.std * rng.normal()];
                 let a = [draw(), draw(), draw()];
                 let [kx, ky, kz] = w.k;
@@ -200,39 +212,30 @@ impl Stretch {
                     // i·kx of a coefficient (r, i) is (−kx·i, kx·r).
                     for (part, other, sign) in [(0, 1, -1.0), (1, 0, 1.0)] {
                         let along = |p: usize| sign * kx * a[p][other];
-                        to[0][part] += az * f * ky * c * a[2][part] - ay * bent * a[1][part];
-                        to[1][part] += ax * bent * a[0][part] - az * f * c * along(2);
-                        to[2][part] += ay * f * s * along(1) - ax * f * s * ky * a[0][part];
+                        to[part][0] += az * f * ky * c * a[2][part] - ay * bent * a[1][part];
+                        to[part][1] += ax * bent * a[0][part] - az * f * c * along(2);
+                        to[part][2] += ay * f * s * along(1) - ax * f * s * ky * a[0][part];
                     }
                 }
             }
-            for (n, turns) in across.iter().enumerate() {
-                for (y, (s, c)) in turns.iter().enumerate() {
-                    for z in 0..nz {
-                        let from = &sums[n * nz + z];
-                        let to = &mut lines_of[(y * nz + z) * count + j];
-                        for part in 0..2 {
-                            to[0][part] += c * from[0][part];
-                            to[1][part] += s * from[1][part];
-                            to[2][part] += c * from[2][part];
-                        }
-                    }
+            for (y, turns) in across.iter().enumerate() {
+                row.fill(Four::default());
+                for ((s, c), from) in turns.iter().zip(sums.chunks_exact(nz)) {
+                    fourier.add_times(&mut row, from, [*c, *s, *c, 0.0]);
+                }
+                for (z, value) in row.iter().enumerate() {
+                    lines_of[(y * nz + z) * count + j] = *value;
                 }
             }
         }
-        let fourier = Fourier::new(LENGTH);
         let mut nodes = vec![[0.0_f32; 4]; LENGTH * lines];
-        let mut sum = vec![[0.0_f64; 2]; LENGTH];
-        for line in 0..lines {
-            for component in 0..3 {
-                sum.fill([0.0; 2]);
-                for j in shape.along() {
-                    sum[j] = lines_of[line * count + j][component];
-                }
-                fourier.sum(&mut sum);
-                for (i, value) in sum.iter().enumerate() {
-                    nodes[i * lines + line][component] = value[0] as f32;
-                }
+        let mut sum = vec![Four::default(); LENGTH];
+        for (line, coefficients) in lines_of.chunks_exact(count).enumerate() {
+            sum.fill(Four::default());
+            sum[..count].copy_from_slice(coefficients);
+            fourier.sum(&mut sum);
+            for (i, value) in sum.iter().enumerate() {
+                nodes[i * lines + line] = value[0].map(|v| v as f32);
             }
         }
         Self { nodes }

@@ -1,6 +1,7 @@
 //! `probes-<gantry>.csv`: readings of each gantry's probes, what its searcher derived from them, and the position of
 //! its head. The same data are kept for the figures.
 
+use crate::decimal::push_decimal;
 use crate::files::ReportError;
 use rheotaxis::frame::Frame;
 use rheotaxis::gantry::GantryFrame;
@@ -229,43 +230,43 @@ fn header(info: &GantryInfo) -> String {
 }
 
 fn line(out: &mut String, g: &GantryFrame, row: &GantryRow) {
-    let opt = |v: Option<f64>| v.map_or_else(String::new, |v| format!("{v:.4}"));
-    let (h, [a, b], w) = (&g.head_W, &g.joints, &g.decision.working);
-    write!(
-        out,
-        "{:.3},{},{},{},{:.4},{:.4},{:.4},{:.5},{:.5},{:.5},{:.5},{:.5},{},{},{:.3},{:.4},{},{:.4}",
-        row.t_s,
-        g.scan.map_or_else(String::new, |s| format!("{:.3}", s.t_s)),
-        row.behaviour.name(),
-        row.command,
-        h.x,
-        h.y,
-        h.z,
-        a.position_m,
-        b.position_m,
-        a.speed_m_s,
-        b.speed_m_s,
-        row.speed_m_s,
-        u8::from(g.readings.arrived),
-        u8::from(g.readings.blocked),
-        row.spike_hz,
-        w.magnitude_v,
-        opt(w.predicted_v),
-        w.contrast,
-    )
-    .expect(TEXT);
-    for (n, tip) in g.tips_W.iter().enumerate() {
-        write!(
-            out,
-            ",{:.4},{:.4},{:.4},{},{:.4},{}",
-            tip.x,
-            tip.y,
-            tip.z,
-            opt(row.volts.map(|v| v[n])),
-            row.threshold_v[n],
-            u8::from(row.spike[n]),
-        )
-        .expect(TEXT);
+    let decimal = |out: &mut String, v: f64, places: usize| {
+        push_decimal(out, v, places);
+        out.push(',');
+    };
+    let flag = |out: &mut String, v: bool| out.push_str(if v { "1," } else { "0," });
+    // What is not known stays empty.
+    let known = |out: &mut String, v: Option<f64>, places: usize| match v {
+        Some(v) => decimal(out, v, places),
+        None => out.push(','),
+    };
+    decimal(out, row.t_s, 3);
+    known(out, g.scan.map(|s| s.t_s), 3);
+    write!(out, "{},{},", row.behaviour.name(), row.command).expect(TEXT);
+    for v in [g.head_W.x, g.head_W.y, g.head_W.z] {
+        decimal(out, v, 4);
     }
+    let [a, b] = &g.joints;
+    for v in [a.position_m, b.position_m, a.speed_m_s, b.speed_m_s] {
+        decimal(out, v, 5);
+    }
+    decimal(out, row.speed_m_s, 5);
+    flag(out, g.readings.arrived);
+    flag(out, g.readings.blocked);
+    decimal(out, row.spike_hz, 3);
+    let w = &g.decision.working;
+    decimal(out, w.magnitude_v, 4);
+    known(out, w.predicted_v, 4);
+    decimal(out, w.contrast, 4);
+    for (n, tip) in g.tips_W.iter().enumerate() {
+        for v in [tip.x, tip.y, tip.z] {
+            decimal(out, v, 4);
+        }
+        known(out, row.volts.map(|v| v[n]), 4);
+        decimal(out, row.threshold_v[n], 4);
+        flag(out, row.spike[n]);
+    }
+    // The last comma.
+    out.pop();
     out.push('\n');
 }

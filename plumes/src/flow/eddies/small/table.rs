@@ -8,7 +8,7 @@
 //! *Deviations*: the same box serves every octave, each at its own size: the inertial range is similar to itself.
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
-use super::super::fourier::Fourier;
+use super::super::fourier::{Four, Fourier};
 use crate::quad::{Pair, Quad};
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
@@ -36,7 +36,8 @@ pub(super) fn table() -> Arc<Table> {
 
 impl Table {
     fn new() -> Self {
-        let mut fields = vec![vec![[0.0_f64; 2]; COUNT]; 6];
+        // Components of the velocity, and of the potential.
+        let [mut velocity, mut potential] = [(); 2].map(|()| vec![Four::default(); COUNT]);
         let mut rng = Stream::new(0, "eddies", "octave");
         let reach = 2 * LONGEST as i64;
         let wrapped = |m: i64| m.rem_euclid(NODES as i64) as usize;
@@ -61,25 +62,22 @@ impl Table {
                         let (p, q) = ((c + 1) % 3, (c + 2) % 3);
                         let curl = |part: usize| k[p] * a[q][part] - k[q] * a[p][part];
                         // i times (r, s) is (−s, r).
-                        fields[c][at] = [-curl(1), curl(0)];
-                        fields[3 + c][at] = a[c];
+                        for (part, curl) in [-curl(1), curl(0)].into_iter().enumerate() {
+                            velocity[at][part][c] = curl;
+                            potential[at][part][c] = a[c][part];
+                        }
                     }
                 }
             }
         }
-        for field in &mut fields {
-            summed(field);
-        }
-        let square: f64 = fields[..3].iter().flatten().map(|v| v[0] * v[0]).sum();
+        summed(&mut velocity);
+        summed(&mut potential);
+        let of_one = |c: usize| velocity.iter().map(move |v| v[0][c] * v[0][c]);
+        let square: f64 = (0..3).flat_map(of_one).sum();
         let scale = 1.0 / (square / (3 * COUNT) as f64).sqrt();
-        let node = |n: usize| {
-            [0, 3].map(|first| {
-                let of = |c: usize| (scale * fields[first + c][n][0]) as f32;
-                [of(0), of(1), of(2), 0.0]
-            })
-        };
+        let node = |(v, a): (&Four, &Four)| [v, a].map(|v| v[0].map(|v| (scale * v) as f32));
         Self {
-            nodes: (0..COUNT).map(node).collect(),
+            nodes: velocity.iter().zip(&potential).map(node).collect(),
         }
     }
 
@@ -123,16 +121,16 @@ impl Table {
 }
 
 /// Sums a cube of coefficients along its three axes.
-fn summed(field: &mut [[f64; 2]]) {
+fn summed(field: &mut [Four]) {
     let fourier = Fourier::new(NODES);
-    let mut line = vec![[0.0; 2]; NODES];
+    let mut line = vec![Four::default(); NODES];
     for stride in [1, NODES, NODES * NODES] {
         for from in (0..field.len()).filter(|n| n / stride % NODES == 0) {
             for (n, v) in line.iter_mut().enumerate() {
                 *v = field[from + n * stride];
             }
             // Most lines along the first axes: the waves of an octave are few.
-            if line.iter().flatten().all(|v| *v == 0.0) {
+            if line.iter().all(|v| *v == Four::default()) {
                 continue;
             }
             fourier.sum(&mut line);
