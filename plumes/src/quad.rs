@@ -116,6 +116,18 @@ impl Quad {
     }
 }
 
+/// Asks the processor to fetch a value of a table that will be read soon; without effect on any result.
+#[inline(always)]
+pub(crate) fn fetch_soon<T>(table: &[T], n: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(value) = table.get(n) {
+        // SAFETY: SSE is part of every x86-64, and the address is that of a value.
+        unsafe { x86::_mm_prefetch::<{ x86::_MM_HINT_T0 }>(std::ptr::from_ref(value).cast()) };
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (table, n);
+}
+
 /// Two quads that are neighbours in memory, such as the numbers at two levels of a column.
 pub(crate) trait Pair: Copy {
     /// Reads both.

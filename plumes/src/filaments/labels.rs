@@ -195,12 +195,27 @@ unsafe fn moved<P: Pair>(
 ) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
-    for n in range {
-        let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
+    // What moves the next filament is on its way while one is moved.
+    let ready = |labels: &mut Labels, store: &Store, n: usize| {
         let age_s = middle_s - store.born_s[n];
         let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
+        let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], &lives);
+        small.fetch_soon(&lives, &weights, row);
+        weights
+    };
+    let mut next = match range.is_empty() {
+        true => return,
+        false => ready(labels, store, range.start),
+    };
+    let patterns = labels.patterns;
+    for n in range.clone() {
+        let weights = next;
+        if n + 1 < range.end {
+            next = ready(labels, store, n + 1);
+        }
+        let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
         let place = [store.x[n], store.y[n], store.z[n]];
-        let row = labels.row(n, place, &lives);
+        let row = &mut labels.at[n * patterns..(n + 1) * patterns];
         // Half the step ahead first, so that an even cloud stays even to second order.
         // SAFETY: here and below, as the caller promises.
         let v = unsafe { small.velocity::<P>(&lives, place[2], &weights, row) };

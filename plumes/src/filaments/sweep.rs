@@ -180,9 +180,13 @@ impl Sweep<'_> {
             }
             self.note(b, &mut c.swept.columns);
             // Those between two that leave are put down together.
+            let all_stay = b.outside[..n].iter().fold(0, |any, out| any | out) == 0;
             let mut l = 0;
             while l < n {
-                let stay = b.outside[l..n].iter().take_while(|o| **o == 0).count();
+                let stay = match all_stay {
+                    true => n,
+                    false => b.outside[l..n].iter().take_while(|o| **o == 0).count(),
+                };
                 c.put(b, l, from + l, to, stay);
                 (l, to) = (l + stay, to + stay);
                 if l < n {

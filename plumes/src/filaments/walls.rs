@@ -43,12 +43,13 @@ pub(super) fn keep_between(walls: &SideWalls, store: &mut Store, range: Range<us
     let half = walls.half_width_m as f32;
     for (x, y) in (store.x[range.clone()].iter_mut()).zip(&mut store.y[range]) {
         let side = (*x - cx) * ax + (*y - cy) * ay;
-        if side.abs() > half {
-            // No kick is longer than the distance between the walls; the clamp would hold even such a filament inside.
-            let back = (2.0 * half).copysign(side) - side;
-            let turn = back.clamp(-half, half) - side;
-            *x += turn * ax;
-            *y += turn * ay;
-        }
+        // Without branches, so that several are looked at at once. No kick is longer than the distance between the
+        // walls; the limits would hold even such a filament inside.
+        let back = (2.0 * half).copysign(side) - side;
+        let back = if back > half { half } else { back };
+        let back = if back < -half { -half } else { back };
+        let turn = back - side;
+        let inside = [*x + turn * ax, *y + turn * ay];
+        [*x, *y] = if side.abs() > half { inside } else { [*x, *y] };
     }
 }

@@ -11,7 +11,7 @@ use super::stretch::LENGTH;
 use crate::path::Path;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
-use crate::quad::{Pair, Quad, Twice};
+use crate::quad::{Pair, Quad, Twice, fetch_soon};
 use nalgebra::Vector2;
 
 /// A patch of the stretch at one time: where it begins (cells), and its weight.
@@ -44,7 +44,7 @@ impl Now<'_> {
     /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
     pub(super) fn at(&self, q: [f32; 3]) -> [f32; 3] {
         // SAFETY: a pair that every machine of the target has.
-        let v = unsafe { velocities::<Twice, 1>(self, &q.map(|q| [q])) };
+        let v = unsafe { velocities::<Twice, 1>(self, &Cells::of(self, &q.map(|q| [q]))) };
         v.map(|v| v[0])
     }
 
@@ -74,30 +74,22 @@ const BLOCK: usize = 8;
 /// The machine must have the instructions of `P`.
 #[inline(always)]
 unsafe fn carry<P: Pair>(now: &Now, turned: &Turned, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
-    let (centre, a, l) = (turned.centre, turned.along, turned.left);
+    let (a, l) = (turned.along, turned.left);
+    let mut next = Places::of(turned, [x, y, z], 0);
+    let mut next_cells = Cells::of(now, &next.q);
     for from in (0..dt_s.len()).step_by(BLOCK) {
-        let used = BLOCK.min(dt_s.len() - from);
-        let block = from..from + used;
-        // Empty places are carried too, and left.
-        let of = |v: &[f32]| {
-            // Of a known length, which takes no call.
-            v[block.clone()].try_into().unwrap_or_else(|_| {
-                let mut some = [0.0; BLOCK];
-                some[..used].copy_from_slice(&v[block.clone()]);
-                some
-            })
-        };
-        let (dt, mut p) = (of(dt_s), [of(x), of(y), of(z)]);
-        let mut q = [[0.0; BLOCK]; 3];
-        for n in 0..BLOCK {
-            let (dx, dy) = (p[0][n] - centre.x, p[1][n] - centre.y);
-            q[0][n] = dx * a.x + dy * a.y;
-            q[1][n] = dx * l.x + dy * l.y;
-            q[2][n] = p[2][n];
+        let (places, cells) = (next, next_cells);
+        // The nodes of the next block are on their way while this one is carried.
+        next = Places::of(turned, [x, y, z], from + BLOCK);
+        next_cells = Cells::of(now, &next.q);
+        for cells in &next_cells {
+            cells.fetch_soon(now);
         }
+        let Places { mut p, mut q } = places;
+        let dt = block(dt_s, from);
         // Half the step ahead first, so that an even cloud stays even to second order.
         // SAFETY: the caller promises the instructions of the pair.
-        let v = unsafe { velocities::<P, BLOCK>(now, &q) };
+        let v = unsafe { velocities::<P, BLOCK>(now, &cells) };
         for n in 0..BLOCK {
             let half = 0.5 * dt[n];
             for d in 0..3 {
@@ -105,33 +97,84 @@ unsafe fn carry<P: Pair>(now: &Now, turned: &Turned, dt_s: &[f32], [x, y, z]: [&
             }
         }
         // SAFETY: as above.
-        let v = unsafe { velocities::<P, BLOCK>(now, &q) };
+        let v = unsafe { velocities::<P, BLOCK>(now, &Cells::of(now, &q)) };
         for n in 0..BLOCK {
             p[0][n] += dt[n] * (v[0][n] * a.x + v[1][n] * l.x);
             p[1][n] += dt[n] * (v[0][n] * a.y + v[1][n] * l.y);
             p[2][n] += dt[n] * v[2][n];
         }
         for (to, p) in [&mut *x, &mut *y, &mut *z].into_iter().zip(p) {
-            let to = &mut to[block.clone()];
-            match <&mut [f32; BLOCK]>::try_from(&mut *to) {
-                Ok(to) => *to = p,
-                Err(_) => to.copy_from_slice(&p[..used]),
+            match to[from..].first_chunk_mut() {
+                Some(to) => *to = p,
+                None => {
+                    let used = dt_s.len() - from;
+                    to[from..].copy_from_slice(&p[..used]);
+                }
             }
         }
     }
 }
 
-/// Velocities (along, left, up) at `N` places (along, left, up).
-///
-/// # Safety
-/// The machine must have the instructions of `P`.
+/// Places of a block.
+#[derive(Clone, Copy)]
+struct Places {
+    /// ENU, m.
+    p: [[f32; BLOCK]; 3],
+    /// Along, left, up, from the area's centre and the surface, m.
+    q: [[f32; BLOCK]; 3],
+}
+
+impl Places {
+    /// Those of the filaments from a number on.
+    #[inline(always)]
+    fn of(turned: &Turned, all: [&[f32]; 3], from: usize) -> Self {
+        let (centre, a, l) = (turned.centre, turned.along, turned.left);
+        let p = all.map(|v| block(v, from));
+        let mut q = [[0.0; BLOCK]; 3];
+        for n in 0..BLOCK {
+            let (dx, dy) = (p[0][n] - centre.x, p[1][n] - centre.y);
+            q[0][n] = dx * a.x + dy * a.y;
+            q[1][n] = dx * l.x + dy * l.y;
+            q[2][n] = p[2][n];
+        }
+        Self { p, q }
+    }
+}
+
+/// A block of numbers from a place on. Empty places are carried too, and left.
 #[inline(always)]
-unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [[f32; N]; 3] {
-    let (row, column) = (now.up + 1, (now.up + 1) * (now.across + 1));
-    let mut sum = [[0.0_f32; N]; 3];
-    let (mut near, mut far) = ([0_u32; N], [0_u32; N]);
-    let [mut f, mut g, mut h] = [[0.0_f32; N]; 3];
-    for patch in &now.patches {
+fn block(v: &[f32], from: usize) -> [f32; BLOCK] {
+    let rest = v.get(from..).unwrap_or_default();
+    // A copy of a known length takes no call.
+    rest.first_chunk().copied().unwrap_or_else(|| {
+        let mut some = [0.0; BLOCK];
+        some[..rest.len()].copy_from_slice(rest);
+        some
+    })
+}
+
+/// The cells of a patch in which `N` places are.
+#[derive(Clone, Copy)]
+struct Cells<const N: usize> {
+    /// The lowest right node behind, and ahead.
+    near: [u32; N],
+    far: [u32; N],
+    /// Positions in the cells along, left and up, as parts.
+    part: [[f32; N]; 3],
+}
+
+impl<const N: usize> Cells<N> {
+    /// Those of places (along, left, up), in both patches.
+    #[inline(always)]
+    fn of(now: &Now, q: &[[f32; N]; 3]) -> [Self; 2] {
+        now.patches.map(|patch| Self::of_one(now, &patch, q))
+    }
+
+    #[inline(always)]
+    fn of_one(now: &Now, patch: &Patch, q: &[[f32; N]; 3]) -> Self {
+        let (row, column) = (now.up + 1, (now.up + 1) * (now.across + 1));
+        let (mut near, mut far) = ([0_u32; N], [0_u32; N]);
+        let [mut f, mut g, mut h] = [[0.0_f32; N]; 3];
         let side = if patch.mirrored { -1.0 } else { 1.0 };
         for n in 0..N {
             let (k, part) = cell((q[2][n] + now.depth) * now.per_m[2], now.up);
@@ -148,9 +191,41 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [
             near[n] = (i & (LENGTH as u32 - 1)) * column as u32 + line;
             far[n] = (i.wrapping_add(1) & (LENGTH as u32 - 1)) * column as u32 + line;
         }
+        Self {
+            near,
+            far,
+            part: [f, g, h],
+        }
+    }
+
+    /// Asks the processor for the nodes.
+    #[inline(always)]
+    fn fetch_soon(&self, now: &Now) {
+        let row = now.up + 1;
+        for n in self.near.iter().chain(&self.far) {
+            fetch_soon(now.nodes, *n as usize);
+            fetch_soon(now.nodes, *n as usize + row);
+        }
+    }
+}
+
+/// Velocities (along, left, up) in `N` cells of each patch.
+///
+/// # Safety
+/// The machine must have the instructions of `P`.
+#[inline(always)]
+unsafe fn velocities<P: Pair, const N: usize>(now: &Now, cells: &[Cells<N>; 2]) -> [[f32; N]; 3] {
+    let row = now.up + 1;
+    let mut sum = [[0.0_f32; N]; 3];
+    for (patch, cells) in now.patches.iter().zip(cells) {
+        let Cells {
+            near,
+            far,
+            part: [f, g, h],
+        } = cells;
         let highest = near
             .iter()
-            .zip(&far)
+            .zip(far)
             .fold(0, |most, (a, b)| most.max(*a).max(*b));
         assert!(
             highest as usize + row + 1 < now.nodes.len(),
@@ -172,6 +247,7 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, q: &[[f32; N]; 3]) -> [
                 }
             }
         }
+        let side = if patch.mirrored { -1.0 } else { 1.0 };
         for n in 0..N {
             sum[0][n] += patch.weight * v[0][n];
             sum[1][n] += patch.weight * side * v[1][n];

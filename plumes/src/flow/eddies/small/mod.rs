@@ -140,6 +140,18 @@ impl Small {
         weights
     }
 
+    /// Asks the processor for what a [velocity](Self::velocity) there reads.
+    #[inline(always)]
+    pub(crate) fn fetch_soon(&self, lives: &[Life], weights: &Weights, labels: &[[f32; 3]]) {
+        for (n, (octave, weight)) in self.octaves.iter().zip(weights).enumerate() {
+            if *weight != 0.0 {
+                for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
+                    octave.fetch_soon(life, *label);
+                }
+            }
+        }
+    }
+
     /// Velocity (east, north, up) at a height where the coordinates in the patterns are `labels`, m/s.
     ///
     /// # Safety

@@ -107,6 +107,18 @@ impl Octave {
         f32::from(2.0 * self.half_k2 * size_m * size_m < 4.0)
     }
 
+    /// Where in the box a pattern's coordinates (m) are, in sides.
+    #[inline(always)]
+    fn in_table(&self, life: &Life, label: [f32; 3]) -> [f32; 3] {
+        std::array::from_fn(|d| label[d] * self.per_m + life.begin[d])
+    }
+
+    /// Asks the processor for what a [velocity](Self::velocity) there reads.
+    #[inline(always)]
+    pub(super) fn fetch_soon(&self, life: &Life, label: [f32; 3]) {
+        self.table.fetch_soon(self.in_table(life, label));
+    }
+
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
     /// potential.
     ///
@@ -119,9 +131,8 @@ impl Octave {
         level: &Level,
         label: [f32; 3],
     ) -> [f32; 3] {
-        let q = std::array::from_fn(|d| label[d] * self.per_m + life.begin[d]);
         // SAFETY: as the caller promises.
-        let (v, a) = unsafe { self.table.at::<P>(q) };
+        let (v, a) = unsafe { self.table.at::<P>(self.in_table(life, label)) };
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

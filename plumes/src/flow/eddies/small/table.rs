@@ -9,7 +9,7 @@
 //! Between nodes both fields are trilinear; the shortest wave has 6.4 nodes.
 
 use super::super::fourier::{Four, Fourier};
-use crate::quad::{Pair, Quad};
+use crate::quad::{Pair, Quad, fetch_soon};
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 use world::math;
@@ -25,8 +25,13 @@ pub(super) const LONGEST: f64 = 5.0;
 /// Velocity (root of the mean square of each component: 1) and its vector potential, for a side of length 1.
 #[derive(Debug)]
 pub(super) struct Table {
-    nodes: Vec<[[f32; 4]; 2]>,
+    nodes: Vec<Node>,
 }
+
+/// Velocity and potential at a node, which lie in one line of the processor's cache.
+#[derive(Clone, Copy, Debug)]
+#[repr(align(32))]
+struct Node([[f32; 4]; 2]);
 
 /// The box of this process.
 pub(super) fn table() -> Arc<Table> {
@@ -75,7 +80,8 @@ impl Table {
         let of_one = |c: usize| velocity.iter().map(move |v| v[0][c] * v[0][c]);
         let square: f64 = (0..3).flat_map(of_one).sum();
         let scale = 1.0 / (square / (3 * COUNT) as f64).sqrt();
-        let node = |(v, a): (&Four, &Four)| [v, a].map(|v| v[0].map(|v| (scale * v) as f32));
+        let of = |v: &Four| v[0].map(|v| (scale * v) as f32);
+        let node = |(v, a): (&Four, &Four)| Node([of(v), of(a)]);
         Self {
             nodes: velocity.iter().zip(&potential).map(node).collect(),
         }
@@ -87,18 +93,7 @@ impl Table {
     /// The machine must have the instructions of `P`.
     #[inline(always)]
     pub(super) unsafe fn at<P: Pair>(&self, q: [f32; 3]) -> ([f32; 3], [f32; 3]) {
-        let mut near = [0; 3];
-        let mut far = [0; 3];
-        let mut part = [0.0_f32; 3];
-        for d in 0..3 {
-            let c = q[d] * NODES as f32;
-            // The whole number below, without a call.
-            let cut = c as i32;
-            let below = if cut as f32 > c { cut - 1 } else { cut };
-            part[d] = c - below as f32;
-            near[d] = below as usize & (NODES - 1);
-            far[d] = (near[d] + 1) & (NODES - 1);
-        }
+        let Cell { near, far, part } = Cell::of(q);
         // SAFETY: here and below, as the caller promises.
         let mut both = unsafe { P::new(&[[0.0; 4]; 2]) };
         for (i, wi) in [(near[0], 1.0 - part[0]), (far[0], part[0])] {
@@ -106,7 +101,7 @@ impl Table {
                 let line = (i * NODES + j) * NODES;
                 for (k, wk) in [(near[2], 1.0 - part[2]), (far[2], part[2])] {
                     // SAFETY: as above.
-                    let node = unsafe { P::new(&self.nodes[line + k]) };
+                    let node = unsafe { P::new(&self.nodes[line + k].0) };
                     both = both.add(node.times(wi * wj * wk));
                 }
             }
@@ -117,6 +112,47 @@ impl Table {
         };
         let [v, a] = both.apart();
         (three(v), three(a))
+    }
+
+    /// Asks the processor for the nodes round a place in sides of the box.
+    #[inline(always)]
+    pub(super) fn fetch_soon(&self, q: [f32; 3]) {
+        let Cell { near, far, .. } = Cell::of(q);
+        for i in [near[0], far[0]] {
+            for j in [near[1], far[1]] {
+                for k in [near[2], far[2]] {
+                    fetch_soon(&self.nodes, (i * NODES + j) * NODES + k);
+                }
+            }
+        }
+    }
+}
+
+/// The cell of a place: numbers of the nodes before and after it, and its position between them as parts.
+struct Cell {
+    near: [usize; 3],
+    far: [usize; 3],
+    part: [f32; 3],
+}
+
+impl Cell {
+    #[inline(always)]
+    fn of(q: [f32; 3]) -> Self {
+        let mut new = Self {
+            near: [0; 3],
+            far: [0; 3],
+            part: [0.0; 3],
+        };
+        for d in 0..3 {
+            let c = q[d] * NODES as f32;
+            // The whole number below, without a call.
+            let cut = c as i32;
+            let below = if cut as f32 > c { cut - 1 } else { cut };
+            new.part[d] = c - below as f32;
+            new.near[d] = below as usize & (NODES - 1);
+            new.far[d] = (new.near[d] + 1) & (NODES - 1);
+        }
+        new
     }
 }
 
