@@ -9,6 +9,7 @@
 //! takes it from the water that passes the source. Kicks by what is smaller than the finest octave do not change it.
 
 use super::bands::Span;
+use super::rows::Rows;
 use super::store::Store;
 use crate::flow::eddies::{Life, Small};
 use crate::path::Path;
@@ -25,9 +26,9 @@ use world::fields::Flow;
 pub(super) struct Labels {
     patterns: usize,
     /// East, north, up, m.
-    at: Vec<[f32; 3]>,
+    at: Rows<[f32; 3]>,
     /// The number of the pattern in which each coordinate is.
-    number: Vec<u32>,
+    number: Rows<u32>,
     /// The same of the water at the source at a time, and its velocity without the small eddies, m/s.
     source: Vec<[f32; 3]>,
     source_number: Vec<u32>,
@@ -43,8 +44,8 @@ impl Labels {
         let patterns = small.patterns();
         Self {
             patterns,
-            at: Vec::new(),
-            number: Vec::new(),
+            at: Rows::default(),
+            number: Rows::default(),
             source: vec![[0.0; 3]; patterns],
             source_number: vec![NONE; patterns],
             since_s: 0.0,
@@ -58,13 +59,13 @@ impl Labels {
         let u = self.source_m_s;
         let at = |p: &[f32; 3]| std::array::from_fn(|d| p[d] - passed * u[d]);
         self.at.extend(self.source.iter().map(at));
-        self.number.extend(&self.source_number);
+        self.number.extend(self.source_number.iter().copied());
     }
 
     /// Removes rows by their sorted places.
     pub(super) fn remove(&mut self, gone: &[usize]) {
-        super::rise::remove(&mut self.at, gone, self.patterns);
-        super::rise::remove(&mut self.number, gone, self.patterns);
+        self.at.remove(gone, self.patterns);
+        self.number.remove(gone, self.patterns);
     }
 
     /// A filament has moved upwards through the water, m.
@@ -101,9 +102,11 @@ impl Labels {
 
     /// Reads what [`Self::keep`] wrote of so many filaments.
     pub(super) fn recall(&mut self, n: usize, from: &mut Reader<'_>) -> Result<(), Unreadable> {
-        let places = |flat: Vec<f32>| flat.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-        self.at = places(from.exactly(3 * n * self.patterns)?);
-        self.number = from.exactly(n * self.patterns)?;
+        let places = |flat: Vec<f32>| -> Vec<[f32; 3]> {
+            flat.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect()
+        };
+        self.at = places(from.exactly(3 * n * self.patterns)?).into();
+        self.number = from.exactly(n * self.patterns)?.into();
         self.source = places(from.exactly(3 * self.patterns)?);
         self.source_number = from.exactly(self.patterns)?;
         self.since_s = from.word()?;

@@ -25,6 +25,7 @@ mod plume;
 mod rebound;
 mod rise;
 mod room;
+mod rows;
 mod sampled;
 mod scan;
 mod series;

@@ -71,6 +71,8 @@ pub struct Plume {
     pub(super) cells: Lookup,
     pub(super) refresh_s: f64,
     pub(super) next_refresh_s: Option<f64>,
+    /// Whether the water has said since the pace began how it stirs what is released; if steady, it need not again.
+    pub(super) stirred: bool,
     /// Number of times at which steps have started.
     pub(super) steps: u64,
     pub(super) now_s: f64,
@@ -138,6 +140,7 @@ impl Plume {
             grid,
             refresh_s: settings.refresh_s,
             next_refresh_s: None,
+            stirred: false,
             steps: 0,
             now_s: 0.0,
             path: Path::detect(),

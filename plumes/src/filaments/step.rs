@@ -130,6 +130,7 @@ impl Plume {
 
     pub(super) fn join(&mut self, t_s: f64) {
         self.now_s = t_s;
+        self.stirred = false;
         for store in &mut self.stores {
             store.join(t_s);
         }
@@ -231,10 +232,12 @@ impl Plume {
 
     /// Releases what is due within the shortest step, and divides the filaments into bands.
     fn release(&mut self, flow: &dyn Flow, t0_s: f64, t1_s: f64) {
+        let stir = !(self.stirred && flow.is_steady());
+        self.stirred = true;
         for n in 0..self.stores.len() {
             let p_W = self.sources[n].p_W;
             let store = &mut self.stores[n];
-            if let Some(size) = self.sources[n].release.eddy_size_m {
+            if stir && let Some(size) = self.sources[n].release.eddy_size_m {
                 store.size.stirred_by(flow.stirring(&p_W, size.get(), t0_s));
             }
             let (cells, room, sampled) = (&self.cells, &self.room, &mut self.sampled);

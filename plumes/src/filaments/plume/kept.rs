@@ -35,6 +35,7 @@ impl Plume {
             grid: _,
             sampled: _,
             next_refresh_s: _,
+            stirred: _,
             carrier: _,
             cells: _,
             room: _,
@@ -143,8 +144,12 @@ fn recall(store: &mut Store, from: &mut Reader<'_>) -> Result<(), Unreadable> {
             momentum_m4_s: v[2],
             passed_m4_s2: v[3],
         };
-        rise.elements = numbers.chunks_exact(4).map(element).collect();
-        rise.grown_m2 = from.exactly(n)?;
+        rise.elements = numbers
+            .chunks_exact(4)
+            .map(element)
+            .collect::<Vec<_>>()
+            .into();
+        rise.grown_m2 = from.exactly(n)?.into();
     }
     if let Some(labels) = &mut store.labels {
         labels.recall(n, from)?;

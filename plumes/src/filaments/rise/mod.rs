@@ -17,6 +17,7 @@ mod tests_plume;
 
 use super::bands::Span;
 use super::kernel::folded;
+use super::rows::Rows;
 use super::size::Size;
 use super::store::Store;
 use crate::error::PlumeError;
@@ -32,9 +33,9 @@ use world::fields::Flow;
 pub(super) struct Rise {
     thread: Thread,
     profile: Profile,
-    pub(super) elements: Vec<Element>,
+    pub(super) elements: Rows<Element>,
     /// Variance by which each filament is wider for its own entrainment, m².
-    pub(super) grown_m2: Vec<f32>,
+    pub(super) grown_m2: Rows<f32>,
 }
 
 impl Rise {
@@ -60,8 +61,8 @@ impl Rise {
                 curve,
             },
             profile: Profile::still(bed_m),
-            elements: Vec::new(),
-            grown_m2: Vec::new(),
+            elements: Rows::default(),
+            grown_m2: Rows::default(),
         }))
     }
 
@@ -72,14 +73,14 @@ impl Rise {
 
     /// Adds the element of the newest filament.
     pub(super) fn push(&mut self) {
-        self.elements.push(self.thread.released());
-        self.grown_m2.push(0.0);
+        self.elements.extend([self.thread.released()]);
+        self.grown_m2.extend([0.0]);
     }
 
     /// Removes elements by their sorted places.
     pub(super) fn remove(&mut self, gone: &[usize]) {
-        remove(&mut self.elements, gone, 1);
-        remove(&mut self.grown_m2, gone, 1);
+        self.elements.remove(gone, 1);
+        self.grown_m2.remove(gone, 1);
     }
 
     /// Works out the sizes of filaments anew from their elements and heights.
@@ -89,20 +90,6 @@ impl Rise {
             self.grown_m2[n] = self.thread.grown_m2(&self.elements[n], &around) as f32;
         }
     }
-}
-
-/// Removes rows of `each` entries by their sorted places.
-pub(super) fn remove<T: Copy>(list: &mut Vec<T>, gone: &[usize], each: usize) {
-    let Some(first) = gone.first() else { return };
-    let mut to = first * each;
-    for (n, row) in gone.iter().enumerate() {
-        let next = gone.get(n + 1).map_or(list.len(), |next| next * each);
-        let stays = (row + 1) * each..next;
-        let many = stays.len();
-        list.copy_within(stays, to);
-        to += many;
-    }
-    list.truncate(to);
 }
 
 /// Size of a filament that its own entrainment has widened, m.
@@ -156,31 +143,5 @@ impl Store {
             }
         }
         rise.size(range, &self.z);
-    }
-}
-
-#[cfg(test)]
-mod tests_remove {
-    use super::remove;
-
-    #[test]
-    fn rows_are_removed_by_their_places() {
-        for gone in [
-            &[][..],
-            &[0],
-            &[6],
-            &[2, 3],
-            &[0, 3, 6],
-            &[0, 1, 2, 3, 4, 5, 6],
-        ] {
-            for each in [1, 3] {
-                let row = |n: &usize| n / each;
-                let mut list: Vec<usize> = (0..7 * each).collect();
-                let mut want = list.clone();
-                want.retain(|n| !gone.contains(&row(n)));
-                remove(&mut list, gone, each);
-                assert_eq!(list, want, "{gone:?} of {each}");
-            }
-        }
     }
 }
