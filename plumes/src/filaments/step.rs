@@ -214,7 +214,7 @@ impl Plume {
         if let Some(span) = self.bands.carries(band, store.carried_s) {
             store.carried_s = span.to_s;
             let before = self.room.has_solids().then(|| places_of(store, &range));
-            store.rise(range.clone(), span);
+            store.rise(self.path, range.clone(), span);
             if walls.is_some() {
                 carry(flow, store, range.clone(), span);
             }

@@ -12,22 +12,16 @@
 //! counts as dilution. Surface and bed take up its momentum. Elements of one thread do not act on each other.
 
 use crate::release::Curve;
-use world::math;
 
 /// Entrainment α of a plume without cross-flow, top-hat: √2 · 0.083 (Lee & Cheung 1990; 0.116 of Papanicolaou & List 1988,
 /// J. Fluid Mech. 195, 341).
-const ALONG: f64 = 0.117;
+pub(super) const ALONG: f64 = 0.117;
 /// Entrainment β of a thread that moves across itself (Briggs 1969; Hoult, Fay & Forney 1969).
-const ACROSS: f64 = 0.6;
+pub(super) const ACROSS: f64 = 0.6;
 /// Growth of a radius by turbulence: a cloud whose pairs follow r² = g ε t³ with g = 0.55 (Salazar & Collins 2009, Annu.
 /// Rev. Fluid Mech. 41, 405: 0.5 to 0.6) has a standard deviation of √(gεt³/6) a direction, half the radius of a disc of the
 /// same variance: dr/dt = 1.5 · (2g/3)^⅓ (εr)^⅓.
-const SHARED: f64 = 1.073_6;
-/// Largest part by which a scale changes in a step of the integration.
-const PART: f64 = 0.1;
-/// Most steps of the integration within one step of the filament.
-const MOST_STEPS: f64 = 400.0;
-
+pub(super) const SHARED: f64 = 1.073_6;
 /// The water that an element meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::filaments) struct Around {
@@ -67,18 +61,6 @@ pub(in crate::filaments) struct Element {
     pub(in crate::filaments) passed_m4_s2: f64,
 }
 
-/// Rates of change of an element, its radius and how fast that grows.
-#[derive(Clone, Copy)]
-struct Rates {
-    rise_m_s: f64,
-    shared_m3_s: f64,
-    own_m3_s: f64,
-    force_m4_s2: f64,
-    passed_m4_s3: f64,
-    radius_m: f64,
-    growth_m_s: f64,
-}
-
 impl Thread {
     /// An element at its release.
     pub(in crate::filaments) fn released(&self) -> Element {
@@ -90,15 +72,11 @@ impl Thread {
     }
 
     /// Speed at which the thread is drawn out, m/s.
-    fn drawn_m_s(&self, speed_m_s: f64, rise_m_s: f64) -> f64 {
+    #[inline(always)]
+    pub(super) fn drawn_m_s(&self, speed_m_s: f64, rise_m_s: f64) -> f64 {
         (speed_m_s * speed_m_s + rise_m_s * rise_m_s)
             .sqrt()
             .max(self.least_m_s)
-    }
-
-    /// Radius of a volume, m.
-    fn radius_m(&self, volume_m3: f64, drawn_m_s: f64) -> f64 {
-        (volume_m3 * self.rate_hz / (std::f64::consts::PI * drawn_m_s)).sqrt()
     }
 
     /// Variance by which the element's own entrainment has widened it, m² in each direction.
@@ -108,79 +86,26 @@ impl Thread {
         (e.own_m3 - self.volume_m3) * self.rate_hz / (4.0 * std::f64::consts::PI * drawn)
     }
 
-    fn rates(&self, e: &Element, around: &Around) -> Rates {
-        let w = e.momentum_m4_s / e.shared_m3;
-        let drawn = self.drawn_m_s(around.speed_m_s, w);
-        let length = drawn / self.rate_hz;
-        let (r, own_r) = (
-            self.radius_m(e.shared_m3, drawn),
-            self.radius_m(e.own_m3, drawn),
-        );
-        let own_m_s = (ALONG * w * w + ACROSS * around.speed_m_s * w.abs()) / drawn;
-        let scale = r.min(around.largest_m);
-        let stirred_m_s = SHARED * math::cbrt(around.dissipation_m2_s3 * scale);
-        let round = std::f64::consts::TAU * length;
-        let force = self.volume_m3 * self.curve.at(e.shared_m3 / self.volume_m3) + e.passed_m4_s2;
-        Rates {
-            rise_m_s: w,
-            shared_m3_s: round * r * (own_m_s + stirred_m_s),
-            own_m3_s: round * own_r * own_m_s,
-            force_m4_s2: force,
-            passed_m4_s3: -around.n2_per_s2 * e.momentum_m4_s,
-            radius_m: r,
-            growth_m_s: own_m_s + stirred_m_s,
-        }
-    }
-
     /// Lets an element rise for `dt_s` from a height, m, in the water that `at` tells at each height. Returns where it
     /// comes to.
-    pub(in crate::filaments) fn rise(
+    #[cfg(test)]
+    pub(super) fn rise(
         &self,
         e: &mut Element,
         z_m: f64,
         dt_s: f64,
         at: impl Fn(f64) -> Around,
     ) -> f64 {
-        let (mut z, mut left_s) = (z_m, dt_s);
-        let least_s = dt_s / MOST_STEPS;
-        while left_s > 0.0 {
-            let around = at(z);
-            let here = self.rates(e, &around);
-            let step_s = here.longest_s(e, &around).max(least_s).min(left_s);
-            let middle = self.rates(
-                &e.on(&here, 0.5 * step_s),
-                &at(z + 0.5 * step_s * here.rise_m_s),
-            );
-            *e = e.on(&middle, step_s);
-            z += step_s * middle.rise_m_s;
-            left_s -= step_s;
-            // What is left of rounding is no step.
-            if left_s < 1e-12 * dt_s {
-                break;
-            }
-        }
-        z
-    }
-}
-
-impl Rates {
-    /// Longest step in which no scale of the element changes much, s.
-    fn longest_s(&self, e: &Element, around: &Around) -> f64 {
-        let lift = self.force_m4_s2.abs() / e.shared_m3;
-        let longest_s = (self.radius_m / self.growth_m_s)
-            .min((self.radius_m / lift).sqrt())
-            .min(1.0 / around.n2_per_s2.abs().sqrt());
-        PART * longest_s
-    }
-}
-
-impl Element {
-    fn on(&self, rates: &Rates, dt_s: f64) -> Self {
-        Self {
-            shared_m3: self.shared_m3 + dt_s * rates.shared_m3_s,
-            own_m3: self.own_m3 + dt_s * rates.own_m3_s,
-            momentum_m4_s: self.momentum_m4_s + dt_s * rates.force_m4_s2,
-            passed_m4_s2: self.passed_m4_s2 + dt_s * rates.passed_m4_s3,
-        }
+        let (mut one, mut z) = ([*e], [z_m]);
+        super::abreast::rise(
+            crate::path::Path::Portable,
+            self,
+            &mut one,
+            &mut z,
+            &[dt_s],
+            at,
+        );
+        [*e] = one;
+        z[0]
     }
 }

@@ -8,6 +8,7 @@
 //! *Deviations*: within a step the rise comes after mean flow and kicks (splitting, Strang 1968, SIAM J. Numer. Anal.
 //! 5, 506; first order in the step).
 
+mod abreast;
 mod element;
 mod profile;
 #[cfg(test)]
@@ -21,7 +22,9 @@ use super::rows::Rows;
 use super::size::Size;
 use super::store::Store;
 use crate::error::PlumeError;
+use crate::path::Path;
 use crate::release::Source;
+use abreast::ABREAST;
 pub(super) use element::{Element, Thread};
 use nalgebra::Vector3;
 pub(super) use profile::Profile;
@@ -123,15 +126,41 @@ impl Store {
     }
 
     /// Lets the filaments of a band rise through a step, or from their release on.
-    pub(super) fn rise(&mut self, range: Range<usize>, span: Span) {
-        let Some(rise) = &mut self.rise else { return };
-        for n in range.clone() {
-            let dt_s = span.to_s - self.born_s[n].max(span.from_s);
+    pub(super) fn rise(&mut self, path: Path, range: Range<usize>, span: Span) {
+        for from in range.clone().step_by(ABREAST) {
+            // The last few one by one.
+            if from + ABREAST <= range.end {
+                self.rise_abreast::<ABREAST>(path, from, span);
+            } else {
+                (from..range.end).for_each(|n| self.rise_abreast::<1>(path, n, span));
+            }
+        }
+        if let Some(rise) = &mut self.rise {
+            rise.size(range, &self.z);
+        }
+    }
+
+    /// The same for some filaments from a place on.
+    fn rise_abreast<const N: usize>(&mut self, path: Path, from: usize, span: Span) {
+        let Some(Rise {
+            thread,
+            profile,
+            elements,
+            ..
+        }) = &mut self.rise
+        else {
+            return;
+        };
+        let Some(some) = elements[from..].first_chunk_mut() else {
+            return;
+        };
+        let dt_s: [f64; N] =
+            std::array::from_fn(|l| span.to_s - self.born_s[from + l].max(span.from_s));
+        let mut to: [f64; N] = std::array::from_fn(|l| f64::from(self.z[from + l]));
+        abreast::rise(path, thread, some, &mut to, &dt_s, |z| profile.at(z));
+        for (l, (element, to)) in some.iter_mut().zip(to).enumerate() {
+            let n = from + l;
             let (z, bed) = (self.z[n], self.bed[n]);
-            let element = &mut rise.elements[n];
-            let to = rise
-                .thread
-                .rise(element, f64::from(z), dt_s, |z| rise.profile.at(z));
             let inside = to.clamp(f64::from(bed), 0.0);
             if inside != to {
                 // The boundary takes up the momentum.
@@ -142,6 +171,5 @@ impl Store {
                 labels.lift(n, self.z[n] - z);
             }
         }
-        rise.size(range, &self.z);
     }
 }

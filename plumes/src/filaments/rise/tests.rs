@@ -1,6 +1,8 @@
 //! The element against known solutions.
 
+use super::abreast;
 use super::element::{Around, Element, Thread};
+use crate::path::Path;
 use crate::release::BuoyancySpec;
 use world::math;
 use world::ranges::Finite;
@@ -156,4 +158,41 @@ fn heavy_releases_sink_as_light_ones_rise() {
     });
     assert_eq!(light, -heavy);
     assert!(light > 0.01);
+}
+
+/// Four of unlike ages and times, of which some take more steps than others.
+#[test]
+fn elements_rise_side_by_side_as_each_alone() {
+    let thread = thread(5e-8, 0.002, 0.05);
+    let at = |z: f64| around(0.05 + 0.1 * z, 1e-6 * (1.0 - z), -0.02 * z);
+    let mut r = world::seeds::Stream::new(6, "test", "abreast");
+    for _ in 0..50 {
+        let mut draw = || r.uniform();
+        let some: [Element; 4] = std::array::from_fn(|_| {
+            let own = thread.volume_m3 * (1.0 + 9.0 * draw());
+            Element {
+                shared_m3: own * (1.0 + draw()),
+                own_m3: own,
+                momentum_m4_s: 1e-2 * own * (draw() - 0.2),
+                passed_m4_s2: 1e-4 * own * (draw() - 0.5),
+            }
+        });
+        let z: [f64; 4] = std::array::from_fn(|_| -0.2 * draw());
+        let mut dt_s: [f64; 4] = std::array::from_fn(|_| 2.0 * draw());
+        dt_s[1] = 0.0;
+        let alone: [(f64, Element); 4] = std::array::from_fn(|l| {
+            let mut e = some[l];
+            let z = thread.rise(&mut e, z[l], dt_s[l], at);
+            (z, e)
+        });
+        assert_eq!(alone[1], (z[1], some[1]));
+        assert_ne!(alone[0], (z[0], some[0]));
+        for path in Path::all() {
+            let (mut beside, mut to) = (some, z);
+            abreast::rise(path, &thread, &mut beside, &mut to, &dt_s, at);
+            for l in 0..4 {
+                assert_eq!((to[l], beside[l]), alone[l], "{path:?} {l}");
+            }
+        }
+    }
 }

@@ -1,0 +1,242 @@
+//! Elements that rise side by side: their rates of change, and the integration.
+//!
+//! *Source*: see `element`; the midpoint rule.
+//!
+//! *Parameters*: [`PART`], [`MOST_STEPS`] of the integration.
+//!
+//! *Deviations*: none. The arithmetic is written once, for any number of elements, without fused multiply-add, and
+//! compiled for each version of `path`. An element takes the same steps, to the same bits, beside any others.
+
+use super::element::{ACROSS, ALONG, Around, Element, SHARED, Thread};
+use crate::path::Path;
+use std::f64::consts::{PI, TAU};
+use world::math;
+
+/// Largest part by which a scale changes in a step of the integration.
+const PART: f64 = 0.1;
+/// Most steps of the integration within one step of the filament.
+const MOST_STEPS: f64 = 400.0;
+/// Elements that rise side by side.
+pub(super) const ABREAST: usize = 4;
+
+/// The water that each of some elements meets; see [`Around`].
+struct Arounds<const N: usize> {
+    speed: [f64; N],
+    dissipation: [f64; N],
+    n2: [f64; N],
+    largest: [f64; N],
+}
+
+/// Some elements; see [`Element`].
+#[derive(Clone, Copy)]
+struct Elements<const N: usize> {
+    shared: [f64; N],
+    own: [f64; N],
+    momentum: [f64; N],
+    passed: [f64; N],
+}
+
+/// Rates of change of some elements, their radii and how fast these grow.
+struct Rates<const N: usize> {
+    rise: [f64; N],
+    shared: [f64; N],
+    own: [f64; N],
+    force: [f64; N],
+    passed: [f64; N],
+    radius: [f64; N],
+    growth: [f64; N],
+}
+
+/// Lets elements rise from their heights `z` (m) for their times (s), in the water that `at` tells at each height.
+pub(super) fn rise<const N: usize>(
+    path: Path,
+    thread: &Thread,
+    some: &mut [Element; N],
+    z: &mut [f64; N],
+    dt_s: &[f64; N],
+    at: impl Fn(f64) -> Around,
+) {
+    match path {
+        Path::Portable => risen(thread, some, z, dt_s, at),
+        // SAFETY: this variant is only made after the feature was detected.
+        #[cfg(target_arch = "x86_64")]
+        Path::Avx2 | Path::Avx512 => unsafe { rise_avx2(thread, some, z, dt_s, at) },
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+fn rise_avx2<const N: usize>(
+    thread: &Thread,
+    some: &mut [Element; N],
+    z: &mut [f64; N],
+    dt_s: &[f64; N],
+    at: impl Fn(f64) -> Around,
+) {
+    risen(thread, some, z, dt_s, at);
+}
+
+#[inline(always)]
+fn risen<const N: usize>(
+    thread: &Thread,
+    some: &mut [Element; N],
+    z: &mut [f64; N],
+    dt_s: &[f64; N],
+    at: impl Fn(f64) -> Around,
+) {
+    let mut e = Elements::of(some);
+    let mut left_s = *dt_s;
+    while left_s.iter().any(|left| *left > 0.0) {
+        let around = Arounds::of(z, &at);
+        let here = thread.rates(&e, &around);
+        let longest_s = here.longest_s(&e, &around);
+        let (mut step_s, mut half_s) = ([0.0; N], [0.0; N]);
+        for l in 0..N {
+            step_s[l] = longest_s[l].max(dt_s[l] / MOST_STEPS).min(left_s[l]);
+            half_s[l] = 0.5 * step_s[l];
+        }
+        let mut middle_z = *z;
+        for l in 0..N {
+            middle_z[l] = z[l] + half_s[l] * here.rise[l];
+        }
+        let middle = thread.rates(&e.on(&here, &half_s), &Arounds::of(&middle_z, &at));
+        let next = e.on(&middle, &step_s);
+        for l in 0..N {
+            // One that has arrived stays as it is, whatever its rates.
+            if left_s[l] > 0.0 {
+                e.shared[l] = next.shared[l];
+                e.own[l] = next.own[l];
+                e.momentum[l] = next.momentum[l];
+                e.passed[l] = next.passed[l];
+                z[l] += step_s[l] * middle.rise[l];
+                left_s[l] -= step_s[l];
+                // What is left of rounding is no step.
+                if left_s[l] < 1e-12 * dt_s[l] {
+                    left_s[l] = 0.0;
+                }
+            }
+        }
+    }
+    e.into(some);
+}
+
+impl<const N: usize> Arounds<N> {
+    #[inline(always)]
+    fn of(z: &[f64; N], at: impl Fn(f64) -> Around) -> Self {
+        let mut new = Self {
+            speed: [0.0; N],
+            dissipation: [0.0; N],
+            n2: [0.0; N],
+            largest: [0.0; N],
+        };
+        for l in 0..N {
+            let around = at(z[l]);
+            new.speed[l] = around.speed_m_s;
+            new.dissipation[l] = around.dissipation_m2_s3;
+            new.n2[l] = around.n2_per_s2;
+            new.largest[l] = around.largest_m;
+        }
+        new
+    }
+}
+
+impl<const N: usize> Elements<N> {
+    #[inline(always)]
+    fn of(some: &[Element; N]) -> Self {
+        Self {
+            shared: some.map(|e| e.shared_m3),
+            own: some.map(|e| e.own_m3),
+            momentum: some.map(|e| e.momentum_m4_s),
+            passed: some.map(|e| e.passed_m4_s2),
+        }
+    }
+
+    #[inline(always)]
+    fn into(self, some: &mut [Element; N]) {
+        for (l, e) in some.iter_mut().enumerate() {
+            *e = Element {
+                shared_m3: self.shared[l],
+                own_m3: self.own[l],
+                momentum_m4_s: self.momentum[l],
+                passed_m4_s2: self.passed[l],
+            };
+        }
+    }
+
+    /// After times, s.
+    #[inline(always)]
+    fn on(&self, rates: &Rates<N>, dt_s: &[f64; N]) -> Self {
+        let mut to = *self;
+        for l in 0..N {
+            to.shared[l] += dt_s[l] * rates.shared[l];
+            to.own[l] += dt_s[l] * rates.own[l];
+            to.momentum[l] += dt_s[l] * rates.force[l];
+            to.passed[l] += dt_s[l] * rates.passed[l];
+        }
+        to
+    }
+}
+
+impl Thread {
+    #[inline(always)]
+    fn rates<const N: usize>(&self, e: &Elements<N>, around: &Arounds<N>) -> Rates<N> {
+        let mut new = Rates {
+            rise: [0.0; N],
+            shared: [0.0; N],
+            own: [0.0; N],
+            force: [0.0; N],
+            passed: [0.0; N],
+            radius: [0.0; N],
+            growth: [0.0; N],
+        };
+        let [
+            mut own_m_s,
+            mut own_r,
+            mut round,
+            mut stirring,
+            mut dilution,
+        ] = [[0.0; N]; 5];
+        for l in 0..N {
+            let (u, w) = (around.speed[l], e.momentum[l] / e.shared[l]);
+            let drawn = self.drawn_m_s(u, w);
+            let length = drawn / self.rate_hz;
+            let r = (e.shared[l] * self.rate_hz / (PI * drawn)).sqrt();
+            own_r[l] = (e.own[l] * self.rate_hz / (PI * drawn)).sqrt();
+            own_m_s[l] = (ALONG * w * w + ACROSS * u * w.abs()) / drawn;
+            round[l] = TAU * length;
+            stirring[l] = around.dissipation[l] * r.min(around.largest[l]);
+            dilution[l] = e.shared[l] / self.volume_m3;
+            (new.rise[l], new.radius[l]) = (w, r);
+        }
+        // What is not vector code.
+        for l in 0..N {
+            stirring[l] = math::cbrt(stirring[l]);
+            dilution[l] = self.curve.at(dilution[l]);
+        }
+        for l in 0..N {
+            let stirred_m_s = SHARED * stirring[l];
+            new.shared[l] = round[l] * new.radius[l] * (own_m_s[l] + stirred_m_s);
+            new.own[l] = round[l] * own_r[l] * own_m_s[l];
+            new.force[l] = self.volume_m3 * dilution[l] + e.passed[l];
+            new.passed[l] = -around.n2[l] * e.momentum[l];
+            new.growth[l] = own_m_s[l] + stirred_m_s;
+        }
+        new
+    }
+}
+
+impl<const N: usize> Rates<N> {
+    /// Longest steps in which no scale of an element changes much, s.
+    #[inline(always)]
+    fn longest_s(&self, e: &Elements<N>, around: &Arounds<N>) -> [f64; N] {
+        let mut longest_s = [0.0; N];
+        for l in 0..N {
+            let lift = self.force[l].abs() / e.shared[l];
+            longest_s[l] = PART
+                * (self.radius[l] / self.growth[l])
+                    .min((self.radius[l] / lift).sqrt())
+                    .min(1.0 / around.n2[l].abs().sqrt());
+        }
+        longest_s
+    }
+}
