@@ -7,10 +7,10 @@
 //! *Deviations*: none. The arithmetic is written once, for any number of elements, without fused multiply-add, and
 //! compiled for each version of `path`. An element takes the same steps, to the same bits, beside any others.
 
+use super::cube_root::cube_roots;
 use super::element::{ACROSS, ALONG, Around, Element, SHARED, Thread};
 use crate::path::Path;
 use std::f64::consts::{PI, TAU};
-use world::math;
 
 /// Largest part by which a scale changes in a step of the integration.
 const PART: f64 = 0.1;
@@ -208,9 +208,9 @@ impl Thread {
             dilution[l] = e.shared[l] / self.volume_m3;
             (new.rise[l], new.radius[l]) = (w, r);
         }
+        cube_roots(&mut stirring);
         // What is not vector code.
         for l in 0..N {
-            stirring[l] = math::cbrt(stirring[l]);
             dilution[l] = self.curve.at(dilution[l]);
         }
         for l in 0..N {

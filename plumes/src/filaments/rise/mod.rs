@@ -9,6 +9,7 @@
 //! 5, 506; first order in the step).
 
 mod abreast;
+mod cube_root;
 mod element;
 mod profile;
 #[cfg(test)]
