@@ -206,10 +206,10 @@ unsafe fn moved<P: Pair>(
         small.fetch_soon(&lives, &weights, row);
         weights
     };
-    let mut next = match range.is_empty() {
-        true => return,
-        false => ready(labels, store, range.start),
-    };
+    if range.is_empty() {
+        return;
+    }
+    let mut next = ready(labels, store, range.start);
     let patterns = labels.patterns;
     for n in range.clone() {
         let weights = next;

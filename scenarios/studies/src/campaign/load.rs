@@ -27,7 +27,8 @@ pub const CAMPAIGNS: &[Template] = catalog![
     "uniform_beta",
     "crab_units",
     "wp_maps",
-    "moth_plus"
+    "moth_plus",
+    "kinematic_steps"
 ];
 
 /// Reads a campaign from a file or, if there is none, the one of that name that comes with the program.
