@@ -129,8 +129,8 @@ impl<const N: usize> Arounds<N> {
             n2: [0.0; N],
             largest: [0.0; N],
         };
-        for l in 0..N {
-            let around = at(z[l]);
+        for (l, z) in z.iter().enumerate() {
+            let around = at(*z);
             new.speed[l] = around.speed_m_s;
             new.dissipation[l] = around.dissipation_m2_s3;
             new.n2[l] = around.n2_per_s2;
@@ -167,11 +167,11 @@ impl<const N: usize> Elements<N> {
     #[inline(always)]
     fn on(&self, rates: &Rates<N>, dt_s: &[f64; N]) -> Self {
         let mut to = *self;
-        for l in 0..N {
-            to.shared[l] += dt_s[l] * rates.shared[l];
-            to.own[l] += dt_s[l] * rates.own[l];
-            to.momentum[l] += dt_s[l] * rates.force[l];
-            to.passed[l] += dt_s[l] * rates.passed[l];
+        for (l, dt_s) in dt_s.iter().enumerate() {
+            to.shared[l] += dt_s * rates.shared[l];
+            to.own[l] += dt_s * rates.own[l];
+            to.momentum[l] += dt_s * rates.force[l];
+            to.passed[l] += dt_s * rates.passed[l];
         }
         to
     }
@@ -210,8 +210,8 @@ impl Thread {
         }
         cube_roots(&mut stirring);
         // What is not vector code.
-        for l in 0..N {
-            dilution[l] = self.curve.at(dilution[l]);
+        for dilution in &mut dilution {
+            *dilution = self.curve.at(*dilution);
         }
         for l in 0..N {
             let stirred_m_s = SHARED * stirring[l];
@@ -230,9 +230,9 @@ impl<const N: usize> Rates<N> {
     #[inline(always)]
     fn longest_s(&self, e: &Elements<N>, around: &Arounds<N>) -> [f64; N] {
         let mut longest_s = [0.0; N];
-        for l in 0..N {
+        for (l, longest_s) in longest_s.iter_mut().enumerate() {
             let lift = self.force[l].abs() / e.shared[l];
-            longest_s[l] = PART
+            *longest_s = PART
                 * (self.radius[l] / self.growth[l])
                     .min((self.radius[l] / lift).sqrt())
                     .min(1.0 / around.n2[l].abs().sqrt());

@@ -143,8 +143,8 @@ impl Cell {
             far: [0; 3],
             part: [0.0; 3],
         };
-        for d in 0..3 {
-            let c = q[d] * NODES as f32;
+        for (d, q) in q.into_iter().enumerate() {
+            let c = q * NODES as f32;
             // The whole number below, without a call.
             let cut = c as i32;
             let below = if cut as f32 > c { cut - 1 } else { cut };
