@@ -74,8 +74,12 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
                 .collect();
             let seed = campaign.place(of_seed[0].run).seed;
             let runs: Vec<_> = loaded.iter().map(|l| (l, seed)).collect();
-            // The arms of all these campaigns differ in the searcher alone.
-            assert_eq!(groups(&runs), [arms], "{}", template.name);
+            // The arms of all these campaigns differ in the searcher alone, but for one that compares steps.
+            let want = match template.name {
+                "kinematic_steps" => vec![1; arms],
+                _ => vec![arms],
+            };
+            assert_eq!(groups(&runs), want, "{}", template.name);
             for (row, loaded) in of_seed.iter().zip(&loaded) {
                 let name = RunName {
                     run: row.run,
