@@ -47,77 +47,68 @@ struct Rates<const N: usize> {
     growth: [f64; N],
 }
 
-/// Lets elements rise from their heights `z` (m) for their times (s), in the water that `at` tells at each height.
-pub(super) fn rise<const N: usize>(
-    path: Path,
-    thread: &Thread,
-    some: &mut [Element; N],
-    z: &mut [f64; N],
-    dt_s: &[f64; N],
-    at: impl Fn(f64) -> Around,
-) {
-    match path {
-        Path::Portable => risen(thread, some, z, dt_s, at),
-        // SAFETY: this variant is only made after the feature was detected.
-        #[cfg(target_arch = "x86_64")]
-        Path::Avx2 | Path::Avx512 => unsafe { rise_avx2(thread, some, z, dt_s, at) },
+/// Elements that rise, each from its height `z_m` for its time.
+#[derive(Clone, Copy)]
+pub(super) struct Rising<const N: usize> {
+    pub(super) elements: [Element; N],
+    pub(super) z_m: [f64; N],
+    pub(super) dt_s: [f64; N],
+}
+
+impl<const N: usize> Rising<N> {
+    /// Lets them rise in the water that `at` tells at each height.
+    pub(super) fn rise(&mut self, path: Path, thread: &Thread, at: impl Fn(f64) -> Around) {
+        match path {
+            Path::Portable => self.risen(thread, at),
+            // SAFETY: this variant is only made after the feature was detected.
+            #[cfg(target_arch = "x86_64")]
+            Path::Avx2 | Path::Avx512 => unsafe { self.risen_avx2(thread, at) },
+        }
     }
-}
 
-#[cfg(target_arch = "x86_64")]
-#[target_feature(enable = "avx2")]
-fn rise_avx2<const N: usize>(
-    thread: &Thread,
-    some: &mut [Element; N],
-    z: &mut [f64; N],
-    dt_s: &[f64; N],
-    at: impl Fn(f64) -> Around,
-) {
-    risen(thread, some, z, dt_s, at);
-}
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn risen_avx2(&mut self, thread: &Thread, at: impl Fn(f64) -> Around) {
+        self.risen(thread, at);
+    }
 
-#[inline(always)]
-fn risen<const N: usize>(
-    thread: &Thread,
-    some: &mut [Element; N],
-    z: &mut [f64; N],
-    dt_s: &[f64; N],
-    at: impl Fn(f64) -> Around,
-) {
-    let mut e = Elements::of(some);
-    let mut left_s = *dt_s;
-    while left_s.iter().any(|left| *left > 0.0) {
-        let around = Arounds::of(z, &at);
-        let here = thread.rates(&e, &around);
-        let longest_s = here.longest_s(&e, &around);
-        let (mut step_s, mut half_s) = ([0.0; N], [0.0; N]);
-        for l in 0..N {
-            step_s[l] = longest_s[l].max(dt_s[l] / MOST_STEPS).min(left_s[l]);
-            half_s[l] = 0.5 * step_s[l];
-        }
-        let mut middle_z = *z;
-        for l in 0..N {
-            middle_z[l] = z[l] + half_s[l] * here.rise[l];
-        }
-        let middle = thread.rates(&e.on(&here, &half_s), &Arounds::of(&middle_z, &at));
-        let next = e.on(&middle, &step_s);
-        for l in 0..N {
-            // One that has arrived stays as it is, whatever its rates.
-            if left_s[l] > 0.0 {
-                e.shared[l] = next.shared[l];
-                e.own[l] = next.own[l];
-                e.momentum[l] = next.momentum[l];
-                e.passed[l] = next.passed[l];
-                z[l] += step_s[l] * middle.rise[l];
-                left_s[l] -= step_s[l];
-                // What is left of rounding is no step.
-                if left_s[l] < 1e-12 * dt_s[l] {
-                    left_s[l] = 0.0;
+    #[inline(always)]
+    fn risen(&mut self, thread: &Thread, at: impl Fn(f64) -> Around) {
+        let (mut e, mut z, dt_s) = (Elements::of(&self.elements), self.z_m, self.dt_s);
+        let mut left_s = dt_s;
+        while left_s.iter().any(|left| *left > 0.0) {
+            let around = Arounds::of(&z, &at);
+            let here = thread.rates(&e, &around);
+            let longest_s = here.longest_s(&e, &around);
+            let (mut step_s, mut half_s) = ([0.0; N], [0.0; N]);
+            for l in 0..N {
+                step_s[l] = longest_s[l].max(dt_s[l] / MOST_STEPS).min(left_s[l]);
+                half_s[l] = 0.5 * step_s[l];
+            }
+            let mut middle_z = z;
+            for l in 0..N {
+                middle_z[l] = z[l] + half_s[l] * here.rise[l];
+            }
+            let middle = thread.rates(&e.on(&here, &half_s), &Arounds::of(&middle_z, &at));
+            let next = e.on(&middle, &step_s);
+            for l in 0..N {
+                // One that has arrived stays as it is, whatever its rates.
+                if left_s[l] > 0.0 {
+                    e.shared[l] = next.shared[l];
+                    e.own[l] = next.own[l];
+                    e.momentum[l] = next.momentum[l];
+                    e.passed[l] = next.passed[l];
+                    z[l] += step_s[l] * middle.rise[l];
+                    left_s[l] -= step_s[l];
+                    // What is left of rounding is no step.
+                    if left_s[l] < 1e-12 * dt_s[l] {
+                        left_s[l] = 0.0;
+                    }
                 }
             }
         }
+        (self.elements, self.z_m) = (e.apart(), z);
     }
-    e.into(some);
 }
 
 impl<const N: usize> Arounds<N> {
@@ -152,15 +143,13 @@ impl<const N: usize> Elements<N> {
     }
 
     #[inline(always)]
-    fn into(self, some: &mut [Element; N]) {
-        for (l, e) in some.iter_mut().enumerate() {
-            *e = Element {
-                shared_m3: self.shared[l],
-                own_m3: self.own[l],
-                momentum_m4_s: self.momentum[l],
-                passed_m4_s2: self.passed[l],
-            };
-        }
+    fn apart(&self) -> [Element; N] {
+        std::array::from_fn(|l| Element {
+            shared_m3: self.shared[l],
+            own_m3: self.own[l],
+            momentum_m4_s: self.momentum[l],
+            passed_m4_s2: self.passed[l],
+        })
     }
 
     /// After times, s.

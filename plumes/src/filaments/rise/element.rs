@@ -22,6 +22,7 @@ pub(super) const ACROSS: f64 = 0.6;
 /// Rev. Fluid Mech. 41, 405: 0.5 to 0.6) has a standard deviation of √(gεt³/6) a direction, half the radius of a disc of the
 /// same variance: dr/dt = 1.5 · (2g/3)^⅓ (εr)^⅓.
 pub(super) const SHARED: f64 = 1.073_6;
+
 /// The water that an element meets.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(in crate::filaments) struct Around {
@@ -96,16 +97,13 @@ impl Thread {
         dt_s: f64,
         at: impl Fn(f64) -> Around,
     ) -> f64 {
-        let (mut one, mut z) = ([*e], [z_m]);
-        super::abreast::rise(
-            crate::path::Path::Portable,
-            self,
-            &mut one,
-            &mut z,
-            &[dt_s],
-            at,
-        );
-        [*e] = one;
-        z[0]
+        let mut one = super::abreast::Rising {
+            elements: [*e],
+            z_m: [z_m],
+            dt_s: [dt_s],
+        };
+        one.rise(crate::path::Path::Portable, self, at);
+        [*e] = one.elements;
+        one.z_m[0]
     }
 }

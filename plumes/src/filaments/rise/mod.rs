@@ -25,7 +25,7 @@ use super::store::Store;
 use crate::error::PlumeError;
 use crate::path::Path;
 use crate::release::Source;
-use abreast::ABREAST;
+use abreast::{ABREAST, Rising};
 pub(super) use element::{Element, Thread};
 use nalgebra::Vector3;
 pub(super) use profile::Profile;
@@ -155,11 +155,14 @@ impl Store {
         let Some(some) = elements[from..].first_chunk_mut() else {
             return;
         };
-        let dt_s: [f64; N] =
-            std::array::from_fn(|l| span.to_s - self.born_s[from + l].max(span.from_s));
-        let mut to: [f64; N] = std::array::from_fn(|l| f64::from(self.z[from + l]));
-        abreast::rise(path, thread, some, &mut to, &dt_s, |z| profile.at(z));
-        for (l, (element, to)) in some.iter_mut().zip(to).enumerate() {
+        let mut rising = Rising::<N> {
+            elements: *some,
+            z_m: std::array::from_fn(|l| f64::from(self.z[from + l])),
+            dt_s: std::array::from_fn(|l| span.to_s - self.born_s[from + l].max(span.from_s)),
+        };
+        rising.rise(path, thread, |z| profile.at(z));
+        *some = rising.elements;
+        for (l, (element, to)) in some.iter_mut().zip(rising.z_m).enumerate() {
             let n = from + l;
             let (z, bed) = (self.z[n], self.bed[n]);
             let inside = to.clamp(f64::from(bed), 0.0);

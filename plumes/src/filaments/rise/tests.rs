@@ -1,6 +1,6 @@
 //! The element against known solutions.
 
-use super::abreast;
+use super::abreast::Rising;
 use super::element::{Around, Element, Thread};
 use crate::path::Path;
 use crate::release::BuoyancySpec;
@@ -188,10 +188,15 @@ fn elements_rise_side_by_side_as_each_alone() {
         assert_eq!(alone[1], (z[1], some[1]));
         assert_ne!(alone[0], (z[0], some[0]));
         for path in Path::all() {
-            let (mut beside, mut to) = (some, z);
-            abreast::rise(path, &thread, &mut beside, &mut to, &dt_s, at);
-            for l in 0..4 {
-                assert_eq!((to[l], beside[l]), alone[l], "{path:?} {l}");
+            let mut beside = Rising {
+                elements: some,
+                z_m: z,
+                dt_s,
+            };
+            beside.rise(path, &thread, at);
+            for (l, alone) in alone.iter().enumerate() {
+                let risen = (beside.z_m[l], beside.elements[l]);
+                assert_eq!(risen, *alone, "{path:?} {l}");
             }
         }
     }
