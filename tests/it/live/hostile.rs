@@ -5,7 +5,9 @@ use super::kit::{client, frame, kept, listen, next_of, plume, sent, start};
 use super::readings::{picture, ping};
 use serde_json::json;
 use std::io::{BufRead, BufReader, Read, Write};
+use std::num::NonZero;
 use std::process::{Child, ChildStdout, Stdio};
+use std::sync::atomic::{AtomicBool, Ordering};
 use zenoh::Wait;
 
 /// A subscriber in a process of its own, told by its environment where to connect and how to behave.
@@ -146,5 +148,41 @@ fn a_stalled_subscriber_holds_neither_the_run_nor_its_end() {
         }
     }
     drop(stalled);
+    session.close().wait().unwrap();
+}
+
+/// Where zenoh's queue holds less than a plume, and the sending thread runs late, what comes behind the plume is lost.
+#[test]
+fn on_a_busy_machine_a_subscriber_learns_the_end_behind_a_large_plume() {
+    let over = AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        let cores = std::thread::available_parallelism().map_or(2, NonZero::get);
+        for _ in 0..3 * cores {
+            scope.spawn(|| {
+                while !over.load(Ordering::Relaxed) {
+                    std::hint::spin_loop();
+                }
+            });
+        }
+        let missed = std::panic::catch_unwind(|| (0..20).for_each(one_end));
+        over.store(true, Ordering::Relaxed);
+        if let Err(why) = missed {
+            std::panic::resume_unwind(why);
+        }
+    });
+}
+
+fn one_end(k: u32) {
+    let name = format!("busy_{k}");
+    let live = start(&name);
+    let session = client(live.endpoint());
+    let samples = listen(&session, &name);
+    kept(&session, &name);
+    for step in 0..5 {
+        live.plume(&plume(10_000));
+        live.publish(&frame(step));
+    }
+    live.finish("d1");
+    while next_of(&samples, "/clock")["ended"] != true {}
     session.close().wait().unwrap();
 }

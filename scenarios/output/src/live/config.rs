@@ -10,6 +10,13 @@ use zenoh::config::EndPoint;
 /// Number of ports after the default one that are tried.
 const SPARE_PORTS: u16 = 16;
 
+/// Where zenoh's configuration says how many batches of 64 kB wait for a subscriber.
+const QUEUE: &str = "transport/link/tx/queue/size/data";
+
+/// As many as zenoh allows, 1 MB. With its default of two, one plume of 10 000 points fills the queue. On a busy machine
+/// the sending thread then runs too late, and a healthy subscriber loses what follows: digest and last clock of a run.
+const BATCHES: usize = 16;
+
 /// The configuration, and a line for the user if necessary.
 pub(super) fn configured(
     options: &LiveOptions,
@@ -66,6 +73,7 @@ pub(super) fn configured(
     }
     // Multicast is slow or refused on many machines; clients are told the endpoint instead.
     set(&mut config, "scouting/multicast/enabled", &false.into())?;
+    set(&mut config, QUEUE, &BATCHES.into())?;
     Ok((config, notice))
 }
 
