@@ -11,7 +11,7 @@
 use super::bands::Span;
 use super::rows::Rows;
 use super::store::Store;
-use crate::flow::eddies::{Life, Small};
+use crate::flow::eddies::{Life, Small, Weights};
 use crate::path::Path;
 #[cfg(target_arch = "x86_64")]
 use crate::quad::Avx;
@@ -198,23 +198,17 @@ unsafe fn moved<P: Pair>(
 ) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
-    // What moves the next filament is on its way while one is moved.
-    let ready = |labels: &mut Labels, store: &Store, n: usize| {
-        let age_s = middle_s - store.born_s[n];
-        let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
-        let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], &lives);
-        small.fetch_soon(&lives, &weights, row);
-        weights
-    };
+    let then = (middle_s, &*lives);
     if range.is_empty() {
         return;
     }
-    let mut next = ready(labels, store, range.start);
+    let mut next = ready(labels, small, store, range.start, then);
     let patterns = labels.patterns;
     for n in range.clone() {
         let weights = next;
+        // What moves the next filament is on its way while one is moved.
         if n + 1 < range.end {
-            next = ready(labels, store, n + 1);
+            next = ready(labels, small, store, n + 1, then);
         }
         let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
         let place = [store.x[n], store.y[n], store.z[n]];
@@ -240,6 +234,23 @@ unsafe fn moved<P: Pair>(
         store.y[n] += way[1];
         store.z[n] += way[2];
     }
+}
+
+/// Works out what moves a filament at a time (s, and the patterns then), and asks the processor for it. Not a closure,
+/// which would not be compiled for the caller's instructions.
+#[inline(always)]
+fn ready(
+    labels: &mut Labels,
+    small: &Small,
+    store: &Store,
+    n: usize,
+    (t_s, lives): (f64, &[Life]),
+) -> Weights {
+    let age_s = t_s - store.born_s[n];
+    let weights = small.weights(store.horizontal(n, age_s), store.size.is_grown(age_s));
+    let row = labels.row(n, [store.x[n], store.y[n], store.z[n]], lives);
+    small.fetch_soon(lives, &weights, row);
+    weights
 }
 
 /// Most patterns.

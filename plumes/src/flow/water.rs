@@ -213,6 +213,13 @@ impl Water {
         self.flume.as_ref().and_then(|f| f.eddies.as_ref())
     }
 
+    /// Makes what it draws at random with so many threads; the water is the same with any number.
+    pub fn use_threads(&self, n: usize) {
+        if let Some(eddies) = self.eddies() {
+            eddies.use_threads(n);
+        }
+    }
+
     /// The eddies that only carry filaments, if there are any.
     #[must_use]
     pub fn small(&self) -> Option<&Arc<Small>> {

@@ -102,6 +102,19 @@ pub(super) fn widened(horizontal: f32, grown_m2: f32) -> f32 {
     (horizontal * horizontal + grown_m2).sqrt()
 }
 
+/// The greatest of some numbers, or zero. Sixteen side by side, because each comparison waits for the one before.
+fn greatest(all: &[f32]) -> f32 {
+    let (some, rest) = all.as_chunks::<16>();
+    let greater = |a: f32, b: f32| if b > a { b } else { a };
+    let mut most = [0.0; 16];
+    for some in some {
+        for (most, v) in most.iter_mut().zip(some) {
+            *most = greater(*most, *v);
+        }
+    }
+    (most.iter().chain(rest)).fold(0.0, |most, v| greater(most, *v))
+}
+
 impl Store {
     /// Size of a filament at an age, s, with what its own entrainment adds, m.
     pub(super) fn horizontal(&self, n: usize, age_s: f64) -> f32 {
@@ -116,12 +129,7 @@ impl Store {
     pub(super) fn largest(&self, range: Range<usize>, oldest_s: f64) -> f32 {
         let size: f32 = Size::horizontal(&self.size, oldest_s);
         match &self.rise {
-            Some(rise) => {
-                let grown = rise.grown_m2[range]
-                    .iter()
-                    .fold(0.0_f32, |most, g| most.max(*g));
-                widened(size, grown)
-            }
+            Some(rise) => widened(size, greatest(&rise.grown_m2[range])),
             None => size,
         }
     }

@@ -8,6 +8,7 @@
 
 use super::stretch::{Shape, Stretch};
 use std::fmt;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock};
 use world::seeds::Seed;
 
@@ -21,6 +22,8 @@ pub(super) struct Drawn {
     shape: Shape,
     /// What identifies it; `None` for the one that all of this shape share.
     seed: Option<Seed>,
+    /// With how many threads.
+    threads: AtomicUsize,
     stretch: OnceLock<Arc<Stretch>>,
 }
 
@@ -36,30 +39,47 @@ impl fmt::Debug for Drawn {
 
 impl Drawn {
     pub(super) fn new(shape: Shape, seed: Option<Seed>) -> Self {
-        let stretch = OnceLock::new();
         Self {
             shape,
             seed,
-            stretch,
+            threads: AtomicUsize::new(1),
+            stretch: OnceLock::new(),
+        }
+    }
+
+    /// Draws it with so many threads. With more than one, it begins at once beside its caller.
+    pub(super) fn use_threads(self: &Arc<Self>, n: usize) {
+        self.threads.store(n, Ordering::Relaxed);
+        if n > 1 {
+            let own = Arc::clone(self);
+            // Without the thread, it is drawn when it is first asked.
+            let _begun = std::thread::Builder::new()
+                .name("eddies".to_owned())
+                .spawn(move || {
+                    own.nodes();
+                });
         }
     }
 
     /// Velocities at its nodes.
     pub(super) fn nodes(&self) -> &[[f32; 4]] {
-        let draw = || match self.seed {
-            Some(seed) => Arc::new(Stretch::new(&self.shape, seed)),
-            None => shared(&self.shape),
+        let draw = || {
+            let threads = self.threads.load(Ordering::Relaxed);
+            match self.seed {
+                Some(seed) => Arc::new(Stretch::new(&self.shape, seed, threads)),
+                None => shared(&self.shape, threads),
+            }
         };
         &self.stretch.get_or_init(draw).nodes
     }
 }
 
-fn shared(shape: &Shape) -> Arc<Stretch> {
+fn shared(shape: &Shape, threads: usize) -> Arc<Stretch> {
     let mut shared = SHARED.lock().expect("nobody panics while drawing");
     if let Some((_, stretch)) = shared.iter().find(|(s, _)| s == shape) {
         return stretch.clone();
     }
-    let stretch = Arc::new(Stretch::new(shape, 0));
+    let stretch = Arc::new(Stretch::new(shape, 0, threads));
     if shared.len() == KEPT {
         shared.remove(0);
     }

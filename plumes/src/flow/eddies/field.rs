@@ -181,6 +181,11 @@ impl Eddies {
             .map_or(self.shape.spectrum.k_c, |s| s.k_f)
     }
 
+    /// Draws them with so many threads; the eddies are the same with any number.
+    pub(crate) fn use_threads(&self, n: usize) {
+        self.stretch.use_threads(n);
+    }
+
     /// The spectrum of the eddies.
     #[must_use]
     pub fn spectrum(&self) -> &Spectrum {

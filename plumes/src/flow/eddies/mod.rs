@@ -13,6 +13,6 @@ pub(crate) mod tests_eddies;
 pub use field::{Eddies, EddiesSpec};
 #[cfg(test)]
 pub(crate) use small::tests as tests_small;
-pub(crate) use small::{Life, MOST_OCTAVES};
+pub(crate) use small::{Life, MOST_OCTAVES, Weights};
 pub use small::{Small, SmallSpec};
 pub use spectrum::Spectrum;

@@ -41,6 +41,12 @@ pub(super) struct Turned {
 }
 
 impl Now<'_> {
+    /// Number of nodes from a line across to the next one.
+    #[inline(always)]
+    fn sheet(&self) -> usize {
+        (self.up + 1) * LENGTH
+    }
+
     /// `[along, left, up]` velocity at `[along, left, up]` from the area's centre and the surface.
     pub(super) fn at(&self, q: [f32; 3]) -> [f32; 3] {
         // SAFETY: a pair that every machine of the target has.
@@ -129,7 +135,8 @@ impl Places {
     #[inline(always)]
     fn of(turned: &Turned, all: [&[f32]; 3], from: usize) -> Self {
         let (centre, a, l) = (turned.centre, turned.along, turned.left);
-        let p = all.map(|v| block(v, from));
+        let [x, y, z] = all;
+        let p = [block(x, from), block(y, from), block(z, from)];
         let mut q = [[0.0; BLOCK]; 3];
         for n in 0..BLOCK {
             let (dx, dy) = (p[0][n] - centre.x, p[1][n] - centre.y);
@@ -167,12 +174,14 @@ impl<const N: usize> Cells<N> {
     /// Those of places (along, left, up), in both patches.
     #[inline(always)]
     fn of(now: &Now, q: &[[f32; N]; 3]) -> [Self; 2] {
-        now.patches.map(|patch| Self::of_one(now, &patch, q))
+        // Not by a closure, which would not be compiled for the caller's instructions.
+        let [older, younger] = &now.patches;
+        [Self::of_one(now, older, q), Self::of_one(now, younger, q)]
     }
 
     #[inline(always)]
     fn of_one(now: &Now, patch: &Patch, q: &[[f32; N]; 3]) -> Self {
-        let (row, column) = (now.up + 1, (now.up + 1) * (now.across + 1));
+        let row = now.up as u32 + 1;
         let (mut near, mut far) = ([0_u32; N], [0_u32; N]);
         let [mut f, mut g, mut h] = [[0.0_f32; N]; 3];
         let side = if patch.mirrored { -1.0 } else { 1.0 };
@@ -187,9 +196,9 @@ impl<const N: usize> Cells<N> {
             f[n] = at - floor;
             // SAFETY: as just limited.
             let i = unsafe { floor.to_int_unchecked::<i32>() } as u32;
-            let line = j * row as u32 + k;
-            near[n] = (i & (LENGTH as u32 - 1)) * column as u32 + line;
-            far[n] = (i.wrapping_add(1) & (LENGTH as u32 - 1)) * column as u32 + line;
+            let sheet = j * LENGTH as u32;
+            near[n] = (sheet + (i & (LENGTH as u32 - 1))) * row + k;
+            far[n] = (sheet + (i.wrapping_add(1) & (LENGTH as u32 - 1))) * row + k;
         }
         Self {
             near,
@@ -201,10 +210,10 @@ impl<const N: usize> Cells<N> {
     /// Asks the processor for the nodes.
     #[inline(always)]
     fn fetch_soon(&self, now: &Now) {
-        let row = now.up + 1;
+        let sheet = now.sheet();
         for n in self.near.iter().chain(&self.far) {
             fetch_soon(now.nodes, *n as usize);
-            fetch_soon(now.nodes, *n as usize + row);
+            fetch_soon(now.nodes, *n as usize + sheet);
         }
     }
 }
@@ -215,7 +224,7 @@ impl<const N: usize> Cells<N> {
 /// The machine must have the instructions of `P`.
 #[inline(always)]
 unsafe fn velocities<P: Pair, const N: usize>(now: &Now, cells: &[Cells<N>; 2]) -> [[f32; N]; 3] {
-    let row = now.up + 1;
+    let sheet = now.sheet();
     let mut sum = [[0.0_f32; N]; 3];
     for (patch, cells) in now.patches.iter().zip(cells) {
         let Cells {
@@ -228,7 +237,7 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, cells: &[Cells<N>; 2]) 
             .zip(far)
             .fold(0, |most, (a, b)| most.max(*a).max(*b));
         assert!(
-            highest as usize + row + 1 < now.nodes.len(),
+            highest as usize + sheet + 1 < now.nodes.len(),
             "a cell is not one of the eddies' grid: its nodes are not those of its shape"
         );
         let mut v = [[0.0; N]; 3];
@@ -238,7 +247,7 @@ unsafe fn velocities<P: Pair, const N: usize>(now: &Now, cells: &[Cells<N>; 2]) 
                 let n = from + l;
                 let (near, far) = (near[n] as usize, far[n] as usize);
                 // SAFETY: the nodes exist, as asserted; the caller promises the instructions of the pair.
-                *four = unsafe { one::<P>(now.nodes, [near, far], row, [f[n], g[n], h[n]]) };
+                *four = unsafe { one::<P>(now.nodes, [near, far], sheet, [f[n], g[n], h[n]]) };
             }
             let four = Quad::columns(four);
             for (v, four) in v.iter_mut().zip(four) {
@@ -270,14 +279,14 @@ const FARTHEST: f32 = 1e9;
 unsafe fn one<P: Pair>(
     nodes: &[[f32; 4]],
     [near, far]: [usize; 2],
-    row: usize,
+    sheet: usize,
     [f, g, h]: [f32; 3],
 ) -> Quad {
     // SAFETY: as the caller promises.
     let [right, left] = unsafe {
         [
             line::<P>(nodes, near, far, h),
-            line::<P>(nodes, near + row, far + row, h),
+            line::<P>(nodes, near + sheet, far + sheet, h),
         ]
     };
     let [behind, ahead] = right.add(left.sub(right).times(g)).apart();

@@ -40,7 +40,8 @@ pub(super) struct Shape {
 /// The velocities at the nodes.
 #[derive(Debug)]
 pub(super) struct Stretch {
-    /// `[along, across to the left, up, 0]` over u_* at (i·(across + 1) + j)·(up + 1) + k.
+    /// `[along, across to the left, up, 0]` over u_* at (j·[`LENGTH`] + i)·(up + 1) + k: one sheet of nodes along and up
+    /// for each line j across.
     pub(super) nodes: Vec<[f32; 4]>,
 }
 
@@ -170,22 +171,53 @@ fn sq(x: f64) -> f64 {
 }
 
 impl Stretch {
-    /// Draws a stretch; `seed` identifies it.
-    pub(super) fn new(shape: &Shape, seed: impl Into<Seed>) -> Self {
+    /// Draws a stretch with so many threads; `seed` identifies it, and with any number it is the same.
+    pub(super) fn new(shape: &Shape, seed: impl Into<Seed>, threads: usize) -> Self {
+        let drawn = Amplitudes::draw(shape, seed.into());
+        let sheet = LENGTH * (shape.up + 1);
+        let mut nodes = vec![[0.0_f32; 4]; sheet * (shape.across + 1)];
+        let share = (shape.across + 1).div_ceil(threads.max(1));
+        let of = |n: usize, sheets: &mut [[f32; 4]]| {
+            for (y, sheet) in sheets.chunks_exact_mut(sheet).enumerate() {
+                drawn.sum(n * share + y, sheet);
+            }
+        };
+        std::thread::scope(|scope| {
+            let mut shares = nodes.chunks_mut(share * sheet).enumerate();
+            let own = shares.next();
+            for (n, sheets) in shares {
+                scope.spawn(move || of(n, sheets));
+            }
+            if let Some((n, sheets)) = own {
+                of(n, sheets);
+            }
+        });
+        Self { nodes }
+    }
+}
+
+/// The drawn coefficients, summed over the waves up. Those across and along are left to be summed.
+struct Amplitudes {
+    fourier: Fourier,
+    /// Levels.
+    levels: usize,
+    /// Numbers along the stream, and at each the sums by number across and level.
+    along: Vec<(usize, Vec<Four>)>,
+    /// Sine and cosine by line across and number across.
+    across: Vec<Vec<(f64, f64)>>,
+}
+
+impl Amplitudes {
+    fn draw(shape: &Shape, seed: Seed) -> Self {
         let all_waves = shape.all_waves();
         let strength = shape.strengths(shape.spectrum.resolved(), &all_waves);
         let (ny, nz) = (shape.across + 1, shape.up + 1);
-        let lines = ny * nz;
         let h = shape.spacing();
-        let fourier = Fourier::new(LENGTH);
         let mut rng = Stream::new(seed, "eddies", "waves");
-        let count = shape.along().count() + 1;
-        // Coefficients along the stream, by line and number.
-        let mut lines_of = vec![Four::default(); lines * count];
         let turn = |n: usize, cells: usize, at: usize| {
             math::sin_cos(PI * ((n * at) % (2 * cells)) as f64 / cells as f64)
         };
-        let across: Vec<Vec<(f64, f64)>> = (0..ny)
+        let across = (0..ny)
             .map(|y| {
                 (0..=shape.most(shape.width_m))
                     .map(|n| turn(n, shape.across, y))
@@ -196,10 +228,9 @@ impl Stretch {
             .map(|m| (0..nz).map(|z| turn(m, shape.up, z)).collect())
             .collect();
         let falls: Vec<(f64, f64)> = (0..nz).map(|z| shape.fall(z as f64 * h[2])).collect();
-        let mut sums = vec![Four::default(); (shape.most(shape.width_m) + 1) * nz];
-        let mut row = vec![Four::default(); nz];
+        let mut along = Vec::with_capacity(all_waves.len());
         for (j, waves) in &all_waves {
-            sums.fill(Four::default());
+            let mut sums = vec![Four::default(); (shape.most(shape.width_m) + 1) * nz];
             for w in waves {
                 let mut draw = || [w.std * rng.normal(), w.std * rng.normal()];
                 let a = [draw(), draw(), draw()];
@@ -218,26 +249,35 @@ impl Stretch {
                     }
                 }
             }
-            for (y, turns) in across.iter().enumerate() {
-                row.fill(Four::default());
-                for ((s, c), from) in turns.iter().zip(sums.chunks_exact(nz)) {
-                    fourier.add_times(&mut row, from, [*c, *s, *c, 0.0]);
-                }
-                for (z, value) in row.iter().enumerate() {
-                    lines_of[(y * nz + z) * count + j] = *value;
-                }
+            along.push((*j, sums));
+        }
+        Self {
+            fourier: Fourier::new(LENGTH),
+            levels: nz,
+            along,
+            across,
+        }
+    }
+
+    /// The velocities of the sheet of nodes at a line across.
+    fn sum(&self, y: usize, sheet: &mut [[f32; 4]]) {
+        let nz = self.levels;
+        let mut rows = vec![Four::default(); nz * self.along.len()];
+        for (row, (_, sums)) in rows.chunks_exact_mut(nz).zip(&self.along) {
+            for ((s, c), from) in self.across[y].iter().zip(sums.chunks_exact(nz)) {
+                self.fourier.add_times(row, from, [*c, *s, *c, 0.0]);
             }
         }
-        let mut nodes = vec![[0.0_f32; 4]; LENGTH * lines];
-        let mut sum = vec![Four::default(); LENGTH];
-        for (line, coefficients) in lines_of.chunks_exact(count).enumerate() {
-            sum.fill(Four::default());
-            sum[..count].copy_from_slice(coefficients);
-            fourier.sum(&mut sum);
-            for (i, value) in sum.iter().enumerate() {
-                nodes[i * lines + line] = value[0].map(|v| v as f32);
+        let mut line = vec![Four::default(); LENGTH];
+        for z in 0..nz {
+            line.fill(Four::default());
+            for (row, (j, _)) in rows.chunks_exact(nz).zip(&self.along) {
+                line[*j] = row[z];
+            }
+            self.fourier.sum(&mut line);
+            for (to, value) in sheet.chunks_exact_mut(nz).zip(&line) {
+                to[z] = value[0].map(|v| v as f32);
             }
         }
-        Self { nodes }
     }
 }

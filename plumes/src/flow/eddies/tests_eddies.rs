@@ -84,17 +84,17 @@ fn divergence_is_only_that_of_the_grid() {
     let part = |cells: usize| {
         let shape = shape(cells);
         let h = shape.spacing();
-        let nodes = Stretch::new(&shape, 5).nodes;
-        let (row, column) = (shape.up + 1, (shape.up + 1) * (shape.across + 1));
+        let nodes = Stretch::new(&shape, 5, 1).nodes;
+        let (row, sheet) = (shape.up + 1, (shape.up + 1) * LENGTH);
         let (mut left, mut all) = (0.0, 0.0);
         for i in 1..LENGTH - 1 {
             for j in 1..shape.across {
                 for k in 1..shape.up {
-                    let at = i * column + j * row + k;
+                    let at = j * sheet + i * row + k;
                     let d = |step: usize, c: usize| {
                         f64::from(nodes[at + step][c] - nodes[at - step][c]) / (2.0 * h[c])
                     };
-                    let (x, y, z) = (d(column, 0), d(row, 1), d(1, 2));
+                    let (x, y, z) = (d(row, 0), d(sheet, 1), d(1, 2));
                     left += (x + y + z) * (x + y + z);
                     all += x * x + y * y + z * z;
                 }
@@ -108,6 +108,23 @@ fn divergence_is_only_that_of_the_grid() {
     assert!((3.4..4.6).contains(&order), "{coarse} {fine}");
 }
 
+#[test]
+fn any_number_of_threads_draws_the_same_stretch() {
+    let bits = |threads: usize| {
+        let nodes = Stretch::new(&shape(12), 3, threads).nodes;
+        nodes
+            .concat()
+            .into_iter()
+            .map(f32::to_bits)
+            .collect::<Vec<_>>()
+    };
+    let one = bits(1);
+    assert!(one.iter().any(|v| *v != 0));
+    for threads in [0, 2, 3, 8, 100] {
+        assert_eq!(bits(threads), one, "{threads} threads");
+    }
+}
+
 /// Mean squares of eight stretches, compared with the expected ones within four standard errors found from the eight;
 /// and the expected ones compared with Nezu & Nakagawa's in the middle of the water, where they were fitted as a mean.
 #[test]
@@ -118,13 +135,13 @@ fn intensities_are_those_stated() {
     let levels = [2, 4, 6, 8, 10, 12, 14];
     let mut squares = vec![[[0.0; 3]; SEEDS as usize]; levels.len()];
     for seed in 0..SEEDS {
-        let nodes = Stretch::new(&shape, seed).nodes;
+        let nodes = Stretch::new(&shape, seed, 2).nodes;
         for (l, level) in levels.iter().enumerate() {
             let mut sum = [0.0; 3];
             let mut count = 0.0;
             for (n, v) in nodes.chunks_exact(shape.up + 1).enumerate() {
                 // The ends of the width count half.
-                let j = n % (shape.across + 1);
+                let j = n / LENGTH;
                 let w = if j == 0 || j == shape.across {
                     0.5
                 } else {

@@ -226,13 +226,14 @@ impl Ocean {
         here.plume.use_threads(threads);
     }
 
-    /// Steps the plume with this many threads; 0 means one for each core. The result is the same with any number. If
-    /// the threads cannot be started, the plume goes on with the one it has.
+    /// Steps the plume, and draws the eddies of a channel, with this many threads; 0 means one for each core. The result
+    /// is the same with any number. If the threads cannot be started, the ocean goes on with the one it has.
     pub fn use_threads(&mut self, n: usize) {
         let wanted = match n {
             0 => std::thread::available_parallelism().map_or(1, usize::from),
             n => n,
         };
+        self.water.use_threads(wanted);
         self.plume.use_threads(plumes::filaments::threads(wanted));
     }
 }

@@ -128,6 +128,7 @@ impl Small {
     }
 
     /// The part of each octave that moves a filament of a size, m.
+    #[inline(always)]
     pub(crate) fn weights(&self, size_m: f32, grown: bool) -> Weights {
         let mut weights = [0.0; MOST_OCTAVES];
         for (weight, octave) in weights.iter_mut().zip(&self.octaves) {
