@@ -3,6 +3,7 @@
 pub mod error;
 pub mod filaments;
 pub mod flow;
+mod marks;
 mod path;
 mod quad;
 pub mod release;

@@ -6,6 +6,7 @@
 //!
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
+use crate::marks::{self, Gather, Marks, mark};
 use crate::path::Path;
 
 /// Boxes side by side.
@@ -43,7 +44,8 @@ impl Boxes {
     /// Those that hold a point, a bit each.
     pub(super) fn hold(&self, path: Path, p: [f32; 3]) -> u32 {
         match path {
-            Path::Portable => self.held(p),
+            // SAFETY: these instructions are part of every machine of the target.
+            Path::Portable => unsafe { self.held::<marks::Portable>(p) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 => unsafe { hold_avx2(self, p) },
@@ -54,27 +56,33 @@ impl Boxes {
     }
 
     /// The same for vector code that calls it.
+    ///
+    /// # Safety
+    /// The machine must have the instructions of `G`.
     #[inline(always)]
-    pub(super) fn held(&self, p: [f32; 3]) -> u32 {
-        let mut bits = [0_u32; BOXES];
-        for (l, bit) in bits.iter_mut().enumerate() {
+    pub(super) unsafe fn held<G: Gather>(&self, p: [f32; 3]) -> u32 {
+        let mut marks: Marks = [0; BOXES];
+        for (l, one) in marks.iter_mut().enumerate() {
             let along = |d: usize| (p[d] >= self.lo[d][l]) & (p[d] <= self.hi[d][l]);
-            *bit = u32::from(along(0) & along(1) & along(2)) << l;
+            *one = mark(along(0) & along(1) & along(2));
         }
-        bits.into_iter().fold(0, |all, one| all | one)
+        // SAFETY: as the caller promises.
+        unsafe { G::bits(&marks) }
     }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn hold_avx2(boxes: &Boxes, p: [f32; 3]) -> u32 {
-    boxes.held(p)
+    // SAFETY: the marks need AVX2, which is this function's.
+    unsafe { boxes.held::<marks::Avx2>(p) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn hold_avx512(boxes: &Boxes, p: [f32; 3]) -> u32 {
-    boxes.held(p)
+    // SAFETY: the marks need AVX-512, which is this function's.
+    unsafe { boxes.held::<marks::Avx512>(p) }
 }
 
 /// From the least to the greatest of both. What is no number does not count.

@@ -18,6 +18,7 @@ use super::group::GROUP;
 use super::image::Felt;
 use super::leaf::{CUT_SIGMAS, LANES, LEAF, Leaf, Whole, felt_by};
 use super::moving::Moving;
+use crate::marks::{self, Gather};
 use crate::path::Path;
 
 /// Filaments in a leaflet.
@@ -110,7 +111,8 @@ impl Crowd {
     ) -> i64 {
         let mut hits = [0; WORDS];
         let total = match path {
-            Path::Portable => sum(self, p, &mut hits),
+            // SAFETY: these instructions are part of every machine of the target.
+            Path::Portable => unsafe { sum::<marks::Portable>(self, p, &mut hits) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 => unsafe { sum_avx2(self, p, &mut hits) },
@@ -204,22 +206,28 @@ impl Leaflet {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn sum_avx2(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
-    sum(crowd, p, hits)
+    // SAFETY: the marks need AVX2, which is this function's.
+    unsafe { sum::<marks::Avx2>(crowd, p, hits) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn sum_avx512(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
-    sum(crowd, p, hits)
+    // SAFETY: the marks need AVX-512, which is this function's.
+    unsafe { sum::<marks::Avx512>(crowd, p, hits) }
 }
 
 /// The sum of the leaflets that are hit, and which these are: their boxes hold the point.
+///
+/// # Safety
+/// The machine must have the instructions of `G`.
 #[inline(always)]
-fn sum(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+unsafe fn sum<G: Gather>(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     let mut total = Whole::default();
     let leaflets = crowd.leaflets.chunks(BOXES);
     for ((boxes, leaflets), hits) in crowd.boxes.iter().zip(leaflets).zip(hits) {
-        *hits = boxes.held(p);
+        // SAFETY: as the caller promises.
+        *hits = unsafe { boxes.held::<G>(p) };
         for hit in set(*hits) {
             leaflets[hit].add(p, &mut total);
         }

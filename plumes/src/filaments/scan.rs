@@ -11,6 +11,7 @@ use super::felt::{Asked, Present};
 use super::leaf::LEAF;
 use super::moving::{Moving, on_way};
 use super::side::{RUN, RUNS};
+use crate::marks::{self, Gather, Marks, mark};
 use crate::path::Path;
 
 /// Coordinates of the members at the start and at the end of their step.
@@ -33,7 +34,8 @@ pub(super) fn felt(asked: &Asked, n: usize, runs: u32) -> i64 {
     let ways = [way(0), way(1), way(2)];
     let mut near = [0; RUNS];
     match asked.q.path {
-        Path::Portable => look(asked, &ways, runs, &mut near),
+        // SAFETY: these instructions are part of every machine of the target.
+        Path::Portable => unsafe { look::<marks::Portable>(asked, &ways, runs, &mut near) },
         // SAFETY: this variant is only made after the feature was detected.
         #[cfg(target_arch = "x86_64")]
         Path::Avx2 => unsafe { look_avx2(asked, &ways, runs, &mut near) },
@@ -81,18 +83,23 @@ fn sum(asked: &Asked, near: &Near) -> i64 {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn look_avx2(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
-    look(asked, ways, runs, near);
+    // SAFETY: the marks need AVX2, which is this function's.
+    unsafe { look::<marks::Avx2>(asked, ways, runs, near) };
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn look_avx512(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
-    look(asked, ways, runs, near);
+    // SAFETY: the marks need AVX-512, which is this function's.
+    unsafe { look::<marks::Avx512>(asked, ways, runs, near) };
 }
 
 /// Notes the members within reach.
+///
+/// # Safety
+/// The machine must have the instructions of `G`.
 #[inline(always)]
-fn look(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+unsafe fn look<G: Gather>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
     let n = ways[0][0].len();
     let mut left = runs;
     while left != 0 {
@@ -100,7 +107,8 @@ fn look(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
         left &= left - 1;
         let from = run * RUN;
         if from + RUN <= n {
-            near[run] = within(asked, ways, from);
+            // SAFETY: here and below, as the caller promises.
+            near[run] = unsafe { within::<G>(asked, ways, from) };
         } else if from < n {
             let mut last = [[[0.0; RUN]; 2]; 3];
             for d in 0..3 {
@@ -109,27 +117,34 @@ fn look(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
                 }
             }
             let [[x, x1], [y, y1], [z, z1]] = &last;
-            near[run] = within(asked, &[[x, x1], [y, y1], [z, z1]], 0) & ((1 << (n - from)) - 1);
+            let last = [[x, x1], [y, y1], [z, z1]].map(|ends| ends.map(|end| &end[..]));
+            // SAFETY: as above.
+            let bits = unsafe { within::<G>(asked, &last, 0) };
+            near[run] = bits & ((1 << (n - from)) - 1);
         }
     }
 }
 
 /// One bit for each of a run that is within reach.
+///
+/// # Safety
+/// The machine must have the instructions of `G`.
 #[inline(always)]
-fn within(asked: &Asked, ways: &Ways, from: usize) -> u32 {
+unsafe fn within<G: Gather>(asked: &Asked, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
     let flat = asked.flat_reach();
     let [[x, x1], [y, y1], [z, z1]] = ways;
     let (x, x1) = (&x[from..from + RUN], &x1[from..from + RUN]);
     let (y, y1) = (&y[from..from + RUN], &y1[from..from + RUN]);
     let (z, z1) = (&z[from..from + RUN], &z1[from..from + RUN]);
-    let mut inside = [0_u32; RUN];
+    let mut inside: Marks = [0; RUN];
     for l in 0..RUN {
         let dx = p[0] - on_way(x[l], x1[l], part);
         let dy = p[1] - on_way(y[l], y1[l], part);
         let dz = p[2] - on_way(z[l], z1[l], part);
         let near = (dx * dx + dy * dy <= flat * flat) & (dz.abs() <= asked.reach[2]);
-        inside[l] = u32::from(near) << l;
+        inside[l] = mark(near);
     }
-    inside.into_iter().fold(0, |all, one| all | one)
+    // SAFETY: as the caller promises.
+    unsafe { G::bits(&inside) }
 }

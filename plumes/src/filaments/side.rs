@@ -7,6 +7,7 @@
 //! *Deviations*: none. Of a thousand neighbours, ten are near a point in the plume. Runs rule out most of the others.
 
 use super::group::GROUP;
+use crate::marks::{self, Gather, Marks, mark};
 use crate::path::Path;
 
 /// Neighbours in a run.
@@ -54,7 +55,8 @@ impl Side {
     /// The runs that are within reach along three axes, a bit each.
     pub(super) fn runs(path: Path, sides: [&Self; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
         match path {
-            Path::Portable => runs(sides, p, reach),
+            // SAFETY: these instructions are part of every machine of the target.
+            Path::Portable => unsafe { runs::<marks::Portable>(sides, p, reach) },
             // SAFETY: this variant is only made after the feature was detected.
             #[cfg(target_arch = "x86_64")]
             Path::Avx2 => unsafe { runs_avx2(sides, p, reach) },
@@ -80,13 +82,15 @@ fn side_avx512(ways: Ways) -> Side {
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 fn runs_avx2(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-    runs(sides, p, reach)
+    // SAFETY: the marks need AVX2, which is this function's.
+    unsafe { runs::<marks::Avx2>(sides, p, reach) }
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512bw,avx512dq,avx512vl")]
 fn runs_avx512(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-    runs(sides, p, reach)
+    // SAFETY: the marks need AVX-512, which is this function's.
+    unsafe { runs::<marks::Avx512>(sides, p, reach) }
 }
 
 #[inline(always)]
@@ -130,17 +134,20 @@ fn most(a: f32, b: f32) -> f32 {
     if b > a { b } else { a }
 }
 
+/// # Safety
+/// The machine must have the instructions of `G`.
 #[inline(always)]
-fn runs(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
-    let mut near = [0_u32; RUNS];
+unsafe fn runs<G: Gather>(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
+    let mut near: Marks = [0; RUNS];
     for (run, near) in near.iter_mut().enumerate() {
         let along = |d: usize| {
             let Side { lo, hi, .. } = sides[d];
             (p[d] >= lo[run] - reach[d]) & (p[d] <= hi[run] + reach[d])
         };
-        *near = u32::from(along(0) & along(1) & along(2)) << run;
+        *near = mark(along(0) & along(1) & along(2));
     }
-    near.into_iter().fold(0, |all, one| all | one)
+    // SAFETY: as the caller promises.
+    unsafe { G::bits(&near) }
 }
 
 #[cfg(test)]
