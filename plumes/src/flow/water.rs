@@ -232,6 +232,18 @@ impl Water {
         self.waves.as_ref()
     }
 
+    /// Velocity at a place and a time without the eddies of a channel, m/s: a check need not draw them.
+    #[must_use]
+    pub fn velocity_without_eddies(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
+        let turned = (self.blocked.as_ref())
+            .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
+        let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
+        match &self.waves {
+            Some(waves) => mean + waves.velocity(p, t_s),
+            None => mean,
+        }
+    }
+
     fn eddying(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
         self.eddies()
             .map_or(Vector3::zeros(), |e| e.velocity(p, t_s))

@@ -47,18 +47,9 @@ impl Drawn {
         }
     }
 
-    /// Draws it with so many threads. With more than one, it begins at once beside its caller.
-    pub(super) fn use_threads(self: &Arc<Self>, n: usize) {
+    /// Draws it with so many threads.
+    pub(super) fn use_threads(&self, n: usize) {
         self.threads.store(n, Ordering::Relaxed);
-        if n > 1 {
-            let own = Arc::clone(self);
-            // Without the thread, it is drawn when it is first asked.
-            let _begun = std::thread::Builder::new()
-                .name("eddies".to_owned())
-                .spawn(move || {
-                    own.nodes();
-                });
-        }
     }
 
     /// Velocities at its nodes.

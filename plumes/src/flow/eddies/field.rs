@@ -148,6 +148,12 @@ impl EddiesSpec {
     }
 }
 
+/// Does something on a thread of its own. Without the thread it is done when its result is first asked for.
+fn beside(work: impl FnOnce() + Send + 'static) {
+    let begun = std::thread::Builder::new().name("eddies".to_owned());
+    drop(begun.spawn(work));
+}
+
 impl EddiesSpec {
     /// What the eddies need in a channel as wide as the area.
     #[must_use]
@@ -181,9 +187,19 @@ impl Eddies {
             .map_or(self.shape.spectrum.k_c, |s| s.k_f)
     }
 
-    /// Draws them with so many threads; the eddies are the same with any number.
+    /// Draws them with so many threads; the eddies are the same with any number. With more than one, it begins at once
+    /// beside its caller.
     pub(crate) fn use_threads(&self, n: usize) {
         self.stretch.use_threads(n);
+        if n > 1 {
+            let stretch = Arc::clone(&self.stretch);
+            beside(move || {
+                stretch.nodes();
+            });
+            if self.small.is_some() {
+                beside(Small::draw);
+            }
+        }
     }
 
     /// The spectrum of the eddies.

@@ -20,13 +20,7 @@ impl Flow for Water {
     }
 
     fn velocity(&self, p: &Vector3<f64>, t_s: f64) -> Vector3<f64> {
-        let turned = (self.blocked.as_ref())
-            .and_then(|blocked| blocked.velocity(p, &self.ground.floor(p.xy()), t_s));
-        let mean = turned.unwrap_or_else(|| self.column(p.xy(), t_s).velocity(p.z));
-        let mean = match &self.waves {
-            Some(waves) => mean + waves.velocity(p, t_s),
-            None => mean,
-        };
+        let mean = self.velocity_without_eddies(p, t_s);
         if self.flume.is_none() {
             return mean;
         }

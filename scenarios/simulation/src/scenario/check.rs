@@ -16,7 +16,6 @@ use robots::sense::{OnBoard, SensorSuite};
 use robots::vehicles::{Craft, VehicleSpec};
 use std::path::Path;
 use world::area::Area;
-use world::fields::Flow;
 use world::obstacles::Obstacles;
 use world::seeds::Stream;
 use world::terrain::Terrain;
@@ -90,7 +89,7 @@ pub fn check_within(scenario: &Scenario, base_dir: &Path, memory_bytes: f64) -> 
             }
             let p_W = robot.start.p_W(&terrain);
             let water_m_s = (water.as_ref().and_then(|w| w.as_ref().ok()))
-                .map_or(0.0, |w| w.velocity(&p_W, 0.0).norm());
+                .map_or(0.0, |w| w.velocity_without_eddies(&p_W, 0.0).norm());
             check_able::speeds(i, robot, &vehicle, water_m_s, &mut found);
             check_able::capabilities(i, robot, &vehicle, step_s, &mut found);
         }

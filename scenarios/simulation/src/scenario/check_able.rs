@@ -9,7 +9,6 @@ use robots::actuate::AutopilotSpec;
 use robots::handoff::{TurnLimit, Vertical};
 use robots::vehicles::Craft;
 use world::area::Area;
-use world::fields::Flow;
 use world::limits::range::stream_m_s;
 use world::terrain::Terrain;
 
@@ -228,7 +227,7 @@ pub(super) fn plume(
     };
     let fastest = placed
         .iter()
-        .map(|s| water.velocity(&s.p_W, 0.0).xy().norm());
+        .map(|s| water.velocity_without_eddies(&s.p_W, 0.0).xy().norm());
     let Some(m_s) = fastest.max_by(f64::total_cmp) else {
         return;
     };

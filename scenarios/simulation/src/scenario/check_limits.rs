@@ -6,7 +6,6 @@ use super::schema::{RobotSpec, Scenario};
 use nalgebra::{Vector2, Vector3};
 use plumes::flow::{GridShape, Water};
 use world::area::Area;
-use world::fields::Flow;
 use world::limits::shown;
 use world::obstacles::Obstacles;
 use world::terrain::Terrain;
@@ -120,7 +119,7 @@ pub(super) fn speeds(
     let middle = scenario.area.build().centre;
     let middle = Vector3::new(middle.x, middle.y, terrain.bed_z(middle.x, middle.y) / 2.0);
     for p in starts.chain([middle]) {
-        let speed = water.velocity(&p, 0.0).norm();
+        let speed = water.velocity_without_eddies(&p, 0.0).norm();
         // This form also refuses what is not a number.
         if !(speed <= FASTEST_M_S) {
             let problem = format!(

@@ -112,6 +112,11 @@ impl SmallSpec {
 }
 
 impl Small {
+    /// Draws what all octaves share.
+    pub(super) fn draw() {
+        table::table();
+    }
+
     /// Number of patterns that each filament has coordinates in: two for each octave.
     pub(crate) fn patterns(&self) -> usize {
         2 * self.octaves.len()
@@ -144,10 +149,11 @@ impl Small {
     /// Asks the processor for what a [velocity](Self::velocity) there reads.
     #[inline(always)]
     pub(crate) fn fetch_soon(&self, lives: &[Life], weights: &Weights, labels: &[[f32; 3]]) {
+        let table = table::table();
         for (n, (octave, weight)) in self.octaves.iter().zip(weights).enumerate() {
             if *weight != 0.0 {
                 for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
-                    octave.fetch_soon(life, *label);
+                    octave.fetch_soon(table, life, *label);
                 }
             }
         }
@@ -165,6 +171,7 @@ impl Small {
         weights: &Weights,
         labels: &[[f32; 3]],
     ) -> [f32; 3] {
+        let table = table::table();
         let mut sum = [0.0_f32; 3];
         let level = octave::level(z, self.depth_m);
         let shear = level.between(&self.shear);
@@ -174,7 +181,7 @@ impl Small {
             }
             for (life, label) in lives[2 * n..2 * n + 2].iter().zip(&labels[2 * n..]) {
                 // SAFETY: as the caller promises.
-                let v = unsafe { octave.velocity::<P>(life, &level, *label) };
+                let v = unsafe { octave.velocity::<P>(table, life, &level, *label) };
                 let drawn_out = shear * life.age_s * v[2];
                 let by = [
                     v[0] + drawn_out * self.along.x,

@@ -2,11 +2,10 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see the folder's head.
 
-use super::table::{LONGEST, Table, table};
+use super::table::{LONGEST, Table};
 use crate::flow::channel::Channel;
 use crate::quad::Pair;
 use std::f64::consts::{FRAC_PI_2, PI, SQRT_2, TAU};
-use std::sync::Arc;
 use world::math;
 use world::seeds::Stream;
 
@@ -26,7 +25,6 @@ pub(crate) struct Octave {
     strength: Vec<f32>,
     /// Half of a pattern's life, s.
     period_s: f64,
-    table: Arc<Table>,
 }
 
 /// A pattern at a time.
@@ -66,7 +64,6 @@ impl Octave {
             depth_m: depth as f32,
             strength: (0..=LEVELS).map(of).collect(),
             period_s: PI * PI / 8.0 * turn_over_s,
-            table: table(),
         }
     }
 
@@ -115,8 +112,8 @@ impl Octave {
 
     /// Asks the processor for what a [velocity](Self::velocity) there reads.
     #[inline(always)]
-    pub(super) fn fetch_soon(&self, life: &Life, label: [f32; 3]) {
-        self.table.fetch_soon(self.in_table(life, label));
+    pub(super) fn fetch_soon(&self, table: &Table, life: &Life, label: [f32; 3]) {
+        table.fetch_soon(self.in_table(life, label));
     }
 
     /// Velocity of a pattern at a height where its coordinates are `label` (m), m/s: the curl of its strength times its
@@ -127,12 +124,13 @@ impl Octave {
     #[inline(always)]
     pub(super) unsafe fn velocity<P: Pair>(
         &self,
+        table: &Table,
         life: &Life,
         level: &Level,
         label: [f32; 3],
     ) -> [f32; 3] {
         // SAFETY: as the caller promises.
-        let (v, a) = unsafe { self.table.at::<P>(self.in_table(life, label)) };
+        let (v, a) = unsafe { table.at::<P>(self.in_table(life, label)) };
         let (low, high) = (self.strength[level.cell], self.strength[level.cell + 1]);
         let strength = level.between(&self.strength);
         // The potential is that of a side of 1; its strength changes upwards only.

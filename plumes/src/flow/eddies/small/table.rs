@@ -11,7 +11,7 @@
 use super::super::fourier::{Four, Fourier};
 use crate::quad::{Pair, Quad, fetch_soon};
 use std::f64::consts::TAU;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 use world::math;
 use world::seeds::Stream;
 
@@ -33,10 +33,11 @@ pub(super) struct Table {
 #[repr(align(32))]
 struct Node([[f32; 4]; 2]);
 
-/// The box of this process.
-pub(super) fn table() -> Arc<Table> {
-    static DRAWN: OnceLock<Arc<Table>> = OnceLock::new();
-    DRAWN.get_or_init(|| Arc::new(Table::new())).clone()
+/// The box of this process, drawn when it is first asked for.
+#[inline]
+pub(super) fn table() -> &'static Table {
+    static DRAWN: OnceLock<Table> = OnceLock::new();
+    DRAWN.get_or_init(Table::new)
 }
 
 impl Table {
@@ -201,7 +202,7 @@ mod tests {
                 let (mut low, mut high) = (q, q);
                 low[d] -= h;
                 high[d] += h;
-                let ((v0, a0), (v1, a1)) = (at(&table, low), at(&table, high));
+                let ((v0, a0), (v1, a1)) = (at(table, low), at(table, high));
                 let per = |a: [f32; 3], b: [f32; 3]| {
                     std::array::from_fn::<f64, 3, _>(|c| {
                         f64::from(b[c] - a[c]) / f64::from(2.0 * h)
@@ -210,7 +211,7 @@ mod tests {
                 (per(v0, v1), per(a0, a1))
             };
             let s = [slope(0), slope(1), slope(2)];
-            let v = at(&table, q).0;
+            let v = at(table, q).0;
             for c in 0..3 {
                 let (p, r) = ((c + 1) % 3, (c + 2) % 3);
                 let curl = s[p].1[r] - s[r].1[p];
