@@ -164,7 +164,7 @@ fn on_a_busy_machine_a_subscriber_learns_the_end_behind_a_large_plume() {
                 }
             });
         }
-        let missed = std::panic::catch_unwind(|| (0..20).for_each(one_end));
+        let missed = std::panic::catch_unwind(|| (0..12).for_each(one_end));
         over.store(true, Ordering::Relaxed);
         if let Err(why) = missed {
             std::panic::resume_unwind(why);
