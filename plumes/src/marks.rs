@@ -19,8 +19,8 @@ pub(crate) fn mark(marked: bool) -> u32 {
     u32::from(marked).wrapping_neg()
 }
 
-/// The instructions that gather marks.
-pub(crate) trait Gather {
+/// The instructions that make bits of marks.
+pub(crate) trait Movemask {
     /// The marks as bits, the first place in the last one.
     ///
     /// # Safety
@@ -31,7 +31,7 @@ pub(crate) trait Gather {
 /// Those of every machine.
 pub(crate) struct Portable;
 
-impl Gather for Portable {
+impl Movemask for Portable {
     #[inline(always)]
     unsafe fn bits(marks: &Marks) -> u32 {
         let bits = marks.iter().enumerate().map(|(l, mark)| mark & (1 << l));
@@ -44,7 +44,7 @@ impl Gather for Portable {
 pub(crate) struct Avx2;
 
 #[cfg(target_arch = "x86_64")]
-impl Gather for Avx2 {
+impl Movemask for Avx2 {
     #[inline(always)]
     unsafe fn bits(marks: &Marks) -> u32 {
         let mut all = 0;
@@ -63,7 +63,7 @@ impl Gather for Avx2 {
 pub(crate) struct Avx512;
 
 #[cfg(target_arch = "x86_64")]
-impl Gather for Avx512 {
+impl Movemask for Avx512 {
     #[inline(always)]
     unsafe fn bits(marks: &Marks) -> u32 {
         let mut all = 0;

@@ -6,7 +6,7 @@
 //!
 //! *Deviations*: none. A box that holds nothing has its sides the wrong way round, and no point is in it.
 
-use crate::marks::{self, Gather, Marks, mark};
+use crate::marks::{self, Marks, Movemask, mark};
 use crate::path::Path;
 
 /// Boxes side by side.
@@ -58,16 +58,16 @@ impl Boxes {
     /// The same for vector code that calls it.
     ///
     /// # Safety
-    /// The machine must have the instructions of `G`.
+    /// The machine must have the instructions of `M`.
     #[inline(always)]
-    pub(super) unsafe fn held<G: Gather>(&self, p: [f32; 3]) -> u32 {
+    pub(super) unsafe fn held<M: Movemask>(&self, p: [f32; 3]) -> u32 {
         let mut marks: Marks = [0; BOXES];
         for (l, one) in marks.iter_mut().enumerate() {
             let along = |d: usize| (p[d] >= self.lo[d][l]) & (p[d] <= self.hi[d][l]);
             *one = mark(along(0) & along(1) & along(2));
         }
         // SAFETY: as the caller promises.
-        unsafe { G::bits(&marks) }
+        unsafe { M::bits(&marks) }
     }
 }
 

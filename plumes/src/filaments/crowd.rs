@@ -18,7 +18,7 @@ use super::group::GROUP;
 use super::image::Felt;
 use super::leaf::{CUT_SIGMAS, LANES, LEAF, Leaf, Whole, felt_by};
 use super::moving::Moving;
-use crate::marks::{self, Gather};
+use crate::marks::{self, Movemask};
 use crate::path::Path;
 
 /// Filaments in a leaflet.
@@ -220,14 +220,14 @@ fn sum_avx512(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
 /// The sum of the leaflets that are hit, and which these are: their boxes hold the point.
 ///
 /// # Safety
-/// The machine must have the instructions of `G`.
+/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn sum<G: Gather>(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
+unsafe fn sum<M: Movemask>(crowd: &Crowd, p: [f32; 3], hits: &mut [u32; WORDS]) -> i64 {
     let mut total = Whole::default();
     let leaflets = crowd.leaflets.chunks(BOXES);
     for ((boxes, leaflets), hits) in crowd.boxes.iter().zip(leaflets).zip(hits) {
         // SAFETY: as the caller promises.
-        *hits = unsafe { boxes.held::<G>(p) };
+        *hits = unsafe { boxes.held::<M>(p) };
         for hit in set(*hits) {
             leaflets[hit].add(p, &mut total);
         }

@@ -11,7 +11,7 @@ use super::felt::{Asked, Present};
 use super::leaf::LEAF;
 use super::moving::{Moving, on_way};
 use super::side::{RUN, RUNS};
-use crate::marks::{self, Gather, Marks, mark};
+use crate::marks::{self, Marks, Movemask, mark};
 use crate::path::Path;
 
 /// Coordinates of the members at the start and at the end of their step.
@@ -97,9 +97,9 @@ fn look_avx512(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
 /// Notes the members within reach.
 ///
 /// # Safety
-/// The machine must have the instructions of `G`.
+/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn look<G: Gather>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
+unsafe fn look<M: Movemask>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near) {
     let n = ways[0][0].len();
     let mut left = runs;
     while left != 0 {
@@ -108,7 +108,7 @@ unsafe fn look<G: Gather>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near
         let from = run * RUN;
         if from + RUN <= n {
             // SAFETY: here and below, as the caller promises.
-            near[run] = unsafe { within::<G>(asked, ways, from) };
+            near[run] = unsafe { within::<M>(asked, ways, from) };
         } else if from < n {
             let mut last = [[[0.0; RUN]; 2]; 3];
             for d in 0..3 {
@@ -119,7 +119,7 @@ unsafe fn look<G: Gather>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near
             let [[x, x1], [y, y1], [z, z1]] = &last;
             let last = [[x, x1], [y, y1], [z, z1]].map(|ends| ends.map(|end| &end[..]));
             // SAFETY: as above.
-            let bits = unsafe { within::<G>(asked, &last, 0) };
+            let bits = unsafe { within::<M>(asked, &last, 0) };
             near[run] = bits & ((1 << (n - from)) - 1);
         }
     }
@@ -128,9 +128,9 @@ unsafe fn look<G: Gather>(asked: &Asked, ways: &Ways, runs: u32, near: &mut Near
 /// One bit for each of a run that is within reach.
 ///
 /// # Safety
-/// The machine must have the instructions of `G`.
+/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn within<G: Gather>(asked: &Asked, ways: &Ways, from: usize) -> u32 {
+unsafe fn within<M: Movemask>(asked: &Asked, ways: &Ways, from: usize) -> u32 {
     let (p, part) = (asked.p, asked.moment.part);
     let flat = asked.flat_reach();
     let [[x, x1], [y, y1], [z, z1]] = ways;
@@ -146,5 +146,5 @@ unsafe fn within<G: Gather>(asked: &Asked, ways: &Ways, from: usize) -> u32 {
         inside[l] = mark(near);
     }
     // SAFETY: as the caller promises.
-    unsafe { G::bits(&inside) }
+    unsafe { M::bits(&inside) }
 }

@@ -7,7 +7,7 @@
 //! *Deviations*: none. Of a thousand neighbours, ten are near a point in the plume. Runs rule out most of the others.
 
 use super::group::GROUP;
-use crate::marks::{self, Gather, Marks, mark};
+use crate::marks::{self, Marks, Movemask, mark};
 use crate::path::Path;
 
 /// Neighbours in a run.
@@ -135,9 +135,9 @@ fn most(a: f32, b: f32) -> f32 {
 }
 
 /// # Safety
-/// The machine must have the instructions of `G`.
+/// The machine must have the instructions of `M`.
 #[inline(always)]
-unsafe fn runs<G: Gather>(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
+unsafe fn runs<M: Movemask>(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u32 {
     let mut near: Marks = [0; RUNS];
     for (run, near) in near.iter_mut().enumerate() {
         let along = |d: usize| {
@@ -147,7 +147,7 @@ unsafe fn runs<G: Gather>(sides: [&Side; 3], p: [f32; 3], reach: [f32; 3]) -> u3
         *near = mark(along(0) & along(1) & along(2));
     }
     // SAFETY: as the caller promises.
-    unsafe { G::bits(&near) }
+    unsafe { M::bits(&near) }
 }
 
 #[cfg(test)]

@@ -109,6 +109,22 @@ fn divergence_is_only_that_of_the_grid() {
 }
 
 #[test]
+fn what_a_check_asks_of_the_water_is_all_but_its_eddies() {
+    let water = water(2.5, 4);
+    let eddies = water.eddies().unwrap();
+    let mut strongest: f64 = 0.0;
+    for (n, z) in [-0.19, -0.1, -0.03].into_iter().enumerate() {
+        let (p, t_s) = (Vector3::new(0.3 * n as f64, -0.1, z), 7.0 * n as f64);
+        let without = water.velocity_without_eddies(&p, t_s);
+        assert_eq!(without, water.velocity_without_eddies(&p, 0.0), "steady");
+        let of_eddies = eddies.velocity(&p, t_s);
+        assert_eq!(water.velocity(&p, t_s), without + of_eddies);
+        strongest = strongest.max(of_eddies.norm());
+    }
+    assert!(strongest > 1e-3, "{strongest}");
+}
+
+#[test]
 fn any_number_of_threads_draws_the_same_stretch() {
     let bits = |threads: usize| {
         let nodes = Stretch::new(&shape(12), 3, threads).nodes;
