@@ -138,9 +138,12 @@ fn stamp(payload: &[u8]) -> (i32, u32) {
 fn nodes_see_every_topic_of_the_table_and_hear_it() {
     let live = start("ros2_1", 31);
     let session = client(live.endpoint());
-    let samples = session
+    // Without a bound: a full channel would hold up the session, and with it the answers that are asked for below.
+    let (hear, samples) = std::sync::mpsc::channel();
+    let _subscriber = session
         .declare_subscriber("31/**")
         .history(HistoryConfig::default().detect_late_publishers())
+        .callback(move |sample| drop(hear.send(sample)))
         .wait()
         .unwrap();
     // Topics come into being with their first message; what is said twice is surely heard.
@@ -155,7 +158,7 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
         live.picture(&picture(1.0));
         sent(&live);
         step += 1;
-        while let Ok(Some(sample)) = samples.try_recv() {
+        for sample in samples.try_iter() {
             let name = name_of(&sample);
             seen.insert(row(&name).name);
             heard.insert(name, sample);
@@ -164,8 +167,8 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
     let known = publishers(&session, 31);
     // Two names share a row; what is latched for the other one may still be on its way.
     while !known.keys().eq(heard.keys()) {
-        let sample = samples.recv_timeout(PATIENCE).expect("session is open");
-        let sample = sample.unwrap_or_else(|| panic!("{:?} are not {known:?}", heard.keys()));
+        let sample = samples.recv_timeout(PATIENCE);
+        let sample = sample.unwrap_or_else(|e| panic!("{e}: {:?} are not {known:?}", heard.keys()));
         heard.insert(name_of(&sample), sample);
     }
     for (name, sample) in &heard {
