@@ -198,17 +198,17 @@ unsafe fn moved<P: Pair>(
 ) {
     let middle_s = 0.5 * (span.from_s + span.to_s);
     let lives = small.lives(middle_s);
-    let then = (middle_s, &*lives);
+    let middle = (middle_s, &*lives);
     if range.is_empty() {
         return;
     }
-    let mut next = ready(labels, small, store, range.start, then);
+    let mut next = ready(labels, small, store, range.start, middle);
     let patterns = labels.patterns;
     for n in range.clone() {
         let weights = next;
         // What moves the next filament is on its way while one is moved.
         if n + 1 < range.end {
-            next = ready(labels, small, store, n + 1, then);
+            next = ready(labels, small, store, n + 1, middle);
         }
         let dt = (span.to_s - store.born_s[n].max(span.from_s)) as f32;
         let place = [store.x[n], store.y[n], store.z[n]];

@@ -18,6 +18,7 @@ use super::fourier::{Four, Fourier};
 use super::spectrum::{ELONGATION, Spectrum};
 use crate::flow::channel::INTENSITIES;
 use std::f64::consts::{PI, TAU};
+use std::sync::Mutex;
 use world::math;
 use world::seeds::{Seed, Stream};
 
@@ -176,21 +177,24 @@ impl Stretch {
         let drawn = Amplitudes::draw(shape, seed.into());
         let sheet = LENGTH * (shape.up + 1);
         let mut nodes = vec![[0.0_f32; 4]; sheet * (shape.across + 1)];
-        let share = (shape.across + 1).div_ceil(threads.max(1));
-        let of = |n: usize, sheets: &mut [[f32; 4]]| {
-            for (y, sheet) in sheets.chunks_exact_mut(sheet).enumerate() {
-                drawn.sum(n * share + y, sheet);
+        let sheets = Mutex::new(nodes.chunks_exact_mut(sheet).enumerate());
+        let next = || {
+            sheets
+                .lock()
+                .expect("nobody panics while it is held")
+                .next()
+        };
+        let work = || {
+            while let Some((y, sheet)) = next() {
+                drawn.sum(y, sheet);
             }
         };
         std::thread::scope(|scope| {
-            let mut shares = nodes.chunks_mut(share * sheet).enumerate();
-            let own = shares.next();
-            for (n, sheets) in shares {
-                scope.spawn(move || of(n, sheets));
+            for _ in 1..threads.min(shape.across + 1) {
+                // Without the thread, the others do its part.
+                drop(std::thread::Builder::new().spawn_scoped(scope, work));
             }
-            if let Some((n, sheets)) = own {
-                of(n, sheets);
-            }
+            work();
         });
         Self { nodes }
     }
