@@ -4,8 +4,8 @@
 //! numbers are `f64`: a product that is too large becomes infinite, and [`Cost::fits`] treats NaN as too much.
 //!
 //! *Calibration*: times are for one core of an AMD EPYC in a virtual machine. They come from README's benchmarks and
-//! from runs of duck_st, uniform_channel, flume_crab, harbour_3d, wp_laminar and moth_eyes. The time of a whole run was
-//! within a factor of two of its estimate. Missions that end before `time.limit_s` take less.
+//! from runs of duck_st, uniform_channel, flume_crab_paper, harbour_3d, wp_laminar and moth_eyes. The time of a whole run
+//! was within a factor of two of its estimate. Missions that end before `time.limit_s` take less.
 
 use crate::limits::shown;
 use crate::math;

@@ -18,7 +18,7 @@ fn run(name: &str, seed: u64) -> Ended {
     trial.finish_quietly()
 }
 
-#[divan::bench(args = ["duck_st", "flume_crab", "uniform_channel"], sample_count = 3, sample_size = 1)]
+#[divan::bench(args = ["duck_st", "flume_crab_paper", "uniform_channel"], sample_count = 3, sample_size = 1)]
 #[allow(
     clippy::disallowed_methods,
     clippy::print_stdout,

@@ -90,6 +90,7 @@ pub const CATALOG: &[Template] = catalog![
     "moth_eyes",
     "inspect_places",
     "flume_crab",
+    "flume_crab_paper",
     "flume_external",
     "uniform_channel",
     "remus_turning_circle",
