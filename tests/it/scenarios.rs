@@ -1,9 +1,10 @@
 //! Scenarios as users write them: those that come with the program, and any number of everything.
 
 use crate::common;
-use rheotaxis::scenario::{CATALOG, load};
+use rheotaxis::scenario::{CATALOG, load, load_text, put};
 use serde_json::Value;
 use std::path::Path;
+use world::registry::Registry;
 
 /// The quick channel with two sources, a block and a pile, and as many robots as asked for.
 fn crowded(robots: usize) -> String {
@@ -76,6 +77,88 @@ fn those_that_come_with_the_program_are_fine() {
             !loaded.scenario.citation.is_empty(),
             "{} has no citation",
             template.name
+        );
+    }
+}
+
+/// Where two documents differ.
+fn unlike(a: &Value, b: &Value, at: &str, found: &mut Vec<String>) {
+    match (a, b) {
+        (Value::Object(a), Value::Object(b)) if a.keys().eq(b.keys()) => {
+            for (name, value) in a {
+                unlike(value, &b[name], &format!("{at}.{name}"), found);
+            }
+        }
+        (Value::Array(a), Value::Array(b)) if a.len() == b.len() => {
+            for (k, (a, b)) in a.iter().zip(b).enumerate() {
+                unlike(a, b, &format!("{at}[{k}]"), found);
+            }
+        }
+        _ if a == b => {}
+        _ => found.push(at.to_string()),
+    }
+}
+
+fn scenario(name: &str) -> Value {
+    serde_json::to_value(load(Path::new(name)).unwrap().scenario).unwrap()
+}
+
+/// The mission for a searcher outside is the same mission, and so is that of another tracker.
+#[test]
+fn scenarios_that_say_they_are_another_differ_only_in_who_searches() {
+    for (name, of, who) in [
+        ("duck_external", "duck_st", ".robots[0].strategy"),
+        ("flume_external", "flume_crab", ".gantries[0].tracker"),
+        ("flume_crab_paper", "flume_crab", ".gantries[0].tracker"),
+    ] {
+        let mut found = Vec::new();
+        unlike(&scenario(name), &scenario(of), "", &mut found);
+        found.retain(|path| !path.starts_with(who));
+        assert_eq!(found, [".title"], "{name} beside {of}");
+    }
+    let fallback = &scenario("duck_external")["robots"][0]["strategy"]["External"]["on_late"];
+    assert_eq!(
+        fallback["Fallback"],
+        scenario("duck_st")["robots"][0]["strategy"]
+    );
+}
+
+/// `flume_crab` runs what `rheotaxis reproduce crab` measures as `adaptive`, beside the paper's tracker.
+#[test]
+fn the_crab_of_the_catalogue_is_the_one_that_is_measured() {
+    let row = include_str!("../reference/rows/crab.ron");
+    let row: ron::Value = ron::from_str(row).expect("a row is RON");
+    let row = serde_json::to_value(row).expect("and JSON");
+    assert_eq!(row["scenario"], "flume_crab_paper");
+    let arm = |name: &str| {
+        let arms = row["arms"].as_array().expect("it has arms");
+        arms.iter().find(|a| a["name"] == name).expect("the arm")["set"].clone()
+    };
+    assert_eq!(arm("paper"), Value::Null);
+    let mut text = include_str!("../../scenarios/catalog/flume_crab_paper.ron").to_string();
+    for change in arm("adaptive").as_array().expect("it changes something") {
+        let part = |k: usize| change[k].as_str().expect("a text");
+        text = put(&text, part(0), part(1)).expect("a field");
+    }
+    let measured = load_text(&Registry::default(), "measured", &text)
+        .unwrap()
+        .scenario;
+    let measured = serde_json::to_value(measured).unwrap();
+    let tracker = |scenario: &Value| scenario["gantries"][0]["tracker"].clone();
+    assert_eq!(tracker(&measured), tracker(&scenario("flume_crab")));
+}
+
+/// Their heads say that they meet neither bed nor surface.
+#[test]
+fn manoeuvring_trials_touch_nothing() {
+    let dir = tempfile::tempdir().unwrap();
+    for name in ["remus_turning_circle", "remus_zigzag", "remus_dive"] {
+        let text = rheotaxis::scenario::template(name).unwrap().text;
+        let (code, summary) = common::mission(dir.path(), name, text);
+        assert_eq!(
+            (code, &summary["abnormal"]),
+            (0, &serde_json::json!([])),
+            "{name}"
         );
     }
 }
