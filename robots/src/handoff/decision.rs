@@ -192,6 +192,8 @@ pub struct Declaration {
     pub t_s: f64,
     /// Where, as the vehicle believes (east, north), m.
     pub position: Vector2<f64>,
+    /// How high (up from the still surface), m; `None` if the rule says only where on the map.
+    pub z_m: Option<f64>,
     /// By which rule.
     pub rule: &'static str,
     /// Subregion of the mission in which it was made, from 0; `None` if the mission has no subregions.
@@ -215,6 +217,7 @@ impl Declaration {
             number: 0,
             t_s,
             position,
+            z_m: None,
             rule,
             region: None,
             verdict: Verdict::Unchecked,

@@ -283,7 +283,12 @@ impl MapAndPlan {
         if self.visit_first && self.visited != Some(belief.best) {
             return None;
         }
-        Some(Declaration::first(seen.t_s, position.xy(), self.rule_name))
+        // The one level of a flat map says nothing of the source's height.
+        let z_m = (belief.grid.n[2] > 1).then_some(position.z);
+        Some(Declaration {
+            z_m,
+            ..Declaration::first(seen.t_s, position.xy(), self.rule_name)
+        })
     }
 }
 

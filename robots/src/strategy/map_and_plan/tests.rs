@@ -66,6 +66,20 @@ fn belief(at: Vector3<f64>, updates: u64) -> Belief {
     }
 }
 
+/// The same with four levels of 2 m.
+fn belief_of_space(at: Vector3<f64>) -> Belief {
+    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 4]);
+    let best = grid.cell(&at).expect("inside");
+    let mut p = vec![1e-4; grid.len()];
+    p[best] = 0.6;
+    Belief {
+        grid: Arc::new(grid),
+        p: Arc::new(p),
+        best,
+        ..belief(at, 1)
+    }
+}
+
 /// The vehicle on its own.
 struct Drive {
     strategy: MapAndPlan,
@@ -320,17 +334,7 @@ fn goes_up_and_down_in_a_room_of_space() {
     // A sill from side to side, 4 m high on a bed 8 m deep.
     let sill = || vec![block("sill", 50.0, 50.0, [6.0, 100.0, 3.0])];
     let mut d = Drive::new(&spec, sill(), sill(), [90.0, 50.0], 270.0);
-    let grid = BeliefGrid::over(&area(), 0.0, 8.0, [40, 25, 4]);
-    let at = Vector3::new(21.25, 50.0, -5.0);
-    let best = grid.cell(&at).expect("inside");
-    let mut p = vec![1e-4; grid.len()];
-    p[best] = 0.6;
-    d.belief = Some(Belief {
-        grid: Arc::new(grid),
-        p: Arc::new(p),
-        best,
-        ..belief(at, 1)
-    });
+    d.belief = Some(belief_of_space(Vector3::new(21.25, 50.0, -5.0)));
     let first = d.step();
     assert_eq!(first.behaviour, Behaviour::FollowPath);
     let over = first
@@ -340,6 +344,22 @@ fn goes_up_and_down_in_a_room_of_space() {
         .map(|p| p.z);
     assert!(over.clone().count() == 0 || over.fold(f64::INFINITY, f64::min) > -5.0);
     assert!(matches!(first.goal.vertical, Vertical::Depth(m) if (0.0..8.0).contains(&m)));
+}
+
+#[test]
+fn a_map_of_space_declares_a_height_and_a_flat_one_does_not() {
+    let at = Vector3::new(31.25, 50.0, -5.0);
+    let declared = |belief: Belief| {
+        let mut d = Drive::new(&spec(), vec![], vec![], [60.0, 50.0], 270.0);
+        d.belief = Some(belief);
+        d.run(300.0, [31.25, 50.0])
+            .0
+            .declared
+            .expect("declared")
+            .z_m
+    };
+    assert_eq!(declared(belief_of_space(at)), Some(-5.0));
+    assert_eq!(declared(belief(at, 1)), None);
 }
 
 #[test]

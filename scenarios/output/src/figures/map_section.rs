@@ -95,16 +95,12 @@ pub(super) fn draw(c: &mut Canvas, run: &RunReport<'_>, map: &Panel, top: f64) -
         track(c, &cut, &panel, t);
     }
     layers::true_source(c, panel.at([0.0, source.position.z]));
-    for d in run
-        .track
-        .robots
-        .iter()
-        .flat_map(RobotTrack::declared_inside)
-    {
-        let at = cut.local(d);
-        if at.y.abs() <= cut.half_m {
-            // A declaration is a place on the map; here it stands on the bed.
-            layers::declared(c, panel.at([at.x, bed(at.x)]));
+    for t in &run.track.robots {
+        for d in t.declarations.iter().filter(|d| !d.at_edge()) {
+            let at = cut.local([d.position.x, d.position.y]);
+            if let Some(z) = t.declared_z(d).filter(|_| at.y.abs() <= cut.half_m) {
+                layers::declared(c, panel.at([at.x, z]));
+            }
         }
     }
     c.unclip();

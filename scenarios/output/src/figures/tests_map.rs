@@ -3,8 +3,10 @@
 
 use super::map::{inset, sheet};
 use super::map_layers as layers;
+use super::map_section;
 use super::series_panels::event;
 use crate::charts::canvas::{Anchor, Canvas};
+use crate::charts::palette::DECLARED;
 use crate::charts::panel::Panel;
 use crate::charts::room::Room;
 use crate::results::{
@@ -303,6 +305,57 @@ fn a_section_is_drawn_where_the_map_cannot_show_the_way_of_the_water() {
     assert!(!drawn(&beside(-20.0, 1.0)), "from bed to surface");
     assert!(drawn(&beside(-1.0, 1.0)), "water under it");
     assert!(drawn(&beside(-20.0, -3.0)), "water over it");
+}
+
+/// Where the section has the diamond of a declaration of this height: its upper corner, px.
+fn diamond_px(z_m: Option<f64>) -> f64 {
+    let mut run = frames(400);
+    for f in &mut run {
+        for d in &mut f.robots[0].declarations {
+            d.z_m = z_m;
+        }
+    }
+    let p = source().position.xy() + source().flow.normalize() * 60.0;
+    let corners = [[-20.0, -20.0], [20.0, -20.0], [20.0, 20.0], [-20.0, 20.0]];
+    let quay = ObstacleOutline {
+        id: "quay".into(),
+        corners: corners.map(|c| [p.x + c[0], p.y + c[1]]).to_vec(),
+        z: [-1.0, 1.0],
+        permeable: false,
+    };
+    reported(&run, &area(), &[source()], &[quay], |run| {
+        let map = Panel {
+            x: [-700.0, 700.0],
+            y: [-700.0, 700.0],
+            ..panel(600.0, 600.0)
+        };
+        let mut c = Canvas::new(800.0, 1000.0);
+        map_section::draw(&mut c, run, &map, 700.0).expect("a section");
+        let svg = c.svg("section");
+        let mut drawn = svg.split('<').filter(|e| e.contains(DECLARED));
+        let diamond = drawn.next().expect("the declaration");
+        assert!(drawn.next().is_none());
+        let first = diamond.split_once("M").expect("a path").1;
+        let numbers = first.split(|c: char| c != '.' && !c.is_ascii_digit());
+        let mut numbers = numbers.filter_map(|n| n.parse().ok());
+        numbers.nth(1).expect("x and y")
+    })
+}
+
+#[test]
+fn a_section_shows_a_declaration_at_its_height_or_at_that_of_the_vehicle() {
+    let [one, two, five] = [-1.0, -2.0, -5.0].map(|z| diamond_px(Some(z)));
+    let a_metre = two - one;
+    assert!(
+        a_metre > 5.0 && (five - two - 3.0 * a_metre).abs() < 0.25,
+        "{one} {two} {five}"
+    );
+    let run = frames(400);
+    let declared = run.iter().find(|f| !f.robots[0].declarations.is_empty());
+    let z = declared.expect("it declares").robots[0].truth.pose.p_WB.z;
+    let expected = one + a_metre * (-1.0 - z);
+    let px = diamond_px(None);
+    assert!((px - expected).abs() < 0.25, "{px} for {expected}: {z} m");
 }
 
 #[test]

@@ -129,6 +129,15 @@ impl RobotTrack {
         inside.map(|d| [d.position.x, d.position.y])
     }
 
+    /// How high a declared source is drawn (up from the still surface), m: where its rule puts it, or else where the
+    /// vehicle was when it declared. `None` before the first moment.
+    #[must_use]
+    pub fn declared_z(&self, declared: &Declaration) -> Option<f64> {
+        let apart = |r: &&TrackRow| (r.t_s - declared.t_s).abs();
+        let nearest = || (self.rows.iter()).min_by(|a, b| apart(a).total_cmp(&apart(b)));
+        declared.z_m.or_else(|| nearest().map(|r| r.p[2]))
+    }
+
     /// Notes which lost points are new, and which have gone.
     fn lost(&mut self, t_s: f64, r: &RobotFrame) {
         let new = r.lost_points.iter().map(|q| [q.x, q.y]);
