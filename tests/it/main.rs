@@ -24,6 +24,7 @@ mod outputs;
 mod outside;
 mod packages;
 mod planning;
+mod promises;
 mod readme;
 mod rejection;
 mod reproduce;
