@@ -1,12 +1,18 @@
 //! Ctrl-C ends a run in order: the recording is whole, the summary says so. A second one ends it at once.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "a process is interrupted after a while, whatever it was doing"
-)]
 
 use crate::common;
-use std::process::{Command, Stdio};
-use std::time::Duration;
+use crate::waits::{INT, Process, until};
+use std::path::Path;
+use std::process::Stdio;
+
+/// Waits until a run's table has so many lines.
+fn has_lines(run: &mut Process, out: &Path, n: usize) {
+    until("the mission is under way", || {
+        assert_eq!(run.ended(), None, "the run ended by itself");
+        let table = std::fs::read_to_string(out.join("track.csv")).unwrap_or_default();
+        (table.lines().count() >= n).then_some(())
+    });
+}
 
 #[test]
 fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
@@ -21,27 +27,11 @@ fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
         "--quiet",
         "--out",
     ];
-    let mut run = common::command(dir.path(), &args)
-        .arg(&out)
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    // The mission is under way once its table has rows.
-    let table = out.join("track.csv");
-    let rows = || std::fs::read_to_string(&table).map_or(0, |t| t.lines().count());
-    while rows() < 20 {
-        assert!(run.try_wait().unwrap().is_none(), "the run ended by itself");
-        std::thread::yield_now();
-    }
-    let pid = run.id().to_string();
-    assert!(
-        Command::new("kill")
-            .args(["-INT", &pid])
-            .status()
-            .unwrap()
-            .success()
-    );
-    assert_eq!(run.wait().unwrap().code(), Some(130));
+    let mut command = common::command(dir.path(), &args);
+    let mut run = Process::start(command.arg(&out).stderr(Stdio::null()));
+    has_lines(&mut run, &out, 20);
+    run.signal("-INT");
+    assert_eq!(run.end().code(), Some(130));
 
     let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();
     let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
@@ -64,22 +54,15 @@ fn ctrl_c_leaves_a_whole_recording_and_a_summary_marked_interrupted() {
     );
 }
 
-/// Sends Ctrl-C until the process has ended, and says with which code, or nothing where it does not within a minute.
-fn interrupted_until_it_ends(run: &mut std::process::Child) -> Option<i32> {
-    let pid = run.id().to_string();
-    for _ in 0..600 {
-        if let Some(ended) = run.try_wait().unwrap() {
-            return ended.code();
-        }
-        // It may have ended in between.
-        let _ = Command::new("kill")
-            .args(["-INT", &pid])
-            .stderr(Stdio::null())
-            .status();
-        std::thread::sleep(Duration::from_millis(100));
-    }
-    run.kill().unwrap();
-    None
+/// Waits until a process listens to Ctrl-C, sends it until the process has ended, and says with which code.
+#[track_caller]
+fn interrupted_until_it_ends(run: &mut Process) -> Option<i32> {
+    assert!(run.handles(INT), "it ended by itself");
+    until("it ends at Ctrl-C", || {
+        run.signal("-INT");
+        run.ended()
+    })
+    .code()
 }
 
 /// While the water round a quay is worked out, which takes seconds, the first Ctrl-C waits; the second does not.
@@ -92,11 +75,7 @@ fn a_second_ctrl_c_ends_a_run_at_once() {
     let fine = "blockage: (cell_m: 1, levels: 25, margin_m: 30)";
     std::fs::write(dir.path().join("s.ron"), text.replace(cells, fine)).unwrap();
     let args = ["run", "s.ron", "--no-zenoh", "--quiet", "--out", "out"];
-    let mut run = common::command(dir.path(), &args)
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
-    std::thread::sleep(Duration::from_millis(500));
+    let mut run = Process::start(common::command(dir.path(), &args).stderr(Stdio::null()));
     assert_eq!(interrupted_until_it_ends(&mut run), Some(130));
     assert!(!dir.path().join("out").exists(), "it ended in order");
 }
@@ -122,17 +101,8 @@ fn long_commands_end_at_ctrl_c() {
         &["reproduce", "duck_st", "--quiet", "--out", "rows"],
     ] {
         let dir = tempfile::tempdir().unwrap();
-        let mut run = common::command(dir.path(), args)
-            .stderr(Stdio::null())
-            .stdout(Stdio::null())
-            .spawn()
-            .unwrap();
-        // Not before it listens.
-        std::thread::sleep(Duration::from_secs(2));
-        assert!(
-            run.try_wait().unwrap().is_none(),
-            "{args:?} ended by itself"
-        );
+        let mut command = common::command(dir.path(), args);
+        let mut run = Process::start(command.stderr(Stdio::null()).stdout(Stdio::null()));
         assert_eq!(interrupted_until_it_ends(&mut run), Some(130), "{args:?}");
     }
 }
@@ -155,24 +125,10 @@ fn ctrl_c_ends_a_run_that_waits_for_its_pace() {
             "out",
             "--speed",
         ];
-        let mut run = common::command(dir.path(), &args)
-            .arg(speed)
-            .stderr(Stdio::null())
-            .spawn()
-            .unwrap();
-        let rows =
-            || std::fs::read_to_string(out.join("track.csv")).map_or(0, |t| t.lines().count());
-        while rows() < 2 {
-            assert_eq!(
-                run.try_wait().unwrap(),
-                None,
-                "the run ended by itself at {speed}"
-            );
-            std::thread::yield_now();
-        }
-        let pid = run.id().to_string();
-        let sent = Command::new("kill").args(["-INT", &pid]).status();
-        assert!(sent.unwrap().success());
-        assert_eq!(run.wait().unwrap().code(), Some(130), "{speed}");
+        let mut command = common::command(dir.path(), &args);
+        let mut run = Process::start(command.arg(speed).stderr(Stdio::null()));
+        has_lines(&mut run, &out, 2);
+        run.signal("-INT");
+        assert_eq!(run.end().code(), Some(130), "{speed}");
     }
 }

@@ -12,7 +12,7 @@ mod setup;
 
 use image::Rgb;
 use kit::{
-    PATIENCE, broken, client, frame, json, kept, listen, meta, next, options, plume,
+    broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume,
     scene_document, sent, start, water,
 };
 use output::live::{Live, LiveOptions, Payload, topics};
@@ -134,15 +134,8 @@ fn a_subscriber_started_after_the_end_sees_schema_state_and_end_until_the_run_cl
     let live = start("after_1");
     live.publish(&frame(9));
     live.end("d1");
-    // The end is published by another thread: ask until it is there.
     let session = client(live.endpoint());
-    let mut seen = kept(&session, "after_1");
-    while !seen
-        .get("clock")
-        .is_some_and(|clock| json(clock)["ended"] == true)
-    {
-        seen = kept(&session, "after_1");
-    }
+    let seen = kept_at_the_end(&session, "after_1");
     assert_whole(&seen, 9);
 
     let alive = session
@@ -170,7 +163,7 @@ fn zenoh_s_own_advanced_subscriber_finds_the_cached_meta() {
     live.end("d1");
     // Scenario, scene, version and digest.
     while seen.len() < 4 {
-        let sample = samples.recv_timeout(PATIENCE).unwrap().expect("cached");
+        let sample = next(&samples);
         seen.insert(sample.key_expr().as_str().to_owned(), json(&sample));
     }
     assert_eq!(
@@ -223,13 +216,7 @@ fn every_message_keeps_its_published_schema() {
     live.ping(&ping(1.0));
     live.end("d1");
     let session = client(live.endpoint());
-    let mut seen = kept(&session, "schema_1");
-    while !seen
-        .get("clock")
-        .is_some_and(|clock| json(clock)["ended"] == true)
-    {
-        seen = kept(&session, "schema_1");
-    }
+    let seen = kept_at_the_end(&session, "schema_1");
     for topic in topics() {
         let schema = json(&seen[&format!("meta/schema/{}", topic.name)]);
         let key = key_of(topic.key).replace("<name>", "clock");
@@ -294,13 +281,7 @@ fn a_gantry_in_its_flume_keeps_the_schemas() {
     let Publishing(live) = watch;
     live.end(&ended.digest);
     let session = client(live.endpoint());
-    let mut seen = kept(&session, "flume_1");
-    while !seen
-        .get("clock")
-        .is_some_and(|clock| json(clock)["ended"] == true)
-    {
-        seen = kept(&session, "flume_1");
-    }
+    let seen = kept_at_the_end(&session, "flume_1");
     for topic in ["joints", "probes", "spikes", "gantry_behaviour"] {
         let schema = json(&seen[&format!("meta/schema/{topic}")]);
         let key = format!("gantry/crab0/{}", topic.trim_start_matches("gantry_"));

@@ -41,3 +41,4 @@ mod vehicle_contacts;
 mod vehicle_effects;
 mod vehicle_mass;
 mod vehicle_published;
+mod waits;

@@ -6,19 +6,15 @@
 #![cfg(target_os = "linux")]
 
 use crate::common;
+use crate::waits::{Process, pause};
 use serde_json::Value;
 use std::path::Path;
-use std::time::Duration;
 
 /// A mission of two hours with a hundred thousand filaments stays below this, MB.
 const MOST_MB: f64 = 300.0;
 
 /// The Duck mission with so many filaments a second and other times, its declaration never fulfilled: it runs to the time limit with
 /// recording, live state, figures and report. Returns the peak of the resident memory, MB, and the filaments at the end.
-#[allow(
-    clippy::disallowed_methods,
-    reason = "waits for another process, outside any tick"
-)]
 fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
     let mut text = include_str!("../../scenarios/catalog/duck_st.ron").to_string();
     for (from, to) in [
@@ -51,8 +47,8 @@ fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
         "--out",
         out.to_str().unwrap(),
     ];
-    let mut child = common::command(dir, &args).spawn().unwrap();
-    let status = format!("/proc/{}/status", child.id());
+    let mut run = Process::start(&mut common::command(dir, &args));
+    let status = format!("/proc/{}/status", run.0.id());
     let mut peak_kb = 0.0;
     let code = loop {
         // The kernel's own peak, so that only what the last few milliseconds add can be missed.
@@ -61,10 +57,10 @@ fn peak(dir: &Path, rate_hz: &str, times: &[(&str, &str)]) -> (f64, u64) {
         {
             peak_kb = line.split_whitespace().nth(1).unwrap().parse().unwrap();
         }
-        if let Some(ended) = child.try_wait().unwrap() {
+        if let Some(ended) = run.ended() {
             break ended.code();
         }
-        std::thread::sleep(Duration::from_millis(5));
+        pause(0.005);
     };
     assert_eq!(code, Some(3), "the mission ends with its time limit");
     let summary = std::fs::read_to_string(out.join("summary.json")).unwrap();

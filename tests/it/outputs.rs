@@ -6,11 +6,11 @@ mod beside;
 mod kept;
 
 use crate::common::{self, command, with_fields};
+use crate::waits::Process;
 use std::fs;
 use std::os::unix::fs::{FileTypeExt, symlink};
 use std::path::Path;
 use std::process::{Command, Output, Stdio};
-use std::time::{Duration, Instant};
 
 /// The scenario to learn from, cut to a few seconds.
 fn short() -> String {
@@ -22,31 +22,13 @@ fn mkfifo(path: &Path) {
     assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
 }
 
-/// Ends within a minute: nobody writes to, or reads from, any pipe here.
+/// Ends: nobody writes to, or reads from, any pipe here.
 #[track_caller]
-#[allow(
-    clippy::disallowed_methods,
-    reason = "a process that waits for ever is found out by waiting"
-)]
 fn ends(dir: &Path, args: &[&str]) -> (Option<i32>, String) {
-    let mut child = command(dir, args)
-        .stdin(Stdio::null())
-        .stdout(Stdio::null())
-        .stderr(fs::File::create(dir.join("said")).unwrap())
-        .spawn()
-        .unwrap();
-    let begun = Instant::now();
-    let status = loop {
-        if let Some(status) = child.try_wait().unwrap() {
-            break status;
-        }
-        if begun.elapsed() > Duration::from_secs(60) {
-            child.kill().unwrap();
-            child.wait().unwrap();
-            panic!("{args:?} waits for ever");
-        }
-        std::thread::sleep(Duration::from_millis(10));
-    };
+    let mut command = command(dir, args);
+    command.stdin(Stdio::null()).stdout(Stdio::null());
+    let said = fs::File::create(dir.join("said")).unwrap();
+    let status = Process::start(command.stderr(said)).end();
     (status.code(), fs::read_to_string(dir.join("said")).unwrap())
 }
 

@@ -1,15 +1,11 @@
 //! Campaigns whose arms go in lanes: killed, continued, with arms that end at different times.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "a process is killed after a while, whatever it was doing"
-)]
 
 use crate::common::{self, timeless_rows as rows};
+use crate::waits::{Process, kill_again_and_again};
 use rheotaxis::trial::Trial;
 use std::fs;
 use std::path::Path;
-use std::process::{Child, Stdio};
-use std::time::Duration;
+use std::process::Stdio;
 use studies::campaign::{load, read_rows};
 use world::seeds::Stream;
 
@@ -18,7 +14,7 @@ const CAMPAIGN: &str = r#"(
     version: 2,
     title: "Lanes",
     base: "pond.ron",
-    seeds: 60,
+    seeds: 24,
     arms: [
         (name: "long"),
         (name: "short", set: [("time.limit_s", "2")]),
@@ -36,23 +32,22 @@ const CAMPAIGN: &str = r#"(
 fn folder() -> tempfile::TempDir {
     let dir = tempfile::tempdir().unwrap();
     let channel = include_str!("../../../scenarios/catalog/uniform_channel.ron");
-    let times = [("spin_up_s", "30"), ("limit_s", "4")];
+    let times = [("spin_up_s", "10"), ("limit_s", "4")];
     let pond = common::with_fields(channel, &times);
     fs::write(dir.path().join("pond.ron"), pond).unwrap();
     fs::write(dir.path().join("c.ron"), CAMPAIGN).unwrap();
     dir
 }
 
-fn start(dir: &Path, out: &str) -> Child {
+fn start(dir: &Path, out: &str) -> Process {
     let args = [
-        "campaign", "run", "c.ron", "--out", out, "--block", "12", "--quiet", "--jobs", "2",
+        "campaign", "run", "c.ron", "--out", out, "--block", "6", "--quiet", "--jobs", "2",
     ];
     let mut command = common::command(dir, &args);
     for name in ["SLURM_ARRAY_TASK_ID", "HQ_TASK_ID", "JOB_COMPLETION_INDEX"] {
         command.env_remove(name);
     }
-    command.stdout(Stdio::null()).stderr(Stdio::null());
-    command.spawn().expect("rheotaxis starts")
+    Process::start(command.stdout(Stdio::null()).stderr(Stdio::null()))
 }
 
 #[test]
@@ -61,15 +56,10 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
     let dir = folder.path();
     let out = dir.join("out");
     let mut draw = Stream::new(2, "kill", "after");
-    let (mut kills, mut before) = (0_u32, Vec::new());
-    loop {
-        let mut child = start(dir, "out");
-        let patience = 0.03 + 0.004 * f64::from(kills);
-        std::thread::sleep(Duration::from_secs_f64(patience * (0.5 + draw.uniform())));
-        let over = child.try_wait().unwrap();
-        child.kill().unwrap();
-        child.wait().unwrap();
-        let now = if out.join("campaign.json").exists() {
+    let mut before = Vec::new();
+    let killed = || {
+        let begun = out.join("campaign.json").exists();
+        let now = if begun {
             read_rows(&out).unwrap()
         } else {
             Vec::new()
@@ -79,16 +69,21 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
             assert!(now.contains(row), "run {} was lost or done again", row.run);
         }
         before = now;
-        if let Some(status) = over {
-            assert!(status.success(), "{status}");
-            break;
-        }
-        kills += 1;
-        assert!(kills < 300, "it never comes to its end");
-    }
-    assert!(kills >= 5, "{kills} kills");
+    };
+    let parts = || {
+        let names = fs::read_dir(&out).into_iter().flatten();
+        let names = names.map(|f| f.unwrap().file_name().into_string().unwrap());
+        let whole = |name: &String| name.starts_with("part-") && name.ends_with(".parquet");
+        names.filter(whole).count()
+    };
+    let start_again = || start(dir, "out");
+    let [kills, grew] = kill_again_and_again(start_again, parts, || draw.uniform(), killed);
+    assert!(
+        kills >= 12 && grew >= 3,
+        "{kills} kills, {grew} with blocks"
+    );
     let done = rows(&out);
-    assert_eq!(done.len(), 360);
+    assert_eq!(done.len(), 144);
     let campaign = load(&dir.join("c.ron")).unwrap();
     for row in done.iter().take(24) {
         let place = campaign.place(row.run);
@@ -96,7 +91,7 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
         let alone = Trial::assemble(&loaded, place.seed).unwrap();
         assert_eq!(row.digest, alone.finish_quietly().digest, "{}", row.arm);
     }
-    assert!(start(dir, "straight").wait().unwrap().success());
+    assert!(start(dir, "straight").end().success());
     assert_eq!(done, rows(&dir.join("straight")));
 }
 
@@ -105,7 +100,7 @@ fn a_campaign_killed_in_the_middle_of_lanes_ends_with_the_rows_of_runs_alone() {
 fn lanes_share_the_spin_up_and_the_wall_time() {
     let folder = folder();
     let dir = folder.path();
-    assert!(start(dir, "out").wait().unwrap().success());
+    assert!(start(dir, "out").end().success());
     for of_seed in read_rows(&dir.join("out")).unwrap().chunks(6) {
         let spun = |arms: &[usize]| -> usize {
             let of_arm = |arm: &&usize| of_seed[**arm].spin_up_wall_s > 0.0;

@@ -1,6 +1,7 @@
 //! A run to listen to, and a client to listen with.
 
 use crate::common::root;
+use crate::waits::{PATIENCE, until};
 
 use nalgebra::{Vector2, Vector3};
 use output::live::{Live, LiveMeta, LiveOptions, Scene};
@@ -25,9 +26,6 @@ use zenoh::handlers::FifoChannelHandler;
 use zenoh::pubsub::Subscriber;
 use zenoh::sample::Sample;
 use zenoh::{Config, Session, Wait};
-
-/// Longest wait for something that must come; only a failing test waits that long.
-pub(super) const PATIENCE: Duration = Duration::from_secs(20);
 
 pub(super) type Samples = Subscriber<FifoChannelHandler<Sample>>;
 
@@ -269,7 +267,7 @@ pub(super) fn kept(session: &Session, run: &str) -> BTreeMap<String, Sample> {
         .collect()
 }
 
-pub(super) fn next(samples: &Samples) -> Sample {
+pub(super) fn next(samples: &FifoChannelHandler<Sample>) -> Sample {
     samples
         .recv_timeout(PATIENCE)
         .expect("session is open")
@@ -290,11 +288,22 @@ pub(super) fn next_of(samples: &Samples, end: &str) -> Value {
     }
 }
 
+/// What the run keeps once it has ended, which another thread publishes: asked for until it is there.
+pub(super) fn kept_at_the_end(session: &Session, run: &str) -> BTreeMap<String, Sample> {
+    until("the run's clock says that it has ended", || {
+        let seen = kept(session, run);
+        let ended = (seen.get("clock")).is_some_and(|clock| json(clock)["ended"] == true);
+        ended.then_some(seen)
+    })
+}
+
 /// Waits until everything handed over was sent or superseded.
+#[track_caller]
 pub(super) fn sent(live: &Live) {
-    while live.counts().sent + live.counts().superseded < live.counts().offered {
-        std::thread::yield_now();
-    }
+    until("all is sent or superseded", || {
+        let counts = live.counts();
+        (counts.sent + counts.superseded >= counts.offered).then_some(())
+    });
 }
 
 /// Every way in which a value breaks a schema, of as much of JSON Schema as ours use.

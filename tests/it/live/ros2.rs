@@ -2,9 +2,10 @@
 //! who come late. `scenarios/clients/check_ros2.py` has clients of others read the same.
 
 use super::hostile::Process;
-use super::kit::{PATIENCE, client, frame, meta, next, options, plume, sent};
+use super::kit::{client, frame, meta, next, options, plume, sent};
 use super::readings::picture;
 use crate::common::root;
+use crate::waits::{PATIENCE, until};
 use nalgebra::Vector3;
 use output::live::{Live, LiveOptions, Qos, Ros2, RosTopic, Scene, ros_topics};
 use rheotaxis::frame::{At, Frame};
@@ -150,27 +151,21 @@ fn nodes_see_every_topic_of_the_table_and_hear_it() {
     let mut heard: BTreeMap<String, Sample> = BTreeMap::new();
     let wanted: BTreeSet<&str> = ros_topics().iter().map(|t| t.name).collect();
     let mut step = 1;
-    let mut seen = BTreeSet::new();
-    while seen != wanted {
-        assert!(step < 10_000, "never heard: {:?}", &wanted - &seen);
+    until("every topic of the table is heard", || {
         live.publish(&told(step));
         live.plume(&plume(10));
         live.picture(&picture(1.0));
         sent(&live);
         step += 1;
-        for sample in samples.try_iter() {
-            let name = name_of(&sample);
-            seen.insert(row(&name).name);
-            heard.insert(name, sample);
-        }
-    }
-    let known = publishers(&session, 31);
+        heard.extend(samples.try_iter().map(|sample| (name_of(&sample), sample)));
+        let seen: BTreeSet<&str> = heard.keys().map(|name| row(name).name).collect();
+        (seen == wanted).then_some(())
+    });
     // Two names share a row; what is latched for the other one may still be on its way.
-    while !known.keys().eq(heard.keys()) {
-        let sample = samples.recv_timeout(PATIENCE);
-        let sample = sample.unwrap_or_else(|e| panic!("{e}: {:?} are not {known:?}", heard.keys()));
-        heard.insert(name_of(&sample), sample);
-    }
+    let known = until("every topic in the graph is heard, and no other", || {
+        heard.extend(samples.try_iter().map(|sample| (name_of(&sample), sample)));
+        Some(publishers(&session, 31)).filter(|known| known.keys().eq(heard.keys()))
+    });
     for (name, sample) in &heard {
         let (key, token) = &known[name];
         let row = row(name);
@@ -246,10 +241,9 @@ fn who_comes_late_hears_what_is_latched_and_the_node_goes_with_the_run() {
         .unwrap();
     assert!(next(&alive).key_expr().as_str().ends_with("/rheotaxis"));
     // The time is what is said last of a state.
-    let mut known = publishers(&session, 33);
-    while !known.contains_key("/clock") {
-        known = publishers(&session, 33);
-    }
+    let known = until("the clock is published", || {
+        Some(publishers(&session, 33)).filter(|known| known.contains_key("/clock"))
+    });
     for (name, (key, _)) in known {
         if row(&name).qos != Qos::Latched {
             continue;
@@ -259,7 +253,7 @@ fn who_comes_late_hears_what_is_latched_and_the_node_goes_with_the_run() {
             .history(HistoryConfig::default().detect_late_publishers())
             .wait()
             .unwrap();
-        let sample = late.recv_timeout(PATIENCE).unwrap().expect(&name);
+        let sample = next(&late);
         assert_eq!(beside(&sample).0, 1, "{name}");
         if name.ends_with("/robot_description") {
             let text = String::from_utf8_lossy(&sample.payload().to_bytes()).into_owned();

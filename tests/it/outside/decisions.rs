@@ -1,6 +1,7 @@
 //! The same decisions give the same run, whoever makes them.
 
-use super::kit::{Run, channel, client, controller};
+use super::kit::{Run, asking, channel, client, controller, external};
+use crate::waits::PATIENCE;
 use rheotaxis::control::{Heard, Question, Seen, consultation_json};
 use rheotaxis::scenario::load_text;
 use rheotaxis::trial::{Trial, Watch};
@@ -13,6 +14,7 @@ use zenoh::Wait;
 const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 /// Long enough for a plume to be found, lost and found again, s.
 const LONG_S: f64 = 400.0;
+/// The run in this process, where no deadline counts, of which `planner_answers.json` has the text.
 const EACH_STEP: &str = "External(period_s: 0.02, deadline_s: 20, on_late: Abort)";
 
 #[derive(Default)]
@@ -49,7 +51,7 @@ fn recorded(limit_s: f64) -> (Vec<Value>, String) {
 #[test]
 fn a_stream_of_decisions_over_zenoh_gives_the_digest_of_the_planner_itself() {
     let (answers, digest) = recorded(40.0);
-    let run = Run::controlled(&channel(EACH_STEP, 40.0));
+    let run = Run::controlled(&channel(&asking(0.02, "Abort"), 40.0));
     let session = client(&run.endpoint);
     let decided = answers.clone();
     let _controller = controller(&session, "auv0", move |question| {
@@ -90,8 +92,7 @@ fn the_stream_that_other_doors_are_tested_with_is_the_planners() {
 
 #[test]
 fn each_robot_has_a_controller_of_its_own() {
-    let strategy = "External(period_s: 1, deadline_s: 20)";
-    let text = channel(strategy, 5.0);
+    let text = channel(&external("Hold"), 5.0);
     let robot = &text[text
         .find("        (\n            id: \"auv0\"")
         .expect("a robot")..];
@@ -129,7 +130,10 @@ fn a_gantry_goes_where_it_is_told() {
     let text = text
         .replace("limit_s: 180", "limit_s: 6")
         .replace("spin_up_s: 60", "spin_up_s: 2");
-    let run = Run::controlled(&text.replace("deadline_s: 2", "deadline_s: 20"));
+    let run = Run::controlled(&text.replace(
+        "deadline_s: 2",
+        &format!("deadline_s: {}", PATIENCE.as_secs()),
+    ));
     let session = client(&run.endpoint);
     let _controller = controller(&session, "crab0", |question| {
         let scans = question["scans"].as_array().expect("scans").len();

@@ -1,16 +1,16 @@
 //! A run that asks, a controller that answers, and what the run says at its end.
 
 use crate::common;
+use crate::waits::{PATIENCE, Process, until};
 use serde_json::Value;
 use std::net::TcpListener;
-use std::path::{Path, PathBuf};
-use std::process::{Child, Output, Stdio};
-use std::time::Duration;
+use std::path::Path;
+use std::process::{Output, Stdio};
 use tempfile::TempDir;
 use zenoh::query::{Query, Queryable};
 use zenoh::{Config, Session, Wait};
 
-/// A minute of a channel in which `auv0` asks; the plume is a few minutes old.
+/// A channel in which `auv0` asks; the plume is a few minutes old.
 pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
     let text =
         std::fs::read_to_string(common::root().join("scenarios/catalog/uniform_channel.ron"));
@@ -23,6 +23,9 @@ pub(super) fn channel(strategy: &str, limit_s: f64) -> String {
     )
 }
 
+/// So long that a test ends the run before, s.
+pub(super) const ENDLESS_S: f64 = 1e5;
+
 /// Keys of a run, below its name, that only the run itself should publish or answer.
 pub(super) const KEYS: [&str; 5] = [
     "auv/auv0/truth",
@@ -32,9 +35,20 @@ pub(super) const KEYS: [&str; 5] = [
     "rpc/stop",
 ];
 
+/// Who asks once a second, and waits for each answer so long that no machine is too slow to give it.
+pub(super) fn external(on_late: &str) -> String {
+    asking(1.0, on_late)
+}
+
+/// The same with another period, s.
+pub(super) fn asking(period_s: f64, on_late: &str) -> String {
+    let deadline_s = PATIENCE.as_secs();
+    format!("External(period_s: {period_s}, deadline_s: {deadline_s}, on_late: {on_late})")
+}
+
 /// A run in a process of its own.
 pub(super) struct Run {
-    child: Child,
+    process: Process,
     dir: TempDir,
     pub(super) endpoint: String,
 }
@@ -53,15 +67,15 @@ impl Run {
         let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
         let endpoint = format!("{listen}:{}", port.expect("a free port").port());
         let mut command = common::command(dir.path(), &["run", "asks.ron", "--out", "out"]);
-        let child = (command
-            .args(["--quiet", "--zenoh-listen", &endpoint])
-            .args(more))
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("rheotaxis starts");
+        command.args(["--quiet", "--zenoh-listen", &endpoint]);
+        command.args(more);
+        if more.contains(&"--allow-control") && !more.contains(&"--control-wait") {
+            command.args(["--control-wait", &PATIENCE.as_secs().to_string()]);
+        }
+        command.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let process = Process::start(&mut command);
         Self {
-            child,
+            process,
             dir,
             endpoint,
         }
@@ -72,13 +86,17 @@ impl Run {
         Self::start(text, &["--allow-control"])
     }
 
-    pub(super) fn folder(&self) -> PathBuf {
-        self.dir.path().join("out")
+    /// Sends it Ctrl-C and waits for its end.
+    pub(super) fn interrupt(mut self) -> End {
+        self.process.signal("-INT");
+        let end = self.end();
+        assert_eq!(end.code, 130, "{}", end.said);
+        end
     }
 
     /// Waits for its end: exit code, summary, and what it said on standard error.
     pub(super) fn end(self) -> End {
-        let out = self.child.wait_with_output().expect("it ends");
+        let out = self.process.output();
         let summary = std::fs::read(self.dir.path().join("out/summary.json"));
         End {
             code: out.status.code().expect("it was not killed"),
@@ -127,10 +145,16 @@ pub(super) fn rerun(dir: &Path, recording: &str) -> Output {
     common::rheotaxis_in(dir, &["rerun", recording, "--quiet"])
 }
 
+/// How long a session tries to connect, ms.
+pub(super) fn patience_ms() -> u128 {
+    PATIENCE.as_millis()
+}
+
 /// A client that waits for the run.
 pub(super) fn client(endpoint: &str) -> Session {
+    let timeout_ms = patience_ms();
     let config = format!(
-        r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ timeout_ms: 20000,
+        r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }}, connect: {{ timeout_ms: {timeout_ms},
              endpoints: ["{endpoint}"], retry: {{ period_init_ms: 20, period_max_ms: 100 }} }} }}"#
     );
     opened(Config::from_json5(&config).expect("legal"))
@@ -139,17 +163,11 @@ pub(super) fn client(endpoint: &str) -> Session {
 /// A session that waits for the run.
 pub(super) fn opened(config: Config) -> Session {
     let session = zenoh::open(config).wait().expect("the run listens");
-    let runs = (session
-        .liveliness()
-        .declare_subscriber("rheotaxis/*/@live/sim"))
-    .history(true)
-    .wait()
-    .expect("a subscriber");
-    let there = runs.recv_timeout(Duration::from_secs(20));
-    assert!(
-        matches!(there, Ok(Some(_))),
-        "the run shows that it is there"
-    );
+    until("the run shows that it is there", || {
+        let there = session.liveliness().get("rheotaxis/*/@live/sim");
+        let there = there.wait().expect("sent");
+        there.recv().ok().filter(|reply| reply.result().is_ok())
+    });
     session
 }
 

@@ -1,7 +1,8 @@
 //! The control plane of a run: pause, step, speed, stop; and its refusal.
 
-use super::kit::{Run, channel, client};
-use serde_json::Value;
+use super::kit::{ENDLESS_S, Run, channel, client};
+use crate::waits::{PATIENCE, until};
+use serde_json::{Value, json};
 use zenoh::{Session, Wait};
 
 const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
@@ -10,6 +11,7 @@ const AMP: &str = "Amp(speed_m_s: 1.5, vertical: Altitude(2))";
 pub(super) fn command(session: &Session, command: &str) -> Result<Value, String> {
     let replies = session
         .get(format!("rheotaxis/asks_1/rpc/{command}"))
+        .timeout(PATIENCE)
         .wait()
         .unwrap();
     let Ok(reply) = replies.recv() else {
@@ -23,19 +25,21 @@ pub(super) fn command(session: &Session, command: &str) -> Result<Value, String>
 
 /// Waits until the mission has begun and the run is held; its time, s.
 fn held(session: &Session) -> f64 {
-    loop {
+    until("the run is held", || {
         let told = command(session, "status").unwrap();
         let again = command(session, "status").unwrap();
-        if told["paused"] == true && told["steps"].as_u64() > Some(0) && told["t_s"] == again["t_s"]
-        {
-            return told["t_s"].as_f64().unwrap();
-        }
-    }
+        let begun = told["steps"].as_u64() > Some(0);
+        let held = told["paused"] == true && begun && told["t_s"] == again["t_s"];
+        held.then(|| told["t_s"].as_f64().unwrap())
+    })
 }
 
 #[test]
 fn a_run_pauses_steps_and_stops_when_told() {
-    let run = Run::start(&channel(AMP, 600.0), &["--allow-control", "--speed", "20"]);
+    let run = Run::start(
+        &channel(AMP, ENDLESS_S),
+        &["--allow-control", "--speed", "1"],
+    );
     let session = client(&run.endpoint);
     command(&session, "pause").unwrap();
     let t_s = held(&session);
@@ -63,14 +67,24 @@ fn a_run_pauses_steps_and_stops_when_told() {
 
 #[test]
 fn a_run_that_does_not_allow_it_only_tells_how_it_stands() {
-    let run = Run::start(&channel(AMP, 5.0), &["--speed", "5"]);
+    let run = Run::start(&channel(AMP, ENDLESS_S), &["--speed", "0.5"]);
     let session = client(&run.endpoint);
-    assert_eq!(command(&session, "status").unwrap()["controllable"], false);
+    let status = || command(&session, "status").unwrap();
+    assert_eq!(status()["controllable"], false);
     for name in ["pause", "stop", "speed?times=9", "step", "resume"] {
         let refused = command(&session, name).unwrap_err();
         assert!(refused.contains("--allow-control"), "{refused}");
     }
-    let end = run.end();
-    assert_ne!(end.code, 130);
+    for (name, value) in [
+        ("paused", false.into()),
+        ("stopping", false.into()),
+        ("times", json!(0.5)),
+    ] {
+        assert_eq!(status()[name], value, "{name}");
+    }
+    let steps = || status()["steps"].as_u64();
+    let before = steps();
+    until("it goes on", || (steps() > before).then_some(()));
+    run.interrupt();
     session.close().wait().unwrap();
 }

@@ -1,14 +1,20 @@
 //! Controllers that are not there, die, stall, talk nonsense or flood: the run goes on as its scenario says.
 
-use super::kit::{KEYS, Run, channel, client, controller};
+use super::kit::{ENDLESS_S, KEYS, Run, channel, client, controller, external};
+use super::plane::command;
 use crate::common;
+use crate::waits::until;
 use serde_json::json;
-use std::io::{BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStdout, Command, Stdio};
+use std::io::{BufRead, BufReader, Read, Write, stdin};
+use std::process::{ChildStdin, ChildStdout, Command, Stdio};
 use zenoh::Wait;
 use zenoh::qos::CongestionControl;
 
-/// A controller in a process of its own, told by its environment where to connect. It says how often it has answered.
+/// The question before whose answer a controller process waits for a line from the test.
+const HELD: u64 = 3;
+
+/// A controller in a process of its own, told by its environment where to connect. It says which question it has, and
+/// gives some of its answers late.
 #[test]
 #[ignore = "started by the tests below as a process of its own"]
 fn controller_process() {
@@ -16,8 +22,12 @@ fn controller_process() {
     let session = client(&endpoint);
     let _controller = controller(&session, "auv0", |question| {
         let mut out = std::io::stdout();
-        let told = writeln!(out, "\nANSWERED {}", question["number"]).and_then(|()| out.flush());
+        let number = question["number"].as_u64().expect("a number");
+        let told = writeln!(out, "\nASKED {number}").and_then(|()| out.flush());
         told.expect("the parent listens");
+        if number == HELD {
+            stdin().read_line(&mut String::new()).expect("it speaks");
+        }
         json!({"steer": {"heading_rad": 1.5, "altitude_m": 3, "speed_m_s": 1.5}}).to_string()
     });
     loop {
@@ -25,70 +35,51 @@ fn controller_process() {
     }
 }
 
-struct Process(Child, BufReader<ChildStdout>);
+struct Process {
+    process: crate::waits::Process,
+    out: BufReader<ChildStdout>,
+    line: ChildStdin,
+}
 
 impl Process {
     fn start(endpoint: &str) -> Self {
         let name = "outside::processes::controller_process";
-        let mut child = Command::new(std::env::current_exe().unwrap())
-            .args(["--exact", "--ignored", "--nocapture", name])
+        let mut command = Command::new(std::env::current_exe().unwrap());
+        (command.args(["--exact", "--ignored", "--nocapture", name]))
             .env("CONTROL_ENDPOINT", endpoint)
-            .stdout(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let out = BufReader::new(child.stdout.take().unwrap());
-        Self(child, out)
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped());
+        let mut process = crate::waits::Process::start(&mut command);
+        let out = BufReader::new(process.0.stdout.take().expect("piped"));
+        let line = process.0.stdin.take().expect("piped");
+        Self { process, out, line }
     }
 
     fn wait_for(&mut self, line: &str) {
-        let mut lines = self.1.by_ref().lines().map_while(Result::ok);
+        let mut lines = self.out.by_ref().lines().map_while(Result::ok);
         assert!(lines.any(|said| said == line), "it ended before {line}");
     }
-
-    fn signal(&self, name: &str) {
-        let pid = self.0.id().to_string();
-        assert!(
-            Command::new("kill")
-                .args([name, &pid])
-                .status()
-                .unwrap()
-                .success()
-        );
-    }
 }
 
-impl Drop for Process {
-    fn drop(&mut self) {
-        self.0.kill().unwrap();
-        self.0.wait().unwrap();
-    }
-}
-
-fn external(deadline_s: f64, on_late: &str) -> String {
-    format!("External(period_s: 1, deadline_s: {deadline_s}, on_late: {on_late})")
-}
-
+/// Killed while it is asked.
 #[test]
 fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
     for on_late in [
         "Abort",
         "Fallback(Amp(speed_m_s: 1.5, vertical: Altitude(2)))",
     ] {
-        // Slow enough to be killed on the way.
-        let text = channel(&external(20.0, on_late), 60.0);
-        let run = Run::start(&text, &["--allow-control", "--speed", "10"]);
+        let run = Run::controlled(&channel(&external(on_late), 30.0));
         let mut process = Process::start(&run.endpoint);
-        process.wait_for("ANSWERED 3");
+        process.wait_for(&format!("ASKED {HELD}"));
         drop(process);
         let end = run.end();
-        // It says so before it replies.
-        assert!(end.count(0, "answered") >= 3, "{}", end.summary);
+        assert_eq!(end.count(0, "answered"), HELD, "{}", end.summary);
         let lost = end.count(0, "gone") + end.count(0, "absent");
         if on_late == "Abort" {
             assert_eq!((end.code, lost), (3, 1), "{}", end.said);
             assert_eq!(end.summary["outcome"], "aborted");
         } else {
-            assert!(lost > 10, "{}", end.summary);
+            assert_eq!(lost, 30 - HELD, "{}", end.summary);
             assert_ne!(end.summary["robots"][0]["last_behaviour"], "external");
         }
         end.run_again();
@@ -97,30 +88,38 @@ fn a_killed_controller_aborts_the_mission_or_leaves_it_to_the_fallback() {
 
 #[test]
 fn a_stopped_controller_is_late_until_it_goes_on() {
-    let text = channel(&external(0.3, "Hold"), 30.0);
-    let run = Run::start(&text, &["--allow-control", "--speed", "10"]);
+    // The pace leaves time to come back where zenoh has given up a stopped process.
+    let asks = "External(period_s: 1, deadline_s: 2, on_late: Hold)";
+    let run = Run::start(
+        &channel(asks, ENDLESS_S),
+        &["--allow-control", "--speed", "4"],
+    );
+    let session = client(&run.endpoint);
     let mut process = Process::start(&run.endpoint);
-    process.wait_for("ANSWERED 2");
-    process.signal("-STOP");
-    // The recording shows when it was late; it is read up to the last whole chunk.
-    let late = || {
-        let table = run.folder().join("track.csv");
-        std::fs::read_to_string(table).map_or(0, |t| t.lines().count()) > 120
+    process.wait_for(&format!("ASKED {HELD}"));
+    process.process.signal("-STOP");
+    let t_s = || {
+        let status = command(&session, "status").unwrap();
+        status["t_s"].as_f64().unwrap()
     };
-    while !late() {
-        std::thread::yield_now();
-    }
-    process.signal("-CONT");
-    process.wait_for("ANSWERED 20");
+    let stopped_s = t_s();
+    until("the run does not wait for ever", || {
+        (t_s() > stopped_s + 3.0).then_some(())
+    });
+    process.process.signal("-CONT");
+    writeln!(process.line).unwrap();
+    process.wait_for(&format!("ASKED {}", HELD + 10));
+    command(&session, "stop").unwrap();
     let end = run.end();
     assert!(end.count(0, "late") > 0, "{}", end.summary);
-    assert!(end.count(0, "answered") > 5, "{}", end.summary);
+    assert!(end.count(0, "answered") > 0, "{}", end.summary);
     end.run_again();
+    session.close().wait().unwrap();
 }
 
 #[test]
 fn nobody_there_is_told_apart_and_the_run_ends() {
-    let text = channel(&external(20.0, "Hold"), 10.0);
+    let text = channel(&external("Hold"), 10.0);
     let run = Run::start(&text, &["--allow-control", "--control-wait", "0"]);
     let end = run.end();
     assert_eq!((end.count(0, "asked"), end.count(0, "absent")), (10, 10));
@@ -129,7 +128,7 @@ fn nobody_there_is_told_apart_and_the_run_ends() {
 
 #[test]
 fn nonsense_floods_and_a_hundred_watchers_change_nothing() {
-    let text = channel(&external(20.0, "Hold"), 10.0);
+    let text = channel(&external("Hold"), 10.0);
     let quiet = Run::start(&text, &["--allow-control", "--control-wait", "0"]).end();
 
     let run = Run::controlled(&text);
@@ -171,7 +170,7 @@ fn nonsense_floods_and_a_hundred_watchers_change_nothing() {
 
 #[test]
 fn a_run_that_asks_needs_to_be_allowed() {
-    let text = channel(&external(1.0, "Hold"), 10.0);
+    let text = channel(&external("Hold"), 10.0);
     let end = Run::start(&text, &[]).end();
     assert_eq!(end.code, 1);
     assert!(

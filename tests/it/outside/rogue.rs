@@ -1,12 +1,13 @@
 //! Somebody who forges the state of a run, shows tokens in its name and answers in the place of its controllers.
 
-use super::kit::KEYS;
-use std::sync::atomic::{AtomicU64, Ordering};
+use super::kit::{KEYS, patience_ms};
+use crate::waits::until;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::{Arc, Mutex};
 use zenoh::handlers::FifoChannelHandler;
 use zenoh::liveliness::LivelinessToken;
 use zenoh::pubsub::Subscriber;
-use zenoh::query::{Query, QueryTarget, Queryable};
+use zenoh::query::{Query, QueryTarget, Queryable, Reply};
 use zenoh::sample::{Locality, Sample, SampleKind};
 use zenoh::{Config, Session, Wait};
 
@@ -24,9 +25,10 @@ pub(super) struct Rogue {
 impl Rogue {
     /// One of zenoh's three kinds of node, at a run that listens. It has done its worst when this returns.
     pub(super) fn at(endpoint: &str, mode: &str) -> Self {
+        let timeout_ms = patience_ms();
         let config = format!(
             r#"{{ mode: "{mode}", listen: {{ endpoints: [] }}, scouting: {{ multicast: {{ enabled: false }} }},
-                 connect: {{ endpoints: ["{endpoint}"], timeout_ms: 20000, exit_on_failure: true }} }}"#
+                 connect: {{ endpoints: ["{endpoint}"], timeout_ms: {timeout_ms}, exit_on_failure: true }} }}"#
         );
         let config = Config::from_json5(&config).expect("legal");
         let session = zenoh::open(config).wait().expect("a session");
@@ -78,8 +80,8 @@ impl Rogue {
 pub(super) struct Watcher {
     session: Session,
     heard: Arc<Mutex<Vec<Sample>>>,
-    there: Subscriber<FifoChannelHandler<Sample>>,
-    _subscriber: Subscriber<()>,
+    gone: Arc<AtomicBool>,
+    _subscribers: [Subscriber<()>; 2],
 }
 
 impl Watcher {
@@ -90,48 +92,74 @@ impl Watcher {
             .callback(move |sample| ear.lock().expect("sound").push(sample))
             .wait()
             .expect("a subscriber");
+        let gone = Arc::new(AtomicBool::new(false));
+        let seen = Arc::clone(&gone);
         let there = (session.liveliness()).declare_subscriber(format!("{BASE}/@live/sim"));
-        let there = there.history(true).wait().expect("a subscriber");
+        let there = (there.history(true))
+            .callback(move |token| seen.store(token.kind() == SampleKind::Delete, Ordering::SeqCst))
+            .wait()
+            .expect("a subscriber");
         Self {
             session,
             heard,
-            there,
-            _subscriber: subscriber,
+            gone,
+            _subscribers: [subscriber, there],
         }
     }
 
     /// Asks everybody for the state of the run: how many replies come, and how many of them are forged.
     pub(super) fn asks(&self) -> [usize; 2] {
-        let replies = (self.session.get(format!("{BASE}/**")))
-            .target(QueryTarget::All)
-            .consolidation(zenoh::query::ConsolidationMode::None)
-            .wait()
-            .expect("sent");
-        let replies: Vec<Sample> = (replies.into_iter())
-            .filter_map(|reply| reply.into_result().ok())
-            .collect();
+        let replies = samples(self.question());
         [replies.len(), replies.iter().filter(|s| forged(s)).count()]
     }
 
-    /// Last chunks of the tokens that are there.
-    pub(super) fn tokens(&self) -> Vec<String> {
+    fn question(&self) -> FifoChannelHandler<Reply> {
+        (self.session.get(format!("{BASE}/**")))
+            .target(QueryTarget::All)
+            .consolidation(zenoh::query::ConsolidationMode::None)
+            .wait()
+            .expect("sent")
+    }
+
+    fn question_for_tokens(&self) -> FifoChannelHandler<Reply> {
         let tokens = self.session.liveliness().get(format!("{BASE}/@live/*"));
-        let tokens = tokens.wait().expect("sent").into_iter();
-        let mut names: Vec<String> = tokens
-            .filter_map(|token| token.into_result().ok())
-            .filter_map(|token| Some(token.key_expr().as_str().rsplit_once('/')?.1.to_string()))
-            .collect();
-        names.sort();
-        names
+        tokens.wait().expect("sent")
+    }
+
+    /// Asks for the state of the run and for tokens, and does not wait for replies.
+    pub(super) fn questions(&self) -> [FifoChannelHandler<Reply>; 2] {
+        [self.question(), self.question_for_tokens()]
+    }
+
+    /// Last chunks of the tokens that are there, one of which is the run's.
+    ///
+    /// A question that is sent while the subscriber's tokens are on their way comes back empty: zenoh takes its reply for
+    /// something that the session knows already. So it is asked again.
+    pub(super) fn tokens(&self) -> Vec<String> {
+        until("there are tokens", || {
+            let tokens = samples(self.question_for_tokens());
+            let mut names: Vec<String> = (tokens.iter())
+                .filter_map(|token| Some(token.key_expr().as_str().rsplit_once('/')?.1.to_string()))
+                .collect();
+            names.sort();
+            (!names.is_empty()).then_some(names)
+        })
     }
 
     /// Waits until the run has ended.
     pub(super) fn see_it_end(&self) {
-        while let Ok(sample) = self.there.recv() {
-            if sample.kind() == SampleKind::Delete {
-                return;
-            }
-        }
+        until("the run's token goes", || {
+            self.gone.load(Ordering::SeqCst).then_some(())
+        });
+    }
+
+    /// Waits until the clock of the run was heard so often, and so many forged messages.
+    pub(super) fn hears(&self, clocks: usize, forged: usize) {
+        let heard = until("the run is heard", || {
+            let heard = self.heard();
+            (heard[0] >= clocks && heard[1] >= forged).then_some(heard)
+        });
+        assert_eq!(heard[1], forged, "{heard:?}");
     }
 
     /// How often the clock of the run was heard, and how much of all that was heard is forged.
@@ -141,6 +169,13 @@ impl Watcher {
             .filter(|sample| sample.key_expr().as_str().ends_with("/clock") && !forged(sample));
         [clock.count(), heard.iter().filter(|s| forged(s)).count()]
     }
+}
+
+/// What came in reply, once no more can come.
+pub(super) fn samples(replies: FifoChannelHandler<Reply>) -> Vec<Sample> {
+    (replies.into_iter())
+        .filter_map(|reply| reply.into_result().ok())
+        .collect()
 }
 
 /// The run itself deletes nothing.

@@ -1,23 +1,18 @@
 //! A node of ROS 2 steers a robot with `/<robot>/cmd`.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "a node of ROS publishes at a rate of its own"
-)]
 
-use super::kit::{Run, channel, client};
+use super::kit::{Run, channel, client, external};
+use crate::waits::{PATIENCE, pause};
 use output::ros::twist_stamped;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Duration;
 use zenoh::Wait;
 
 const HASH: &str = "RIHS01_5f0fcd4f81d5d06ad9b4c4c63e3ea51b82d6ae4d0558f1d475229b1121db6f64";
 
 #[test]
 fn commands_of_a_node_steer_a_robot_and_are_recorded() {
-    let external = "External(period_s: 1, deadline_s: 20, on_late: Abort)";
     let run = Run::start(
-        &channel(external, 8.0),
+        &channel(&external("Abort"), 8.0),
         &["--allow-control", "--ros2", "--ros-domain", "42"],
     );
     let session = client(&run.endpoint);
@@ -27,10 +22,7 @@ fn commands_of_a_node_steer_a_robot_and_are_recorded() {
         .wait()
         .unwrap();
     loop {
-        let token = tokens
-            .recv_timeout(Duration::from_secs(20))
-            .unwrap()
-            .expect("in time");
+        let token = tokens.recv_timeout(PATIENCE).unwrap().expect("in time");
         let token = token.key_expr().as_str();
         if token.contains("/MS/") {
             assert!(
@@ -49,7 +41,7 @@ fn commands_of_a_node_steer_a_robot_and_are_recorded() {
         let ahead = twist_stamped(0, "auv0/base_link", &nalgebra::Vector3::new(1.5, 0.0, 0.0));
         while !until.load(Ordering::Relaxed) {
             writer.put(&key, ahead.clone()).wait().unwrap();
-            std::thread::sleep(Duration::from_millis(5));
+            pause(0.005);
         }
     });
     let end = run.end();

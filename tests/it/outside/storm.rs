@@ -1,15 +1,12 @@
 //! Sessions that connect, answer or watch for a moment and leave, again and again, while a run asks.
-#![allow(
-    clippy::disallowed_methods,
-    reason = "visitors come and go in real time, which never reaches a run"
-)]
 
-use super::kit::{Run, channel, client, controller};
+use super::kit::{Run, asking, channel, client, controller};
+use crate::waits::{pause, until};
 use serde_json::{Value, json};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::Duration;
-use zenoh::{Config, Wait};
+use zenoh::query::{Query, Queryable};
+use zenoh::{Config, Session, Wait};
 
 const QUESTIONS: u64 = 100;
 /// Sessions that come and go at the same time.
@@ -20,7 +17,27 @@ fn answer(question: &Value) -> String {
     json!({"steer": {"heading_rad": heading}}).to_string()
 }
 
-/// Comes, answers and watches for a moment, and goes; `false` once the run is over.
+/// Questions that wait until the storm has blown: one in so many.
+const HELD: u64 = 10;
+/// How many visits each of these waits for.
+const VISITS: u64 = 3;
+
+/// Answers what is asked but for the questions that are held, which the steady controller answers.
+fn visitor(session: &Session) -> Queryable<()> {
+    let reply = |query: Query| {
+        let asked = query.payload().expect("a question").to_bytes();
+        let question: Value = serde_json::from_slice(&asked).expect("a question is JSON");
+        if question["number"].as_u64().expect("a number") % HELD != 0 {
+            let _gone = query.reply(query.key_expr(), answer(&question)).wait();
+        }
+    };
+    (session.declare_queryable("rheotaxis/*/ask/auv0"))
+        .callback(reply)
+        .wait()
+        .expect("a queryable")
+}
+
+/// Comes, answers and watches for a moment, and goes; `false` if there is no run to come to.
 fn visit(endpoint: &str) -> bool {
     let config = format!(
         r#"{{ mode: "client", scouting: {{ multicast: {{ enabled: false }} }},
@@ -30,9 +47,9 @@ fn visit(endpoint: &str) -> bool {
     let Ok(session) = zenoh::open(config).wait() else {
         return false;
     };
-    let there = controller(&session, "auv0", answer);
+    let there = visitor(&session);
     let watching = session.declare_subscriber("rheotaxis/**").wait();
-    std::thread::sleep(Duration::from_millis(5));
+    pause(0.005);
     drop((there, watching));
     let _closed = session.close().wait();
     true
@@ -40,26 +57,28 @@ fn visit(endpoint: &str) -> bool {
 
 #[test]
 fn a_storm_of_controllers_that_come_and_go_loses_nothing() {
-    let asks = channel(
-        "External(period_s: 0.1, deadline_s: 20, on_late: Abort)",
-        10.0,
-    );
-    let run = Run::controlled(&asks);
+    let run = Run::controlled(&channel(&asking(0.1, "Abort"), 10.0));
     let steady = client(&run.endpoint);
-    let _controller = controller(&steady, "auv0", |question| {
-        // So that the storm has time to blow.
-        std::thread::sleep(Duration::from_millis(10));
-        answer(question)
-    });
     let (over, visits) = (
         Arc::new(AtomicBool::new(false)),
         Arc::new(AtomicU64::new(0)),
     );
+    let seen = Arc::clone(&visits);
+    let _controller = controller(&steady, "auv0", move |question| {
+        let number = question["number"].as_u64().expect("a number");
+        if number % HELD == 0 {
+            let wanted = VISITS * (1 + number / HELD);
+            until("the storm blows", || {
+                (seen.load(Ordering::Relaxed) >= wanted).then_some(())
+            });
+        }
+        answer(question)
+    });
     let storm = (0..AT_ONCE).map(|_| {
         let (endpoint, over, visits) = (run.endpoint.clone(), over.clone(), visits.clone());
         std::thread::spawn(move || {
-            while !over.load(Ordering::Relaxed) && visit(&endpoint) {
-                visits.fetch_add(1, Ordering::Relaxed);
+            while !over.load(Ordering::Relaxed) {
+                visits.fetch_add(u64::from(visit(&endpoint)), Ordering::Relaxed);
             }
         })
     });
@@ -70,7 +89,7 @@ fn a_storm_of_controllers_that_come_and_go_loses_nothing() {
         visitor.join().expect("sound");
     }
     let visits = visits.load(Ordering::Relaxed);
-    assert!(visits > 20, "only {visits} visits");
+    assert!(visits >= VISITS * QUESTIONS / HELD, "only {visits} visits");
     assert_eq!(
         end.count(0, "answered"),
         QUESTIONS,
