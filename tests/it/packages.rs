@@ -1,7 +1,28 @@
-//! A published package holds all that its code is built from.
+//! A published package holds all that its code is built from, and says what it is.
 
 use crate::common::root;
 use crate::structure::sources;
+use std::fs;
+
+/// The crates, as folders of the workspace.
+const CRATES: [&str; 8] = [
+    "world",
+    "plumes",
+    "robots",
+    "scenarios/simulation",
+    "scenarios/output",
+    "scenarios/studies",
+    "scenarios/command",
+    "scenarios/python",
+];
+
+/// The categories of crates.io that fit: it refuses unknown ones.
+const CATEGORIES: [&str; 4] = [
+    "command-line-utilities",
+    "science",
+    "science::robotics",
+    "simulation",
+];
 
 /// The parts of a path from the workspace's folder, with `..` taken away.
 fn plain(path: &str) -> String {
@@ -18,17 +39,8 @@ fn plain(path: &str) -> String {
 
 #[test]
 fn what_a_package_includes_is_in_it() {
-    let packages = [
-        "world",
-        "plumes",
-        "robots",
-        "scenarios/simulation",
-        "scenarios/output",
-        "scenarios/studies",
-        "scenarios/command",
-    ];
     let mut seen = 0;
-    for package in packages {
+    for package in CRATES {
         for (file, text) in sources(&format!("{package}/src")) {
             let folder = file.rsplit_once('/').expect("a folder").0;
             if file.contains("test") {
@@ -58,4 +70,84 @@ fn what_a_package_includes_is_in_it() {
         }
     }
     assert!(seen > 8, "{seen} files are included");
+}
+
+/// A file of the workspace.
+fn text(file: &str) -> String {
+    fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
+/// What a table of a manifest says of a field, as it stands there; lists are on one line.
+fn field<'a>(manifest: &'a str, table: &str, name: &str) -> Option<&'a str> {
+    let begin = format!("[{table}]");
+    let lines = manifest.lines().skip_while(|line| **line != begin).skip(1);
+    let mut own = lines.take_while(|line| !line.starts_with('['));
+    own.find_map(|line| line.split_once(" = ").filter(|(field, _)| *field == name))
+        .map(|(_, value)| value)
+}
+
+/// The texts of a list.
+fn listed(list: &str) -> Vec<&str> {
+    list.split('"').skip(1).step_by(2).collect()
+}
+
+#[test]
+fn each_manifest_says_what_a_package_index_asks_for() {
+    let workspace = text("Cargo.toml");
+    for package in CRATES {
+        let file = format!("{package}/Cargo.toml");
+        let manifest = text(&file);
+        let said = |name: &str| {
+            let inherited = field(&manifest, "package", &format!("{name}.workspace"));
+            let found = match inherited {
+                Some("true") => field(&workspace, "workspace.package", name),
+                _ => field(&manifest, "package", name),
+            };
+            found.unwrap_or_else(|| panic!("{file} has no {name}"))
+        };
+        assert!(said("description").len() > 20, "{file}: description");
+        assert_eq!(said("license"), "\"MIT OR Apache-2.0\"", "{file}");
+        let version = field(&workspace, "workspace.package", "rust-version");
+        assert_eq!(Some(said("rust-version")), version, "{file}");
+        let keywords = listed(said("keywords"));
+        assert!((1..=5).contains(&keywords.len()), "{file}: {keywords:?}");
+        let good = |word: &&str| word.len() <= 20 && word.starts_with(char::is_alphanumeric);
+        assert!(keywords.iter().all(good), "{file}: {keywords:?}");
+        let categories = listed(said("categories"));
+        assert!(
+            (1..=5).contains(&categories.len()),
+            "{file}: {categories:?}"
+        );
+        let known = |slug: &&str| CATEGORIES.contains(slug);
+        assert!(categories.iter().all(known), "{file}: {categories:?}");
+    }
+}
+
+#[test]
+fn the_wheel_says_what_a_package_index_asks_for() {
+    let file = "scenarios/python/pyproject.toml";
+    let manifest = text(file);
+    let said = |name: &str| {
+        let found = field(&manifest, "project", name);
+        found.unwrap_or_else(|| panic!("{file} has no {name}"))
+    };
+    assert_eq!(said("name"), "\"rheotaxis-sim\"");
+    assert_eq!(said("requires-python"), "\">=3.10\"");
+    let workspace = text("Cargo.toml");
+    for same in ["description", "license", "keywords"] {
+        let shared = field(&workspace, "workspace.package", same);
+        assert_eq!(Some(said(same)), shared, "{file}: {same}");
+    }
+    assert!(manifest.contains("classifiers = ["), "{file}: classifiers");
+}
+
+#[test]
+fn the_citation_names_this_version() {
+    let workspace = text("Cargo.toml");
+    let version = field(&workspace, "workspace.package", "version").expect("a version");
+    let citation = text("CITATION.cff");
+    let cited = citation
+        .lines()
+        .find_map(|line| line.strip_prefix("version: "));
+    assert_eq!(cited, Some(version.trim_matches('"')), "CITATION.cff");
 }

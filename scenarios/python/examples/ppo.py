@@ -1,4 +1,4 @@
-"""PPO of Stable-Baselines3 on the channel: pip install 'rheotaxis[sb3]'.
+"""PPO of Stable-Baselines3 on the channel: pip install 'rheotaxis-sim[sb3]'.
 
     python scenarios/python/examples/ppo.py [STEPS]
 
