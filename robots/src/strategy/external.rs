@@ -5,7 +5,9 @@
 //! *Parameters*: see [`ExternalSpec`].
 //!
 //! *Deviations*: none. Between two answers the last order holds. Before the first one the vehicle keeps the heading,
-//! depth and speed with which it set out. Who answers, and how, is the business of the run: here are only the answers.
+//! depth and speed with which it set out; one that set out slower than it can be steered takes its least speed, so that
+//! a first order without a speed does not leave it to sink. Who answers, and how, is the business of the run: here are
+//! only the answers.
 
 use super::catalogue::StrategySpec;
 use super::spec::{Strategy, StrategyParams};
@@ -215,7 +217,7 @@ impl External {
     }
 }
 
-/// The goal before the first answer: on as it set out.
+/// The goal before the first answer: on as it set out, at least as fast as it can be steered.
 fn setting_out(seen: &Observation) -> Goal {
     let e = &seen.estimate;
     Goal {
@@ -224,7 +226,7 @@ fn setting_out(seen: &Observation) -> Goal {
             heading: e.attitude.heading,
         },
         vertical: Vertical::Depth(e.depth_m.max(0.0)),
-        speed_m_s: e.v_ground_body.x.max(0.0),
+        speed_m_s: e.v_ground_body.x.max(seen.able.least_speed_m_s),
     }
 }
 

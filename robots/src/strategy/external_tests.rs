@@ -76,6 +76,29 @@ fn the_last_order_holds_between_answers_and_without_one() {
 }
 
 #[test]
+fn an_order_without_a_speed_moves_a_vehicle_that_starts_at_rest() {
+    let mut rng = Stream::new(1, "auv0", "strategy");
+    let mut at_rest = at(0.0, None);
+    at_rest.estimate.v_ground_body.x = 0.0;
+    let Some(Told::Answer(mut answer)) = steer(90.0, None) else {
+        unreachable!("an order")
+    };
+    let Some(Order::Move(order)) = &mut answer.order else {
+        unreachable!("a move")
+    };
+    order.speed_m_s = None;
+    at_rest.told = Some(Told::Answer(answer));
+    let least = at_rest.able.least_speed_m_s;
+    assert!(least > 0.0);
+    let mut s = external(OnLate::Hold).expect("legal");
+    assert_eq!(s.step(&at_rest, &mut rng).goal.speed_m_s, least);
+    // One that hovers stays: it does not sink.
+    at_rest.able.least_speed_m_s = 0.0;
+    let mut s = external(OnLate::Hold).expect("legal");
+    assert_eq!(s.step(&at_rest, &mut rng).goal.speed_m_s, 0.0);
+}
+
+#[test]
 fn without_an_answer_it_can_end_its_mission() {
     let mut s = external(OnLate::Abort).expect("legal");
     let mut rng = Stream::new(1, "auv0", "strategy");
