@@ -1,18 +1,26 @@
-//! Controllers in Python: functions that decide for the robots and gantries of a run.
+//! Controllers in Python: functions and policies that decide for the robots and gantries of a run.
 
+use crate::batch::Pilot;
+use output::results::AbnormalSummary;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::PyMapping;
+use rheotaxis::abnormal::Abnormality;
 use rheotaxis::control::{Consultation, Controller, Heard, Question, question_json, read_answer};
 use rheotaxis::trial::Trial;
+use robots::handoff::Consulted;
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// A machine that has touched the bed without a pause for longer than this lies there, s.
+const AGROUND_S: f64 = 60.0;
 
 /// What went wrong first, in a controller or with an answer of it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
 
 impl Raised {
-    fn keep(&self, error: PyErr) {
+    /// Keeps what went wrong, if it is the first.
+    pub(crate) fn keep(&self, error: PyErr) {
         let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         first.get_or_insert(error);
     }
@@ -65,28 +73,48 @@ impl Controller for Function {
     }
 }
 
-/// The functions that a run was given, by machine: of a dict, or one function for all machines that ask.
+/// Who decides for a machine.
+pub(crate) enum Decider {
+    /// A function of Python: the question as a text in, the answer as a text out.
+    Function(Py<PyAny>),
+    /// A policy that sees and acts as in an environment.
+    Policy(Py<Pilot>),
+}
+
+/// The decider that an argument means for a machine; `period_s` is the time between two questions, if it asks.
+fn decider(id: &str, period_s: Option<f64>, of: &Bound<'_, PyAny>) -> PyResult<Decider> {
+    if of.hasattr("_pilot")? {
+        let pilot = of.call_method1("_pilot", (id, period_s))?;
+        return Ok(Decider::Policy(pilot.cast::<Pilot>()?.clone().unbind()));
+    }
+    let asked = (of.py().import("rheotaxis._controllers")?).getattr("asked")?;
+    Ok(Decider::Function(asked.call1((of,))?.unbind()))
+}
+
+/// The deciders that a run was given, by machine: of a dict, or one for all machines that ask.
 pub(crate) fn given(
     controllers: Option<&Bound<'_, PyAny>>,
-    asking: &[String],
-) -> PyResult<Vec<(String, Py<PyAny>)>> {
+    asking: &[(String, Consulted)],
+) -> PyResult<Vec<(String, Decider)>> {
     let Some(controllers) = controllers else {
         return Ok(Vec::new());
     };
-    let py = controllers.py();
-    let asked = py.import("rheotaxis._controllers")?.getattr("asked")?;
-    let function = |of: &Bound<'_, PyAny>| asked.call1((of,)).map(Bound::unbind);
-    if let Ok(each) = controllers.cast::<PyDict>() {
-        let each = each.iter();
-        return each
-            .map(|(id, of)| Ok((id.extract()?, function(&of)?)))
-            .collect();
+    if let Ok(each) = controllers.cast::<PyMapping>() {
+        let each = each.items()?;
+        let each = each.iter().map(|pair| {
+            let (id, of): (String, Bound<'_, PyAny>) = pair.extract()?;
+            let own = asking.iter().find(|(name, _)| *name == id);
+            let decides = decider(&id, own.map(|(_, asks)| asks.period_s), &of)?;
+            Ok((id, decides))
+        });
+        return each.collect();
     }
-    if controllers.is_callable() {
-        let each = asking.iter();
-        return each
-            .map(|id| Ok((id.clone(), function(controllers)?)))
-            .collect();
+    if controllers.is_callable() || controllers.hasattr("_pilot")? {
+        let each = asking.iter().map(|(id, asks)| {
+            let decides = decider(id, Some(asks.period_s), controllers)?;
+            Ok((id.clone(), decides))
+        });
+        return each.collect();
     }
     Err(PyTypeError::new_err(format!(
         "controllers must be a function, or a dict of them by robot, got {}",
@@ -94,15 +122,58 @@ pub(crate) fn given(
     )))
 }
 
+/// A line for each machine that asks and has nobody to answer it; none if others were meant, which is a mistake.
+pub(crate) fn unanswered(
+    asking: &[(String, Consulted)],
+    deciders: &[(String, Decider)],
+) -> Vec<String> {
+    let has = |id: &str| deciders.iter().any(|(name, _)| name == id);
+    let alone: Vec<&(String, Consulted)> = asking.iter().filter(|(id, _)| !has(id)).collect();
+    if alone.len() + deciders.len() != asking.len() {
+        return Vec::new();
+    }
+    let line = |(id, asks): &&(String, Consulted)| {
+        format!(
+            "{id} asks a controller every {} s and has none, so that its `on_late` decides: give \
+             controllers={{\"{id}\": f}} (docs/doors.md), or controllers={{}} if that is meant",
+            asks.period_s
+        )
+    };
+    alone.iter().map(line).collect()
+}
+
+/// A line for each machine that asked and lay on the bed, or at an obstacle, for long.
+pub(crate) fn aground(asking: &[(String, Consulted)], events: &[AbnormalSummary]) -> Vec<String> {
+    let own = |event: &&AbnormalSummary| asking.iter().any(|(id, _)| *id == event.robot);
+    let long = |event: &&AbnormalSummary| {
+        event.what == Abnormality::Touched && event.lasted_s >= AGROUND_S
+    };
+    let events = events.iter().filter(own).filter(long);
+    events
+        .map(|event| {
+            format!(
+                "{} {}: do its controller's answers give a speed, and a depth or altitude that it can keep?",
+                event.robot, event.line
+            )
+        })
+        .collect()
+}
+
 /// Lets them decide in a run.
 pub(crate) fn take_over(
     trial: &mut Trial,
-    functions: Vec<(String, Py<PyAny>)>,
+    deciders: Vec<(String, Decider)>,
     raised: &Raised,
 ) -> PyResult<()> {
-    for (id, ask) in functions {
+    for (id, decider) in deciders {
         let raised = raised.clone();
-        let done = trial.control(&id, Function { ask, raised });
+        let done = match decider {
+            Decider::Function(ask) => trial.control(&id, Function { ask, raised }),
+            Decider::Policy(pilot) => {
+                let piloting = Python::attach(|py| pilot.get().controller(py, raised));
+                trial.control(&id, piloting)
+            }
+        };
         done.map_err(|error| {
             PyValueError::new_err(format!(
                 "{error}; set it with scenario.with_({{\"robots.0.strategy\": Ron(\"External()\")}})"

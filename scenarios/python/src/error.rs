@@ -1,6 +1,6 @@
 //! Mistakes and panics as Python's exceptions.
 
-use pyo3::exceptions::{PyRuntimeError, PyUserWarning, PyValueError};
+use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rheotaxis::lanes::caught;
@@ -20,6 +20,13 @@ pyo3::create_exception!(
     ScenarioWarning,
     PyUserWarning,
     "Something in a scenario is legal and probably not meant."
+);
+
+pyo3::create_exception!(
+    rheotaxis,
+    RunWarning,
+    PyUserWarning,
+    "Something in a run is probably not meant: nobody answers a robot, or it lay on the bed."
 );
 
 /// The exception for a scenario that cannot be used.
@@ -73,6 +80,24 @@ where
 {
     py.detach(|| caught(work))
         .unwrap_or_else(|said| Err(panicked(&said)))
+}
+
+/// Warns of what is probably not meant in a run.
+pub(crate) fn warn_of_run(py: Python<'_>, lines: &[String]) -> PyResult<()> {
+    let category = py.get_type::<RunWarning>();
+    lines.iter().try_for_each(|line| warn(py, &category, line))
+}
+
+/// An argument that is a whole number from 0 to `most`.
+pub(crate) fn whole(name: &str, given: &Bound<'_, PyAny>, most: u64) -> PyResult<u64> {
+    let number = given.call_method0("__index__").map_err(|_| {
+        let kind = given.get_type();
+        PyTypeError::new_err(format!("{name} must be a whole number, got {kind}"))
+    })?;
+    let found = number.extract::<u64>().ok().filter(|n| *n <= most);
+    found.ok_or_else(|| {
+        PyValueError::new_err(format!("{name} must be from 0 to {most}, got {number}"))
+    })
 }
 
 /// Panics where runs do, with these words: the tests make sure that it becomes an exception.

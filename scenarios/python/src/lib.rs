@@ -27,9 +27,9 @@ mod _rheotaxis {
     use pyo3::prelude::*;
 
     #[pymodule_export]
-    use crate::batch::Batch;
+    use crate::batch::{Batch, Pilot};
     #[pymodule_export]
-    use crate::error::{ScenarioError, ScenarioWarning, panic_of};
+    use crate::error::{RunWarning, ScenarioError, ScenarioWarning, panic_of};
     #[pymodule_export]
     use crate::result::{PyFigure, PyRunResult};
     #[pymodule_export]

@@ -14,56 +14,99 @@ use std::path::PathBuf;
 use std::sync::{Mutex, OnceLock, PoisonError};
 use world::files;
 
-/// All that is kept of a run. The trial is over; figures look at its ocean.
+/// What figures are drawn from. The trial is over; they look at its ocean.
 pub(crate) struct Kept {
-    pub(crate) ended: Ended,
     pub(crate) gathered: Gathered,
     pub(crate) ocean: Trial,
+}
+
+/// A run that is over.
+pub(crate) struct Made {
+    pub(crate) ended: Ended,
+    pub(crate) kept: Kept,
+    pub(crate) robots: Vec<RobotColumns>,
+    pub(crate) gantries: Vec<GantryColumns>,
 }
 
 /// The result of a run.
 #[pyclass(frozen, name = "Result", module = "rheotaxis")]
 pub(crate) struct PyRunResult {
-    outcome: RunOutcome,
+    facts: Facts,
+    files: Option<PathBuf>,
+    /// Columns by robot, and by gantry. Whoever asks gets a copy.
+    track: Py<PyAny>,
+    probes: Py<PyAny>,
+    /// Locked only without the interpreter's lock; `None` of a copy, which has its figures.
+    kept: Option<Mutex<Kept>>,
+    figures: OnceLock<Vec<Figure>>,
+}
+
+/// The texts and numbers of a result.
+#[derive(Clone, FromPyObject, IntoPyObject)]
+#[pyo3(from_item_all)]
+struct Facts {
+    success: bool,
+    outcome_words: String,
     digest: String,
     t_s: f64,
     steps: u64,
     name: String,
     seed: u64,
     summary: String,
-    files: Option<PathBuf>,
-    robots: Vec<RobotColumns>,
-    gantries: Vec<GantryColumns>,
-    /// Locked only without the interpreter's lock.
-    kept: Mutex<Kept>,
-    figures: OnceLock<Vec<Figure>>,
 }
+
+/// A figure on its way to another process: name, title, and the drawing or the reason why there is none.
+type SentFigure = (String, String, Option<String>, Option<String>);
+
+/// A result on its way to another process.
+type Sent = (
+    Facts,
+    Option<PathBuf>,
+    Py<PyAny>,
+    Py<PyAny>,
+    Vec<SentFigure>,
+);
 
 impl PyRunResult {
     /// Of a run that is over.
-    pub(crate) fn new(kept: Kept, robots: Vec<RobotColumns>, gantries: Vec<GantryColumns>) -> Self {
-        let (ended, summary) = (&kept.ended, &kept.gathered.summary);
-        Self {
-            outcome: summary.outcome,
-            digest: ended.digest.clone(),
-            t_s: ended.t_s,
-            steps: ended.steps,
-            name: summary.scenario.clone(),
-            seed: summary.seed,
-            summary: summary.json(),
-            files: kept.gathered.out().map(|out| out.dir().to_owned()),
-            robots,
-            gantries,
-            kept: Mutex::new(kept),
-            figures: OnceLock::new(),
+    pub(crate) fn new(py: Python<'_>, made: Made) -> PyResult<Self> {
+        let summary = &made.kept.gathered.summary;
+        let track = PyDict::new(py);
+        for robot in &made.robots {
+            track.set_item(robot.id(), robot.arrays(py)?)?;
         }
+        let probes = PyDict::new(py);
+        for gantry in &made.gantries {
+            probes.set_item(gantry.id(), gantry.arrays(py)?)?;
+        }
+        let good = [RunOutcome::Found, RunOutcome::Completed];
+        Ok(Self {
+            facts: Facts {
+                success: good.contains(&summary.outcome),
+                outcome_words: summary.outcome.words().to_string(),
+                digest: made.ended.digest,
+                t_s: made.ended.t_s,
+                steps: made.ended.steps,
+                name: summary.scenario.clone(),
+                seed: summary.seed,
+                summary: summary.json(),
+            },
+            files: made.kept.gathered.out().map(|out| out.dir().to_owned()),
+            track: track.into_any().unbind(),
+            probes: probes.into_any().unbind(),
+            kept: Some(Mutex::new(made.kept)),
+            figures: OnceLock::new(),
+        })
     }
 
     /// The figures, drawn when they are first asked for.
     fn drawn(&self, py: Python<'_>) -> PyResult<&[Figure]> {
         apart(py, || {
             Ok(&**self.figures.get_or_init(|| {
-                let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+                let Some(kept) = &self.kept else {
+                    return Vec::new();
+                };
+                let kept = kept.lock().unwrap_or_else(PoisonError::into_inner);
                 kept.gathered.figures(kept.ocean.simulation.ocean())
             }))
         })
@@ -79,22 +122,22 @@ impl PyRunResult {
 
     #[getter]
     fn success(&self) -> bool {
-        matches!(self.outcome, RunOutcome::Found | RunOutcome::Completed)
+        self.facts.success
     }
 
     #[getter]
     fn digest(&self) -> &str {
-        &self.digest
+        &self.facts.digest
     }
 
     #[getter]
     fn t_s(&self) -> f64 {
-        self.t_s
+        self.facts.t_s
     }
 
     #[getter]
     fn steps(&self) -> u64 {
-        self.steps
+        self.facts.steps
     }
 
     #[getter]
@@ -104,7 +147,8 @@ impl PyRunResult {
 
     #[getter]
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        py.import("json")?.call_method1("loads", (&self.summary,))
+        py.import("json")?
+            .call_method1("loads", (&self.facts.summary,))
     }
 
     #[getter]
@@ -134,21 +178,13 @@ impl PyRunResult {
     }
 
     #[getter]
-    fn track<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        for robot in &self.robots {
-            all.set_item(robot.id(), robot.arrays(py)?)?;
-        }
-        Ok(all)
+    fn track<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        copied(self.track.bind(py))
     }
 
     #[getter]
-    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let all = PyDict::new(py);
-        for gantry in &self.gantries {
-            all.set_item(gantry.id(), gantry.arrays(py)?)?;
-        }
-        Ok(all)
+    fn probes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        copied(self.probes.bind(py))
     }
 
     #[getter]
@@ -182,16 +218,55 @@ impl PyRunResult {
         self.plot(py, None)?._repr_png_(py)
     }
 
+    /// All of it, with its figures: they are drawn now, for they need the run's ocean.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Sent)> {
+        let (py, own) = (slf.py(), slf.get());
+        let sent = |f: &Figure| {
+            let (name, title) = (f.name.clone(), f.title.clone());
+            (name, title, f.svg.clone().ok(), f.svg.clone().err())
+        };
+        let figures = own.drawn(py)?.iter().map(sent).collect();
+        let (track, probes) = (own.track.clone_ref(py), own.probes.clone_ref(py));
+        let all = (own.facts.clone(), own.files.clone(), track, probes, figures);
+        Ok((slf.get_type().getattr("_restored")?, all))
+    }
+
+    /// What `__reduce__` has sent.
+    #[staticmethod]
+    fn _restored(
+        facts: Facts,
+        files: Option<PathBuf>,
+        track: Py<PyAny>,
+        probes: Py<PyAny>,
+        figures: Vec<SentFigure>,
+    ) -> Self {
+        let figure = |(name, title, svg, why): SentFigure| Figure {
+            name,
+            title,
+            svg: svg.ok_or_else(|| why.unwrap_or_default()),
+        };
+        Self {
+            facts,
+            files,
+            track,
+            probes,
+            kept: None,
+            figures: OnceLock::from(figures.into_iter().map(figure).collect::<Vec<_>>()),
+        }
+    }
+
     fn __repr__(&self) -> String {
+        let facts = &self.facts;
         format!(
             "<rheotaxis.Result {} seed {}: {} after {:.1} s, digest {}>",
-            self.name,
-            self.seed,
-            self.outcome.words(),
-            self.t_s,
-            self.digest
+            facts.name, facts.seed, facts.outcome_words, facts.t_s, facts.digest
         )
     }
+}
+
+/// A copy of a dict of dicts of arrays: an array belongs to its owner.
+fn copied<'py>(columns: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    (columns.py().import("copy")?).call_method1("deepcopy", (columns,))
 }
 
 /// A figure of a run.
@@ -245,6 +320,20 @@ impl PyFigure {
 
     fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
         Ok(PyBytes::new(py, &self.bytes(py)?))
+    }
+
+    fn __reduce__<'py>(
+        slf: &Bound<'py, Self>,
+    ) -> PyResult<(Bound<'py, PyAny>, (String, String, String))> {
+        let own = slf.get();
+        let all = (own.name.clone(), own.title.clone(), own.svg.clone());
+        Ok((slf.get_type().getattr("_restored")?, all))
+    }
+
+    /// What `__reduce__` has sent.
+    #[staticmethod]
+    fn _restored(name: String, title: String, svg: String) -> Self {
+        Self { name, title, svg }
     }
 
     fn __repr__(&self) -> String {

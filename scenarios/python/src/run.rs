@@ -3,19 +3,20 @@
 use super::cache::{Cache, opened, tell_fault};
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
-use super::controllers::{Raised, given, take_over};
-use super::error::{apart, other, scenario_error, warn_of};
-use super::result::{Kept, PyRunResult};
+use super::controllers::{Decider, Raised, aground, given, take_over, unanswered};
+use super::error::{apart, other, scenario_error, warn_of, warn_of_run, whole};
+use super::result::{Kept, Made, PyRunResult};
 use super::scenario::PyScenario;
 use super::signals::Signals;
 use output::files::begin_folder;
 use output::follow::Follower;
+use pyo3::Borrowed;
 use pyo3::prelude::*;
 use rheotaxis::cache::SpinUps;
 use rheotaxis::control::Consultation;
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use rheotaxis::scenario::Loaded;
-use rheotaxis::trial::{Trial, Watch, controlled};
+use rheotaxis::trial::{Trial, Watch, consulted};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -67,12 +68,12 @@ struct Asked {
     files: Option<PathBuf>,
     recording: bool,
     threads: usize,
-    /// Functions that decide, by machine.
-    controllers: Vec<(String, Py<PyAny>)>,
+    /// Who decides, by machine.
+    controllers: Vec<(String, Decider)>,
 }
 
 /// Makes the run; an exception that a signal has raised comes with it.
-fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<PyRunResult> {
+fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<Made> {
     let mut trial = Trial::assemble(loaded, asked.seed).map_err(other)?;
     if asked.threads != 1 {
         trial.simulation.ocean_mut().use_threads(asked.threads);
@@ -103,40 +104,75 @@ fn made(loaded: &Loaded, asked: Asked, kept: Option<&SpinUps>) -> PyResult<PyRun
     }
     written.map_err(other)?;
     let kept = Kept {
-        ended,
         gathered,
         ocean: trial,
     };
-    Ok(PyRunResult::new(kept, watcher.robots, watcher.gantries))
+    Ok(Made {
+        ended,
+        kept,
+        robots: watcher.robots,
+        gantries: watcher.gantries,
+    })
+}
+
+/// Most threads that a run may be asked to use.
+const MOST_THREADS: u64 = 1024;
+
+/// The seed of a run.
+pub(crate) struct Seed(u64);
+
+/// So many threads; 0 means one for each core.
+pub(crate) struct Threads(usize);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Seed {
+    type Error = PyErr;
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        whole("seed", &given, u64::MAX).map(Self)
+    }
+}
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Threads {
+    type Error = PyErr;
+    fn extract(given: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        whole("threads", &given, MOST_THREADS).map(|n| Self(n as usize))
+    }
 }
 
 /// Runs a scenario to its end.
 #[pyfunction]
 #[pyo3(signature = (
-    scenario, seed = 1, *, controllers = None, files = None, recording = true, cache = None, threads = 0
+    scenario, seed = Seed(1), *, controllers = None, files = None, recording = true, cache = None,
+    threads = Threads(0)
 ))]
 pub(crate) fn run(
     scenario: &Bound<'_, PyAny>,
-    seed: u64,
+    seed: Seed,
     controllers: Option<&Bound<'_, PyAny>>,
     files: Option<PathBuf>,
     recording: bool,
     cache: Option<Cache>,
-    threads: usize,
+    threads: Threads,
 ) -> PyResult<PyRunResult> {
     let py = scenario.py();
     let loaded = PyScenario::meant(scenario)?;
     let odd = loaded.check().map_err(|error| scenario_error(py, error))?;
     warn_of(py, odd)?;
+    let asking = consulted(&loaded.scenario);
+    let deciders = given(controllers, &asking)?;
+    if !controllers.is_some_and(|c| c.len().is_ok_and(|n| n == 0)) {
+        warn_of_run(py, &unanswered(&asking, &deciders))?;
+    }
     let kept = opened(py, cache)?;
     let asked = Asked {
-        seed,
+        seed: seed.0,
         files,
         recording,
-        threads,
-        controllers: given(controllers, &controlled(&loaded.scenario))?,
+        threads: threads.0,
+        controllers: deciders,
     };
-    let result = apart(py, || made(&loaded, asked, kept.as_ref()))?;
+    let made = apart(py, || made(&loaded, asked, kept.as_ref()))?;
     tell_fault(py, kept.and_then(|kept| kept.fault()))?;
-    Ok(result)
+    let events = &made.kept.gathered.summary.abnormal;
+    warn_of_run(py, &aground(&asking, events))?;
+    PyRunResult::new(py, made)
 }

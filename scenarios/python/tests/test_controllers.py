@@ -52,8 +52,36 @@ def test_a_controller_decides_and_the_same_one_decides_again(asks, tmp_path):
     assert b"/auv0/control" in (tmp_path / "run.mcap").read_bytes()
     again = rheotaxis.run(asks, controllers={"auv0": controller})
     assert again.digest == first.digest
-    nobody = rheotaxis.run(asks)
+    nobody = rheotaxis.run(asks, controllers={})
     assert nobody.summary["robots"][0]["consulted"]["absent"] == 60 and nobody.digest != first.digest
+
+
+def test_a_scenario_that_waits_for_a_controller_says_so(asks, recwarn):
+    short = asks.with_({"time.limit_s": 2})
+    for controllers in ({}, east, {"auv0": east}):
+        rheotaxis.run(short, controllers=controllers)
+    assert not [w for w in recwarn if issubclass(w.category, rheotaxis.RunWarning)]
+    said = r"auv0 asks a controller every 1 s and has none.*give controllers=\{\"auv0\": f\}"
+    with pytest.warns(rheotaxis.RunWarning, match=said):
+        rheotaxis.run(short)
+
+
+def test_a_vehicle_at_rest_goes_with_an_order_that_gives_no_speed(asks, recwarn):
+    at_rest = asks.with_({"robots.0.start.speed_m_s": 0})
+    track = rheotaxis.run(at_rest, controllers=east).track["auv0"]
+    assert track["speed_m_s"][-1] > 0.5 and track["altitude_m"].min() > 1
+    assert not [w for w in recwarn if issubclass(w.category, rheotaxis.RunWarning)]
+
+
+@pytest.mark.filterwarnings("ignore::rheotaxis.ScenarioWarning")
+def test_a_vehicle_that_lies_on_the_bed_is_told_of():
+    def stays(question):
+        return {"steer": {"heading_rad": 0.0, "speed_m_s": 0.0}}
+
+    # It is heavier than the water at Duck, and sinks.
+    duck = rheotaxis.Scenario.load("duck_external").with_({"time.spin_up_s": 1, "time.limit_s": 200})
+    with pytest.warns(rheotaxis.RunWarning, match="auv0 touched the bed .*still so: do its controller's answers give"):
+        rheotaxis.run(duck, controllers=stays)
 
 
 def test_a_declaration_ends_the_mission(asks):

@@ -176,22 +176,53 @@ def test_a_gantry_moves_its_head_and_declares():
 
 
 @pytest.mark.parametrize(
-    ("option", "said"),
+    ("option", "error", "said"),
     [
-        ({"period_s": 0.03}, "whole number of the scenario's steps of 0.02 s"),
-        ({"period_s": 0}, "whole number"),
-        ({"limit_s": float("nan")}, "limit_s must be above 0"),
-        ({"goal_m": -1}, "goal_m must be above 0"),
-        ({"speed_m_s": (2, 1)}, "two speeds, the smaller first"),
-        ({"action": "jump"}, "action must be one of continuous"),
-        ({"observation": "all"}, "observation must be one of state"),
-        ({"reward": "money"}, "reward must be one of sparse"),
-        ({"plumes": 0}, "plumes must be at least 1"),
+        ({"period_s": 0.03}, ValueError, "whole number of the scenario's steps of 0.02 s"),
+        ({"period_s": 0}, ValueError, "whole number"),
+        ({"period_s": "1"}, TypeError, "period_s must be a number, got '1'"),
+        ({"limit_s": float("nan")}, ValueError, "limit_s must be above 0"),
+        ({"limit_s": True}, TypeError, "limit_s must be a number"),
+        ({"goal_m": -1}, ValueError, "goal_m must be above 0"),
+        ({"goal_m": [1]}, TypeError, "goal_m must be a number"),
+        ({"declare": "yes"}, TypeError, "declare must be True or False"),
+        ({"truth": 1}, TypeError, "truth must be True or False"),
+        ({"turn_deg": float("inf")}, ValueError, "turn_deg must be above 0"),
+        ({"climb_m": None}, TypeError, "climb_m must be a number"),
+        ({"speed_m_s": (2, 1)}, ValueError, "two speeds, the smaller first"),
+        ({"speed_m_s": (float("nan"), 1)}, ValueError, "two speeds, the smaller first"),
+        ({"speed_m_s": 2}, TypeError, "speed_m_s must be two speeds"),
+        ({"speed_m_s": ("1", "2")}, TypeError, "speed_m_s must be a number"),
+        ({"action": "jump"}, ValueError, "action must be one of continuous"),
+        ({"action": ["grid"]}, TypeError, "action must be one of continuous"),
+        ({"observation": "all"}, ValueError, "observation must be one of state"),
+        ({"observation": 3}, TypeError, "observation must be one of state"),
+        ({"reward": "money"}, ValueError, "reward must be one of sparse"),
+        ({"reward": None}, TypeError, "reward must be one of sparse"),
+        ({"plumes": 0}, ValueError, "plumes must be from 1"),
+        ({"plumes": 1.5}, TypeError, "plumes must be a whole number"),
+        ({"threads": -1}, ValueError, "threads must be from 0 to 1024"),
+        ({"cache": 3}, TypeError, "cache"),
+        ({"render_mode": "human"}, ValueError, "render_mode must be None"),
+        ({"rewards": "hits"}, TypeError, "unexpected keyword argument 'rewards'"),
     ],
 )
-def test_options_that_make_no_sense(channel, option, said):
-    with pytest.raises(ValueError, match=said):
+def test_wrong_options_are_named(channel, option, error, said):
+    with pytest.raises(error, match=said):
         rheotaxis.Env(channel, **option)
+
+
+@pytest.mark.parametrize(("seed", "error"), [(-1, ValueError), (2**64, ValueError), (1.5, TypeError), ("1", TypeError)])
+def test_wrong_seeds_are_named(channel, options, seed, error):
+    env = rheotaxis.Env(channel, **options)
+    with pytest.raises(error, match="a seed is a whole number"):
+        env.reset(seed=seed)
+
+
+def test_a_gantry_is_refused_what_it_has_not():
+    for option in ({"reward": "hits"}, {"action": "grid"}, {"observation": "reading"}):
+        with pytest.raises(ValueError, match="gantry"):
+            rheotaxis.Env("flume_crab", **option)
 
 
 def test_what_is_no_action_is_refused_and_changes_nothing(channel, options):

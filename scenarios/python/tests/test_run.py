@@ -131,7 +131,26 @@ def test_a_folder_that_cannot_be_written_is_named(channel, tmp_path):
         rheotaxis.run(channel, files=tmp_path / "taken" / "run")
 
 
-@pytest.mark.parametrize("seed", [-1, 2**64, 1.5, "one"])
-def test_a_seed_is_a_whole_number(channel, seed):
-    with pytest.raises((TypeError, OverflowError)):
-        rheotaxis.run(channel, seed)
+@pytest.mark.parametrize(
+    ("argument", "error", "said"),
+    [
+        ({"seed": -1}, ValueError, "seed must be from 0 to 18446744073709551615, got -1"),
+        ({"seed": 2**64}, ValueError, "seed must be from 0"),
+        ({"seed": 1.5}, TypeError, "seed must be a whole number"),
+        ({"seed": "one"}, TypeError, "seed must be a whole number"),
+        ({"threads": -1}, ValueError, "threads must be from 0 to 1024, got -1"),
+        ({"threads": "all"}, TypeError, "threads must be a whole number"),
+        ({"files": 3}, TypeError, "files"),
+        ({"cache": 3}, TypeError, "cache"),
+        ({"recording": "yes"}, TypeError, "recording"),
+        ({"speed": 3}, TypeError, "unexpected keyword argument 'speed'"),
+    ],
+)
+def test_a_wrong_argument_is_named(channel, argument, error, said):
+    with pytest.raises(error, match=said):
+        rheotaxis.run(channel, **argument)
+
+
+def test_a_seed_of_numpy_is_a_seed(channel):
+    short = channel.with_({"time.limit_s": 1})
+    assert rheotaxis.run(short, np.int64(2)).digest == rheotaxis.run(short, 2).digest

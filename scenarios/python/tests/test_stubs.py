@@ -27,7 +27,3 @@ def test_stubs_and_module_have_the_same_names():
         if members is not None and not issubclass(there, Exception) and not issubclass(there, Warning):
             assert public(members) == public(vars(there)), name
     assert public(rheotaxis.__all__) <= public(dir(rheotaxis))
-
-
-def test_the_package_is_typed():
-    assert Path(rheotaxis.__file__).with_name("py.typed").exists()

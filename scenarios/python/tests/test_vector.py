@@ -114,8 +114,18 @@ def test_what_is_no_action_is_refused(channel):
         env.reset(options={"reset_mask": np.zeros(2, bool)})
     with pytest.raises(ValueError, match="fill their plumes"):
         rheotaxis.VectorEnv(channel, 3, searchers_per_plume=2, **OPTIONS)
-    with pytest.raises(ValueError, match="at most 65536 environments"):
-        rheotaxis.VectorEnv(channel, 10**9, **OPTIONS)
+    for option, error in [
+        ({"num_envs": 10**9}, ValueError),
+        ({"num_envs": 0}, ValueError),
+        ({"num_envs": 2.0}, TypeError),
+        ({"searchers_per_plume": 0}, ValueError),
+        ({"searchers_per_plume": "2"}, TypeError),
+        ({"autoreset_mode": "Never"}, ValueError),
+    ]:
+        with pytest.raises(error, match=next(iter(option)) if "autoreset_mode" not in option else "Never"):
+            rheotaxis.VectorEnv(channel, **OPTIONS, **option)
+    with pytest.raises(TypeError, match="seed must be a whole number, or a list"):
+        env.reset(seed=1.5)
     env.close()
     with pytest.raises(RuntimeError, match="closed"):
         env.step(np.zeros((2, 3)))

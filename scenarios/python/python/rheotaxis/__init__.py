@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any
 from ._rheotaxis import (
     Figure,
     Result,
+    RunWarning,
     Scenario,
     ScenarioError,
     ScenarioWarning,
@@ -28,13 +29,16 @@ from ._ron import Ron
 if TYPE_CHECKING:
     from .gym import Env, VectorEnv
     from .parallel import ParallelEnv
+    from .policies import PolicyController
 
 __all__ = [
     "Env",
     "Figure",
     "ParallelEnv",
+    "PolicyController",
     "Result",
     "Ron",
+    "RunWarning",
     "Scenario",
     "ScenarioError",
     "ScenarioWarning",
@@ -46,7 +50,16 @@ __all__ = [
 ]
 
 #: Names that need packages which are not always there.
-_LATER = {"Env": "gym", "VectorEnv": "gym", "ParallelEnv": "parallel", "gym": "gym", "parallel": "parallel", "sb3": "sb3"}
+_LATER = {
+    "Env": "gym",
+    "VectorEnv": "gym",
+    "ParallelEnv": "parallel",
+    "PolicyController": "policies",
+    "gym": "gym",
+    "parallel": "parallel",
+    "policies": "policies",
+    "sb3": "sb3",
+}
 
 
 def __getattr__(name: str) -> Any:

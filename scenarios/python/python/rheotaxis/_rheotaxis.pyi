@@ -1,16 +1,19 @@
 """The engine of the package. World axes are ENU, z = 0 at the still surface; headings are compass degrees."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, final
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
 __version__: str
 
-Controller = Callable[[dict[str, Any]], dict[str, Any] | None]
+if TYPE_CHECKING:
+    from .policies import PolicyController
+
+Controller: TypeAlias = Callable[[dict[str, Any]], dict[str, Any] | None] | PolicyController
 
 Outcome = Literal["found", "not_found", "completed", "aborted", "time_out", "interrupted", "failed"]
 
@@ -25,6 +28,10 @@ class ScenarioError(ValueError):
 
 class ScenarioWarning(UserWarning):
     """Something in a scenario is legal and probably not meant."""
+
+class RunWarning(UserWarning):
+    """Something in a run is probably not meant: a machine asks a controller and has none, or one that asks lay on the
+    bed, or touched an obstacle, for more than a minute."""
 
 @final
 class Scenario:
@@ -95,7 +102,10 @@ class Figure:
 
 @final
 class Result:
-    """What a run has left."""
+    """What a run has left.
+
+    It pickles with all its data, so a pool of processes can return it. Its figures are drawn for that.
+    """
 
     @property
     def outcome(self) -> Outcome:
@@ -189,13 +199,18 @@ class _Batch:
     def limit_s(self) -> float: ...
     def reset(self, begin: list[tuple[int, int, int]], fresh: bool) -> None: ...
     def step(self, acting: list[int], actions: bytes) -> None: ...
+    def pilot(self, agent: int, decide: Callable[[npt.NDArray[Any]], bytes]) -> _Pilot: ...
     def look(self) -> dict[str, Any]: ...
+
+@final
+class _Pilot:
+    """A policy that decides for a searcher of a run: what PolicyController stands on."""
 
 def run(
     scenario: str | PathLike[str] | Scenario,
     seed: int = 1,
     *,
-    controllers: Controller | dict[str, Controller] | None = None,
+    controllers: Controller | Mapping[str, Controller] | None = None,
     files: str | PathLike[str] | None = None,
     recording: bool = True,
     cache: bool | str | PathLike[str] | None = None,
@@ -210,14 +225,16 @@ def run(
     ``controllers`` decide for robots and gantries whose strategy is ``External``: a function for all of them, or a dict
     of functions by id. A function gets a question as a dict and returns an answer as a dict, with the fields of
     docs/doors.md; None changes nothing. An exception of it ends the run and is raised here; an answer that the machine
-    cannot carry out raises ValueError.
+    cannot carry out raises ValueError. A ``rheotaxis.PolicyController`` stands in the place of a function. A machine
+    that asks and has no controller gives a RunWarning; ``controllers={}`` says that none is meant.
 
     ``files`` names a folder for the files that the command would write, ``run.mcap`` among them if ``recording``.
     ``cache`` is about spin-ups kept on the disk: by default those of the command (``RHEOTAXIS_CACHE``,
     ``RHEOTAXIS_NO_CACHE``), False for none, or a folder. ``threads`` step the plume; 0 means one for each core. The
     result is the same with any number.
 
-    Raises ScenarioError, or RuntimeError if the run could not be made.
+    Raises ScenarioError, or RuntimeError if the run could not be made. An argument of a wrong type raises TypeError, one
+    out of its range (``seed`` from 0 to 2**64 - 1, ``threads`` from 0 to 1024) ValueError.
     """
 
 def catalogue() -> dict[str, dict[str, Any]]:

@@ -7,8 +7,28 @@ steers its believed heading plus ``turn * turn_deg`` through the water, at a dep
 
 from __future__ import annotations
 
+from typing import Any, Protocol
+
 import numpy as np
+import numpy.typing as npt
 from gymnasium import spaces
+
+AnyArray = npt.NDArray[Any]
+
+
+class Action(Protocol):
+    """What a kind of action is: made with the number of environments, of numbers, and whether it may declare."""
+
+    @property
+    def space(self) -> spaces.Space[Any]:
+        """The actions of one agent."""
+
+    def begin(self, envs: AnyArray) -> None:
+        """Episodes begin in these environments."""
+
+    def moves(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
+        """The numbers of these environments' actions, from their observations."""
+
 
 #: Places of numbers in a robot's observation, see ``rheotaxis.observations``.
 FLOW_FORWARD, FLOW_LEFT, FLOW_KNOWN, SIN, COS = 5, 6, 7, 8, 9
@@ -24,10 +44,10 @@ class Continuous:
     def __init__(self, n: int, numbers: int, declare: bool) -> None:
         self.space = spaces.Box(-1.0, 1.0, (numbers,), np.float32)
 
-    def begin(self, envs: np.ndarray) -> None:
+    def begin(self, envs: AnyArray) -> None:
         """Episodes begin in these environments."""
 
-    def moves(self, envs: np.ndarray, obs: np.ndarray, actions: np.ndarray) -> np.ndarray:
+    def moves(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         """The numbers of these environments' actions, from their observations."""
         return actions
 
@@ -42,10 +62,10 @@ class _Discrete:
         self.numbers = numbers
         self.space = spaces.Discrete(self.courses + declare)
 
-    def begin(self, envs: np.ndarray) -> None:
+    def begin(self, envs: AnyArray) -> None:
         """Episodes begin in these environments."""
 
-    def moves(self, envs: np.ndarray, obs: np.ndarray, actions: np.ndarray) -> np.ndarray:
+    def moves(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         """The numbers of these environments' actions, from their observations."""
         moves = np.zeros((len(envs), self.numbers))
         turns = self.turns(envs, obs, actions)
@@ -54,7 +74,7 @@ class _Discrete:
             moves[:, -1] = actions == self.courses
         return moves
 
-    def turns(self, envs: np.ndarray, obs: np.ndarray, actions: np.ndarray) -> np.ndarray:
+    def turns(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         """Turns, clockwise, rad."""
         raise NotImplementedError
 
@@ -65,7 +85,7 @@ class Oriented(_Discrete):
     courses = 3
     turn_rad = np.pi / 6
 
-    def turns(self, envs, obs, actions):
+    def turns(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         return np.choose(np.minimum(actions, 2), [0.0, -self.turn_rad, self.turn_rad])
 
 
@@ -74,7 +94,7 @@ class Grid(_Discrete):
 
     courses = 4
 
-    def turns(self, envs, obs, actions):
+    def turns(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         heading = np.arctan2(obs[:, SIN], obs[:, COS])
         return np.minimum(actions, 3) * (np.pi / 2) - heading
 
@@ -94,11 +114,11 @@ class SurgeCast(_Discrete):
         self.leg = np.zeros(n, dtype=int)
         self.left = np.zeros(n, dtype=int)
 
-    def begin(self, envs):
+    def begin(self, envs: AnyArray) -> None:
         self.side[envs] = 1.0
         self.leg[envs] = self.left[envs] = 0
 
-    def turns(self, envs, obs, actions):
+    def turns(self, envs: AnyArray, obs: AnyArray, actions: AnyArray) -> AnyArray:
         casts = actions == 1
         over = casts & (self.left[envs] == 0)
         self.side[envs] = np.where(over, -self.side[envs], self.side[envs])
@@ -110,7 +130,7 @@ class SurgeCast(_Discrete):
         return np.where(obs[:, FLOW_KNOWN] > 0, turns, 0.0)
 
 
-def _wrapped(angle):
+def _wrapped(angle: AnyArray) -> AnyArray:
     return (angle + np.pi) % (2 * np.pi) - np.pi
 
 

@@ -2,29 +2,31 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 try:
     import gymnasium
+    from gymnasium import spaces
     from gymnasium.vector import AutoresetMode
     from gymnasium.vector.utils import batch_space
 except ImportError as missing:
-    raise ImportError("rheotaxis.Env needs Gymnasium: pip install 'rheotaxis[gym]'") from missing
+    raise ImportError("rheotaxis.Env needs Gymnasium: pip install 'rheotaxis-sim[gym]'") from missing
 
 import numpy as np
 
-from ._episodes import Episodes
-from ._rheotaxis import catalogue
+from ._episodes import AnyArray, Episodes, ScenarioLike, Searcher
+from ._rheotaxis import Scenario, catalogue
 
 
-def _one(episodes: Episodes):
+def _one(episodes: Episodes) -> Searcher:
     if len(episodes.searchers) != 1:
         names = ", ".join(searcher.name for searcher in episodes.searchers)
         raise ValueError(f"the scenario has several searchers ({names}): use rheotaxis.ParallelEnv")
     return episodes.searchers[0]
 
 
-class Env(gymnasium.Env):
+class Env(gymnasium.Env[AnyArray, Any]):
     """One searcher of a scenario, decided for by an agent.
 
     ``scenario`` is the name of one in the catalogue, a path, a text or a Scenario, with one robot or gantry; its own
@@ -48,31 +50,43 @@ class Env(gymnasium.Env):
 
     The mission ends early (terminated without success) if the vehicle leaves the area too far. After an episode whose
     mission is over, the observation is the last one that the searcher made.
+
+    A copy (``copy.deepcopy``, ``pickle``) is made anew from the options; its episode is made again from its actions, and
+    goes on bit by bit as that of the original. Functions among the options must be ones that pickle knows.
+
+    Unknown options and values of a wrong type raise TypeError, values out of range ValueError.
     """
 
     metadata = {"render_modes": []}
 
-    def __init__(self, scenario, **options: Any) -> None:
-        options.pop("render_mode", None)
+    def __init__(self, scenario: ScenarioLike, **options: Any) -> None:
         self._episodes = Episodes(scenario, 1, **options)
         self._searcher = _one(self._episodes)
-        self.observation_space = self._searcher.observation.space
-        self.action_space = self._searcher.action.space
+        self.observation_space: spaces.Space[AnyArray] = self._searcher.observation.space
+        self.action_space: spaces.Space[Any] = self._searcher.action.space
         self.observation_names = list(self._searcher.observation.names)
         self._over = True
 
+    @property
+    def scenario(self) -> Scenario:
+        """The scenario in which a controller is asked as an agent is here: for ``run`` with a ``PolicyController``."""
+        return self._episodes.scenario
+
     def _infos(self) -> dict[str, Any]:
-        infos = {name: value[0] for name, value in self._episodes.infos(self._searcher).items()}
+        infos: dict[str, Any] = {name: value[0] for name, value in self._episodes.infos(self._searcher).items()}
         infos["success"], infos["t_s"] = bool(infos["success"]), float(infos["t_s"])
         return infos
 
-    def reset(self, *, seed: int | None = None, options: dict[str, Any] | None = None):
-        super().reset(seed=seed)
+    def reset(
+        self, *, seed: int | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[AnyArray, dict[str, Any]]:
+        self._over = True
         self._episodes.begin([0], [seed], fresh=True)
+        super().reset(seed=None if seed is None else int(seed))
         self._over = False
         return self._episodes.seen(self._searcher)[0], self._infos()
 
-    def step(self, action):
+    def step(self, action: Any) -> tuple[AnyArray, float, bool, bool, dict[str, Any]]:
         episodes, searcher = self._episodes, self._searcher
         episodes.ready()
         if self._over:
@@ -93,7 +107,7 @@ class Env(gymnasium.Env):
         self._episodes.close()
 
 
-class VectorEnv(gymnasium.vector.VectorEnv):
+class VectorEnv(gymnasium.vector.VectorEnv[AnyArray, Any, AnyArray]):
     """Many environments of one scenario, stepped together by threads of their own, without Python's lock.
 
     The options are those of ``Env``, and:
@@ -106,11 +120,14 @@ class VectorEnv(gymnasium.vector.VectorEnv):
       follows from the seed of the ocean, the step in which it begins, and the seed of its searcher.
 
     With one searcher in each plume, environment ``i`` after ``reset(seed=s)`` is ``Env`` after ``reset(seed=s + i)``.
+
+    A vector is copied or pickled before its first reset. Later that raises RuntimeError: it does not keep what its
+    episodes were made of.
     """
 
     def __init__(
         self,
-        scenario,
+        scenario: ScenarioLike,
         num_envs: int = 1,
         *,
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
@@ -118,32 +135,41 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         threads: int = 0,
         **options: Any,
     ) -> None:
-        options.pop("render_mode", None)
-        self.num_envs = num_envs
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}
         self._episodes = Episodes(scenario, num_envs, searchers_per_plume, threads=threads, **options)
         self._searcher = _one(self._episodes)
-        self.single_observation_space = self._searcher.observation.space
-        self.single_action_space = self._searcher.action.space
+        self.num_envs = num_envs = self._episodes.n
+        self.single_observation_space: spaces.Space[Any] = self._searcher.observation.space
+        self.single_action_space: spaces.Space[Any] = self._searcher.action.space
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
         self.observation_names = list(self._searcher.observation.names)
         self._done = np.ones(num_envs, dtype=bool)
 
-    def _infos(self, of: np.ndarray) -> dict[str, Any]:
+    @property
+    def scenario(self) -> Scenario:
+        """As of ``Env``."""
+        return self._episodes.scenario
+
+    def _infos(self, of: AnyArray) -> dict[str, Any]:
         infos = {}
         for name, value in self._episodes.infos(self._searcher).items():
             infos[name] = value
             infos[f"_{name}"] = of.copy()
         return infos
 
-    def reset(self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None):
+    def reset(
+        self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
+    ) -> tuple[AnyArray, dict[str, Any]]:
         n = self.num_envs
+        seeds: list[int | None]
         if seed is None or isinstance(seed, (int, np.integer)):
             seeds = [None if seed is None else int(seed) + i for i in range(n)]
-        else:
+        elif isinstance(seed, Sequence) and not isinstance(seed, str) or isinstance(seed, np.ndarray):
             seeds = list(seed)
+        else:
+            raise TypeError(f"seed must be a whole number, or a list of one for each environment, got {seed!r}")
         if len(seeds) != n:
             raise ValueError(f"there must be a seed for each of the {n} environments, got {len(seeds)}")
         mask = np.ones(n, dtype=bool)
@@ -157,7 +183,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         self._done[envs] = False
         return self._episodes.seen(self._searcher), self._infos(mask)
 
-    def step(self, actions):
+    def step(self, actions: Any) -> tuple[AnyArray, AnyArray, AnyArray, AnyArray, dict[str, Any]]:
         episodes, searcher, n = self._episodes, self._searcher, self.num_envs
         episodes.ready()
         actions = episodes.checked(searcher, actions, n)
@@ -173,7 +199,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
             over = terminated | truncated
             if again.any():
                 self._begin(again)
-            infos = {}
+            infos: dict[str, Any] = {}
             if over.any() and self.autoreset_mode == AutoresetMode.SAME_STEP:
                 last, told = episodes.seen(searcher), episodes.infos(searcher)
                 for env in np.flatnonzero(over):
@@ -188,7 +214,7 @@ class VectorEnv(gymnasium.vector.VectorEnv):
         infos.update(self._infos(np.ones(n, dtype=bool)))
         return episodes.seen(searcher), rewards, terminated, truncated, infos
 
-    def _begin(self, mask: np.ndarray) -> None:
+    def _begin(self, mask: AnyArray) -> None:
         envs = np.flatnonzero(mask)
         self._episodes.begin(envs, [None] * len(envs), fresh=False)
 

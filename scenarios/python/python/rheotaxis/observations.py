@@ -28,8 +28,24 @@ of each probe the newest output and the highest since the last decision, as shar
 
 from __future__ import annotations
 
+from typing import Any, Protocol
+
 import numpy as np
+import numpy.typing as npt
 from gymnasium import spaces
+
+
+class Observation(Protocol):
+    """What a kind of observation is: made with whether it is of a gantry, and names and bounds of all numbers."""
+
+    names: list[str]
+
+    @property
+    def space(self) -> spaces.Space[Any]:
+        """The observations of one agent."""
+
+    def of(self, state: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        """The observations of some environments, from all their numbers."""
 
 
 class State:
@@ -41,7 +57,7 @@ class State:
         high = np.array([high for _, _, high in features], np.float32)
         self.space = spaces.Box(low, high, dtype=np.float32)
 
-    def of(self, state: np.ndarray) -> np.ndarray:
+    def of(self, state: npt.NDArray[Any]) -> npt.NDArray[Any]:
         """The observations of a row of environments."""
         return state.copy()
 
@@ -58,7 +74,7 @@ class _Chosen(State):
         self.space = spaces.Box(box.low[self.places], box.high[self.places], dtype=np.float32)
         self.names = self.chosen
 
-    def of(self, state):
+    def of(self, state: npt.NDArray[Any]) -> npt.NDArray[Any]:
         return state[:, self.places]
 
 

@@ -31,6 +31,8 @@ pub(crate) struct Env {
     pub(crate) t_s: f64,
     /// How its run ended, if it did.
     pub(crate) outcome: Option<RunOutcome>,
+    /// Digest of its run, if the mission is over.
+    pub(crate) digest: Option<String>,
     began_s: f64,
 }
 
@@ -65,6 +67,7 @@ impl Group {
             success: false,
             t_s: 0.0,
             outcome: None,
+            digest: None,
             began_s: 0.0,
         };
         Self {
@@ -111,6 +114,7 @@ impl Group {
                 success: false,
                 t_s: 0.0,
                 outcome: None,
+                digest: None,
                 began_s: shared.step() as f64 * rules.step_s,
             };
             let asked = shared.begin(place, seed).map_err(|e| e.to_string())?;
@@ -194,7 +198,10 @@ impl Env {
         if shared.standing(place) == Standing::Ended {
             let ended = shared.look(place, Trial::ended);
             self.outcome = ended.as_ref().map(|e| e.outcome);
-            self.t_s = ended.map_or(self.t_s, |e| e.t_s - self.began_s);
+            if let Some(ended) = ended {
+                self.t_s = ended.t_s - self.began_s;
+                self.digest = Some(ended.digest);
+            }
             let good = [Some(RunOutcome::Found), Some(RunOutcome::Completed)];
             self.success = good.contains(&self.outcome);
             self.state = State::Terminated;

@@ -5,6 +5,7 @@ mod agent;
 mod crew;
 mod group;
 mod mind;
+mod pilot;
 mod plumes;
 mod told;
 
@@ -14,6 +15,7 @@ use crate::scenario::PyScenario;
 use agent::{Agent, take_over};
 use crew::Crew;
 use group::{Group, Task};
+pub(crate) use pilot::Pilot;
 use plumes::Plumes;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -60,6 +62,13 @@ impl Rules {
     }
 }
 
+/// The numbers of an action, from their bytes.
+fn numbers(bytes: &[u8]) -> Vec<f64> {
+    let each = bytes.chunks_exact(8);
+    each.map(|b| f64::from_ne_bytes(b.try_into().expect("8 bytes")))
+        .collect()
+}
+
 /// What changes.
 struct Inside {
     groups: Vec<Group>,
@@ -71,7 +80,7 @@ struct Inside {
 /// Environments of one scenario. Each method works without the interpreter's lock.
 #[pyclass(frozen, name = "_Batch", module = "rheotaxis._rheotaxis")]
 pub(crate) struct Batch {
-    rules: Rules,
+    rules: Arc<Rules>,
     per_plume: usize,
     crew: Crew,
     inside: Mutex<Inside>,
@@ -150,7 +159,7 @@ impl Batch {
         let never = Positive::new(limit_s + 10.0 * period_s);
         loaded.scenario.record.frame_period_s = never;
         loaded.scenario.record.plume_period_s = never;
-        let rules = Rules {
+        let rules = Arc::new(Rules {
             agents,
             period_s,
             steps: steps as u64,
@@ -163,7 +172,7 @@ impl Batch {
             speed_m_s,
             worlds: Arc::new(Worlds::new(&loaded)),
             loaded,
-        };
+        });
         let groups = (0..n / per_plume).map(|_| Group::new(&rules, per_plume));
         Ok(Self {
             inside: Mutex::new(Inside {
@@ -229,17 +238,24 @@ impl Batch {
             let rows = actions.chunks_exact(width * 8);
             for (env, row) in acting.iter().zip(rows) {
                 let (group, place) = (env / self.per_plume, env % self.per_plume);
-                let numbers = row.chunks_exact(8);
-                let numbers = numbers.map(|b| f64::from_ne_bytes(b.try_into().expect("8 bytes")));
                 let group = &mut inside.groups[group];
                 if let Task::Act(all) = &mut group.task {
-                    all.push((place, numbers.collect()));
+                    all.push((place, numbers(row)));
                 } else {
-                    group.task = Task::Act(vec![(place, numbers.collect())]);
+                    group.task = Task::Act(vec![(place, numbers(row))]);
                 }
             }
             self.work(&mut inside)
         })
+    }
+
+    /// A controller for a whole run that decides for one of the searchers, by its place among them.
+    fn pilot(&self, agent: usize, decide: Py<PyAny>) -> Pilot {
+        Pilot {
+            rules: self.rules.clone(),
+            agent,
+            decide,
+        }
     }
 
     /// What all environments are like: arrays, newly made.

@@ -21,6 +21,7 @@ pub(super) struct Told {
     success: Vec<bool>,
     t_s: Vec<f64>,
     outcomes: Vec<Option<&'static str>>,
+    digests: Vec<Option<String>>,
 }
 
 impl Told {
@@ -47,6 +48,7 @@ impl Told {
             told.success.push(env.success);
             told.t_s.push(env.t_s);
             told.outcomes.push(env.outcome.map(|o| o.words()));
+            told.digests.push(env.digest.clone());
         }
         told
     }
@@ -73,6 +75,7 @@ impl Told {
         dict.set_item("success", column(py, &self.success)?)?;
         dict.set_item("t_s", column(py, &self.t_s)?)?;
         dict.set_item("outcome", &self.outcomes)?;
+        dict.set_item("digest", &self.digests)?;
         Ok(dict)
     }
 }
