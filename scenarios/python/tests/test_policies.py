@@ -116,9 +116,11 @@ def test_it_begins_anew_in_each_run_and_outlives_its_environment(channel):
     scenario, decides = env.scenario, rheotaxis.PolicyController(lambda seen: 1, env)
     env.close()
     digests = [rheotaxis.run(scenario, controllers=decides).digest]
-    work = [
-        threading.Thread(target=lambda: digests.append(rheotaxis.run(scenario, controllers=decides).digest)) for _ in "ab"
-    ]
+
+    def work_on():
+        digests.append(rheotaxis.run(scenario, controllers=decides).digest)
+
+    work = [threading.Thread(target=work_on) for _ in "ab"]
     for thread in work:
         thread.start()
     for thread in work:
@@ -130,8 +132,9 @@ def test_it_is_sent_to_another_process(channel):
     env = rheotaxis.Env(channel, limit_s=5)
     env.reset(seed=1)
     decides = rheotaxis.PolicyController(ahead, env)
-    digests = {rheotaxis.run(env.scenario, controllers=of).digest for of in (decides, pickle.loads(pickle.dumps(decides)))}
-    assert len(digests) == 1
+    twin = pickle.loads(pickle.dumps(decides))
+    first, second = (rheotaxis.run(env.scenario, controllers=each).digest for each in (decides, twin))
+    assert first == second
 
 
 def test_what_does_not_fit_is_named(channel):

@@ -42,6 +42,8 @@ def test_mistakes_of_a_user_are_found(mypy, tmp_path):
         "rheotaxis.run('x', sed=1)": 'Unexpected keyword argument "sed"',
         "rheotaxis.run('x').track + 1": "Unsupported operand types for +",
         "rheotaxis.run('x', controllers=3)": 'Argument "controllers" to "run"',
+        "rheotaxis.Env('x', rewards='hits')": 'Unexpected keyword argument "rewards"',
+        "rheotaxis.VectorEnv('x', truth='yes')": 'Argument "truth" to "VectorEnv"',
         "rheotaxis.Env('x').scenario = 1": 'Property "scenario"',
         "rheotaxis.VectorEnv('x', num_envs='2')": 'Argument "num_envs" to "VectorEnv"',
     }

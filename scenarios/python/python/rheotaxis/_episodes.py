@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from os import PathLike
-from typing import Any, Literal, TypeAlias
+from typing import Any, TypeAlias, TypedDict
 
 import numpy as np
 import numpy.typing as npt
@@ -24,6 +24,37 @@ MOST, MOST_THREADS = 65_536, 1024
 AnyArray: TypeAlias = npt.NDArray[Any]
 ScenarioLike: TypeAlias = "str | PathLike[str] | Scenario"
 Told: TypeAlias = "dict[str, Any]"
+
+
+class Options(TypedDict, total=False):
+    """The options of all kinds of environments, by keyword; ``Env`` says what they mean."""
+
+    period_s: float | None
+    limit_s: float | None
+    goal_m: float | None
+    declare: bool | None
+    action: str | Callable[..., Any]
+    observation: str | Callable[..., Any]
+    reward: str | Callable[..., Any]
+    truth: bool
+    plumes: int | None
+    turn_deg: float
+    climb_m: float
+    speed_m_s: tuple[float, float] | None
+    cache: bool | str | PathLike[str] | None
+    render_mode: None
+
+
+class AloneOptions(Options, total=False):
+    """Those of one environment."""
+
+    threads: int
+
+
+class CrowdOptions(AloneOptions, total=False):
+    """Those of many."""
+
+    searchers_per_plume: int
 
 
 class Searcher:

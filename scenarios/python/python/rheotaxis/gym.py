@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 try:
     import gymnasium
@@ -15,8 +15,11 @@ except ImportError as missing:
 
 import numpy as np
 
-from ._episodes import AnyArray, Episodes, ScenarioLike, Searcher
+from ._episodes import AloneOptions, AnyArray, Episodes, Options, ScenarioLike, Searcher
 from ._rheotaxis import Scenario, catalogue
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 def _one(episodes: Episodes) -> Searcher:
@@ -59,7 +62,7 @@ class Env(gymnasium.Env[AnyArray, Any]):
 
     metadata = {"render_modes": []}
 
-    def __init__(self, scenario: ScenarioLike, **options: Any) -> None:
+    def __init__(self, scenario: ScenarioLike, **options: Unpack[AloneOptions]) -> None:
         self._episodes = Episodes(scenario, 1, **options)
         self._searcher = _one(self._episodes)
         self.observation_space: spaces.Space[AnyArray] = self._searcher.observation.space
@@ -133,7 +136,7 @@ class VectorEnv(gymnasium.vector.VectorEnv[AnyArray, Any, AnyArray]):
         autoreset_mode: AutoresetMode | str = AutoresetMode.NEXT_STEP,
         searchers_per_plume: int = 1,
         threads: int = 0,
-        **options: Any,
+        **options: Unpack[Options],
     ) -> None:
         self.autoreset_mode = AutoresetMode(autoreset_mode)
         self.metadata = {"render_modes": [], "autoreset_mode": self.autoreset_mode}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 try:
     from pettingzoo import ParallelEnv as _ParallelEnv
@@ -11,8 +11,11 @@ except ImportError as missing:
 
 import numpy as np
 
-from ._episodes import AnyArray, Episodes, ScenarioLike
+from ._episodes import AloneOptions, AnyArray, Episodes, ScenarioLike
 from ._rheotaxis import Scenario
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class ParallelEnv(_ParallelEnv):  # type: ignore[misc, unused-ignore]
@@ -25,7 +28,7 @@ class ParallelEnv(_ParallelEnv):  # type: ignore[misc, unused-ignore]
 
     metadata = {"name": "rheotaxis_v0", "render_modes": [], "is_parallelizable": True}
 
-    def __init__(self, scenario: ScenarioLike, **options: Any) -> None:
+    def __init__(self, scenario: ScenarioLike, **options: Unpack[AloneOptions]) -> None:
         self.render_mode = None
         self._episodes = Episodes(scenario, 1, **options)
         self._searchers = {searcher.name: searcher for searcher in self._episodes.searchers}

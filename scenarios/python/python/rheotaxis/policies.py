@@ -72,9 +72,13 @@ class PolicyController:
 
 def _episodes_of(env: Any) -> Episodes:
     """Those of an environment, without wrappers; one that changes observations or actions is refused."""
-    changing = (gymnasium.ObservationWrapper, gymnasium.ActionWrapper)
-    while isinstance(env, (gymnasium.Wrapper, gymnasium.vector.VectorWrapper)):
-        if isinstance(env, (*changing, gymnasium.vector.VectorObservationWrapper, gymnasium.vector.VectorActionWrapper)):
+    vector = gymnasium.vector
+    changing = (
+        *(gymnasium.ObservationWrapper, gymnasium.ActionWrapper),
+        *(vector.VectorObservationWrapper, vector.VectorActionWrapper),
+    )
+    while isinstance(env, (gymnasium.Wrapper, vector.VectorWrapper)):
+        if isinstance(env, changing):
             raise ValueError(f"{type(env).__name__} changes observations or actions: do that in the policy")
         env = env.env
     own = getattr(getattr(env, "vector", env), "_episodes", None)

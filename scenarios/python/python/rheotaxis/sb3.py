@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 try:
     from stable_baselines3.common.vec_env import VecEnv as _VecEnv
@@ -11,8 +11,12 @@ except ImportError as missing:
 
 import numpy as np
 
-from ._episodes import AnyArray, ScenarioLike
+from ._episodes import AnyArray, CrowdOptions, ScenarioLike
+from ._rheotaxis import Scenario
 from .gym import VectorEnv
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
 
 
 class VecEnv(_VecEnv):  # type: ignore[misc, unused-ignore]
@@ -21,13 +25,18 @@ class VecEnv(_VecEnv):  # type: ignore[misc, unused-ignore]
     >>> model = PPO("MlpPolicy", rheotaxis.sb3.VecEnv("uniform_channel", 8, reward="progress"))
     """
 
-    def __init__(self, scenario: ScenarioLike, num_envs: int = 1, **options: Any) -> None:
+    def __init__(self, scenario: ScenarioLike, num_envs: int = 1, **options: Unpack[CrowdOptions]) -> None:
         self.vector = VectorEnv(scenario, num_envs, autoreset_mode="SameStep", **options)
         self.render_mode = None
         self._actions: AnyArray | None = None
         self._returns = np.zeros(num_envs)
         self._lengths = np.zeros(num_envs, dtype=int)
         super().__init__(num_envs, self.vector.single_observation_space, self.vector.single_action_space)
+
+    @property
+    def scenario(self) -> Scenario:
+        """As of ``rheotaxis.Env``."""
+        return self.vector.scenario
 
     def reset(self) -> AnyArray:
         seeds = [None if seed is None else int(seed) for seed in self._seeds]
