@@ -18,8 +18,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! - `examples/shortest.rs`: a whole run in 25 lines.
-//! - `examples/stepped.rs`: the state every minute. [`Trial::run`](trial::Trial::run) makes the whole run, and a
+//! - `examples/library/shortest.rs`: a whole run in 25 lines.
+//! - `examples/library/stepped.rs`: the state every minute. [`Trial::run`](trial::Trial::run) makes the whole run, and a
 //!   [`Watch`](trial::Watch) sees every frame.
 //!
 //! # 2. A scenario of your own
@@ -31,7 +31,7 @@
 //! # 3. A strategy of your own
 //!
 //! A strategy is a struct of parameters that a scenario can name, and a state machine that turns an observation into a
-//! decision, once a tick. `examples/own_strategy.rs` is a whole one:
+//! decision, once a tick. `examples/library/own_strategy.rs` is a whole one:
 //!
 //! 1. Parameters, with `Listed` (name in files, one sentence, source) and `StrategyParams` (what they build).
 //! 2. The state machine, with `Strategy`. It gets what the instruments say and never the truth.
@@ -43,7 +43,7 @@
 //!
 //! A robot or gantry whose strategy is `External` asks once a period, and a [`Controller`](control::Controller) answers:
 //! a closure, or whatever another process says. [`Trial::until_asked`](trial::Trial::until_asked) stops at the questions
-//! instead, for programs with a loop of their own. `examples/own_controller.rs` steers a robot; this moves a gantry:
+//! instead, for programs with a loop of their own. `examples/library/own_controller.rs` steers a robot; this moves a gantry:
 //!
 //! ```
 //! use rheotaxis::control::{Heard, Question, read_answer};
@@ -72,7 +72,7 @@
 //! [`with_systems`]: extend::Extend::with_systems
 //! [`with_topic`]: extend::Extend::with_topic
 //!
-//! Run an example with `cargo run --release -p rheotaxis --example own_current`.
+//! Run an example with `cargo run --release --example library own_current`.
 //!
 //! # Where things are
 //!

@@ -6,7 +6,7 @@
 //!
 //! # A third kind
 //!
-//! 1. A struct of parameters with an `id`, with the derives of `examples/own_apparatus.rs`.
+//! 1. A struct of parameters with an `id`, with the derives of `examples/library/own_apparatus.rs`.
 //! 2. [`Listed`](world::registry::Listed) for it: its name in scenarios, one sentence, its source.
 //! 3. [`Apparatus`] for it.
 //! 4. A row: `Registry::default().with::<Apparatuses, MyBuoy>()`.

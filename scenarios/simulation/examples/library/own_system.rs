@@ -3,7 +3,7 @@
 //! This one counts how often each robot turned sharply. A second one tries to read the truth for a searcher, which is
 //! refused.
 //!
-//! `cargo run --release -p rheotaxis --example own_system`
+//! `cargo run --release --example library own_system`
 
 use bevy_ecs::prelude::{Query, ResMut, Resource};
 use rheotaxis::extend::{Extend, Systems};
@@ -35,7 +35,7 @@ fn count_turns(robots: Query<&Estimate>, mut turns: ResMut<Turns>) {
 fn peek(_robots: Query<&Truth>) {}
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text.replace(
         "spin_up_s: 2000, limit_s: 1800",

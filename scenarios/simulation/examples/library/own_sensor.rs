@@ -1,6 +1,6 @@
 //! A sensor of your own: the pressure of the water, with noise.
 //!
-//! `cargo run --release -p rheotaxis --example own_sensor`
+//! `cargo run --release --example library own_sensor`
 
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
@@ -68,7 +68,7 @@ impl Sensor for Pressure {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Sensors, PressureParams>()?;
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text

@@ -1,8 +1,8 @@
-//! How cost grows with filaments, robots and lanes: `cargo run --release -p rheotaxis-studies --example scale`.
+//! How cost grows with filaments, robots and lanes: `cargo run --release -p rheotaxis-studies --example studies scale`.
 //!
 //! Each point is the steady channel of the catalogue in its second minute of mission, on one thread: wall time for a
 //! second of mission, and the memory of a process of its own. Run it on an idle machine. It prints a table and writes
-//! `docs/figures/scale.svg`, or the file that is named after `--`.
+//! `docs/figures/scale.svg`, or the file that is named.
 
 #![allow(
     clippy::print_stdout,
@@ -41,8 +41,8 @@ struct Point {
     mb: f64,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let args: Vec<String> = std::env::args().skip(1).collect();
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    let args: Vec<String> = std::env::args().skip(2).collect();
     if let [asked, what, n] = &args[..]
         && asked == POINT
     {
@@ -80,7 +80,9 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// A point measured by a process of its own, so that none holds the memory of those before it.
 fn in_a_process(what: &str, n: usize) -> Result<(f64, f64), Box<dyn Error>> {
     let mut process = Command::new(std::env::current_exe()?);
-    let ended = process.args([POINT, what, &n.to_string()]).output()?;
+    let ended = process
+        .args(["scale", POINT, what, &n.to_string()])
+        .output()?;
     let said = String::from_utf8_lossy(&ended.stdout).into_owned();
     let mut numbers = said.split_whitespace().map(str::parse::<f64>);
     match (numbers.next(), numbers.next()) {

@@ -3,7 +3,7 @@
 //! Strategies of other crates take part in the same way, within `registry.scope(|| ...)` of the registry that knows them
 //! (`own_strategy.rs` of the library).
 //!
-//! `cargo run --release -p rheotaxis-studies --example own_campaign`
+//! `cargo run --release -p rheotaxis-studies --example studies own_campaign`
 
 use rheotaxis::scenario::load;
 use std::path::Path;
@@ -23,7 +23,7 @@ const CAMPAIGN: &str = r#"(
 )"#;
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let campaign = Campaign::new(
         "own.ron",
         "own",

@@ -1,4 +1,5 @@
-//! The crab's plume from the side, beside a neutral one: `cargo run --release -p rheotaxis-studies --example rising_thread`.
+//! The crab's plume from the side, beside a neutral one:
+//! `cargo run --release -p rheotaxis-studies --example studies rising_thread`.
 //!
 //! A nozzle in the flume of `flume_crab` releases, once, water that stays neutral, and once the paper's brine made
 //! neutral with alcohol. It prints the mean height of the filaments by distance over five minutes, with the rise that
@@ -32,8 +33,8 @@ struct Side {
     heights_m: Vec<f64>,
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let file = std::env::args().nth(1);
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    let file = std::env::args().nth(2);
     let file = file.as_deref().unwrap_or("docs/figures/rising_thread.png");
     let loaded = load(Path::new("flume_crab"))?;
     let composition = loaded.scenario.sources[0].release.buoyancy.clone();

@@ -1,6 +1,6 @@
 //! A current of your own: a jet, fastest on its axis and slower to its sides.
 //!
-//! `cargo run --release -p rheotaxis --example own_current`
+//! `cargo run --release --example library own_current`
 
 use nalgebra::{Vector2, Vector3};
 use plumes::error::PlumeError;
@@ -54,7 +54,7 @@ impl PlaneCurrent for Jet {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = Registry::default().with::<Currents, Jet>()?;
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text

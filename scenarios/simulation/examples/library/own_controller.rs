@@ -4,7 +4,7 @@
 //! A strategy is built into the scenario's names (`own_strategy.rs`); a controller is called from outside, so it can be a
 //! closure of your program, or what another process says.
 //!
-//! `cargo run --release -p rheotaxis --example own_controller`
+//! `cargo run --release --example library own_controller`
 
 use rheotaxis::control::{Heard, Question, Seen};
 use rheotaxis::scenario::{load_text, template};
@@ -45,7 +45,7 @@ fn decide(question: &Question) -> Heard {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A scenario of the catalogue whose robot asks somebody outside, once a second.
     let text = template("uniform_channel").ok_or("no such scenario")?.text;
     let text = text

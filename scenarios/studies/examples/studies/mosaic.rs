@@ -1,7 +1,7 @@
 //! The pictures of a source added up: a line over it in murky water, the ground that its pictures make together, and
 //! what they say after the first picture and after the last.
 //!
-//! `cargo run --release -p rheotaxis-studies --example mosaic -- mosaic.png`
+//! `cargo run --release -p rheotaxis-studies --example studies mosaic mosaic.png`
 
 use image::imageops::{FilterType, resize};
 use image::{Rgb, RgbImage};
@@ -29,8 +29,8 @@ const TOLD_M: [f64; 2] = [0.4, -0.3];
 const CELL_PX: u32 = 4;
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn Error>> {
-    let to = std::env::args().nth(1).unwrap_or("mosaic.png".to_string());
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    let to = std::env::args().nth(2).unwrap_or("mosaic.png".to_string());
     let bundled = template(SCENARIO).ok_or("not in the catalogue")?;
     let text = bundled.text.replace(CLEARER.0, CLEARER.1);
     let loaded = load_text(&Registry::default(), SCENARIO, &text)?;

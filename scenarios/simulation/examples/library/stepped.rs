@@ -1,6 +1,6 @@
 //! A run in steps: the state is read every minute, and the ocean is asked for the water at the vehicle.
 //!
-//! `cargo run --release -p rheotaxis --example stepped`
+//! `cargo run --release --example library stepped`
 
 use rheotaxis::scenario::load;
 use rheotaxis::trial::Trial;
@@ -8,7 +8,7 @@ use std::path::Path;
 use world::fields::Flow;
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let scenario = load(Path::new("uniform_channel"))?;
     let mut trial = Trial::assemble(&scenario, 1)?;
     let mut minute = 1.0;

@@ -1,5 +1,5 @@
 //! What a mission of a kinematic vehicle costs beside its plume: `cargo run --release -p rheotaxis-studies --example
-//! kinematic_cost`.
+//! studies kinematic_cost`.
 //!
 //! For a few seeds of `duck_st`: time of the mission less that of its plume, and of the questions that the fluorometer
 //! asks the plume, with one thread. Each ten seconds of a mission count with the least of five times that they took, so
@@ -143,7 +143,7 @@ const PIECE_S: f64 = 10.0;
 
 /// Prints, for a few seeds, the time of the mission less that of its plume: the plume alone, and the plume with the
 /// questions that the fluorometer asks it.
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let with = |steps: &[(&'static str, &'static str)]| [steps, &[QUIET]].concat();
     for (name, vehicle, changes, read_s) in [
         ("REMUS, steps of 0.05 s", "Remus100()", with(&[]), 0.1),
@@ -152,7 +152,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("point, steps of 0.2 s", "Kinematic()", with(&FIFTHS), 0.2),
     ] {
         if std::env::args()
-            .nth(1)
+            .nth(2)
             .is_some_and(|part| !name.contains(&part))
         {
             continue;

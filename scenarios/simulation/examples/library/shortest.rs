@@ -1,13 +1,13 @@
 //! The shortest run: a scenario that comes with the program, and what was declared in it.
 //!
-//! `cargo run --release -p rheotaxis --example shortest`
+//! `cargo run --release --example library shortest`
 
 use rheotaxis::scenario::load;
 use rheotaxis::trial::Trial;
 use std::path::Path;
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // The name of a scenario in the catalogue, or the path of a file.
     let scenario = load(Path::new("uniform_channel"))?;
     // The seed is 1. The same seed gives the same run, bit by bit.

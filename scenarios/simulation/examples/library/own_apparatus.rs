@@ -1,6 +1,6 @@
 //! An apparatus of your own, beside robots and gantries: a moored buoy that measures the dye at its place.
 //!
-//! `cargo run --release -p rheotaxis --example own_apparatus`
+//! `cargo run --release --example library own_apparatus`
 
 use bevy_ecs::prelude::{Component, Query, Res, ResMut, World};
 use nalgebra::Vector3;
@@ -122,7 +122,7 @@ impl Apparatus for Buoy {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry = (Registry::default().with::<Apparatuses, Buoy>()?).with_topic(DYE)?;
     let buoys = r#"apparatus: [
         Buoy(id: "b1", east_m: -145, north_m: 0, depth_m: 8),

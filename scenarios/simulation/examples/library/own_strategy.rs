@@ -1,6 +1,6 @@
 //! A strategy of your own: up-stream until it smells something, and there it declares.
 //!
-//! `cargo run --release -p rheotaxis --example own_strategy`
+//! `cargo run --release --example library own_strategy`
 
 use rheotaxis::scenario::{load_text, template};
 use rheotaxis::trial::Trial;
@@ -69,7 +69,7 @@ impl Strategy for UpFlow {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     // A registry that knows the new strategy beside those of the program.
     let registry = Registry::default().with::<Strategies, UpFlowParams>()?;
 

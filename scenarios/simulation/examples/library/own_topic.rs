@@ -3,7 +3,7 @@
 //! Live state has it under `rheotaxis/<run>/own/<id>/smells`, `rheotaxis topics` lists it, `run.mcap` holds it as JSON,
 //! and `summary.json` shows the last value. Publishing never changes a result.
 //!
-//! `cargo run --release -p rheotaxis --example own_topic`
+//! `cargo run --release --example library own_topic`
 
 use bevy_ecs::prelude::{Local, Query, Res, ResMut};
 use rheotaxis::extend::{Extend, Systems};
@@ -72,7 +72,7 @@ impl Watch for Arrived {
 }
 
 #[allow(clippy::print_stdout, reason = "an example shows its result")]
-fn main() -> Result<(), Box<dyn std::error::Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn std::error::Error>> {
     let registry =
         (Registry::default().with_topic(SMELLS)?).with_systems(|systems: &mut Systems| {
             systems.add_blind(Stage::Report, publish);

@@ -1,4 +1,4 @@
-//! How fast a hull alone is computed: `cargo run --release -p rheotaxis-studies --example hull_speed`.
+//! How fast a hull alone is computed: `cargo run --release -p rheotaxis-studies --example studies hull_speed`.
 //!
 //! Each vehicle turns and dives in moving water for half an hour, in steps of 0.02 s, without instruments, plume or
 //! contacts. Prints real time over computing time of one thread. Run it on an idle machine.
@@ -52,7 +52,7 @@ impl Flow for Shear {
     }
 }
 
-fn main() -> Result<(), Box<dyn Error>> {
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let mut all = vec![("remus100", VehicleSpec::Remus100(RemusSpec::default()))];
     for shipped in SHIPPED {
         all.push((shipped.folder, VehicleSpec::Shipped(shipped.folder.into())));
