@@ -123,7 +123,13 @@ fn crates_know_only_those_below_them() {
     // What a user's crate builds on costs no engine of pictures, tables, wires or terminals.
     let library = dependencies("scenarios/simulation");
     for heavy in [
-        "zenoh", "parquet", "resvg", "clap", "miette", "mcap", "image",
+        "zenoh",
+        "parquet",
+        "tiny-skia",
+        "clap",
+        "miette",
+        "mcap",
+        "image",
     ] {
         assert!(
             !library.iter().any(|d| d == heavy),

@@ -5,6 +5,7 @@
 pub mod canvas;
 pub mod contours;
 pub mod far;
+mod glyphs;
 mod paint;
 pub mod palette;
 pub mod panel;

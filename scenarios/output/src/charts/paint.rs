@@ -1,198 +1,441 @@
-//! Paints the SVG of a sheet. What it cuts to a rectangle is painted on a sheet of that size and put in its place: the
-//! general way has a layer and a mask of the whole sheet for it, which takes as long as all the rest.
+//! Paints the SVG of a sheet: the elements that a [canvas](super::canvas::Canvas) writes, and no others.
 //!
-//! *Source*: none; resvg paints.
-//!
-//! *Parameters*: none.
-//!
-//! *Deviations*: the edges of a cut lie between pixels, less than half a pixel from where they should; the axes are
-//! drawn over them.
+//! What a panel cuts is painted on a picture of the panel's size and put in its place: a mask of the whole sheet takes
+//! as long as all the rest. The edges of a panel lie on whole pixels, less than half a pixel from where they should.
 
-use resvg::tiny_skia::{Pixmap, Transform};
-use resvg::usvg::fontdb::Database;
-use resvg::usvg::{Options, Tree};
-use std::sync::{Arc, LazyLock};
-
-/// The font that the program contains: a part of DejaVu Sans, see `font/LICENSE`.
-pub(super) const FONTS: [&[u8]; 2] = [
-    include_bytes!("font/DejaVuSans.ttf"),
-    include_bytes!("font/DejaVuSans-Bold.ttf"),
-];
-
-/// The fonts, read once.
-static FONT_BASE: LazyLock<Arc<Database>> = LazyLock::new(|| {
-    let mut fonts = Database::new();
-    for font in FONTS {
-        fonts.load_font_data(font.to_vec());
-    }
-    Arc::new(fonts)
-});
-
-/// A piece of a sheet.
-#[derive(Debug, PartialEq)]
-struct Piece<'a> {
-    /// The elements in it.
-    body: &'a str,
-    /// Left, top, width and height of what is shown of it, px; `None` if all is.
-    shown: Option<[f32; 4]>,
-}
+use super::canvas::Anchor;
+use super::glyphs::{TextStyle, outline};
+use roxmltree::{Document, Node};
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, Path, PathBuilder, Pixmap, PixmapPaint, Rect,
+    Stroke, StrokeDash, Transform,
+};
 
 /// The pixels of a sheet. `scale` tells how many there are for each of the SVG, which is as long and wide as given.
 ///
 /// # Errors
-/// If it is not an SVG, or too large.
+/// If it is not an SVG of a canvas, or too large.
 pub(super) fn painted(svg: &str, scale: impl Fn([f32; 2]) -> f32) -> Result<Pixmap, String> {
-    let cut = pieces(svg);
-    let first = match &cut {
-        Some((head, all)) => tree(&format!("{head}{}</svg>", all[0].body))?,
-        None => tree(svg)?,
+    let document = Document::parse(svg).map_err(|e| e.to_string())?;
+    let root = document.root_element();
+    let size = [number(&root, "width")?, number(&root, "height")?];
+    let scale = scale(size);
+    let [w, h] = size.map(|side| side * scale);
+    let pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32);
+    let pixels = pixels.ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
+    let mut sheet = Sheet {
+        pixels,
+        place: Transform::from_scale(scale, scale),
+        ink: root.attribute("fill"),
     };
-    let size = first.size();
-    let scale = scale([size.width(), size.height()]);
-    let (w, h) = (size.width() * scale, size.height() * scale);
-    let mut pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32)
-        .ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
-    let whole = Transform::from_scale(scale, scale);
-    resvg::render(&first, whole, &mut pixels.as_mut());
-    let Some((head, all)) = cut else {
-        return Ok(pixels);
-    };
-    for piece in &all[1..] {
-        let tree = tree(&format!("{head}{}</svg>", piece.body))?;
-        match piece.shown {
-            None => resvg::render(&tree, whole, &mut pixels.as_mut()),
-            Some(shown) => put_in_place(&tree, shown.map(|v| scale * v), whole, &mut pixels),
+    let mut panel = None;
+    for node in root.children().filter(Node::is_element) {
+        match node.tag_name().name() {
+            "clipPath" => panel = node.first_element_child(),
+            "g" => {
+                let panel = panel.take().ok_or("a group without a panel")?;
+                sheet.paint_panel(&node, &panel)?;
+            }
+            _ => sheet.paint(&node)?,
         }
     }
-    Ok(pixels)
+    Ok(sheet.pixels)
 }
 
-fn tree(svg: &str) -> Result<Tree, String> {
-    let options = Options {
-        fontdb: Arc::clone(&FONT_BASE),
-        ..Options::default()
-    };
-    Tree::from_str(svg, &options).map_err(|e| e.to_string())
+/// The value of an attribute that must be there.
+fn number(node: &Node<'_, '_>, name: &str) -> Result<f32, String> {
+    let found = node.attribute(name).and_then(|value| value.parse().ok());
+    found.ok_or_else(|| format!("<{}> needs a number for {name}", node.tag_name().name()))
 }
 
-/// Paints what is shown of a piece in a rectangle, in pixels of the picture, over what is there.
-fn put_in_place(tree: &Tree, [x, y, w, h]: [f32; 4], whole: Transform, pixels: &mut Pixmap) {
-    let within = |v: f32, most: u32| v.round().clamp(0.0, most as f32) as usize;
-    let (left, right) = (within(x, pixels.width()), within(x + w, pixels.width()));
-    let (top, bottom) = (within(y, pixels.height()), within(y + h, pixels.height()));
-    let Some(mut part) = Pixmap::new((right - left) as u32, (bottom - top) as u32) else {
-        return;
-    };
-    let (row, wide) = (4 * pixels.width() as usize, 4 * (right - left));
-    let place = |line: usize| {
-        let from = (top + line) * row + 4 * left;
-        from..from + wide
-    };
-    for (line, part) in part.data_mut().chunks_exact_mut(wide).enumerate() {
-        part.copy_from_slice(&pixels.data()[place(line)]);
-    }
-    let moved = whole.post_translate(-(left as f32), -(top as f32));
-    resvg::render(tree, moved, &mut part.as_mut());
-    for (line, part) in part.data().chunks_exact(wide).enumerate() {
-        pixels.data_mut()[place(line)].copy_from_slice(part);
+/// The value of an attribute that may be left out.
+fn number_or(node: &Node<'_, '_>, name: &str, default: f32) -> Result<f32, String> {
+    if node.has_attribute(name) {
+        number(node, name)
+    } else {
+        Ok(default)
     }
 }
 
-/// The head of an SVG of a [canvas](super::canvas::Canvas), and its pieces in order, the first of which is cut
-/// nowhere; `None` if it has another form.
-fn pieces(svg: &str) -> Option<(&str, Vec<Piece<'_>>)> {
-    let (head, mut rest) = svg.strip_suffix("</svg>\n")?.split_at(svg.find(">\n")? + 2);
-    let mut all = Vec::new();
-    while let Some((body, cut)) = rest.split_once("<clipPath ") {
-        all.push(Piece { body, shown: None });
-        let (rect, group) = cut.split_once("</clipPath>\n<g clip-path=")?;
-        let (body, after) = group.split_once(">\n")?.1.split_once("</g>\n")?;
-        let rect = rect.split_once("<rect ")?.1;
-        let side = |name: &str| {
-            let value = rect.split_once(&format!("{name}=\""))?.1;
-            value.split_once('"')?.0.parse::<f32>().ok()
+/// A colour as `#rrggbb` or `#rgb`.
+fn colour(text: &str, opacity: f32) -> Result<Color, String> {
+    let wrong = || format!("{text} is no colour");
+    let digits = text.strip_prefix('#').ok_or_else(wrong)?;
+    let value = u32::from_str_radix(digits, 16).map_err(|_| wrong())?;
+    let [red, green, blue] = match digits.len() {
+        6 => [value >> 16, value >> 8, value].map(|v| v as u8),
+        3 => [value >> 8, value >> 4, value].map(|v| 17 * (v as u8 & 15)),
+        _ => return Err(wrong()),
+    };
+    Ok(Color::from_rgba8(
+        red,
+        green,
+        blue,
+        (255.0 * opacity.clamp(0.0, 1.0)).round() as u8,
+    ))
+}
+
+/// What is painted on.
+struct Sheet<'a> {
+    pixels: Pixmap,
+    /// From the SVG's coordinates to pixels.
+    place: Transform,
+    /// Colour of what names none.
+    ink: Option<&'a str>,
+}
+
+impl<'a> Sheet<'a> {
+    fn paint(&mut self, node: &Node<'a, '_>) -> Result<(), String> {
+        let name = node.tag_name().name();
+        let rule = match node.attribute("fill-rule") {
+            Some("evenodd") => FillRule::EvenOdd,
+            _ => FillRule::Winding,
         };
-        let shown = [side("x")?, side("y")?, side("width")?, side("height")?];
-        // One within another has another form.
-        if body.contains("<clipPath ") || body.contains("<g ") {
-            return None;
+        let mut place = self.place;
+        let path = match name {
+            "rect" if node.attribute("width") == Some("100%") => {
+                let ink = node.attribute("fill").ok_or("the ground needs a colour")?;
+                self.pixels.fill(colour(ink, 1.0)?);
+                return Ok(());
+            }
+            "rect" => {
+                let [w, h] = [number(node, "width")?, number(node, "height")?];
+                Rect::from_xywh(number(node, "x")?, number(node, "y")?, w, h)
+                    .map(PathBuilder::from_rect)
+            }
+            "circle" => PathBuilder::from_circle(
+                number(node, "cx")?,
+                number(node, "cy")?,
+                number(node, "r")?,
+            ),
+            "path" => lines(node.attribute("d").unwrap_or_default())?,
+            "text" => {
+                if let Some(turn) = node.attribute("transform") {
+                    place = place.pre_concat(rotation(turn)?);
+                }
+                written(node)?
+            }
+            _ => return Err(format!("<{name}> is not painted")),
+        };
+        // Nothing of it is visible, such as a space or a line of one point.
+        let Some(path) = path else { return Ok(()) };
+        self.paint_path(node, &path, rule, place)
+    }
+
+    /// Fills a path and draws its edge, as the attributes of its element say.
+    fn paint_path(
+        &mut self,
+        node: &Node<'a, '_>,
+        path: &Path,
+        rule: FillRule,
+        place: Transform,
+    ) -> Result<(), String> {
+        let whole = number_or(node, "opacity", 1.0)?;
+        if whole < 1.0 {
+            // Fill and edge together let through what is behind them: they are painted apart first.
+            let empty =
+                Pixmap::new(self.pixels.width(), self.pixels.height()).expect("as large as this");
+            let behind = std::mem::replace(&mut self.pixels, empty);
+            let painted = self.fill_and_stroke(node, path, rule, place);
+            let layer = std::mem::replace(&mut self.pixels, behind);
+            let faint = PixmapPaint {
+                opacity: whole,
+                ..PixmapPaint::default()
+            };
+            self.pixels
+                .draw_pixmap(0, 0, layer.as_ref(), &faint, Transform::identity(), None);
+            return painted;
         }
-        let shown = Some(shown);
-        all.push(Piece { body, shown });
+        self.fill_and_stroke(node, path, rule, place)
+    }
+
+    fn fill_and_stroke(
+        &mut self,
+        node: &Node<'a, '_>,
+        path: &Path,
+        rule: FillRule,
+        place: Transform,
+    ) -> Result<(), String> {
+        let paint = |text: &str, opacity: &str| {
+            let mut paint = Paint {
+                anti_alias: true,
+                ..Paint::default()
+            };
+            paint.set_color(colour(text, number_or(node, opacity, 1.0)?)?);
+            Ok::<_, String>(paint)
+        };
+        // Letters lie over their rim, all else under its edge.
+        let edge_first = node.attribute("paint-order") == Some("stroke");
+        for edge in [edge_first, !edge_first] {
+            let ink = if edge {
+                node.attribute("stroke")
+            } else {
+                node.attribute("fill").or(self.ink)
+            };
+            match ink {
+                None | Some("none") => {}
+                Some(ink) if edge => {
+                    let paint = paint(ink, "stroke-opacity")?;
+                    self.pixels
+                        .stroke_path(path, &paint, &stroke(node)?, place, None);
+                }
+                Some(ink) => {
+                    self.pixels
+                        .fill_path(path, &paint(ink, "fill-opacity")?, rule, place, None)
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Paints what a panel shows of a group, over what is there.
+    fn paint_panel(&mut self, group: &Node<'a, '_>, panel: &Node<'a, '_>) -> Result<(), String> {
+        let (x, y) = (number(panel, "x")?, number(panel, "y")?);
+        let (right, low) = (x + number(panel, "width")?, y + number(panel, "height")?);
+        let [wide, high] = [self.pixels.width(), self.pixels.height()];
+        let pixel =
+            |v: f32, most: u32| (v * self.place.sx).round().clamp(0.0, most as f32) as usize;
+        let (left, right) = (pixel(x, wide), pixel(right, wide));
+        let (top, low) = (pixel(y, high), pixel(low, high));
+        let Some(mut part) = Pixmap::new((right - left) as u32, low.saturating_sub(top) as u32)
+        else {
+            return Ok(());
+        };
+        let row = |line: usize| {
+            let from = 4 * ((top + line) * wide as usize + left);
+            from..from + 4 * (right - left)
+        };
+        for (line, to) in part
+            .data_mut()
+            .chunks_exact_mut(4 * (right - left))
+            .enumerate()
+        {
+            to.copy_from_slice(&self.pixels.data()[row(line)]);
+        }
+        let place = self.place.post_translate(-(left as f32), -(top as f32));
+        let mut inside = Sheet {
+            pixels: part,
+            place,
+            ink: self.ink,
+        };
+        for node in group.children().filter(Node::is_element) {
+            inside.paint(&node)?;
+        }
+        for (line, from) in inside
+            .pixels
+            .data()
+            .chunks_exact(4 * (right - left))
+            .enumerate()
+        {
+            self.pixels.data_mut()[row(line)].copy_from_slice(from);
+        }
+        Ok(())
+    }
+}
+
+/// Straight lines, as `M x y L x y … Z`.
+fn lines(d: &str) -> Result<Option<Path>, String> {
+    let wrong = || {
+        format!(
+            "a path of other than straight lines: {}",
+            d.chars().take(40).collect::<String>()
+        )
+    };
+    let mut builder = PathBuilder::new();
+    let mut rest = d;
+    while let Some(letter) = rest.chars().next() {
+        let body = &rest[letter.len_utf8()..];
+        let end = body.find(['M', 'L', 'Z']).unwrap_or(body.len());
+        let (point, after) = body.split_at(end);
+        let mut numbers = point.split_ascii_whitespace().map(str::parse::<f32>);
+        match (letter, numbers.next(), numbers.next()) {
+            ('M', Some(Ok(x)), Some(Ok(y))) => builder.move_to(x, y),
+            ('L', Some(Ok(x)), Some(Ok(y))) => builder.line_to(x, y),
+            ('Z', None, None) => builder.close(),
+            _ => return Err(wrong()),
+        }
         rest = after;
     }
-    all.push(Piece {
-        body: rest,
-        shown: None,
+    Ok(builder.finish())
+}
+
+/// `rotate(angle x y)`.
+fn rotation(text: &str) -> Result<Transform, String> {
+    let inner = text
+        .strip_prefix("rotate(")
+        .and_then(|t| t.strip_suffix(')'));
+    let numbers: Vec<f32> = inner
+        .into_iter()
+        .flat_map(|t| t.split(' '))
+        .filter_map(|v| v.parse().ok())
+        .collect();
+    match numbers[..] {
+        [angle, x, y] => Ok(Transform::from_rotate_at(angle, x, y)),
+        _ => Err(format!("{text} is no rotation")),
+    }
+}
+
+/// The outline of an element of text.
+fn written(node: &Node<'_, '_>) -> Result<Option<Path>, String> {
+    let anchor = match node.attribute("text-anchor") {
+        Some("middle") => Anchor::Middle,
+        Some("end") => Anchor::End,
+        _ => Anchor::Start,
+    };
+    let bold = node.attribute("font-weight") == Some("bold");
+    let style = TextStyle {
+        size: number(node, "font-size")?,
+        bold,
+        anchor,
+    };
+    let at = [number(node, "x")?, number(node, "y")?];
+    Ok(outline(node.text().unwrap_or_default(), &style, at))
+}
+
+/// How the edge of an element is drawn.
+fn stroke(node: &Node<'_, '_>) -> Result<Stroke, String> {
+    let dash = node.attribute("stroke-dasharray").map(|text| {
+        let lengths: Vec<f32> = text
+            .split([' ', ','])
+            .filter_map(|v| v.parse().ok())
+            .collect();
+        StrokeDash::new(lengths, 0.0).ok_or_else(|| format!("{text} are no dashes"))
     });
-    Some((head, all))
+    Ok(Stroke {
+        width: number_or(node, "stroke-width", 1.0)?,
+        line_cap: if node.attribute("stroke-linecap") == Some("round") {
+            LineCap::Round
+        } else {
+            LineCap::Butt
+        },
+        line_join: if node.attribute("stroke-linejoin") == Some("round") {
+            LineJoin::Round
+        } else {
+            LineJoin::Miter
+        },
+        dash: dash.transpose()?,
+        ..Stroke::default()
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::charts::canvas::{Anchor, Canvas, Style};
+    use crate::charts::canvas::{Canvas, Style};
 
-    /// Two panels, a line that leaves the first, and texts.
-    fn sheet(left: f64) -> String {
+    fn rgb(pixels: &Pixmap, x: u32, y: u32) -> [u8; 3] {
+        let p = pixels.pixel(x, y).expect("on the sheet").demultiply();
+        [p.red(), p.green(), p.blue()]
+    }
+
+    fn painted_twice(c: &Canvas) -> Pixmap {
+        painted(&c.svg("t"), |_| 2.0).unwrap()
+    }
+
+    #[test]
+    fn a_panel_cuts_what_it_holds_and_lies_in_its_place() {
         let mut c = Canvas::new(120.0, 80.0);
-        c.text([5.0, 10.0], 8.0, Anchor::Start, "above <clipPath ");
-        c.clip(left, 20.0, 50.0, 30.0);
+        c.clip(15.13, 20.0, 50.0, 30.0);
         c.rect(0.0, 0.0, 120.0, 80.0, &Style::fill("#ddeeff"));
-        c.line([0.0, 25.0], [120.0, 45.0], &Style::line("#aa0000", 3.0));
-        c.circle([40.0, 35.0], 6.0, &Style::fill("#00aa00").faint(0.5));
+        c.line([0.0, 25.0], [120.0, 25.0], &Style::line("#aa0000", 3.0));
         c.unclip();
-        c.text([10.0, 60.0], 8.0, Anchor::Start, "between");
-        c.clip(70.0, 30.0, 40.0, 40.0);
-        c.line([0.0, 70.0], [120.0, 30.0], &Style::line("#0000aa", 3.0));
-        c.unclip();
-        c.svg("t")
-    }
-
-    fn general(svg: &str) -> Pixmap {
-        let tree = tree(svg).unwrap();
-        let mut pixels = Pixmap::new(240, 160).unwrap();
-        resvg::render(&tree, Transform::from_scale(2.0, 2.0), &mut pixels.as_mut());
-        pixels
+        c.rect(100.0, 60.0, 10.0, 10.0, &Style::fill("#0a0"));
+        let p = painted_twice(&c);
+        for (x, y, want) in [
+            (29, 60, [255; 3]),
+            (30, 60, [0xdd, 0xee, 0xff]),
+            (129, 60, [0xdd, 0xee, 0xff]),
+            (130, 60, [255; 3]),
+            (60, 39, [255; 3]),
+            (60, 40, [0xdd, 0xee, 0xff]),
+            (60, 50, [0xaa, 0, 0]),
+            (20, 50, [255; 3]),
+            (210, 130, [0, 0xaa, 0]),
+        ] {
+            assert_eq!(rgb(&p, x, y), want, "{x} {y}");
+        }
     }
 
     #[test]
-    fn pieces_give_the_picture_of_the_whole() {
-        let svg = sheet(15.0);
-        assert_eq!(pieces(&svg).unwrap().1.len(), 5);
-        let (pieces, whole) = (painted(&svg, |_| 2.0).unwrap(), general(&svg));
-        let pairs = pieces.data().iter().zip(whole.data());
-        let farthest = pairs.map(|(a, b)| a.abs_diff(*b)).max().unwrap();
-        assert!(farthest <= 3, "a channel differs by {farthest}");
-        assert!(
-            whole
-                .pixels()
-                .iter()
-                .any(|p| p.blue() > 150 && p.red() < 50)
+    fn edges_lie_over_fills_letters_over_their_rim_and_a_faint_shape_is_one() {
+        let mut c = Canvas::new(60.0, 40.0);
+        c.rect(
+            10.0,
+            10.0,
+            10.0,
+            10.0,
+            &Style::fill("#ff0000").edged("#0000ff", 4.0),
         );
-    }
-
-    #[test]
-    fn an_edge_within_a_pixel_moves_by_less_than_half_of_one() {
-        let svg = sheet(15.13);
-        let (pieces, whole) = (painted(&svg, |_| 2.0).unwrap(), general(&svg));
-        let pairs = pieces.pixels().iter().zip(whole.pixels()).enumerate();
-        let other = pairs.filter(|(_, (a, b))| a.red().abs_diff(b.red()) > 3);
-        let columns: Vec<usize> = other.map(|(n, _)| n % 240).collect();
-        assert!(columns.iter().all(|x| [30, 130].contains(x)), "{columns:?}");
-    }
-
-    #[test]
-    fn what_is_no_sheet_of_ours_is_painted_as_it_is() {
-        let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"4\" height=\"3\">\
-            <rect width=\"4\" height=\"3\" fill=\"#ff0000\"/></svg>";
-        let pixels = painted(svg, |_| 1.0).unwrap();
-        assert!(
-            pixels
-                .pixels()
-                .iter()
-                .all(|p| p.red() == 255 && p.green() == 0)
+        c.circle(
+            [40.0, 15.0],
+            8.0,
+            &Style::fill("#000000").edged("#000000", 6.0).faint(0.5),
         );
+        c.rimmed([30.0, 38.0], 12.0, Anchor::Middle, "H");
+        let p = painted_twice(&c);
+        assert_eq!(rgb(&p, 21, 30), [0, 0, 255]);
+        assert_eq!(rgb(&p, 30, 30), [255, 0, 0]);
+        let grey = rgb(&p, 80, 30);
+        assert!(grey[0].abs_diff(127) < 2, "{grey:?}");
+        // Where fill and edge overlap it is no darker.
+        assert_eq!(rgb(&p, 80 + 14, 30), grey);
+        let inks = p.pixels()[120 * 50..]
+            .iter()
+            .filter(|p| p.red() < 60)
+            .count();
+        assert!(inks > 30, "{inks}");
+    }
+
+    #[test]
+    fn holes_dashes_and_turned_texts() {
+        let mut c = Canvas::new(60.0, 60.0);
+        let ring = |r: f64| {
+            vec![
+                [30.0 - r, 30.0 - r],
+                [30.0 + r, 30.0 - r],
+                [30.0 + r, 30.0 + r],
+                [30.0 - r, 30.0 + r],
+            ]
+        };
+        c.lines(&[ring(20.0), ring(10.0)], true, &Style::fill("#000000"));
+        c.line(
+            [0.0, 55.0],
+            [60.0, 55.0],
+            &Style::line("#000000", 2.0).dashed("10 20"),
+        );
+        c.upright([6.0, 25.0], 10.0, "lll");
+        let p = painted_twice(&c);
+        assert_eq!(rgb(&p, 60, 60), [255; 3]);
+        assert_eq!(rgb(&p, 30, 60), [0; 3]);
+        assert_eq!(
+            [rgb(&p, 10, 110), rgb(&p, 40, 110), rgb(&p, 70, 110)],
+            [[0; 3], [255; 3], [0; 3]]
+        );
+        // The letters lie on their side: long runs of ink along a row, none below their line.
+        let row = |y: u32| (0..20).filter(|x| rgb(&p, *x, y)[0] < 128).count();
+        assert!((40..60).any(|y| row(y) > 10));
+    }
+
+    #[test]
+    fn what_is_no_sheet_of_ours_is_refused_with_its_element() {
         assert!(painted("no svg", |_| 1.0).is_err());
+        let sheet = |inner: &str| {
+            format!(
+                "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"4\" height=\"3\">{inner}</svg>"
+            )
+        };
+        for (inner, told) in [
+            ("<image/>", "<image>"),
+            ("<path d=\"M0 0C1 1 2 2 3 3\"/>", "straight lines"),
+            (
+                "<rect x=\"0\" y=\"0\" width=\"1\" height=\"1\" fill=\"red\"/>",
+                "red is no colour",
+            ),
+            ("<circle cx=\"0\" cy=\"0\"/>", "needs a number for r"),
+        ] {
+            let error = painted(&sheet(inner), |_| 1.0).unwrap_err();
+            assert!(error.contains(told), "{error}");
+        }
+        assert!(painted(&sheet(""), |_| 1e6).is_err());
     }
 }

@@ -7,7 +7,7 @@
 
 use crate::ros::MessageKind;
 use ::mcap::records::{MessageHeader, Metadata};
-use ::mcap::{Attachment, McapError, WriteOptions, Writer};
+use ::mcap::{Attachment, Compression, McapError, WriteOptions, Writer};
 use serde_json::Value;
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -85,10 +85,7 @@ impl McapFile {
         let writer = WriteOptions::new()
             .profile("ros2")
             .library(library)
-            // Compression in the caller's thread: the same bytes on any machine, and no threads of its own.
-            .compression_threads(0)
-            // A recording is written once; a higher level costs more time than it saves bytes.
-            .compression_level(1)
+            .compression(Some(Compression::Lz4))
             .create(BufWriter::new(file))
             .map_err(|source| RecordError::Write {
                 path: temporary.clone(),

@@ -2,7 +2,6 @@
 
 use super::columns::{Column, Record};
 use parquet::basic::Compression;
-use parquet::basic::ZstdLevel;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
 use parquet::file::metadata::KeyValue;
@@ -37,7 +36,7 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
             .map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()))
             .collect();
         let properties = WriterProperties::builder()
-            .set_compression(Compression::ZSTD(ZstdLevel::default()))
+            .set_compression(Compression::LZ4_RAW)
             .set_created_by(format!("rheotaxis {}", env!("CARGO_PKG_VERSION")))
             .set_key_value_metadata(Some(notes))
             .build();
