@@ -11,9 +11,14 @@ import rheotaxis
 
 
 def test_ctrl_c_ends_a_run(endless, tmp_path):
-    timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
+    def interrupt():
+        # Once it has written into its folder, the run looks for signals.
+        while not any(tmp_path.iterdir()):
+            time.sleep(0.001)
+        os.kill(os.getpid(), signal.SIGINT)
+
     with pytest.raises(KeyboardInterrupt):
+        threading.Thread(target=interrupt).start()
         rheotaxis.run(endless, files=tmp_path)
     # The results until then are written.
     assert '"outcome": "interrupted"' in (tmp_path / "summary.json").read_text()
@@ -22,9 +27,8 @@ def test_ctrl_c_ends_a_run(endless, tmp_path):
 
 def test_ctrl_c_ends_a_spin_up(endless):
     scenario = endless.with_({"time.spin_up_s": 1e6})
-    timer = threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT))
-    timer.start()
     with pytest.raises(KeyboardInterrupt):
+        threading.Timer(0.7, os.kill, (os.getpid(), signal.SIGINT)).start()
         rheotaxis.run(scenario)
 
 
@@ -45,8 +49,8 @@ def test_what_a_handler_raises_comes_out(endless):
 
     before = signal.signal(signal.SIGUSR1, handler)
     try:
-        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGUSR1)).start()
         with pytest.raises(Enough):
+            threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGUSR1)).start()
             rheotaxis.run(endless)
     finally:
         signal.signal(signal.SIGUSR1, before)

@@ -24,7 +24,7 @@ use zenoh::sample::Locality;
 /// Longest wait before a run looks again whether it should end.
 const NAP: Duration = Duration::from_millis(50);
 /// After a reply has failed to come, whoever was to give it may take this long to be known as gone.
-const FAREWELL: Duration = Duration::from_millis(500);
+const FAREWELL: Duration = Duration::from_secs(5);
 
 /// Whether the run goes on.
 pub type Going = Arc<dyn Fn() -> bool + Send + Sync>;
