@@ -1,5 +1,6 @@
 //! Controllers in Python: functions and policies that decide for the robots and gantries of a run.
 
+use super::error::Raised;
 use crate::batch::Pilot;
 use output::results::AbnormalSummary;
 use pyo3::exceptions::{PyTypeError, PyValueError};
@@ -9,43 +10,9 @@ use rheotaxis::abnormal::Abnormality;
 use rheotaxis::control::{Consultation, Controller, Heard, Question, question_json, read_answer};
 use rheotaxis::trial::Trial;
 use robots::handoff::Consulted;
-use std::sync::{Arc, Mutex, PoisonError};
 
 /// A machine that has touched the bed without a pause for longer than this lies there, s.
 const AGROUND_S: f64 = 60.0;
-
-/// What went wrong first, in a controller or with an answer of it.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
-
-impl Raised {
-    /// Keeps what went wrong, if it is the first.
-    pub(crate) fn keep(&self, error: PyErr) {
-        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        first.get_or_insert(error);
-    }
-
-    /// Whether nothing has gone wrong yet.
-    pub(crate) fn quiet(&self) -> bool {
-        let first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        first.is_none()
-    }
-
-    /// It.
-    pub(crate) fn take(&self) -> Option<PyErr> {
-        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        first.take()
-    }
-
-    /// Takes an answer that the machine could not carry out for an exception of the controller that gave it.
-    pub(crate) fn look_at(&self, told: &Consultation) {
-        if let Heard::Nonsense(why) = &told.heard {
-            let (robot, number) = (&told.robot, told.number);
-            let said = format!("the answer of {robot} to question {number}: {why}");
-            self.keep(PyValueError::new_err(said));
-        }
-    }
-}
 
 /// A function of Python that is asked for a machine.
 struct Function {

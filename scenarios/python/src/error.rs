@@ -6,6 +6,7 @@ use pyo3::types::{PyDict, PyList};
 use rheotaxis::lanes::caught;
 use rheotaxis::scenario::{self, Fault};
 use std::ffi::CString;
+use std::sync::{Arc, Mutex, PoisonError};
 
 pyo3::create_exception!(
     rheotaxis,
@@ -114,4 +115,37 @@ pub(crate) fn panicked(said: &str) -> PyErr {
 /// Any other error of the simulator, told by its own text.
 pub(crate) fn other(error: impl std::fmt::Display) -> PyErr {
     PyRuntimeError::new_err(error.to_string())
+}
+
+/// What went wrong first, in a controller or with an answer of it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Raised(Arc<Mutex<Option<PyErr>>>);
+
+impl Raised {
+    /// Keeps what went wrong, if it is the first.
+    pub(crate) fn keep(&self, error: PyErr) {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        first.get_or_insert(error);
+    }
+
+    /// Whether nothing has gone wrong yet.
+    pub(crate) fn quiet(&self) -> bool {
+        let first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        first.is_none()
+    }
+
+    /// It.
+    pub(crate) fn take(&self) -> Option<PyErr> {
+        let mut first = self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        first.take()
+    }
+
+    /// Takes an answer that the machine could not carry out for an exception of the controller that gave it.
+    pub(crate) fn look_at(&self, told: &Consultation) {
+        if let Heard::Nonsense(why) = &told.heard {
+            let (robot, number) = (&told.robot, told.number);
+            let said = format!("the answer of {robot} to question {number}: {why}");
+            self.keep(PyValueError::new_err(said));
+        }
+    }
 }

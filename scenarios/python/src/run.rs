@@ -3,8 +3,8 @@
 use super::cache::{Cache, opened, tell_fault};
 use super::columns::RobotColumns;
 use super::columns_gantry::GantryColumns;
-use super::controllers::{Decider, Raised, aground, given, take_over, unanswered};
-use super::error::{apart, other, scenario_error, warn_of, warn_of_run, whole};
+use super::controllers::{Decider, aground, given, take_over, unanswered};
+use super::error::{Raised, apart, other, scenario_error, warn_of, warn_of_run, whole};
 use super::result::{Kept, Made, PyRunResult};
 use super::scenario::PyScenario;
 use super::signals::Signals;

@@ -3,7 +3,7 @@
 use super::Rules;
 use super::mind::Mind;
 use crate::arrays::array;
-use crate::controllers::Raised;
+use crate::error::Raised;
 use pyo3::prelude::*;
 use rheotaxis::control::{Controller, Heard, Question};
 use std::sync::Arc;
