@@ -81,12 +81,9 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
     (".ci/run", Ci("set -euo pipefail")),
     (
         "pip install \"./scenarios/python[look]\"",
-        Ci("./scenarios/python[test,look]"),
+        Ci("$wheel[test,look]"),
     ),
-    (
-        "pip install ./scenarios/python",
-        Ci("./scenarios/python[test,look]"),
-    ),
+    ("pip install ./scenarios/python", Ci("$wheel[test,look]")),
     (
         "pip install -r scenarios/clients/requirements.txt",
         Ci("-r scenarios/clients/requirements.txt"),

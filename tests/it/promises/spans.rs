@@ -28,10 +28,17 @@ fn fault(line: &str) -> Option<String> {
         let named = || usage(&words).or_else(|| scenario(&words));
         return if choice { None } else { named() };
     }
-    let example = words.windows(2).find(|w| w[0] == "--example").map(|w| w[1]);
+    let example = words
+        .iter()
+        .position(|w| *w == "--example")
+        .map(|k| &words[k + 1..]);
     if let Some(name) = example {
-        let crates = ["simulation", "studies"].map(|c| format!("scenarios/{c}/examples/{name}.rs"));
-        return (!crates.iter().any(|f| exists(f))).then(|| format!("there is no example {name}"));
+        let file = match name {
+            [program, example, ..] => format!("{program}/{example}.rs"),
+            _ => format!("{}/main.rs", name.join("/")),
+        };
+        let crates = ["simulation", "studies"].map(|c| format!("scenarios/{c}/examples/{file}"));
+        return (!crates.iter().any(|f| exists(f))).then(|| format!("there is no example {file}"));
     }
     let script = words
         .iter()
@@ -112,6 +119,7 @@ fn a_command_that_nobody_knows_is_found() {
         "rheotaxis campaign plan no_such_campaign",
         "cargo run --release -- run no_such_scenario",
         "cargo run --release -p rheotaxis-studies --example none",
+        "cargo run --release -p rheotaxis-studies --example studies none",
         "python scenarios/clients/none.py",
     ] {
         assert!(fault(line).is_some(), "{line}");
