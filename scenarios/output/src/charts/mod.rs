@@ -4,6 +4,7 @@
 
 pub mod canvas;
 pub mod contours;
+mod elements;
 pub mod far;
 mod glyphs;
 mod paint;

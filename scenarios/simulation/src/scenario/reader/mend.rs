@@ -86,12 +86,16 @@ impl<'a> Mender<'a> {
         found
     }
 
-    /// Whether a path leads to, or into, a value that could not be read.
+    /// Whether a path leads to, or into, a value that could not be read, or to what has such a value as its field.
     pub(super) fn in_hole(&self, path: &str) -> bool {
+        let starts = |path: &str, with: &str| {
+            let rest = path.strip_prefix(with);
+            rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+        };
         self.reading.tree.borrow().nodes.iter().any(|n| {
-            let within = path.strip_prefix(n.path.as_str());
-            matches!(n.kind, Kind::Hole(_))
-                && within.is_some_and(|rest| rest.is_empty() || rest.starts_with(['.', '[']))
+            let owner = n.path.rsplit_once('.').map_or("", |(owner, _)| owner);
+            let is_owner = !path.is_empty() && owner == path;
+            matches!(n.kind, Kind::Hole(_)) && (is_owner || starts(path, &n.path))
         })
     }
 
