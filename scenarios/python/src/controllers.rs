@@ -7,7 +7,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyMapping;
 use rheotaxis::abnormal::Abnormality;
-use rheotaxis::control::{Consultation, Controller, Heard, Question, question_json, read_answer};
+use rheotaxis::control::{Controller, Heard, Question, question_json, read_answer};
 use rheotaxis::trial::Trial;
 use robots::handoff::Consulted;
 

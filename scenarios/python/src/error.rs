@@ -3,6 +3,7 @@
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
+use rheotaxis::control::{Consultation, Heard};
 use rheotaxis::lanes::caught;
 use rheotaxis::scenario::{self, Fault};
 use std::ffi::CString;
