@@ -14,8 +14,7 @@
 //! them. For each channel, all seeds take their patches from one stretch of 32 depths, drawn once per process; the
 //! water of a run follows from its seed alone. So runs of different seeds share the eddies of that stretch, and what
 //! depends on single eddies, such as a tracker's rate of success, differs between stretches by more than an interval
-//! over seeds says (docs/results.md); with `own` each run draws a stretch. The patches move with the depth mean at all
-//! heights.
+//! over seeds says; with `own` each run draws a stretch. The patches move with the depth mean at all heights.
 
 use super::drawn::Drawn;
 use super::present::{Now, Patch, Turned};
