@@ -38,6 +38,14 @@ pub fn behaviour(b: Behaviour) -> &'static str {
     }
 }
 
+/// Colour of the vehicle of this number, where there are several (Tol's bright scheme).
+pub fn vehicle(k: usize) -> &'static str {
+    const COLOURS: [&str; 6] = [
+        "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377",
+    ];
+    COLOURS[k % COLOURS.len()]
+}
+
 /// Name of a behaviour for people.
 pub fn words(b: Behaviour) -> &'static str {
     match b {

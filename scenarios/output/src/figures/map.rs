@@ -3,6 +3,7 @@
 use super::map_layers as layers;
 use super::map_legend::keys;
 use super::map_section;
+use super::map_vehicles;
 use super::plume_load::PlumeLoad;
 use super::solids;
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -177,11 +178,15 @@ fn draw(
     c.polygon(panel.all(&corners), &Style::line(INK, 1.6).dashed("7 4"));
     solids::draw(c, panel, run.obstacles, run.terrain, false);
     let robots = &run.track.robots;
+    let several = robots.len() > 1;
+    for (k, t) in robots.iter().enumerate().filter(|_| several) {
+        map_vehicles::band(c, panel, t, k);
+    }
     for t in robots {
         layers::regions(c, panel, t);
         layers::believed(c, panel, t);
         layers::detections(c, panel, t.detections.iter().copied());
-        layers::track(c, panel, t, close);
+        layers::track(c, panel, t, close, several);
         layers::marks(c, panel, t);
     }
     layers::sources(c, panel, run);
@@ -189,7 +194,7 @@ fn draw(
     if !close {
         layers::source_names(c, panel, run);
         for t in robots {
-            layers::names(c, panel, t, robots.len() > 1);
+            layers::names(c, panel, t, several);
         }
         layers::bed_labels(c, panel, bed);
     }

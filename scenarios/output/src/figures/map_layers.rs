@@ -1,6 +1,7 @@
 //! The map's layers, from the bed up.
 
 use super::map::Bed;
+use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
@@ -81,9 +82,10 @@ pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
     c.polyline(points, &Style::line(BELIEVED, 0.6).dashed("2 2"));
 }
 
-/// The true track, coloured by behaviour.
-pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) {
+/// The true track, coloured by behaviour. Among several vehicles, it is faint after the end of its mission.
+pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, several: bool) {
     let width = if close { 2.2 } else { 1.9 };
+    let over = if several { over_from(t) } else { t.rows.len() };
     let mut k = 0;
     while k < t.rows.len() {
         let b = t.rows[k].behaviour;
@@ -91,7 +93,8 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool) 
         // One point into the next stretch, so that the line has no gaps.
         let end = (k + run + 1).min(t.rows.len());
         let points = thinned(t.rows[k..end].iter().map(|r| panel.at([r.p[0], r.p[1]])));
-        c.polyline(points, &Style::line(palette::behaviour(b), width));
+        let style = Style::line(palette::behaviour(b), width);
+        c.polyline(points, &if k < over { style } else { style.faint(AFTER) });
         k += run;
     }
 }

@@ -2,6 +2,7 @@
 
 use super::map::Bed;
 use super::map_layers as layers;
+use super::map_vehicles;
 use super::plume_load::PlumeLoad;
 use super::solids::{self, Passage};
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -28,7 +29,10 @@ pub(super) fn keys<'a>(
     let seen = Behaviour::seen(rows.map(|r| r.behaviour));
     let mut blocks: Vec<Block<'a>> = Vec::new();
     if !seen.is_empty() {
-        blocks.push(Box::new(move |c, at| tracks(c, &seen, at)));
+        blocks.push(Box::new(move |c, at| {
+            let below = tracks(c, &seen, at);
+            map_vehicles::keys(c, run, [at[0], below])
+        }));
     }
     blocks.push(Box::new(|c, at| marks(c, run, at)));
     blocks.push(Box::new(move |c, [x, top]| {

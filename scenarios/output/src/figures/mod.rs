@@ -9,6 +9,7 @@ mod map;
 mod map_layers;
 mod map_legend;
 mod map_section;
+mod map_vehicles;
 mod odour;
 mod plume_load;
 mod probe_records;
