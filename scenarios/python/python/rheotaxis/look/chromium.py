@@ -14,7 +14,7 @@ import subprocess
 import tempfile
 import time
 
-from .errors import LookError
+from .errors import EndedError, LookError
 
 #: Where to look for it; the environment variable CHROMIUM goes before.
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
@@ -98,7 +98,7 @@ class Chromium:
             try:
                 data = data[os.write(self.out, data) :]
             except BrokenPipeError as e:
-                raise LookError("Chromium ended by itself.") from e
+                raise EndedError("Chromium ended by itself. Is the machine short of memory?") from e
 
     def _message(self, deadline, method):
         while b"\0" not in self.rest:
@@ -106,7 +106,7 @@ class Chromium:
                 raise LookError(f"Chromium did not answer {method} in time.")
             more = os.read(self.into, 1 << 20)
             if not more:
-                raise LookError("Chromium ended by itself.")
+                raise EndedError("Chromium ended by itself. Is the machine short of memory?")
             self.rest += more
         said, _, self.rest = self.rest.partition(b"\0")
         return json.loads(said)
@@ -118,6 +118,11 @@ class Chromium:
     def picture(self):
         """What the page shows now, PNG."""
         return base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
+
+    def value(self, expression):
+        """The value of an expression of JavaScript in the page, or None if it has none."""
+        said = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
+        return said.get("result", {}).get("value")
 
     def click(self, x, y):
         """A click of the left button, pixels from the left and the top."""

@@ -17,7 +17,7 @@ APPLICATION = "rheotaxis"
 
 
 def convert(source, target, truth=False, until_s=None, tell=lambda line: None, view="all"):
-    """Draws the recording at `source` into the file `target`; returns whether it was whole.
+    """Draws the recording at `source` into the file `target`; returns whether it was whole, and its last time, s.
 
     `until_s` ends it early, s. `tell` gets a line for each thing that is missing or wrong.
     """
@@ -57,7 +57,7 @@ def convert(source, target, truth=False, until_s=None, tell=lambda line: None, v
     whole = recording.whole and contents.whole
     if not whole:
         tell(f"{source}: the recording is cut off; what can be read ends at {last:.1f} s and is shown.")
-    return whole
+    return whole, last
 
 
 def _without(events, contents):

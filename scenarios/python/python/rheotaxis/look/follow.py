@@ -128,7 +128,14 @@ def _picture(live, viewer, writer, options):
         if not (viewer.alive() and writer.alive()):
             raise LookError("the viewer ended by itself.")
     try:
-        picture.write(options.picture, picture.take(viewer.page, options.size, still=False))
+        png = picture.take(
+            viewer.page,
+            options.size,
+            still=False,
+            until_s=options.at or 0.0,
+            alive=lambda: viewer.alive() and writer.alive(),
+        )
+        picture.write(options.picture, png)
     finally:
         stop.set()
         hearing.join(2.0)

@@ -7,12 +7,18 @@ from pathlib import Path
 import numpy as np
 from PIL import Image
 
-from . import colours
+from . import colours, page
 from .chromium import Chromium
-from .errors import LookError
+from .errors import EndedError, LookError
 
-#: Longest time until the page is drawn, on a loaded machine without a graphics card, s.
-PATIENCE_S = 240.0
+#: Longest time in which the page comes no further, on a loaded machine without a graphics card, s.
+PATIENCE_S = 120.0
+#: Time between two looks at the page, s.
+PAUSE_S = 1.0
+#: What may be missing at the end of a run, s: the viewer gets its data in pieces.
+SLACK_S = 0.5
+#: Pictures of a page that has the whole run and shows it, of which the last is taken even if it moves.
+MOST_TRIES = 10
 #: Share of pixels that may still change in a page that stands.
 STILL = 0.002
 
@@ -29,35 +35,55 @@ def drawn(image):
     return background.mean() > 0.02 and colourful.mean() > 0.002
 
 
-def take(address, size, still=True, ready=lambda: True, patience_s=PATIENCE_S):
-    """A picture (PNG) of the page at `address`, once it is drawn and, if `still`, no longer changes.
+def take(address, size, still=True, until_s=None, alive=lambda: True, patience_s=PATIENCE_S):
+    """A picture (PNG) of the page at `address`, once it has drawn the run.
 
-    `ready` says whether all data is there.
+    That is once the page has the run up to `until_s`, a view shows something of it, and, if `still`, two pictures in
+    a row are alike. `alive` says whether the viewer behind the page is there. Each of these steps may take `patience_s`
+    since the page last came further.
     """
-    deadline = time.monotonic() + patience_s
     with Chromium(*size) as browser:
         browser.open(address)
-        before = problem = None
-        while time.monotonic() < deadline:
-            time.sleep(1.0)
-            ready_now = ready()
+        step, began, before, tries = None, time.monotonic(), None, 0
+        while True:
+            time.sleep(PAUSE_S)
+            if not alive():
+                raise EndedError("the viewer ended by itself. Is the machine short of memory?")
             try:
-                png = browser.picture()
+                now, png = page.read(browser), browser.picture()
+            except EndedError:
+                raise
             except LookError as e:
                 # While a page takes the place of another there is nothing to take a picture of.
-                problem, before = e, None
-                continue
-            image = pixels(png)
-            if ready_now and drawn(image):
-                if not still and before is not None:
-                    return png
-                if before is not None and (np.abs(image - before).max(axis=2) > 8).mean() < STILL:
-                    return png
-                before = image
+                now, png, missing = page.Page(), None, str(e)
             else:
-                before = None
-    why = f" ({problem})" if problem else ""
-    raise LookError(f"the page was not drawn within {patience_s:.0f} s{why}. Is the machine busy, or short of memory?")
+                missing = _missing(now, until_s)
+            if now.failure:
+                raise LookError(f"the viewer's page says: {now.failure}")
+            image = None if missing else pixels(png)
+            if image is not None and not drawn(image):
+                image, missing = None, "the page has the run, but no view shows anything of it"
+            if image is not None and before is not None:
+                tries += 1
+                alike = (np.abs(image - before).max(axis=2) > 8).mean() < STILL
+                # What moves although all is there, such as a mark that blinks, is no reason to wait for ever.
+                if alike or not still or tries >= MOST_TRIES:
+                    return png
+            before = image
+            if (missing, now.until_s) != step:
+                step, began = (missing, now.until_s), time.monotonic()
+            elif missing and time.monotonic() - began > patience_s:
+                raise LookError(f"no picture, and no progress for {patience_s:.0f} s: {missing}.")
+
+
+def _missing(now, until_s):
+    """What a page lacks that it must have before it can show the run, or None."""
+    if not now.runs:
+        return "the page has not started the viewer; is the machine busy, or short of memory?"
+    if until_s is not None and now.until_s is not None and now.until_s < until_s - SLACK_S:
+        has = "nothing of the run" if now.until_s == float("-inf") else f"the run up to {now.until_s:.1f} s"
+        return f"the page has {has}, of {until_s:.1f} s"
+    return None
 
 
 def write(path, png):

@@ -21,12 +21,13 @@ def show(options):
     with tempfile.TemporaryDirectory(prefix="rheotaxis-look-") as folder:
         drawn = Path(folder) / "run.rrd"
         print(f"{source}: drawing ...", file=sys.stderr)
-        whole = convert(source, drawn, options.truth, options.at, complain, options.view)
+        whole, last_s = convert(source, drawn, options.truth, options.at, complain, options.view)
         enough(folder)
         web = bool(options.web or options.picture or not has_display())
         with Viewer(web, options.memory, [drawn], options.web_port, options.data_port) as viewer:
             if options.picture:
-                picture.write(options.picture, picture.take(viewer.page, options.size))
+                png = picture.take(viewer.page, options.size, until_s=last_s, alive=viewer.alive)
+                picture.write(options.picture, png)
                 print(f"{options.picture}: written.")
             else:
                 stay(viewer)
@@ -44,7 +45,7 @@ def save(source, target, options):
     try:
         # The viewer's library does not say when it cannot write, so that is tried before, and room looked for after.
         part.write_bytes(b"")
-        whole = convert(source, part, options.truth, options.at, complain, options.view)
+        whole, _ = convert(source, part, options.truth, options.at, complain, options.view)
         enough(target.parent)
         part.replace(target)
     except OSError as e:
