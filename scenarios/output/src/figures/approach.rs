@@ -44,10 +44,7 @@ pub fn approach(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     }
     let mut c = Canvas::new(LEFT + WIDTH + 24.0, 64.0 + 2.0 * (HEIGHT + GAP) + 30.0);
     let summary = run.summary;
-    let title = format!(
-        "{} · seed {} · {}",
-        summary.scenario, summary.seed, t.info.id
-    );
+    let title = format!("{} · {}", summary.headline(), t.info.id);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     key(&mut c, &motions);
     let said = summary.gantries.iter().find(|g| g.id == t.info.id);

@@ -39,8 +39,9 @@ pub fn belief(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         TOP + rows as f64 * (height + GAP[1]) + KEY,
     );
     let title = format!(
-        "{} · seed {} · {}: where the source may be",
-        run.summary.scenario, run.summary.seed, robot.id
+        "{} · {}: where the source may be",
+        run.summary.headline(),
+        robot.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     // A remark on the map if it is certain of a wrong place.

@@ -27,10 +27,7 @@ pub fn convergence(run: &RunReport<'_>) -> String {
         "m² or m³"
     };
     let mut c = Canvas::new(LEFT + WIDTH + 24.0, 58.0 + 3.0 * (HEIGHT + GAP) + 40.0);
-    let title = format!(
-        "{} · seed {} · maps of the source",
-        run.summary.scenario, run.summary.seed
-    );
+    let title = format!("{} · maps of the source", run.summary.headline());
     c.bold([LEFT, 22.0], 13.0, Anchor::Start, &title);
     // Under the names of the curves, one line for each robot whose map is certain of a wrong place.
     let remarks: Vec<String> = (robots.iter())

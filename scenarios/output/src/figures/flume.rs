@@ -101,10 +101,7 @@ pub fn flume(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
         &format!("Left of the {origin}, looking down-stream (cm)"),
     );
     let summary = run.summary;
-    let title = format!(
-        "{} · seed {} · {}",
-        summary.scenario, summary.seed, t.info.id
-    );
+    let title = format!("{} · {}", summary.headline(), t.info.id);
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
     let at = [panel.right() + 22.0, panel.top];
     let y = legend(&mut c, run, t, at);

@@ -54,7 +54,7 @@ pub(super) fn sheet(run: &RunReport<'_>) -> Canvas {
     let under = [middle, panel.bottom() + 36.0];
     c.text(under, 12.0, Anchor::Middle, "East (m)");
     c.upright([22.0, panel.top + panel.height / 2.0], 12.0, "North (m)");
-    let title = format!("{} · seed {}", run.summary.scenario, run.summary.seed);
+    let title = run.summary.headline();
     c.bold([panel.left, 24.0], 13.0, Anchor::Start, &title);
     layers::scale_bar(&mut c, &panel, "m");
     layers::north(&mut c, &panel);

@@ -36,8 +36,9 @@ pub fn odour(run: &RunReport<'_>, robot: &RobotBelief) -> String {
         TOP + times.len().div_ceil(2) as f64 * (height + GAP[1]) + 30.0,
     );
     let title = format!(
-        "{} · seed {} · {}: where odour may be met",
-        run.summary.scenario, run.summary.seed, robot.id
+        "{} · {}: where odour may be met",
+        run.summary.headline(),
+        robot.id
     );
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     for (k, time) in times.iter().enumerate() {

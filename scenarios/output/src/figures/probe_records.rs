@@ -36,10 +36,7 @@ pub fn probe_records(run: &RunReport<'_>, t: &GantryTrack) -> Option<String> {
     let height = 42.0 + n * (WHOLE + GAP) + RATE + GAP + BEHAVIOUR + 74.0 + CLOSER + 52.0;
     let mut c = Canvas::new(LEFT + WIDTH + RIGHT, height);
     let summary = run.summary;
-    let title = format!(
-        "{} · seed {} · {}",
-        summary.scenario, summary.seed, t.info.id
-    );
+    let title = format!("{} · {}", summary.headline(), t.info.id);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     // The first frame is one step after the start.
     let x = [0.0_f64.min(t.rows[0].t_s), t.rows[t.rows.len() - 1].t_s];

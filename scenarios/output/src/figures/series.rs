@@ -26,10 +26,7 @@ pub fn series(run: &RunReport<'_>, t: &RobotTrack) -> String {
     }
     let high = 40.0 + kinds.len() as f64 * (HEIGHT + GAP) + 44.0;
     let mut c = Canvas::new(LEFT + WIDTH + 24.0, high);
-    let title = format!(
-        "{} · seed {} · {}",
-        run.summary.scenario, run.summary.seed, t.info.id
-    );
+    let title = format!("{} · {}", run.summary.headline(), t.info.id);
     c.bold([LEFT, 24.0], 13.0, Anchor::Start, &title);
     let end = t.rows.last().map_or(1.0, |r| r.t_s);
     let begin = t.rows.first().map_or(0.0, |r| r.t_s);

@@ -71,8 +71,9 @@ pub fn sidescan(run: &RunReport<'_>, robot: &RobotEchoes) -> Option<String> {
     let map_left = left + shown.len() as f64 * (wide + gap);
     let mut c = Canvas::new(map_left + map_px + 30.0, top + high.max(map_px) + 110.0);
     let title = format!(
-        "{} · seed {} · {}: sidescan of the declared place",
-        run.summary.scenario, run.summary.seed, robot.id
+        "{} · {}: sidescan of the declared place",
+        run.summary.headline(),
+        robot.id
     );
     c.bold([left, 24.0], 13.0, Anchor::Start, &title);
     for (k, pass) in shown.iter().enumerate() {

@@ -1,10 +1,11 @@
 //! The words and numbers of a report: kinds of declarations, ends of searches, title and rule, masses.
 
 use super::tests::told;
-use crate::results::TrackTable;
+use crate::results::{DeclaredKind, Summary, TrackTable};
 use crate::sample::{area, frames, plume};
 use nalgebra::Vector2;
 use rheotaxis::frame::Frame;
+use rheotaxis::outcome::RunOutcome;
 use robots::handoff::{Declaration, Region, RegionState, Regions, UP_FLOW_EDGE};
 use std::sync::Arc;
 
@@ -86,7 +87,6 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
         "break-inside:avoid",
         "@media(max-width:600px)",
         "img{max-width:100%",
-        "overflow-wrap:anywhere",
     ] {
         assert!(page.contains(rule), "{rule}");
     }
@@ -95,6 +95,15 @@ fn the_page_says_what_it_is_about_and_when_that_is_a_success() {
     // The map of the sample ends on the source.
     assert_eq!(json["robots"][0]["map"]["remark"], serde_json::Value::Null);
     assert!(json["robots"][0]["map"]["probability"].as_f64().unwrap() > 0.0);
+}
+
+/// A cell that may be broken anywhere is squeezed until its words are: only prose and values of a list may be.
+#[test]
+fn words_in_cells_are_not_broken() {
+    let rules = super::STYLE.split('}').filter_map(|r| r.split_once('{'));
+    let anywhere = rules.filter(|(_, what)| what.contains("overflow-wrap:anywhere"));
+    let of: Vec<&str> = anywhere.flat_map(|(of, _)| of.split(',')).collect();
+    assert_eq!(of, ["p", ".facts td:not(:first-child)"]);
 }
 
 #[test]
@@ -121,4 +130,49 @@ fn without_robots_there_is_no_table_of_tracks() {
     nobody.robots.clear();
     table.push(&nobody).unwrap();
     assert!(!path.exists());
+}
+
+#[test]
+fn a_headline_says_how_the_run_ended() {
+    let (mut summary, _) = told(&frames(400));
+    summary.scenario = "duck_st".into();
+    summary.run.totals.mission_s = 2000.0;
+    let ended = |s: &Summary| {
+        let all = s.headline();
+        let (who, how) = all.split_once(": ").expect("a colon");
+        assert_eq!(who, format!("duck_st, seed {}", s.seed));
+        how.to_string()
+    };
+    let declarations = std::mem::take(&mut summary.robots[0].declarations);
+    summary.outcome = RunOutcome::NotFound;
+    assert_eq!(ended(&summary), "not found in 2000 s");
+    summary.outcome = RunOutcome::TimeOut;
+    assert_eq!(ended(&summary), "time limit reached after 2000 s");
+    summary.outcome = RunOutcome::Found;
+    assert_eq!(ended(&summary), "found after 2000 s");
+
+    let mut one = declarations[0].clone();
+    one.kind = DeclaredKind::Source;
+    one.t_s = 1234.4;
+    one.error.as_mut().expect("an error").total_m = 2.1;
+    summary.robots[0].declarations = vec![one.clone()];
+    assert_eq!(ended(&summary), "found after 1234 s, 2.1 m off");
+    summary.outcome = RunOutcome::NotFound;
+    assert_eq!(
+        ended(&summary),
+        "not found: declared after 1234 s, 2.1 m off"
+    );
+    let mut second = one.clone();
+    second.t_s = 1500.0;
+    second.error.as_mut().expect("an error").total_m = 0.25;
+    summary.robots[0].declarations.push(second);
+    summary.outcome = RunOutcome::Found;
+    assert_eq!(
+        ended(&summary),
+        "2 declarations, found after 1500 s, 2.1 m at most off"
+    );
+    // An edge of a subregion is no source.
+    one.kind = DeclaredKind::UpFlowEdge;
+    summary.robots[0].declarations = vec![one];
+    assert_eq!(ended(&summary), "found after 2000 s");
 }

@@ -3,6 +3,7 @@
 pub mod belief_track;
 mod echoes;
 mod gantry_path;
+mod headline;
 mod map_end;
 mod map_stated;
 pub mod odour;
