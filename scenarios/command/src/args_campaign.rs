@@ -23,6 +23,7 @@ Examples:
   rheotaxis campaign status beta
   rheotaxis campaign merge beta -o beta.parquet --csv
   rheotaxis campaign report beta
+  rheotaxis campaign report beta --against paper
   rheotaxis campaign rerun beta --run 17 --record
 
 Exit codes: 0 done; 75 stopped before the end (the same command continues); 1 error; 2 wrong usage.";
@@ -232,6 +233,9 @@ pub struct ReportArgs {
     /// Folder for the report [default: DIR/report].
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
+    /// Compare each other arm with this one [default: each with each; of more than five, each with the first].
+    #[arg(long, value_name = "ARM")]
+    pub against: Option<String>,
     /// Do not make runs anew to show their tracks.
     #[arg(long)]
     pub no_tracks: bool,

@@ -17,6 +17,14 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
     let spec = &read.campaign.spec;
     let arms: Vec<String> = spec.arms.iter().map(|a| a.name.clone()).collect();
     let sets: Vec<String> = spec.arms.iter().map(Arm::words).collect();
+    if let Some(arm) = args.against.as_ref().filter(|arm| !arms.contains(arm)) {
+        let there = format!("the arms of this campaign: {}", arms.join(", "));
+        say::error(
+            format!("--against: there is no arm \"{arm}\""),
+            Some(&there),
+        );
+        return Exit::Error;
+    }
     let shown = if args.no_tracks {
         Vec::new()
     } else {
@@ -31,6 +39,9 @@ pub(super) fn report(args: &ReportArgs) -> Exit {
         arms: &arms,
         sets: &sets,
         seeds: &spec.seeds.words(),
+        success: &read.success,
+        against: args.against.as_deref(),
+        columns: say::columns(),
         limit_s: Some(read.limit_s),
         planned: read.planned,
         shown: &shown,
@@ -85,6 +96,7 @@ struct Read {
     campaign: Campaign,
     planned: u64,
     limit_s: f64,
+    success: Vec<String>,
     rows: Vec<RunRow>,
 }
 
@@ -94,6 +106,7 @@ fn read(args: &ReportArgs) -> Result<Read, CampaignError> {
     Ok(Read {
         planned: wanted(&campaign, &args.dir, &manifest).runs,
         limit_s: campaign.limit_s()?,
+        success: campaign.success_rules()?,
         rows: read_rows(&args.dir)?,
         manifest,
         campaign,

@@ -66,7 +66,7 @@ fn all(args: &ReproduceArgs) -> Result<(), ReproduceError> {
     }
     for k in rows {
         work.advance(k, None)?;
-        say::line(table(&work.rows[k]));
+        say::line(table(&work.rows[k], say::columns()));
     }
     say::line(format_args!(
         "results in {}: REPRODUCTION.md, figures.csv, rows.csv, declarations.csv",
@@ -155,7 +155,7 @@ impl Work<'_> {
         for row in &self.rows {
             match row.runs.is_empty() {
                 true => say::line(format_args!("{}: no runs are kept", row.row.id)),
-                false => say::line(table(row)),
+                false => say::line(table(row, say::columns())),
             }
         }
         let some = self.rows.iter().filter(|r| !r.runs.is_empty());

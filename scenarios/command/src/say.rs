@@ -34,6 +34,18 @@ pub(super) fn scenario_error(error: ScenarioError) {
     }
 }
 
+/// Width of what standard output goes to, characters: that of the terminal, or of `COLUMNS`; a file or a pipe has none.
+pub(super) fn columns() -> Option<usize> {
+    let terminal = Term::stdout();
+    let told = || std::env::var("COLUMNS").ok()?.trim().parse().ok();
+    let columns = if terminal.is_term() {
+        terminal.size_checked().map(|(_, wide)| wide.into())
+    } else {
+        told()
+    };
+    columns.filter(|n| *n > 0)
+}
+
 /// Prints a line to standard output. A reader that closes the pipe early (`| head`) is no error.
 pub(super) fn line(text: impl std::fmt::Display) {
     let _ = writeln!(std::io::stdout(), "{text}");

@@ -11,17 +11,19 @@ use std::fmt::Write as _;
 /// Style sheet of all pages.
 pub const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#222;max-width:1040px;margin:2em auto;padding:0 1em}\
 h1{font-size:1.5em;margin-bottom:.1em}h2{font-size:1.15em;margin-top:2em;border-bottom:1px solid #ddd}\
+h3{font-size:1em;margin:1.2em 0 .2em;break-after:avoid}\
 table{border-collapse:collapse;margin:.6em 0}td,th{padding:.2em .9em .2em 0;text-align:left;vertical-align:top}\
 th{font-weight:600;color:#555}svg{max-width:100%;height:auto}pre{background:#f6f6f6;padding:1em;overflow:auto;font-size:12.5px}\
 .outcome{font-weight:600}code{font-size:.9em}img{max-width:100%;height:auto}\
 .pictures{display:grid;grid-template-columns:repeat(auto-fill,minmax(220px,1fr));gap:.6em}\
-figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}td,th,p{overflow-wrap:anywhere}\
+figure{margin:0;break-inside:avoid}figcaption{font-size:.85em;color:#555}h2{break-after:avoid}\
+p,.facts td:not(:first-child){overflow-wrap:anywhere}\
+table:not(.facts){display:block;overflow-x:auto}\
 @media(max-width:600px){body{font-size:14px;margin:1em auto;padding:0 .7em}table.facts td,table.facts th{display:block;padding-right:0}\
-table:not(.facts){display:block;overflow-x:auto}table:not(.facts) :is(td,th){overflow-wrap:normal}\
 pre{font-size:10.5px}.pictures{grid-template-columns:1fr 1fr}}\
 @media print{@page{margin:14mm}body{font-size:10.5px;line-height:1.35;max-width:none;margin:0;padding:0}h1{font-size:15px}\
 h2{font-size:12px;margin:1em 0 .3em}svg{display:block;max-height:235mm;max-width:100%;margin:auto}td,th{padding:.05em .7em .05em 0}\
-table:not(.facts) :is(td,th){overflow-wrap:break-word}\
+table:not(.facts){display:table}table:not(.facts) :is(td,th){overflow-wrap:break-word}\
 pre{font-size:6.5px;line-height:1.25;white-space:pre-wrap;padding:.5em}.pictures{grid-template-columns:repeat(4,1fr);gap:2mm}}\
 @media screen and (prefers-color-scheme:dark){:root{color-scheme:dark}body{color:#e2e4e7;background:#14171a}h2{border-color:#3a3f45}\
 th,figcaption{color:#a8adb3}pre{background:#1d2126}svg{background:#fff;border-radius:4px}}";

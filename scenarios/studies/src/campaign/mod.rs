@@ -15,6 +15,7 @@ mod plan;
 mod read;
 pub mod report;
 mod row;
+mod rules;
 mod run;
 mod seal;
 mod seeds;

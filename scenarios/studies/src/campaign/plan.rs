@@ -186,29 +186,6 @@ impl Campaign {
         Ok((shown, text))
     }
 
-    /// The time limit of its missions, s; the shortest, if arms or conditions set it.
-    ///
-    /// # Errors
-    /// If a scenario cannot be made.
-    pub fn limit_s(&self) -> Result<f64, CampaignError> {
-        let set =
-            |paths: &[(String, String)]| paths.iter().any(|(path, _)| path.starts_with("time"));
-        let by_arms = self.spec.arms.iter().any(|a| set(&a.set));
-        let conditions = if set(&self.condition(0)) {
-            self.spec.n_conditions()
-        } else {
-            1
-        };
-        let arms = if by_arms { self.spec.arms.len() } else { 1 };
-        let mut least = f64::INFINITY;
-        for condition in 0..conditions {
-            for arm in 0..arms {
-                least = least.min(self.loaded(condition, arm)?.scenario.time.limit_s.get());
-            }
-        }
-        Ok(least)
-    }
-
     /// Reads and checks every arm under every condition, so that no campaign starts that must fail. Warnings are not
     /// shown: `rheotaxis check` gives those of the base.
     ///

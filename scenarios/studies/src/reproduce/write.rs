@@ -4,9 +4,8 @@ use super::compare::{Compared, Standing};
 use super::row::Paper;
 use super::run::Reproduced;
 use crate::campaign::as_csv;
-use crate::campaign::report::{
-    RELIABILITY, Reliability, Walls, align, range, reliability, reliable,
-};
+use crate::campaign::report::{Reliability, Table, Walls, range, reliability, reliable, wrapped};
+use crate::campaign::stats::Interval;
 use output::files::{ReportError, csv_number, csv_text, make_folder, write_whole};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -22,8 +21,15 @@ const HEAD: [&str; 6] = [
     "the paper's is",
 ];
 
+/// A row of the table; all its values have one unit.
 fn cells(c: &Compared) -> [String; 6] {
-    let unit = c.figure.quantity.unit();
+    let paper = c.figure.paper.map(Paper::value);
+    let ends = |i: Option<Interval>| i.map_or([None; 2], |i| [Some(i.low), Some(i.high)]);
+    let intervals = [ends(c.ours.interval), ends(c.papers_interval)];
+    let values = [c.ours.value, paper]
+        .into_iter()
+        .chain(intervals.into_iter().flatten());
+    let unit = c.figure.quantity.unit().scale(values.flatten());
     let ours = match (c.ours.value, c.ours.count) {
         (Some(v), Some(k)) => format!("{k}/{} = {}", c.ours.n, unit.show(v)),
         (Some(v), None) => unit.show(v),
@@ -31,7 +37,7 @@ fn cells(c: &Compared) -> [String; 6] {
     };
     let interval = match (c.ours.interval, c.ours.count) {
         (Some(share), Some(_)) => unit.show_interval(share),
-        (i, _) => range(unit, i, c.ours.n),
+        (i, _) => range(c.ours.n, i, |i| unit.show_interval(i)),
     };
     let mut paper = match c.figure.paper {
         Some(Paper::Value(v)) => unit.show(v),
@@ -74,23 +80,24 @@ fn first_error(r: &Reproduced) -> Option<String> {
     Some(format!("seed {}: {}", bad.seed, bad.error.as_deref()?))
 }
 
-/// The table of a row as plain text.
+/// The table of a row as plain text, in at most `columns` characters where there is such a limit.
 #[must_use]
-pub fn table(r: &Reproduced) -> String {
-    let mut out = format!("{}: {}\n", r.row.id, r.row.what);
-    writeln!(out, "{} [{}]\n", runs_line(r), r.row.source).expect(TEXT);
-    let rows: Vec<[String; 6]> = r.figures.iter().map(cells).collect();
-    out.push_str(&align(&HEAD, &rows));
+pub fn table(r: &Reproduced, columns: Option<usize>) -> String {
+    let line = |words: &str| wrapped(words, columns).trim_end().to_string();
+    let mut out = line(&format!("{}: {}", r.row.id, r.row.what));
+    let runs = line(&format!("{} [{}]", runs_line(r), r.row.source));
+    writeln!(out, "\n{runs}\n").expect(TEXT);
+    out.push_str(&Table::new(HEAD, r.figures.iter().map(cells)).text(columns));
     let maps = maps(r);
     if !maps.is_empty() {
         out.push('\n');
-        out.push_str(&align(&RELIABILITY, &reliable::table(&maps)));
-        writeln!(out, "\n{}", reliable::notes(&maps)).expect(TEXT);
+        out.push_str(&reliable::table(&maps).text(columns));
+        writeln!(out, "\n{}", line(&reliable::notes(&maps))).expect(TEXT);
     }
     if let Some(error) = first_error(r) {
-        writeln!(out, "\nfirst failure: {error}").expect(TEXT);
+        writeln!(out, "\n{}", line(&format!("first failure: {error}"))).expect(TEXT);
     }
-    writeln!(out, "\n{}", Walls::of(&r.runs).words()).expect(TEXT);
+    writeln!(out, "\n{}", line(&Walls::of(&r.runs).words())).expect(TEXT);
     out
 }
 
@@ -181,9 +188,10 @@ fn markdown(all: &[Reproduced]) -> String {
         }
         let maps = maps(r);
         if !maps.is_empty() {
-            let rule = " --- |".repeat(RELIABILITY.len());
-            writeln!(out, "\n| {} |\n|{rule}", RELIABILITY.join(" | ")).expect(TEXT);
-            for line in reliable::table(&maps) {
+            let table = reliable::table(&maps);
+            let rule = " --- |".repeat(table.head.len());
+            writeln!(out, "\n| {} |\n|{rule}", table.head.join(" | ")).expect(TEXT);
+            for line in &table.rows {
                 writeln!(out, "| {} |", line.join(" | ")).expect(TEXT);
             }
             writeln!(

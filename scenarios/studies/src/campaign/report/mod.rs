@@ -7,6 +7,7 @@ mod pairs;
 mod plots;
 mod reliability;
 mod restricted;
+mod screen;
 mod tables;
 mod text;
 mod tracks;
@@ -21,8 +22,8 @@ mod tests;
 
 pub use arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
 pub use curves::{Curve, Point};
+pub(crate) use reliability::reliability;
 pub use reliability::{Bin, Reliability, Stated};
-pub(crate) use reliability::{RELIABILITY, reliability};
 pub(crate) mod reliable {
     //! The reliability of maps as table, notes, CSV and picture.
     pub(crate) use super::plots::colour;
@@ -31,8 +32,8 @@ pub(crate) mod reliable {
 pub use pairs::{Compares, Comparison};
 pub use restricted::Restricted;
 pub(crate) use tables::range;
-pub(crate) use text::align;
+pub(crate) use text::{Table, wrapped};
 pub use tracks::{Film, Pick, Rank, Shown, picks};
-pub use unit::Unit;
+pub use unit::{Scale, Unit};
 pub(crate) use walls::Walls;
 pub use write::{About, Written, write};

@@ -1,5 +1,6 @@
 //! The report as one self-contained page.
 
+use super::text::Table;
 use super::tracks::Film;
 use output::charts::escaped;
 use output::report::{FILM_STYLE, STYLE, film_script, film_section};
@@ -63,13 +64,31 @@ impl Page {
         self.text.push_str(svg);
     }
 
-    pub(super) fn table<const N: usize>(&mut self, head: &[&str; N], rows: &[[String; N]]) {
-        self.text.push_str("<table>\n<tr>");
-        for h in head {
+    /// A table whose cells are never broken inside a word; where it is too wide, it scrolls.
+    pub(super) fn table(&mut self, table: &Table) {
+        self.rows("<table>", table);
+    }
+
+    /// A table of names and what they mean, which may be long: it is as wide as the page.
+    pub(super) fn facts(&mut self, table: &Table) {
+        self.rows("<table class=\"facts\">", table);
+    }
+
+    /// Tables that belong together, each with its title.
+    pub(super) fn tables(&mut self, tables: &[(String, Table)]) {
+        for (title, table) in tables {
+            writeln!(self.text, "<h3>{}</h3>", escaped(title)).expect(TEXT);
+            self.table(table);
+        }
+    }
+
+    fn rows(&mut self, begin: &str, table: &Table) {
+        write!(self.text, "{begin}\n<tr>").expect(TEXT);
+        for h in &table.head {
             write!(self.text, "<th>{}</th>", escaped(h)).expect(TEXT);
         }
         self.text.push_str("</tr>\n");
-        for row in rows {
+        for row in &table.rows {
             self.text.push_str("<tr>");
             for cell in row {
                 write!(self.text, "<td>{}</td>", escaped(cell)).expect(TEXT);

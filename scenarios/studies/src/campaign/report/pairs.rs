@@ -71,15 +71,23 @@ pub struct Comparison {
     pub warning: Option<String>,
 }
 
-/// All comparisons of a campaign.
-pub(super) fn comparisons(arms: &[String], rows: &[RunRow], limit_s: f64) -> Vec<Comparison> {
+/// All comparisons of a campaign; `against` names the arm with which each other one is compared.
+pub(super) fn comparisons(
+    arms: &[String],
+    rows: &[RunRow],
+    limit_s: f64,
+    against: Option<&str>,
+) -> Vec<Comparison> {
+    if let Some(second) = against {
+        let others = arms.iter().filter(|a| *a != second);
+        return (others.flat_map(|first| compared(first, second, rows, limit_s))).collect();
+    }
     let mut out = Vec::new();
     for (i, first) in arms.iter().enumerate() {
-        for (j, second) in arms.iter().enumerate().skip(i + 1) {
+        for second in arms.iter().skip(i + 1) {
             if i > 0 && arms.len() > EACH_WITH_EACH {
                 continue;
             }
-            debug_assert!(i < j);
             out.extend(compared(first, second, rows, limit_s));
         }
     }

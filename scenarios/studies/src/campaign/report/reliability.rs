@@ -2,6 +2,7 @@
 //!
 //! *Source*: reliability diagram: Murphy & Winkler 1977, Applied Statistics 26, 41; intervals of the shares: Wilson.
 
+use super::text::Table;
 use super::unit::Unit;
 use crate::campaign::RunRow;
 use crate::campaign::stats::{Interval, wilson};
@@ -124,38 +125,36 @@ pub(crate) fn reliability(arm: &str, rows: &[&RunRow]) -> Vec<Reliability> {
     Stated::ALL.into_iter().filter_map(one).collect()
 }
 
-/// Head of the table.
-pub(crate) const RELIABILITY: [&str; 7] = [
-    "arm",
-    "probability of",
-    "stated",
-    "runs",
-    "stated, mean",
-    "true",
-    "95 % interval",
-];
-
 /// The table: all runs of an arm, then bin by bin.
-pub(crate) fn table(all: &[Reliability]) -> Vec<[String; 7]> {
+pub(crate) fn table(all: &[Reliability]) -> Table {
+    let share = Unit::Share.scale([]);
     let of_arm = |r: &Reliability| {
         let line = |b: &Bin, between: String| {
-            let interval = Unit::Share.show_interval(b.interval());
             [
                 r.arm.clone(),
                 r.of.words().to_string(),
                 between,
                 b.n.to_string(),
-                Unit::Share.show(b.stated),
-                Unit::Share.show(b.share()),
-                interval,
+                share.number(b.stated),
+                share.number(b.share()),
+                share.numbers(b.interval()),
             ]
         };
         let mut lines = vec![line(&r.all, "any".to_string())];
-        let between = |b: &Bin| format!("{:.0} to {:.0} %", 100.0 * b.from, 100.0 * b.to);
+        let between = |b: &Bin| format!("{:.0} to {:.0}", 100.0 * b.from, 100.0 * b.to);
         lines.extend(r.bins.iter().map(|b| line(b, between(b))));
         lines
     };
-    all.iter().flat_map(of_arm).collect()
+    let head = [
+        "arm".to_string(),
+        "probability of".to_string(),
+        share.head("stated"),
+        "runs".to_string(),
+        share.head("stated, mean"),
+        share.head("true"),
+        share.head("95 % interval"),
+    ];
+    Table::new(head, all.iter().flat_map(of_arm))
 }
 
 /// What stands below the table.
@@ -307,8 +306,8 @@ mod tests {
         assert_eq!((near.all.share(), near.bins.len()), (1.0, 1));
         let words = table(&all);
         assert_eq!(
-            words[1][..6],
-            ["a", "best cell", "20 to 40 %", "10", "30.0 %", "30.0 %"]
+            words.rows[1][..6],
+            ["a", "best cell", "20 to 40", "10", "30.0", "30.0"]
         );
         assert!(notes(&all).contains("Without a declaration: 1 of 14 of a."));
         assert_eq!(csv(&all).lines().count(), 1 + 3 + 2);

@@ -1,111 +1,134 @@
 //! The report's tables for the screen and the page, and every number as CSV.
 
-use super::arms::{ArmFigures, ConditionFigures};
+use super::arms::{ArmFigures, ArmMeasure, ConditionFigures, Measured};
 use super::curves::Curve;
 use super::pairs::{Compares, Comparison};
-use super::unit::Unit;
+use super::text::Table;
+use super::unit::{Scale, Unit};
 use crate::campaign::stats::{Difference, Interval, LEAST_VALUES};
 use output::files::{csv_number, csv_text};
 
-fn shown(unit: Unit, value: Option<f64>) -> String {
-    value.map_or("-".to_string(), |v| unit.show(v))
+/// A column's values that are there, with the ends of their intervals.
+fn values<'a>(
+    all: impl IntoIterator<Item = (Option<f64>, Option<Interval>)> + 'a,
+) -> impl Iterator<Item = f64> + 'a {
+    (all.into_iter()).flat_map(|(v, i)| {
+        [v, i.map(|i| i.low), i.map(|i| i.high)]
+            .into_iter()
+            .flatten()
+    })
+}
+
+fn shown(scale: &Scale, value: Option<f64>) -> String {
+    value.map_or("-".to_string(), |v| scale.number(v))
 }
 
 /// The interval of a figure of `n` values; for too few values there is none.
-pub(crate) fn range(unit: Unit, interval: Option<Interval>, n: u64) -> String {
+pub(crate) fn range(
+    n: u64,
+    interval: Option<Interval>,
+    show: impl Fn(Interval) -> String,
+) -> String {
     match interval {
-        Some(i) if n >= LEAST_VALUES as u64 => unit.show_interval(i),
+        Some(i) if n >= LEAST_VALUES as u64 => show(i),
         _ if n == 0 => "-".to_string(),
         _ => format!("too few (n = {n})"),
     }
 }
 
-pub(super) const SUCCESS: [&str; 7] = [
-    "arm",
-    "runs",
-    "failed",
-    "success",
-    "95 % interval",
-    "declared",
-    "95 % interval",
-];
+const INTERVAL: &str = "95 % interval";
 
-pub(super) fn success(arms: &[ArmFigures]) -> Vec<[String; 7]> {
+pub(super) fn success(arms: &[ArmFigures]) -> Table {
+    let share = Unit::Share.scale([]);
+    let interval = share.head(INTERVAL);
     let one = |a: &ArmFigures| {
         [
             a.arm.clone(),
             a.success.n.to_string(),
             a.failed.to_string(),
-            shown(Unit::Share, a.success.value()),
-            Unit::Share.show_interval(a.success.interval()),
-            shown(Unit::Share, a.declared.value()),
-            Unit::Share.show_interval(a.declared.interval()),
+            shown(&share, a.success.value()),
+            share.numbers(a.success.interval()),
+            shown(&share, a.declared.value()),
+            share.numbers(a.declared.interval()),
         ]
     };
-    arms.iter().map(one).collect()
+    let head = [
+        "arm".to_string(),
+        "runs".to_string(),
+        "failed".to_string(),
+        share.head("success"),
+        interval.clone(),
+        share.head("declared"),
+        interval,
+    ];
+    Table::new(head, arms.iter().map(one))
 }
 
-pub(super) const MEASURED: [&str; 7] = [
-    "arm",
-    "of a run",
-    "n",
-    "median",
-    "95 % interval",
-    "90 % quantile",
-    "95 % interval",
-];
+/// A table for each measure, with what it is of.
+pub(super) fn measured(arms: &[ArmFigures]) -> Vec<(String, Table)> {
+    let of = |measure: ArmMeasure| {
+        let all = || (arms.iter()).flat_map(|a| a.measured.iter().map(move |m| (a, m)));
+        let rows = || all().filter(|(_, m)| m.measure == measure);
+        let both = |m: &Measured| [(m.median, m.median_interval), (m.q90, m.q90_interval)];
+        let scale = measure
+            .unit()
+            .scale(values(rows().flat_map(|(_, m)| both(m))));
+        let one = |(a, m): (&ArmFigures, &Measured)| {
+            let interval = |i| range(m.n, i, |i| scale.numbers(i));
+            [
+                a.arm.clone(),
+                m.n.to_string(),
+                shown(&scale, m.median),
+                interval(m.median_interval),
+                shown(&scale, m.q90),
+                interval(m.q90_interval),
+            ]
+        };
+        let head = [
+            "arm".to_string(),
+            "n".to_string(),
+            scale.head("median"),
+            scale.head(INTERVAL),
+            scale.head("90 % quantile"),
+            scale.head(INTERVAL),
+        ];
+        (title(measure.words()), Table::new(head, rows().map(one)))
+    };
+    ArmMeasure::ALL.into_iter().map(of).collect()
+}
 
-pub(super) fn measured(arms: &[ArmFigures]) -> Vec<[String; 7]> {
-    let rows = arms
-        .iter()
-        .flat_map(|a| a.measured.iter().map(move |m| (a, m)));
-    rows.map(|(a, m)| {
-        let unit = m.measure.unit();
-        [
-            a.arm.clone(),
-            m.measure.words().to_string(),
-            m.n.to_string(),
-            shown(unit, m.median),
-            range(unit, m.median_interval, m.n),
-            shown(unit, m.q90),
-            range(unit, m.q90_interval, m.n),
-        ]
+/// With a capital, as a title.
+fn title(words: &str) -> String {
+    let mut rest = words.chars();
+    rest.next().map_or(String::new(), |first| {
+        first.to_uppercase().chain(rest).collect()
     })
-    .collect()
 }
 
-pub(super) const RESTRICTED: [&str; 5] = [
-    "arm",
-    "n",
-    "of them without success",
-    "mean time to success, at most the limit",
-    "95 % interval",
-];
-
-pub(super) fn restricted(arms: &[ArmFigures]) -> Vec<[String; 5]> {
+pub(super) fn restricted(arms: &[ArmFigures]) -> Table {
+    let all = arms
+        .iter()
+        .map(|a| (a.restricted.mean_s, a.restricted.interval));
+    let scale = Unit::Seconds.scale(values(all));
     let one = |a: &ArmFigures| {
         let r = a.restricted;
         [
             a.arm.clone(),
             r.n.to_string(),
             r.at_limit.to_string(),
-            shown(Unit::Seconds, r.mean_s),
-            range(Unit::Seconds, r.interval, r.n),
+            shown(&scale, r.mean_s),
+            range(r.n, r.interval, |i| scale.numbers(i)),
         ]
     };
-    arms.iter().map(one).collect()
+    let head = [
+        "arm".to_string(),
+        "n".to_string(),
+        "without success".to_string(),
+        scale.head("mean time to success"),
+        scale.head(INTERVAL),
+    ];
+    Table::new(head, arms.iter().map(one))
 }
-
-pub(super) const PAIRS: [&str; 8] = [
-    "first",
-    "second",
-    "by",
-    "pairs",
-    "first - second",
-    "95 % interval",
-    "first is",
-    "rests on",
-];
 
 /// For a share, the interval is exact however few the pairs are; for a quantity, there must be enough pairs.
 fn sound_interval(c: &Comparison) -> Option<Interval> {
@@ -113,44 +136,62 @@ fn sound_interval(c: &Comparison) -> Option<Interval> {
     c.difference.filter(enough).map(|d| d.interval)
 }
 
-pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<[String; 8]> {
-    let one = |c: &Comparison| {
-        let d = c.difference;
-        [
-            c.first.clone(),
-            c.second.clone(),
-            c.by.words().to_string(),
-            d.map_or(0, |d| d.pairs).to_string(),
-            shown(c.by.unit(), d.map(|d| d.estimate)),
-            match (c.by, d) {
-                (Compares::Success, Some(d)) => Unit::Share.show_interval(d.interval),
-                (by, d) => range(
-                    by.unit(),
-                    sound_interval(c),
-                    d.map_or(0, |d| d.pairs as u64),
-                ),
-            },
-            d.map_or("not separable: no pairs", |d| d.verdict.words())
-                .to_string(),
-            c.rests_on.clone(),
-        ]
+/// A table for each quantity by which arms are compared, with what it is.
+pub(super) fn pairs(comparisons: &[Comparison]) -> Vec<(String, Table)> {
+    let of = |by: Compares| {
+        let rows = || comparisons.iter().filter(|c| c.by == by);
+        let all = rows().map(|c| (c.difference.map(|d| d.estimate), sound_interval(c)));
+        let scale = by.unit().scale(values(all));
+        let one = |c: &Comparison| {
+            let d = c.difference;
+            let n = d.map_or(0, |d| d.pairs as u64);
+            [
+                c.first.clone(),
+                c.second.clone(),
+                n.to_string(),
+                shown(&scale, d.map(|d| d.estimate)),
+                match (by, d) {
+                    (Compares::Success, Some(d)) => scale.numbers(d.interval),
+                    _ => range(n, sound_interval(c), |i| scale.numbers(i)),
+                },
+                d.map_or("not separable: no pairs", |d| d.verdict.words())
+                    .to_string(),
+                c.rests_on.clone(),
+            ]
+        };
+        let head = [
+            "first".to_string(),
+            "second".to_string(),
+            "pairs".to_string(),
+            scale.head("first - second"),
+            scale.head(INTERVAL),
+            "first is".to_string(),
+            "rests on".to_string(),
+        ];
+        (title(by.words()), Table::new(head, rows().map(one)))
     };
-    comparisons.iter().map(one).collect()
+    Compares::ALL.into_iter().map(of).collect()
 }
 
-pub(super) const CONDITIONS: [&str; 5] = ["condition", "arm", "runs", "success", "95 % interval"];
-
-pub(super) fn conditions(conditions: &[ConditionFigures]) -> Vec<[String; 5]> {
+pub(super) fn conditions(conditions: &[ConditionFigures]) -> Table {
+    let share = Unit::Share.scale([]);
     let one = |c: &ConditionFigures| {
         [
             c.condition.clone(),
             c.arm.clone(),
             c.success.n.to_string(),
-            shown(Unit::Share, c.success.value()),
-            Unit::Share.show_interval(c.success.interval()),
+            shown(&share, c.success.value()),
+            share.numbers(c.success.interval()),
         ]
     };
-    conditions.iter().map(one).collect()
+    let head = [
+        "condition".to_string(),
+        "arm".to_string(),
+        "runs".to_string(),
+        share.head("success"),
+        share.head(INTERVAL),
+    ];
+    Table::new(head, conditions.iter().map(one))
 }
 
 /// Value, lower and upper end, as fields.

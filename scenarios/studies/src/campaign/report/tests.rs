@@ -20,6 +20,9 @@ fn about(planned: u64) -> About<'static> {
         title: "",
         sets: &[],
         seeds: "seeds 1 to 40",
+        success: &[],
+        against: None,
+        columns: None,
         limit_s: Some(1500.0),
         scenario: "duck_st",
         hash: "00",
@@ -79,7 +82,9 @@ fn says_which_arm_is_better_and_by_how_much() {
     );
     assert_eq!(of("path")[7], "not separable at this n");
     assert!(
-        written.text.contains("100.0 %") && written.text.contains("80 runs, seeds 1 to 40;"),
+        written.text.contains("success, %")
+            && written.text.contains("100.0 ")
+            && written.text.contains("80 runs, seeds 1 to 40;"),
         "{}",
         written.text
     );
@@ -261,4 +266,121 @@ fn a_folder_that_cannot_be_made_is_named() {
         .unwrap_err()
         .to_string();
     assert!(said.contains("f/out"), "{said}");
+}
+
+/// A row of `arm` with other values.
+fn altered(arm_name: &str, alter: impl Fn(&mut RunRow)) -> Vec<RunRow> {
+    let mut rows = arm(arm_name, 12, |k| Some((1.0 + 0.1 * k as f64, 0.0)));
+    rows.iter_mut().for_each(alter);
+    rows
+}
+
+#[test]
+fn each_arm_is_compared_with_the_one_that_is_asked_for() {
+    let rows = [
+        altered("a", |_| {}),
+        altered("b", |r| r.travelled_m += 10.0),
+        altered("c", |r| r.travelled_m += 30.0),
+    ]
+    .concat();
+    let dir = tempfile::tempdir().unwrap();
+    let about = About {
+        against: Some("b"),
+        ..about(36)
+    };
+    let written = write(dir.path(), &about, &rows).unwrap();
+    sound(dir.path());
+    let pairs = fs::read_to_string(dir.path().join("differences.csv")).unwrap();
+    let compared: Vec<&str> = (pairs.lines().skip(1))
+        .filter(|l| l.contains(",path,"))
+        .map(|l| l.split_once(",path,").unwrap().0)
+        .collect();
+    assert_eq!(compared, ["a,b", "c,b"]);
+    assert!(pairs.contains("a,b,path,12,-10,-10,-10,better,"), "{pairs}");
+    assert!(pairs.contains("c,b,path,12,20,20,20,worse,"), "{pairs}");
+    assert!(!written.text.contains("NaN"));
+    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+    assert!(html.contains("Each arm is compared with b."));
+}
+
+#[test]
+fn the_report_says_what_a_success_is_and_what_is_pooled() {
+    let mut rows = altered("a", |_| {});
+    let rule = ["a source is declared within 40 m of a true one".to_string()];
+    let about = About {
+        success: &rule,
+        ..about(12)
+    };
+    let said = |rows: &[RunRow], about: &About<'_>| {
+        let dir = tempfile::tempdir().unwrap();
+        let text = write(dir.path(), about, rows).unwrap().text;
+        let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+        (text, html)
+    };
+    let (text, html) = said(&rows, &about);
+    for page in [&text, &html] {
+        assert!(
+            page.contains("Success: a source is declared within 40 m of a true one."),
+            "{page}"
+        );
+        assert!(!page.contains("Pooled"), "{page}");
+    }
+    for r in &mut rows {
+        r.condition = format!("water.speed={}", r.seed_index % 3);
+    }
+    let two = [rule[0].clone(), "all sources are declared".to_string()];
+    let differs = About {
+        success: &two,
+        ..about
+    };
+    let (text, html) = said(&rows, &differs);
+    for page in [&text, &html] {
+        assert!(
+            page.contains("within 40 m of a true one; or all sources are declared"),
+            "{page}"
+        );
+        assert!(
+            page.contains("Pooled: each figure of an arm is over all 3 conditions"),
+            "{page}"
+        );
+    }
+}
+
+/// Errors from below a metre to above one: each column has one unit, and it is in the column's head.
+#[test]
+fn no_cell_mixes_units_and_no_line_is_wider_than_the_terminal() {
+    let rows = [
+        altered("near", |r| {
+            r.error_m = Some(0.1 + 0.02 * r.seed_index as f64)
+        }),
+        altered("far", |r| r.error_m = Some(0.8 + 0.1 * r.seed_index as f64)),
+    ]
+    .concat();
+    let dir = tempfile::tempdir().unwrap();
+    let wide = write(dir.path(), &about(24), &rows).unwrap().text;
+    assert!(wide.contains("median, m"), "{wide}");
+    let html = fs::read_to_string(dir.path().join("report.html")).unwrap();
+    for cell in html
+        .split("<td>")
+        .skip(1)
+        .map(|c| c.split('<').next().unwrap())
+    {
+        let words: Vec<&str> = cell.split(' ').collect();
+        let units = words.iter().filter(|w| ["m", "cm", "s", "%"].contains(w));
+        assert!(units.count() == 0 || cell.contains("pairs"), "{cell}");
+    }
+    for columns in [100, 80, 40] {
+        let narrow = About {
+            columns: Some(columns),
+            ..about(24)
+        };
+        let text = write(dir.path(), &narrow, &rows).unwrap().text;
+        for line in text.lines() {
+            assert!(line.chars().count() <= columns, "{columns}: {line}");
+        }
+        assert!(
+            text.contains("rests on") && text.contains("12 of 12 pairs"),
+            "{text}"
+        );
+    }
 }

@@ -6,6 +6,7 @@
 
 use super::arms::{arm_names, of_arm};
 use super::page::Page;
+use super::text::Table;
 use crate::campaign::RunRow;
 
 /// Arms whose tracks are shown; more would make a page that nobody can send.
@@ -112,9 +113,8 @@ pub(super) fn section(page: &mut Page, shown: &[Shown], arms: usize) {
         return;
     }
     page.heading("Best, median and worst run");
-    let table: Vec<[String; 7]> = shown.iter().map(|s| line(&s.pick)).collect();
-    let head = ["arm", "", "run", "seed", "outcome", "time (s)", "error (m)"];
-    page.table(&head, &table);
+    let head = ["arm", "", "run", "seed", "outcome", "time, s", "error, m"];
+    page.table(&Table::new(head, shown.iter().map(|s| line(&s.pick))));
     page.paragraph(NOTES);
     if arms > MOST_ARMS {
         page.paragraph(&format!("Of {arms} arms the first {MOST_ARMS} are shown."));

@@ -1,8 +1,9 @@
 //! Writes all parts of a campaign's report into one folder.
 
-use super::arms::{self, arm_names, of_arm};
+use super::arms::{self, ConditionFigures, arm_names, of_arm};
 use super::page::Page;
-use super::text::align;
+use super::screen::Content;
+use super::text::Table;
 use super::tracks::{self, Shown};
 use super::walls::Walls;
 use super::{curves, pairs, plots, reliability, tables};
@@ -21,6 +22,12 @@ pub struct About<'a> {
     pub sets: &'a [String],
     /// The runs' seeds, for people.
     pub seeds: &'a str,
+    /// What counts as a success, in words: one rule, or those of arms and conditions that differ in it.
+    pub success: &'a [String],
+    /// The arm with which each other one is compared; without it, each is compared with each, or with the first of many.
+    pub against: Option<&'a str>,
+    /// Width of the terminal for which the text is written, characters; without it, lines are as long as they are.
+    pub columns: Option<usize>,
     /// The shortest time limit of its scenarios, s; without it, the longest mission counts.
     pub limit_s: Option<f64>,
     /// Base scenario.
@@ -79,7 +86,7 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         .map(|(name, rows)| arms::figures(name, rows, limit_s))
         .collect();
     let conditions = arms::conditions(&names, rows);
-    let comparisons = pairs::comparisons(&names, rows, limit_s);
+    let comparisons = pairs::comparisons(&names, rows, limit_s, about.against);
     let waiting: Vec<_> = grouped
         .iter()
         .map(|(name, rows)| curves::not_yet_declared(name, rows))
@@ -146,116 +153,122 @@ pub fn write(dir: &Path, about: &About<'_>, rows: &[RunRow]) -> Result<Written, 
         kept.figure(name, svg);
     }
 
-    let success = tables::success(&figures);
-    let measured = tables::measured(&figures);
-    let restricted = tables::restricted(&figures);
-    let compared = tables::pairs(&comparisons);
-    let warnings: Vec<&String> = (comparisons.iter())
-        .filter_map(|c| c.warning.as_ref())
-        .collect();
-    let walls = Walls::of(rows).words();
-    let first_error = rows
-        .iter()
-        .filter(|r| r.error.is_some())
-        .min_by_key(|r| r.run)
-        .map(|r| {
-            format!(
-                "First failure: run {}: {}",
-                r.run,
-                r.error.as_deref().unwrap_or_default()
-            )
-        });
-
     let title = if about.title.is_empty() {
         about.name
     } else {
         about.title
     };
+    let content = Content {
+        title: title.to_string(),
+        about: std::iter::once(heading(about, rows.len()))
+            .chain(success_words(about, &conditions))
+            .collect(),
+        sets: Table::new(
+            ["arm", "sets in the scenario"],
+            (about.arms.iter().zip(about.sets)).map(|(arm, set)| [arm.clone(), set.clone()]),
+        ),
+        limit_s,
+        success: tables::success(&figures),
+        measured: tables::measured(&figures),
+        restricted: tables::restricted(&figures),
+        pairs: if comparisons.is_empty() {
+            Vec::new()
+        } else {
+            tables::pairs(&comparisons)
+        },
+        warnings: (comparisons.iter())
+            .filter_map(|c| c.warning.clone())
+            .collect(),
+        reliable: (!reliable.is_empty())
+            .then(|| (reliability::table(&reliable), reliability::notes(&reliable))),
+        walls: Walls::of(rows).words(),
+        first_error: rows
+            .iter()
+            .filter(|r| r.error.is_some())
+            .min_by_key(|r| r.run)
+            .map(|r| {
+                let error = r.error.as_deref().unwrap_or_default();
+                format!("First failure: run {}: {error}", r.run)
+            }),
+    };
     let mut page = Page::new(title);
-    page.paragraph(&heading(about, rows.len()));
-    let sets: Vec<[String; 2]> = (about.arms.iter().zip(about.sets))
-        .map(|(arm, set)| [arm.clone(), set.clone()])
-        .collect();
-    if !sets.is_empty() {
+    for words in &content.about {
+        page.paragraph(words);
+    }
+    if !content.sets.rows.is_empty() {
         page.heading("Arms");
-        page.table(&["arm", "sets in the scenario"], &sets);
+        page.facts(&content.sets);
     }
     page.heading("Success");
-    page.table(&tables::SUCCESS, &success);
+    page.table(&content.success);
     page.svg(&drawn[0].1);
     page.heading("Time, path, error");
-    page.table(&tables::MEASURED, &measured);
+    page.tables(&content.measured);
     page.paragraph(NOTES);
     page.svg(&drawn[1].1);
     page.heading(&format!("Time to success, at most {limit_s:.0} s"));
-    page.table(&tables::RESTRICTED, &restricted);
+    page.table(&content.restricted);
     page.paragraph(RESTRICTED_NOTES);
     page.svg(&drawn[2].1);
     if !comparisons.is_empty() {
         page.heading("Arm against arm");
-        page.table(&tables::PAIRS, &compared);
-        for warning in &warnings {
+        if let Some(arm) = about.against {
+            page.paragraph(&format!("Each arm is compared with {arm}."));
+        } else if names.len() > pairs::EACH_WITH_EACH {
+            page.paragraph("With so many arms each is compared with the first.");
+        }
+        page.tables(&content.pairs);
+        for warning in &content.warnings {
             page.paragraph(&format!("Warning: {warning}"));
         }
         page.paragraph(PAIR_NOTES);
-        if names.len() > pairs::EACH_WITH_EACH {
-            page.paragraph("With so many arms each is compared with the first.");
-        }
         page.svg(&drawn[3].1);
     }
     if !conditions.is_empty() {
         page.heading("Conditions");
-        page.table(&tables::CONDITIONS, &tables::conditions(&conditions));
+        page.table(&tables::conditions(&conditions));
     }
-    if !reliable.is_empty() {
+    if let Some((table, notes)) = &content.reliable {
         page.heading("How sure the maps are");
-        page.table(&reliability::RELIABILITY, &reliability::table(&reliable));
-        page.paragraph(&reliability::notes(&reliable));
+        page.table(table);
+        page.paragraph(notes);
         page.svg(&reliability::picture(&reliable, plots::colour));
     }
     tracks::section(&mut page, about.shown, names.len());
     page.heading("Where the time goes");
-    page.paragraph(&walls);
-    if let Some(error) = &first_error {
+    page.paragraph(&content.walls);
+    if let Some(error) = &content.first_error {
         page.paragraph(error);
     }
     kept.write("report.html", page.end().as_bytes());
-
-    let mut text = format!("{title}\n{}\n", heading(about, rows.len()));
-    for [arm, set] in &sets {
-        text.push_str(&format!("  arm {arm}: {set}\n"));
-    }
-    text.push('\n');
-    text.push_str(&align(&tables::SUCCESS, &success));
-    text.push('\n');
-    text.push_str(&align(&tables::MEASURED, &measured));
-    text.push_str(&format!("\nThe limit is {limit_s:.0} s.\n"));
-    text.push_str(&align(&tables::RESTRICTED, &restricted));
-    if !comparisons.is_empty() {
-        text.push('\n');
-        text.push_str(&align(&tables::PAIRS, &compared));
-        for warning in &warnings {
-            text.push_str(&format!("\nWarning: {warning}\n"));
-        }
-    }
-    if !reliable.is_empty() {
-        text.push('\n');
-        let table = reliability::table(&reliable);
-        text.push_str(&align(&reliability::RELIABILITY, &table));
-        text.push_str(&format!("\n{}\n", reliability::notes(&reliable)));
-    }
-    text.push('\n');
-    text.push_str(&walls);
-    text.push('\n');
-    if let Some(error) = first_error {
-        text.push_str(&error);
-        text.push('\n');
-    }
     Ok(Written {
-        text,
+        text: content.text(about.columns),
         files: kept.done()?,
         removed: folder.removed().to_vec(),
     })
+}
+
+/// What counts as a success, and whether figures of several conditions are pooled.
+fn success_words(about: &About<'_>, conditions: &[ConditionFigures]) -> Vec<String> {
+    let mut said = Vec::new();
+    match about.success {
+        [] => {}
+        [rule] => said.push(format!("Success: {rule}.")),
+        rules => said.push(format!(
+            "Success is not the same in all arms and conditions: {}.",
+            rules.join("; or ")
+        )),
+    }
+    let mut names: Vec<&str> = conditions.iter().map(|c| c.condition.as_str()).collect();
+    names.dedup();
+    if names.len() > 1 {
+        said.push(format!(
+            "Pooled: each figure of an arm is over all {} conditions; conditions.csv and report.html have the success \
+             under each.",
+            names.len()
+        ));
+    }
+    said
 }
 
 fn heading(about: &About<'_>, done: usize) -> String {
