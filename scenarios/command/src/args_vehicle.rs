@@ -46,7 +46,7 @@ pub enum VehicleCommand {
 /// Arguments of `vehicle check`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct VehicleCheckArgs {
-    /// Folder of the vehicle, or the name of one that comes with the program.
+    /// Folder of the vehicle, or a name that `rheotaxis list vehicles` prints.
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Where to draw it, as SVG or PNG by its ending [default: FOLDER.svg in the present folder].
@@ -57,7 +57,7 @@ pub struct VehicleCheckArgs {
 /// Arguments of `vehicle trials`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct VehicleTrialsArgs {
-    /// Folder of the vehicle, the name of one that comes with the program, or `remus100`.
+    /// Folder of the vehicle, or a name that `rheotaxis list vehicles` prints.
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
     /// Folder for `trials.csv`, `trials.svg` and `trials.png`.

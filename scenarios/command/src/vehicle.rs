@@ -9,8 +9,11 @@ use super::vehicle_fly::flown;
 use output::charts::png;
 use output::files::write_whole;
 use rheotaxis::scenario::Beside;
+use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Does};
-use robots::vehicles::{Craft, Described, RemusSpec, SHIPPED, Shipped, VehicleSpec};
+use robots::vehicles::{
+    CATALOGUE, Craft, Described, KinematicSpec, RemusSpec, SHIPPED, Shipped, VehicleSpec,
+};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use studies::trials::{Looks, Trial, drawn, figure, trials};
@@ -40,27 +43,49 @@ pub(super) fn plainly(problem: impl ToString) -> Wrong {
     (problem.to_string(), None)
 }
 
-/// A folder of the user's own, or a vehicle that comes with the program.
+/// A folder of the user's own, or a vehicle that `rheotaxis list vehicles` names; letters count as small ones.
 fn spec(folder: &Path) -> Result<VehicleSpec, Wrong> {
     let name = folder.to_string_lossy().trim_end_matches('/').to_string();
     if folder.is_dir() {
         return Ok(VehicleSpec::File(name));
     }
-    if name == "remus100" {
-        return Ok(VehicleSpec::Remus100(RemusSpec::default()));
-    }
-    if Shipped::named(&name).is_some() {
-        return Ok(VehicleSpec::Shipped(name));
-    }
+    let hint = match name.to_ascii_lowercase().as_str() {
+        "remus100" => return Ok(VehicleSpec::Remus100(RemusSpec::default())),
+        "kinematic" => return Ok(VehicleSpec::Kinematic(KinematicSpec::default())),
+        low if Shipped::named(low).is_some() => return Ok(VehicleSpec::Shipped(low.to_string())),
+        "shipped" => format!("name its folder: {}", names()),
+        "file" => "name your folder itself, such as my_auv".to_string(),
+        _ if CATALOGUE.iter().any(|e| e.name.eq_ignore_ascii_case(&name)) => {
+            "only what moves freely in the water has trials; `rheotaxis run flume_crab` runs the gantry".to_string()
+        }
+        _ => {
+            return Err((
+                format!("{name}: there is no such folder, and no such vehicle comes with the program"),
+                Some(format!(
+                    "vehicles that come with the program: remus100, kinematic, {}",
+                    names()
+                )),
+            ));
+        }
+    };
     Err((
-        format!("{name}: there is no such folder, and no such vehicle comes with the program"),
-        Some(format!("vehicles that come with the program: {}", names())),
+        format!("{name} is a word of scenario files and no vehicle by itself"),
+        Some(hint),
     ))
 }
 
 fn names() -> String {
     let names: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
     names.join(", ")
+}
+
+/// Name of a vehicle for people.
+fn title(craft: &Craft) -> &str {
+    match craft {
+        Craft::Finned(_) => "REMUS 100",
+        Craft::Kinematic(_) => "Kinematic, with its default limits",
+        Craft::Described(vehicle) => vehicle.name(),
+    }
 }
 
 pub(super) fn loaded(folder: &Path) -> Result<Craft, Wrong> {
@@ -80,7 +105,11 @@ fn check(args: &VehicleCheckArgs) -> Result<(), Wrong> {
         say::line(format_args!("doubt: {doubt}"));
     }
     let Craft::Described(vehicle) = &craft else {
-        say::line("the REMUS 100 of this program: its numbers are in robots/src/vehicles/remus100");
+        say::line(title(&craft));
+        for line in capabilities(&craft.capabilities(GuidanceSpec::default().tightest_turn_m())) {
+            say::line(format_args!("  {line}"));
+        }
+        say::line("its numbers are a part of the program: there is no folder to check or to draw");
         return Ok(());
     };
     print(vehicle);
@@ -185,10 +214,7 @@ fn looks(vehicle: &Described) -> Looks {
 
 fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
     let craft = loaded(&args.folder)?;
-    let name = match &craft {
-        Craft::Described(vehicle) => vehicle.name().to_string(),
-        _ => "REMUS 100".to_string(),
-    };
+    let name = title(&craft);
     say::line(format_args!(
         "{name}: trials in water of 1025 kg/m3, steps of 0.02 s"
     ));
@@ -203,7 +229,7 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
         }
     }
     make_folder(&args.out).map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
-    let svg = figure(&name, &all);
+    let svg = figure(name, &all);
     for (file, bytes) in [
         ("trials.csv", table(&all).into_bytes()),
         ("trials.png", png(&svg).map_err(plainly)?),
@@ -249,4 +275,34 @@ fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
         say::line(path.display());
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use rheotaxis::registry::{Group, Registry, sections};
+
+    /// What `list vehicles` prints either has trials, or the error says which name to give instead.
+    #[test]
+    fn every_name_that_list_vehicles_prints_is_known() {
+        let mut names: Vec<&str> = (sections(&Registry::default()).into_iter())
+            .filter(|s| s.group == Group::Vehicles)
+            .flat_map(|s| s.entries.into_iter().map(|e| e.name))
+            .collect();
+        names.extend(SHIPPED.iter().map(|s| s.folder));
+        let mut free = Vec::new();
+        for name in names {
+            match loaded(Path::new(name)) {
+                Ok(_) => free.push(name),
+                Err((problem, hint)) => {
+                    assert!(!problem.contains("no such"), "{problem}");
+                    assert!(hint.is_some(), "{problem}");
+                }
+            }
+        }
+        let listed = ["Remus100", "Kinematic"].into_iter();
+        let all: Vec<&str> = listed.chain(SHIPPED.iter().map(|s| s.folder)).collect();
+        assert_eq!(free, all);
+        assert!(loaded(Path::new("submarine")).is_err_and(|(p, _)| p.contains("no such folder")));
+    }
 }

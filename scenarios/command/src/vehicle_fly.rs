@@ -17,7 +17,7 @@ const LONGEST: u64 = 64 << 20;
 pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
     let Craft::Described(vehicle) = loaded(&args.folder)? else {
         return Err((
-            "the REMUS 100 has no folder: its drives are not named".into(),
+            "only a vehicle of a folder has drives with names to fly it by".into(),
             Some("a scenario with `strategy: OpenLoop(...)` flies it by a table".into()),
         ));
     };
