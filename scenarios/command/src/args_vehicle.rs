@@ -17,7 +17,7 @@ Examples:
   rheotaxis list vehicles                   what comes with the program, and what each can do
   rheotaxis vehicle init bluerov2 my_auv    write a copy of a shipped vehicle to change
   rheotaxis vehicle check my_auv            what is wrong or doubtful, and a drawing with its forces
-  rheotaxis vehicle trials my_auv           speed, turning circle, zigzag, dive, stop, station keeping
+  rheotaxis vehicle trials my_auv           speed, turning circle, zigzags, dive, stop, station keeping
 
 Exit codes: 0 fine, or only doubts; 1 error; 2 wrong usage.";
 
@@ -60,7 +60,7 @@ pub struct VehicleTrialsArgs {
     /// Folder of the vehicle, or a name that `rheotaxis list vehicles` prints.
     #[arg(value_name = "FOLDER")]
     pub folder: PathBuf,
-    /// Folder for `trials.csv`, `trials.svg` and `trials.png`.
+    /// Folder for `trials.csv`, `trials.svg`, `trials.png` and, of a vehicle with a rudder, `steering.csv`.
     #[arg(long, value_name = "DIR", default_value = "trials")]
     pub out: PathBuf,
 }

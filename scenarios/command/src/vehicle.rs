@@ -16,7 +16,7 @@ use robots::vehicles::{
 };
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
-use studies::trials::{Looks, Trial, drawn, figure, trials};
+use studies::trials::{Looks, Trial, drawn, figure, has_rudder, trials};
 use world::files::make_folder;
 
 /// Runs a subcommand.
@@ -230,11 +230,17 @@ fn on_trial(args: &VehicleTrialsArgs) -> Result<(), Wrong> {
     }
     make_folder(&args.out).map_err(|e| plainly(format!("{}: {e}", args.out.display())))?;
     let svg = figure(name, &all);
-    for (file, bytes) in [
+    let mut files = vec![
         ("trials.csv", table(&all).into_bytes()),
         ("trials.png", png(&svg).map_err(plainly)?),
         ("trials.svg", svg.into_bytes()),
-    ] {
+    ];
+    if has_rudder(&craft) {
+        files.push(("steering.csv", steering(&all).into_bytes()));
+    } else {
+        say::line("it has no rudder: no turning circle and no zigzag by rudder (IMO MSC.137(76))");
+    }
+    for (file, bytes) in files {
         let path = args.out.join(file);
         write_whole(&path, &bytes).map_err(plainly)?;
         say::line(path.display());
@@ -250,6 +256,28 @@ fn table(trials: &[Trial]) -> String {
             let what = found.what.replace(',', ";");
             writeln!(text, "{},{what},{value},{}", trial.name, found.unit)
                 .expect("writing to a String succeeds");
+        }
+    }
+    text
+}
+
+/// Heading and rudder over time of the trials by rudder.
+fn steering(trials: &[Trial]) -> String {
+    let mut text = String::from("trial,t_s,ahead_m,starboard_m,heading_deg,rudder_deg,speed_m_s\n");
+    for trial in trials {
+        for r in &trial.rows {
+            writeln!(
+                text,
+                "{},{:.2},{:.3},{:.3},{:.3},{:.3},{:.4}",
+                trial.name,
+                r.t_s,
+                r.ahead_m,
+                r.starboard_m,
+                r.heading_deg,
+                r.rudder_deg,
+                r.speed_m_s
+            )
+            .expect("writing to a String succeeds");
         }
     }
     text

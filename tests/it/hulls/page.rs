@@ -1,7 +1,10 @@
 //! `docs/vehicles.md` as printed: its commands run, and what they write can search.
 
 use crate::common;
-use rheotaxis::scenario::template;
+use rheotaxis::scenario::{Beside, template};
+use robots::vehicles::{Craft, SHIPPED, VehicleSpec};
+use std::path::Path;
+use studies::trials::{Trial, trials};
 
 #[test]
 fn bring_your_own_works_as_printed() {
@@ -21,6 +24,7 @@ fn bring_your_own_works_as_printed() {
         "my_auv/lauv.urdf",
         "my_auv.png",
         "my_auv_trials/trials.csv",
+        "my_auv_trials/steering.csv",
         "my_auv_trials/trials.svg",
         "my_auv_trials/trials.png",
     ] {
@@ -124,4 +128,109 @@ fn a_table_flies_it() {
         code == Some(1) && said.contains("no column \"fin_top\""),
         "{said}"
     );
+}
+
+/// Columns of the page's tables, and what the trials call it.
+const COLUMNS: &[(&str, &str, &str)] = &[
+    (
+        "speed at full ahead, m/s",
+        "speed",
+        "steady speed at full ahead",
+    ),
+    ("turn, °/s", "turn by the autopilot", "turn rate"),
+    ("radius of the turn, m", "turn by the autopilot", "radius"),
+    ("5 m down (90 %), s", "dive", "time to 90 % of 5 m"),
+    ("error of depth, m", "dive", "error after 150 s"),
+    ("way to a tenth of the speed, m", "stop", "way until then"),
+    (
+        "off its place in 0.25 m/s, m",
+        "station keeping",
+        "distance, root mean square after 30 s",
+    ),
+    ("advance, m", "turning circle", "advance"),
+    ("transfer, m", "turning circle", "transfer"),
+    (
+        "tactical diameter, m",
+        "turning circle",
+        "tactical diameter",
+    ),
+    ("steady diameter, m", "turning circle", "steady diameter"),
+    (
+        "10/10: first overshoot, °",
+        "zigzag 10/10",
+        "first overshoot angle",
+    ),
+    ("second, °", "zigzag 10/10", "second overshoot angle"),
+    (
+        "20/20: first overshoot, °",
+        "zigzag 20/20",
+        "first overshoot angle",
+    ),
+    (
+        "second overshoot, °",
+        "zigzag 20/20",
+        "second overshoot angle",
+    ),
+    ("time to check yaw, s", "zigzag 20/20", "time to check yaw"),
+    ("rudder, °", "zigzag 20/20", "rudder"),
+];
+
+/// Every figure of the page's tables of trials is the one that the trials give now.
+#[test]
+fn the_figures_of_the_shipped_vehicles_are_those_of_their_trials() {
+    let page = std::fs::read_to_string(common::root().join("docs/vehicles.md")).expect("the page");
+    let cells = |line: &str| -> Vec<String> {
+        let bare = line.trim().trim_matches('|');
+        bare.split('|').map(|c| c.trim().to_string()).collect()
+    };
+    let lines: Vec<&str> = page.lines().collect();
+    let tables = lines.split(|l| !l.starts_with('|'));
+    let tables: Vec<(Vec<String>, Vec<Vec<String>>)> = tables
+        .filter(|t| {
+            t.first().is_some_and(|head| {
+                cells(head)[1..]
+                    .iter()
+                    .any(|c| c == "advance, m" || c == "turn, °/s")
+            })
+        })
+        .map(|t| (cells(t[0]), t[2..].iter().map(|l| cells(l)).collect()))
+        .collect();
+    assert_eq!(tables.len(), 2);
+    let names: Vec<&str> = tables[0].1.iter().map(|row| row[0].as_str()).collect();
+    let shipped: Vec<&str> = SHIPPED.iter().map(|s| s.folder).collect();
+    assert_eq!((names[0], &names[1..]), ("Remus100", &shipped[..]));
+    let made: Vec<Vec<Trial>> = std::thread::scope(|scope| {
+        let one = |name: &str| {
+            let spec = match name {
+                "Remus100" => VehicleSpec::default(),
+                folder => VehicleSpec::Shipped(folder.to_string()),
+            };
+            trials(&Craft::load(&spec, &Beside(Path::new(""))).expect("a vehicle"))
+        };
+        let all: Vec<_> = (names.iter())
+            .map(|name| scope.spawn(move || one(name)))
+            .collect();
+        all.into_iter().map(|t| t.join().expect("trials")).collect()
+    });
+    for (head, rows) in &tables {
+        for row in rows {
+            let k = names
+                .iter()
+                .position(|n| *n == row[0])
+                .expect("in the first table");
+            for (column, printed) in head.iter().zip(row).skip(1) {
+                let known = COLUMNS.iter().find(|c| c.0 == column);
+                let (_, trial, what) = known.unwrap_or_else(|| panic!("column {column}"));
+                let trial = made[k].iter().find(|t| t.name == *trial);
+                let found = trial.and_then(|t| t.found.iter().find(|f| f.what == *what));
+                let decimals = printed.split_once('.').map_or(0, |(_, d)| d.len());
+                let now = match found.map(|f| f.value) {
+                    None => "–".to_string(),
+                    Some(None) => "not reached".to_string(),
+                    Some(Some(value)) => format!("{:.decimals$}", value.abs()),
+                };
+                assert_eq!(printed, &now, "{}: {column}", row[0]);
+            }
+        }
+    }
 }

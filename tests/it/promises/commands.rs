@@ -60,6 +60,7 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
             says: &["speed", "turning circle", "zigzag", "dive", "stop"],
             leaves: &[
                 "my_auv_trials/trials.csv",
+                "my_auv_trials/steering.csv",
                 "my_auv_trials/trials.svg",
                 "my_auv_trials/trials.png",
             ],

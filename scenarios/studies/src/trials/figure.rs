@@ -10,6 +10,7 @@ const COLUMNS: usize = 3;
 const SIDES: [f64; 2] = [250.0, 190.0];
 const STRIDE: [f64; 2] = [345.0, 330.0];
 const INK: &str = "#1f5fa8";
+const RUDDER: &str = "#b3541e";
 
 /// The trials of a vehicle, as SVG text.
 #[must_use]
@@ -34,8 +35,10 @@ fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
         labels,
         points,
         plan,
+        rudder,
     } = &trial.curve;
-    let range = |k: usize| range_of(points.iter().map(|p| p[k]), 0.08).unwrap_or([-1.0, 1.0]);
+    let both = || points.iter().chain(rudder);
+    let range = |k: usize| range_of(both().map(|p| p[k]), 0.08).unwrap_or([-1.0, 1.0]);
     let (mut x, mut y) = (range(0), range(1));
     if *plan {
         // Equal scales: the wider of both decides.
@@ -67,9 +70,18 @@ fn panel(c: &mut Canvas, [left, top]: [f64; 2], trial: &Trial) {
     );
     c.upright([left - 48.0, top + SIDES[1] / 2.0], 11.0, labels[2]);
     panel.clip(c);
+    c.polyline(panel.all(rudder), &Style::line(RUDDER, 1.2));
     c.polyline(panel.all(points), &Style::line(INK, 1.6));
     c.unclip();
-    for (k, found) in trial.found.iter().take(3).enumerate() {
+    if !rudder.is_empty() {
+        for (name, colour, x) in [("heading", INK, 150.0), ("rudder", RUDDER, 70.0)] {
+            let at = [left + SIDES[0] - x, top - 10.0];
+            let y = at[1] - 4.0;
+            c.line([at[0], y], [at[0] + 18.0, y], &Style::line(colour, 1.6));
+            c.text([at[0] + 22.0, at[1]], 10.5, Anchor::Start, name);
+        }
+    }
+    for (k, found) in trial.found.iter().take(4).enumerate() {
         let value = found
             .value
             .map_or("-".to_string(), |v| format!("{v:.2} {}", found.unit));

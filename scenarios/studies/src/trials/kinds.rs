@@ -54,7 +54,9 @@ pub(super) fn station(craft: &Craft, able: &Capabilities) -> Trial {
             labels: ["station keeping", "east, m", "north, m"],
             points,
             plan: true,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }
 
@@ -99,6 +101,8 @@ pub(super) fn sawtooth(craft: &Craft, able: &Capabilities) -> Trial {
             labels: ["sawtooth", "north, m", "height, m"],
             points,
             plan: false,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }

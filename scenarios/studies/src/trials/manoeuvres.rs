@@ -1,17 +1,20 @@
-//! The trials: speed, turning circle, zigzag, dive, stop, station keeping; of a glider its sawtooth.
+//! The trials: speed, turning circle, zigzags, turns by the autopilot, dive, stop, station keeping; of a glider its
+//! sawtooth.
 //!
 //! *Source*: International Maritime Organization, "Standards for ship manoeuvrability", MSC.137(76), 2002: turning
 //! circle, zigzag, stopping; dive and station keeping likewise for vehicles under water.
 //!
 //! *Parameters*: beside each trial.
 //!
-//! *Deviations*: the vehicle's own autopilot steers, as in a mission. So the circle is the tightest that it commands,
-//! not one at full rudder, and the zigzag goes between headings of ±20 degrees.
+//! *Deviations*: those of circle and zigzag stand in `steering.rs`. In all others the vehicle's own autopilot steers, as
+//! in a mission.
 
 use super::kinds::{sawtooth, station};
+use super::rudder::Rudder;
 use super::sail::{DEPTH_M, STEP_S, Sailing};
+use super::steering::{SteeringRow, circle, zigzag};
 use super::straight::{dive, speed, stop};
-use super::turns::{circle, zigzag};
+use super::turns::{headings, turn};
 use nalgebra::Vector3;
 use robots::guide::GuidanceSpec;
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Setpoint, Vertical};
@@ -41,6 +44,8 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
     /// Whether one unit is as long on both axes.
     pub plan: bool,
+    /// Points of the rudder's line in the same panel, if it is a trial by rudder against time.
+    pub rudder: Vec<[f64; 2]>,
 }
 
 /// A trial.
@@ -52,6 +57,8 @@ pub struct Trial {
     pub found: Vec<Measured>,
     /// What it looked like.
     pub curve: Curve,
+    /// Heading, rudder and place every 0.2 s, if it is a trial by rudder.
+    pub rows: Vec<SteeringRow>,
 }
 
 pub(super) fn measured(
@@ -66,18 +73,28 @@ pub(super) fn measured(
     }
 }
 
-/// All trials that make sense for a vehicle.
+/// All trials that make sense for a vehicle. One without a rudder has no turning circle and no zigzag.
 #[must_use]
 pub fn trials(craft: &Craft) -> Vec<Trial> {
     let able = craft.capabilities(GuidanceSpec::default().tightest_turn_m());
-    if !able.holds_depth && able.dives {
-        return vec![sawtooth(craft, &able), circle(craft, &able)];
+    let mut all = Vec::new();
+    if glides(&able) {
+        all.push(sawtooth(craft, &able));
+    } else {
+        all.push(speed(craft, &able));
     }
-    let mut all = vec![
-        speed(craft, &able),
-        circle(craft, &able),
-        zigzag(craft, &able),
-    ];
+    if let Some(rudder) = Rudder::fitted(craft) {
+        let most_s = patience_s(&able);
+        all.push(circle(craft, &able, &rudder, most_s));
+        for angle_deg in [10.0, 20.0] {
+            all.push(zigzag(craft, &able, &rudder, angle_deg, most_s));
+        }
+    }
+    all.push(turn(craft, &able));
+    if glides(&able) {
+        return all;
+    }
+    all.push(headings(craft, &able));
     if able.dives {
         all.push(dive(craft, &able));
     }
@@ -86,6 +103,21 @@ pub fn trials(craft: &Craft) -> Vec<Trial> {
         all.push(station(craft, &able));
     }
     all
+}
+
+/// Whether a vehicle has a rudder, which turning circle and zigzag need.
+#[must_use]
+pub fn has_rudder(craft: &Craft) -> bool {
+    Rudder::fitted(craft).is_some()
+}
+
+fn glides(able: &Capabilities) -> bool {
+    able.dives && !able.holds_depth
+}
+
+/// How long a turn may take, s.
+pub(super) fn patience_s(able: &Capabilities) -> f64 {
+    if glides(able) { 2000.0 } else { 240.0 }
 }
 
 /// A command of heading and speed for the vehicle's kind.
@@ -125,6 +157,19 @@ pub(super) fn cruising(craft: &Craft, able: &Capabilities) -> Sailing {
     let mut sailing = Sailing::new(craft, able, Vector3::zeros());
     let north = command(able, Heading::from_deg(0.0), cruise(able), depth_of(able));
     for _ in 0..(90.0 / STEP_S) as u32 {
+        sailing.obeying(&north);
+    }
+    sailing
+}
+
+/// Under way to the north: at cruise, or on a glide.
+pub(super) fn approach(craft: &Craft, able: &Capabilities) -> Sailing {
+    if !glides(able) {
+        return cruising(craft, able);
+    }
+    let mut sailing = Sailing::new(craft, able, Vector3::zeros());
+    let north = command(able, Heading::from_deg(0.0), able.top_speed_m_s, DEPTH_M);
+    for _ in 0..(60.0 / STEP_S) as u32 {
         sailing.obeying(&north);
     }
     sailing

@@ -5,11 +5,14 @@ mod fly;
 mod hull;
 mod kinds;
 mod manoeuvres;
+mod rudder;
 mod sail;
+mod steering;
 mod straight;
 mod turns;
 
 pub use figure::figure;
 pub use fly::{Flight, Flown, fly, table};
 pub use hull::{Looks, drawn};
-pub use manoeuvres::{Curve, Measured, Trial, trials};
+pub use manoeuvres::{Curve, Measured, Trial, has_rudder, trials};
+pub use steering::SteeringRow;

@@ -4,10 +4,11 @@
 //!
 //! *Parameters*: step 0.02 s; uniform water of 1025 kg/m³ without bed.
 
+use super::rudder::Rudder;
 use nalgebra::{Vector2, Vector3};
 use robots::actuate::{AutopilotSpec, Pilot};
 use robots::guide::{Guidance, GuidanceSpec};
-use robots::handoff::{Attitude, Capabilities, Command, Estimate, FlowEstimate, Goal};
+use robots::handoff::{Actuation, Attitude, Capabilities, Command, Estimate, FlowEstimate, Goal};
 use robots::vehicles::Craft;
 use world::area::Area;
 use world::fields::{Flow, Mixing};
@@ -44,6 +45,8 @@ pub(super) struct Sailing {
     water: Current,
     area: Area,
     pub(super) truth: Truth,
+    /// Set-points of the last step.
+    pub(super) set: Actuation,
     steps: u64,
 }
 
@@ -73,6 +76,7 @@ impl Sailing {
                 axis: Heading::from_deg(0.0),
             },
             truth,
+            set: craft.idle(),
             steps: 0,
         }
     }
@@ -124,9 +128,32 @@ impl Sailing {
         self.with(command, &estimate);
     }
 
+    /// One step with the rudder at an angle and the propellers as in `thrust`; `command` is for the rest.
+    pub(super) fn by_rudder(
+        &mut self,
+        rudder: &Rudder,
+        angle_rad: f64,
+        thrust: &Actuation,
+        command: &Command,
+    ) {
+        let estimate = self.estimate();
+        let set = self.pilot.step(command, &estimate, STEP_S);
+        self.move_by(rudder.held(set, angle_rad, thrust));
+    }
+
+    /// Where the rudder is, rad.
+    pub(super) fn rudder_rad(&self, rudder: &Rudder) -> f64 {
+        rudder.angle_rad(&self.craft)
+    }
+
     fn with(&mut self, command: &Command, estimate: &Estimate) {
         let set = self.pilot.step(command, estimate, STEP_S);
+        self.move_by(set);
+    }
+
+    fn move_by(&mut self, set: Actuation) {
         let t_s = self.t_s();
+        self.set = set;
         self.truth = self.craft.step(&self.truth, &self.water, t_s, &set, STEP_S);
         self.steps += 1;
     }

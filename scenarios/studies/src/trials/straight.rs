@@ -46,7 +46,9 @@ pub(super) fn speed(craft: &Craft, able: &Capabilities) -> Trial {
             labels: ["full ahead", "time, s", "speed, m/s"],
             points,
             plan: false,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }
 
@@ -86,7 +88,9 @@ pub(super) fn dive(craft: &Craft, able: &Capabilities) -> Trial {
             labels: ["dive of 5 m", "time, s", "height, m"],
             points,
             plan: false,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }
 
@@ -121,6 +125,8 @@ pub(super) fn stop(craft: &Craft, able: &Capabilities) -> Trial {
             labels: ["stop", "time, s", "speed, m/s"],
             points,
             plan: false,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }

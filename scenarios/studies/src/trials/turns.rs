@@ -1,32 +1,23 @@
-//! Trials that turn: circle and zigzag.
+//! Trials that turn by the autopilot, which every vehicle has: its tightest turn, and headings from side to side.
 //!
 //! *Source*, *Parameters*, *Deviations*: see `manoeuvres.rs`.
 
-use super::manoeuvres::{Curve, THINNED, Trial, command, cruise, cruising, depth_of, measured};
-use super::sail::{DEPTH_M, STEP_S, Sailing};
-use nalgebra::Vector3;
+use super::manoeuvres::{
+    Curve, THINNED, Trial, approach, command, cruise, cruising, depth_of, measured, patience_s,
+};
+use super::sail::STEP_S;
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Vertical};
 use robots::vehicles::Craft;
 use world::units::Heading;
 
 /// From cruise, always to starboard: the heading asked is 90 degrees ahead of the nose.
-pub(super) fn circle(craft: &Craft, able: &Capabilities) -> Trial {
-    let glides = able.dives && !able.holds_depth;
-    let mut sailing = if glides {
-        let mut sailing = Sailing::new(craft, able, Vector3::zeros());
-        let north = command(able, Heading::from_deg(0.0), able.top_speed_m_s, DEPTH_M);
-        for _ in 0..(60.0 / STEP_S) as u32 {
-            sailing.obeying(&north);
-        }
-        sailing
-    } else {
-        cruising(craft, able)
-    };
+pub(super) fn turn(craft: &Craft, able: &Capabilities) -> Trial {
+    let mut sailing = approach(craft, able);
     let begun = sailing.truth.pose;
     let (mut turned, mut last) = (0.0, begun.heading());
     let (mut advance, mut diameter) = (None, None);
     let mut points = vec![];
-    let most = if glides { 2000.0 } else { 240.0 };
+    let most = patience_s(able);
     let mut half = None;
     for k in 0..(most / STEP_S) as u64 {
         let ahead = last.turned(std::f64::consts::FRAC_PI_2);
@@ -65,7 +56,7 @@ pub(super) fn circle(craft: &Craft, able: &Capabilities) -> Trial {
         .filter(|_| turned.to_degrees() >= 540.0)
         .map(|t_s| (turned - std::f64::consts::PI) / (sailing.t_s() - t_s));
     Trial {
-        name: "turning circle",
+        name: "turn by the autopilot",
         found: vec![
             measured("advance at 90 degrees", advance, "m"),
             measured("tactical diameter", diameter, "m"),
@@ -75,15 +66,17 @@ pub(super) fn circle(craft: &Craft, able: &Capabilities) -> Trial {
             measured("speed in the turn", v, "m/s"),
         ],
         curve: Curve {
-            labels: ["turning circle", "east, m", "north, m"],
+            labels: ["turn by the autopilot", "east, m", "north, m"],
             points,
             plan: true,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }
 
 /// Between headings of ±20 degrees.
-pub(super) fn zigzag(craft: &Craft, able: &Capabilities) -> Trial {
+pub(super) fn headings(craft: &Craft, able: &Capabilities) -> Trial {
     let mut sailing = cruising(craft, able);
     let begun_s = sailing.t_s();
     let mut side = 1.0;
@@ -118,7 +111,7 @@ pub(super) fn zigzag(craft: &Craft, able: &Capabilities) -> Trial {
     }
     let period = (passed.len() == 5).then(|| (passed[4] - passed[0]) / 2.0);
     Trial {
-        name: "zigzag",
+        name: "headings by the autopilot",
         found: vec![
             measured("first heading reached after", passed.first().copied(), "s"),
             measured(
@@ -129,9 +122,11 @@ pub(super) fn zigzag(craft: &Craft, able: &Capabilities) -> Trial {
             measured("period", period, "s"),
         ],
         curve: Curve {
-            labels: ["zigzag of 20 degrees", "time, s", "heading, degrees"],
+            labels: ["headings by the autopilot", "time, s", "heading, degrees"],
             points,
             plan: false,
+            rudder: Vec::new(),
         },
+        rows: Vec::new(),
     }
 }
