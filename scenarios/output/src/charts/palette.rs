@@ -38,10 +38,10 @@ pub fn behaviour(b: Behaviour) -> &'static str {
     }
 }
 
-/// Colour of the vehicle of this number, where there are several (Tol's bright scheme).
+/// Colour of the vehicle of this number, where there are several; none is that of the search, or of the plume.
 pub fn vehicle(k: usize) -> &'static str {
     const COLOURS: [&str; 6] = [
-        "#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377",
+        "#7b3fd1", "#35c4ec", "#c9d400", "#e8304f", "#8a5a2b", "#1f3a93",
     ];
     COLOURS[k % COLOURS.len()]
 }

@@ -184,7 +184,7 @@ fn draw(
     }
     for t in robots {
         layers::regions(c, panel, t);
-        layers::believed(c, panel, t);
+        layers::believed(c, panel, t, several);
         layers::detections(c, panel, t.detections.iter().copied());
         layers::track(c, panel, t, close, several);
         layers::marks(c, panel, t);

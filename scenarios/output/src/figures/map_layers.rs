@@ -7,7 +7,7 @@ use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
 use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
 use crate::charts::room::Room;
-use crate::results::{RobotTrack, RunReport};
+use crate::results::{RobotTrack, RunReport, TrackRow};
 use nalgebra::Vector2;
 use robots::handoff::region_name;
 
@@ -76,15 +76,25 @@ fn on(panel: &Panel, lines: Vec<Vec<[f64; 2]>>) -> Vec<Vec<[f64; 2]>> {
     lines.iter().map(|l| panel.all(l)).collect()
 }
 
-/// The believed track.
-pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack) {
-    let points = thinned(t.rows.iter().map(|r| panel.at(r.believed)));
-    c.polyline(points, &Style::line(BELIEVED, 0.6).dashed("2 2"));
+/// The believed track. Among several vehicles, it is faint after the end of its mission.
+pub(super) fn believed(c: &mut Canvas, panel: &Panel, t: &RobotTrack, several: bool) {
+    let over = if several { over_from(t) } else { t.rows.len() };
+    let style = || Style::line(BELIEVED, 0.6).dashed("2 2");
+    let points = |rows: &[TrackRow]| thinned(rows.iter().map(|r| panel.at(r.believed)));
+    c.polyline(points(&t.rows[..over]), &style());
+    if over < t.rows.len() {
+        c.polyline(points(&t.rows[over..]), &style().faint(AFTER));
+    }
 }
 
 /// The true track, coloured by behaviour. Among several vehicles, it is faint after the end of its mission.
 pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, several: bool) {
-    let width = if close { 2.2 } else { 1.9 };
+    let width = match (several, close) {
+        // A band in the vehicle's colour is to be seen on both sides.
+        (true, _) => 1.1,
+        (false, true) => 2.2,
+        (false, false) => 1.9,
+    };
     let over = if several { over_from(t) } else { t.rows.len() };
     let mut k = 0;
     while k < t.rows.len() {

@@ -9,11 +9,11 @@ use crate::results::{RobotTrack, RunReport};
 use robots::handoff::Behaviour;
 
 /// Opacity of a vehicle's band.
-const BAND: f64 = 0.55;
+const BAND: f64 = 0.85;
 /// Opacity of what a vehicle does after its mission.
 pub(super) const AFTER: f64 = 0.22;
 /// Width of a band, px.
-const WIDTH: f64 = 6.5;
+const WIDTH: f64 = 5.0;
 
 /// Index of the row from which the vehicle's mission is over and stays so; the number of rows if it never is.
 pub(super) fn over_from(t: &RobotTrack) -> usize {

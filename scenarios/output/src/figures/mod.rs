@@ -20,6 +20,8 @@ mod sidescan;
 mod solids;
 #[cfg(test)]
 mod tests_map;
+#[cfg(test)]
+mod tests_vehicles;
 
 pub use approach::approach;
 pub use belief::belief;

@@ -25,7 +25,7 @@ use world::math;
 use world::units::Heading;
 
 /// A report of frames, with as much as the map needs.
-fn reported<T>(
+pub(super) fn reported<T>(
     frames: &[Frame],
     area: &Area,
     sources: &[SourceTruth],

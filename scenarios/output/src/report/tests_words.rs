@@ -169,7 +169,7 @@ fn a_headline_says_how_the_run_ended() {
     summary.outcome = RunOutcome::Found;
     assert_eq!(
         ended(&summary),
-        "2 declarations, found after 1500 s, 2.1 m at most off"
+        "2 declarations, found after 1500 s, at most 2.1 m off"
     );
     // An edge of a subregion is no source.
     one.kind = DeclaredKind::UpFlowEdge;

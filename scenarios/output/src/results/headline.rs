@@ -22,7 +22,7 @@ impl Summary {
         let errors = declared.iter().filter_map(|d| d.error.as_ref());
         let off = match errors.map(|e| e.total_m).reduce(f64::max) {
             None => String::new(),
-            Some(m) if declared.len() > 1 => format!(", {} at most off", length(m)),
+            Some(m) if declared.len() > 1 => format!(", at most {} off", length(m)),
             Some(m) => format!(", {} off", length(m)),
         };
         let many = match declared.len() {
