@@ -26,6 +26,7 @@ pub(crate) fn command(dir: &Path, args: &[&str]) -> Command {
 /// `rheotaxis`.
 pub(crate) fn apart(command: &mut Command) -> &mut Command {
     for name in [
+        "COLUMNS",
         "FORCE_COLOR",
         "CLICOLOR_FORCE",
         "ZENOH_CONFIG",
