@@ -5,6 +5,7 @@ use crate::trials::{has_rudder, trials};
 use rheotaxis::scenario::Beside;
 use robots::vehicles::{Craft, KinematicSpec, RemusSpec, VehicleSpec};
 use std::path::Path;
+use world::math;
 
 fn craft(spec: &VehicleSpec) -> Craft {
     Craft::load(spec, &Beside(Path::new(""))).expect("a vehicle of the program")
@@ -45,13 +46,13 @@ fn the_zigzag_of_nomotos_model_overshoots_as_it_must() {
             });
             // Exact over a step of constant rudder.
             let steady: f64 = gain * side * angle;
-            let decay = (-dt_s / lag_s).exp();
+            let decay = math::exp(-dt_s / lag_s);
             heading += steady * dt_s + (rate - steady) * lag_s * (1.0 - decay);
             rate = steady + (rate - steady) * decay;
             k += 1;
         }
         // From rest to the angle: K delta (t - T (1 - exp(-t / T))) = angle, by bisection.
-        let gone = |t: f64| gain * (t - lag_s * (1.0 - (-t / lag_s).exp())) - 1.0;
+        let gone = |t: f64| gain * (t - lag_s * (1.0 - math::exp(-t / lag_s))) - 1.0;
         let (mut low, mut high) = (0.0, 100.0);
         for _ in 0..100 {
             let middle = 0.5 * (low + high);
@@ -61,8 +62,8 @@ fn the_zigzag_of_nomotos_model_overshoots_as_it_must() {
                 high = middle;
             }
         }
-        let r = gain * angle * (1.0 - (-low / lag_s).exp());
-        let check = lag_s * (1.0 + r / (gain * angle)).ln();
+        let r = gain * angle * (1.0 - math::exp(-low / lag_s));
+        let check = lag_s * math::ln(1.0 + r / (gain * angle));
         let over = lag_s * r - gain * angle * check;
         let (found, when) = orders.overshoot(&rows, 1).expect("it came back");
         assert!(
@@ -85,11 +86,11 @@ fn a_circle_has_its_radius_as_advance_and_its_diameter_as_tactical_diameter() {
     let radius = 10.0;
     let rows: Vec<SteeringRow> = (0..=5400)
         .map(|k| {
-            let turned = (f64::from(k) * 0.1).to_radians();
+            let (sin, cos) = math::sin_cos((f64::from(k) * 0.1).to_radians());
             SteeringRow {
                 t_s: f64::from(k) * 0.02,
-                ahead_m: radius * turned.sin(),
-                starboard_m: radius * (1.0 - turned.cos()),
+                ahead_m: radius * sin,
+                starboard_m: radius * (1.0 - cos),
                 heading_deg: f64::from(k) * 0.1,
                 ..SteeringRow::default()
             }

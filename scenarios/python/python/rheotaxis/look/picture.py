@@ -12,7 +12,7 @@ from .chromium import Chromium
 from .errors import EndedError, LookError
 
 #: Longest time in which the page comes no further, on a loaded machine without a graphics card, s.
-PATIENCE_S = 120.0
+PATIENCE_S = 240.0
 #: Time between two looks at the page, s.
 PAUSE_S = 1.0
 #: What may be missing at the end of a run, s: the viewer gets its data in pieces.
