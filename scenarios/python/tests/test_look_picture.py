@@ -115,7 +115,7 @@ def test_what_moves_is_taken_at_last(monkeypatch):
         ((said(runs=False), shown()), "the page has not started the viewer"),
         ((said(until_s=4.0), shown((0, 200))), "the page has the run up to 4.0 s, of 9.0 s"),
         ((said(until_s=9.0), shown()), "no view shows anything of it"),
-        ((said(runs=False, text="Rerun has crashed.\n wgpu"), shown()), "the viewer's page says: Rerun has crashed. wgpu"),
+        ((said(runs=False, text="Rerun has crashed.\n wgpu"), shown()), "page says: Rerun has crashed. wgpu"),
         ((EndedError("Chromium ended by itself."), b""), "Chromium ended by itself"),
     ],
 )

@@ -240,3 +240,41 @@ fn figures_csv(all: &[Reproduced]) -> String {
         figures,
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::reproduce::row::Figure;
+    use crate::reproduce::{Estimate, Measure, Quantity};
+
+    /// Values on both sides of a metre are compared in one unit.
+    #[test]
+    fn a_row_has_one_unit() {
+        let figure = Figure {
+            name: "error".into(),
+            arm: None,
+            among: None,
+            quantity: Quantity::Median(Measure::ErrorM),
+            paper: Some(Paper::Value(0.5)),
+            note: String::new(),
+        };
+        let ours = Estimate {
+            n: 20,
+            count: None,
+            value: Some(0.8),
+            interval: Some(Interval {
+                low: 0.4,
+                high: 1.1,
+            }),
+            spread: None,
+        };
+        let compared = Compared {
+            figure,
+            ours,
+            papers_interval: None,
+            standing: Standing::None,
+        };
+        let row = cells(&compared);
+        assert_eq!(row[1..5], ["0.80 m", "0.40 to 1.10 m", "20", "0.50 m"]);
+    }
+}
