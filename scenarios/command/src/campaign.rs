@@ -47,7 +47,7 @@ pub(super) fn refused(error: CampaignError) -> Exit {
         _ => None,
     };
     match error {
-        CampaignError::Scenario(error) => say::scenario_error(error),
+        CampaignError::Scenario(error) => say::scenario_error(&error),
         error => say::error(error, help),
     }
     Exit::Error
@@ -60,7 +60,7 @@ fn run_share(args: &CampaignRunArgs) -> Result<Exit, CampaignError> {
     };
     let mut campaign = load(&args.file)?;
     campaign.key = args.key.get();
-    say::warnings(campaign.notes());
+    say::warnings(&campaign.notes());
     let bar = if args.quiet {
         ProgressBar::hidden()
     } else {

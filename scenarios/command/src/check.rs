@@ -12,7 +12,7 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
         let checked = load(file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
         match checked {
             Ok((loaded, odd)) => {
-                say::warnings(odd);
+                say::warnings(&odd);
                 let s = &loaded.scenario;
                 say::line(format_args!(
                     "{}: fine: {} ({}, {}, {})",
@@ -29,7 +29,7 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
                 }
             }
             Err(error) => {
-                say::scenario_error(error);
+                say::scenario_error(&error);
                 exit = Exit::Error;
             }
         }

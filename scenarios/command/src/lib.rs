@@ -80,7 +80,6 @@ pub fn main() -> ExitCode {
 /// `explain` and campaigns then know them.
 #[must_use]
 pub fn main_with(registry: &Registry) -> ExitCode {
-    say::set_up();
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
     let Args { command, memory } = Args::parse();
     cost::set_limit(memory);

@@ -34,11 +34,11 @@ pub(super) fn picture(args: &PictureArgs) -> Exit {
     });
     let loaded = match checked {
         Ok((loaded, odd)) => {
-            say::warnings(odd);
+            say::warnings(&odd);
             loaded
         }
         Err(error) => {
-            say::scenario_error(error);
+            say::scenario_error(&error);
             return Exit::Error;
         }
     };

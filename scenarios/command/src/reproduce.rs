@@ -25,7 +25,7 @@ pub(super) fn run(args: &ReproduceArgs) -> Exit {
             Exit::Interrupted
         }
         Err(ReproduceError::Scenario(error)) => {
-            say::scenario_error(error);
+            say::scenario_error(&error);
             Exit::Error
         }
         Err(error) => {

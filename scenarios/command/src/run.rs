@@ -73,7 +73,7 @@ pub(super) fn run(args: &RunArgs) -> Exit {
 
 pub(super) fn refused(error: RunError) -> Exit {
     match error {
-        RunError::Scenario(error) => say::scenario_error(error),
+        RunError::Scenario(error) => say::scenario_error(&error),
         error => say::error(error, None),
     }
     Exit::Error
@@ -95,7 +95,7 @@ fn prepared(
     before: &[(Loaded, PathBuf)],
 ) -> Result<(Loaded, PathBuf), RunError> {
     let loaded = load(file)?;
-    say::warnings(loaded.check()?);
+    say::warnings(&loaded.check()?);
     let asking = controlled(&loaded.scenario);
     if !asking.is_empty() && !args.control.allow_control {
         return Err(RunError::NotAllowed {

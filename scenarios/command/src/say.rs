@@ -1,36 +1,27 @@
 //! How errors and other messages are printed.
 
 use console::{Term, colors_enabled_stderr};
-use miette::Report;
-use output::shown::{self, Shown};
+use output::shown::{self, Look, PLAIN};
 use rheotaxis::scenario::{Fault, ScenarioError};
 use std::io::Write;
 use std::path::Path;
 
-/// Sets how this process prints errors.
-pub(super) fn set_up() {
-    // Fails only if a hook is set already; then that one stays.
-    let _ = miette::set_hook(Box::new(|_| look()));
-}
-
-fn look() -> Box<dyn miette::ReportHandler> {
+/// How messages are drawn on standard error.
+fn look() -> Look {
     let terminal = Term::stderr();
-    let look = if terminal.is_term() {
-        shown::look()
-            .color(colors_enabled_stderr())
-            .width(terminal.size().1.into())
-    } else {
-        shown::plain()
-    };
-    Box::new(look.build())
+    if !terminal.is_term() {
+        return PLAIN;
+    }
+    Look {
+        color: colors_enabled_stderr(),
+        width: Some(terminal.size().1.into()),
+    }
 }
 
 /// Prints each mistake of a scenario to standard error.
-pub(super) fn scenario_error(error: ScenarioError) {
-    match error {
-        ScenarioError::Many { faults, .. } => warnings(faults),
-        ScenarioError::Text(fault) => warnings(vec![*fault]),
-        ScenarioError::File { ref help, .. } => self::error(&error, help.as_deref()),
+pub(super) fn scenario_error(error: &ScenarioError) {
+    for drawn in shown::all(error, look()) {
+        eprintln!("{drawn}");
     }
 }
 
@@ -63,17 +54,13 @@ pub(super) fn removed(folder: &Path, names: &[String]) -> Option<String> {
 }
 
 /// Prints mistakes or warnings about a scenario to standard error.
-pub(super) fn warnings(faults: Vec<Fault>) {
+pub(super) fn warnings(faults: &[Fault]) {
     for fault in faults {
-        eprintln!("{:?}", Report::new(Shown::from(fault)));
+        eprintln!("{}", shown::fault(fault, look()));
     }
 }
 
 /// Prints any other error: what is wrong and, if known, how to correct it.
 pub(super) fn error(problem: impl std::fmt::Display, help: Option<&str>) {
-    let mut diagnostic = miette::MietteDiagnostic::new(problem.to_string());
-    if let Some(help) = help {
-        diagnostic = diagnostic.with_help(help);
-    }
-    eprintln!("{:?}", Report::new(diagnostic));
+    eprintln!("{}", shown::error(&problem.to_string(), help, look()));
 }

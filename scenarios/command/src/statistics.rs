@@ -17,11 +17,11 @@ pub(super) fn statistics(args: &StatisticsArgs) -> Exit {
     let checked = load(&args.file).and_then(|loaded| loaded.check().map(|odd| (loaded, odd)));
     let loaded = match checked {
         Ok((loaded, odd)) => {
-            say::warnings(odd);
+            say::warnings(&odd);
             loaded
         }
         Err(error) => {
-            say::scenario_error(error);
+            say::scenario_error(&error);
             return Exit::Error;
         }
     };

@@ -1,137 +1,230 @@
-//! Draws mistakes of a scenario with the lines around them, by miette.
+//! Draws mistakes of a scenario with the lines around them, and other errors.
 
-use miette::{
-    Diagnostic, LabeledSpan, MietteDiagnostic, MietteHandler, MietteHandlerOpts, NamedSource,
-    ReportHandler, SourceCode,
-};
 use rheotaxis::scenario::{Fault, ScenarioError, Severity};
-use std::fmt::{self, Debug, Display};
+use std::fmt::Write as _;
+use unicode_width::UnicodeWidthStr as _;
 
-/// A fault that miette can draw.
-#[derive(Debug, thiserror::Error)]
-#[error("{}", headline(fault, text.is_some()))]
-pub struct Shown {
-    fault: Fault,
-    text: Option<NamedSource<String>>,
+/// How messages are drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// With colours of a terminal.
+    pub color: bool,
+    /// Longest line of a message, columns. Without it each message is one line, so that it can be searched for.
+    pub width: Option<usize>,
 }
 
-impl From<Fault> for Shown {
-    fn from(mut fault: Fault) -> Self {
-        let text = fault.text.take();
-        let text = text.map(|text| NamedSource::new(&fault.source_name, text));
-        Self { fault, text }
+/// How they are drawn where there is no terminal.
+pub const PLAIN: Look = Look {
+    color: false,
+    width: None,
+};
+
+/// A mistake or a warning with the lines around it.
+#[must_use]
+pub fn fault(fault: &Fault, look: Look) -> String {
+    let mut message = fault.to_string();
+    if fault.text.is_none() {
+        // The lines are too long to be drawn.
+        let (line, column) = (fault.line, fault.column);
+        let _ = write!(
+            message,
+            " ({}, line {line}, column {column})",
+            fault.source_name
+        );
+    }
+    let mut out = head(fault.severity, &message, look);
+    if let Some(text) = &fault.text {
+        out += &lines_around(fault, text, look);
+    }
+    out + &help(fault.help.as_deref(), look)
+}
+
+/// Any other error, and how to put it right.
+#[must_use]
+pub fn error(message: &str, hint: Option<&str>, look: Look) -> String {
+    head(Severity::Error, message, look) + &help(hint, look)
+}
+
+/// All mistakes of a scenario, one after the other.
+#[must_use]
+pub fn all(mistakes: &ScenarioError, look: Look) -> Vec<String> {
+    match mistakes {
+        ScenarioError::Many { faults, .. } => faults.iter().map(|f| fault(f, look)).collect(),
+        ScenarioError::Text(one) => vec![fault(one, look)],
+        ScenarioError::File { help, .. } => {
+            vec![error(&mistakes.to_string(), help.as_deref(), look)]
+        }
     }
 }
 
-/// The message; with its place if the text around it is not drawn.
-fn headline(fault: &Fault, drawn: bool) -> String {
-    if drawn {
-        return fault.to_string();
-    }
-    let (line, column) = (fault.line, fault.column);
-    format!(
-        "{fault} ({}, line {line}, column {column})",
-        fault.source_name
+fn head(severity: Severity, message: &str, look: Look) -> String {
+    let (sign, color) = match severity {
+        Severity::Error => ("×", RED),
+        Severity::Warning => ("⚠", YELLOW),
+    };
+    let bar = look.paint(color, "│");
+    wrapped(
+        message,
+        &format!("  {} ", look.paint(color, sign)),
+        &format!("  {bar} "),
+        4,
+        look,
     )
 }
 
-/// Width of a text that no terminal shows.
-const WIDTH: usize = 100;
-
-/// How mistakes are drawn.
-#[must_use]
-pub fn look() -> MietteHandlerOpts {
-    MietteHandlerOpts::new()
-        .force_graphical(true)
-        .terminal_links(false)
-        .context_lines(1)
-        .unicode(true)
+fn help(hint: Option<&str>, look: Look) -> String {
+    let sign = look.paint(CYAN, "help:");
+    hint.map_or(String::new(), |hint| {
+        wrapped(hint, &format!("  {sign} "), "        ", 8, look)
+    })
 }
 
-/// How they are drawn where there is no terminal: each message is one line, so that it can be searched for.
-#[must_use]
-pub fn plain() -> MietteHandlerOpts {
-    look().color(false).width(WIDTH).wrap_lines(false)
-}
-
-/// All mistakes of a scenario, as the command prints them into a file.
-#[must_use]
-pub fn text(error: ScenarioError) -> String {
-    match error {
-        ScenarioError::Many { faults, .. } => faults.into_iter().map(fault_text).collect(),
-        ScenarioError::Text(fault) => fault_text(*fault),
-        ScenarioError::File { ref help, .. } => {
-            let mut diagnostic = MietteDiagnostic::new(error.to_string());
-            diagnostic.help = help.clone();
-            drawn(&diagnostic)
+/// The line of a fault with its mark, and those before and after it.
+fn lines_around(fault: &Fault, text: &str, look: Look) -> String {
+    let marked = fault.line - 1;
+    let shown: Vec<(usize, &str)> = (text.lines().enumerate())
+        .skip(marked.saturating_sub(1))
+        .take_while(|(n, _)| *n <= marked + 1)
+        .collect();
+    let last = shown.last().map_or(fault.line, |(n, _)| n + 1);
+    let wide = last.to_string().len();
+    let gap = " ".repeat(wide + 2);
+    let mut out = format!(
+        "{gap}╭─[{}:{}:{}]\n",
+        fault.source_name, fault.line, fault.column
+    );
+    for (n, line) in shown {
+        let _ = writeln!(
+            out,
+            " {} │ {}",
+            look.paint(DIM, &format!("{:>wide$}", n + 1)),
+            tabs(line)
+        );
+        if n == marked {
+            let begin =
+                fault.span.start - text[..fault.span.start].rfind('\n').map_or(0, |at| at + 1);
+            let pad = " ".repeat(tabs(&line[..begin.min(line.len())]).width());
+            let (mark, below) = mark(tabs(&text[fault.span.clone()]).width());
+            let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &mark));
+            let label = format!("{}╰── {}", " ".repeat(below), fault.label);
+            let _ = writeln!(out, "{gap}· {pad}{}", look.paint(PURPLE, &label));
         }
     }
+    out + &gap + "╰────\n"
 }
 
-/// A mistake or a warning, as the command prints it into a file.
-#[must_use]
-pub fn fault_text(fault: Fault) -> String {
-    drawn(&Shown::from(fault))
+/// A line below so many columns, and where its label hangs.
+fn mark(columns: usize) -> (String, usize) {
+    if columns == 0 {
+        return ("▲".to_string(), 0);
+    }
+    let below = columns / 2;
+    (
+        format!("{}┬{}", "─".repeat(below), "─".repeat(columns - below - 1)),
+        below,
+    )
 }
 
-fn drawn(diagnostic: &dyn Diagnostic) -> String {
-    /// What is formatted by the handler.
-    struct Report<'a>(&'a dyn Diagnostic, MietteHandler);
-    impl Debug for Report<'_> {
-        fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            self.1.debug(self.0, f)
+fn tabs(text: &str) -> String {
+    text.trim_end_matches('\r').replace('\t', "    ")
+}
+
+/// Words in lines of the look's width, behind a first and further margins of so many columns.
+fn wrapped(text: &str, first: &str, further: &str, margin: usize, look: Look) -> String {
+    let most = look
+        .width
+        .map_or(usize::MAX, |w| w.saturating_sub(margin).max(20));
+    let mut out = first.to_string();
+    for (n, paragraph) in text.lines().enumerate() {
+        if n > 0 {
+            out = out + "\n" + further;
+        }
+        let mut used = 0;
+        for word in paragraph.split(' ') {
+            let wide = word.width();
+            if used > 0 && used + 1 + wide > most {
+                out = out + "\n" + further;
+                used = 0;
+            } else if used > 0 {
+                out.push(' ');
+                used += 1;
+            }
+            out += word;
+            used += wide;
         }
     }
-    format!("{:?}\n", Report(diagnostic, plain().build()))
+    out + "\n"
 }
 
-impl Diagnostic for Shown {
-    fn severity(&self) -> Option<miette::Severity> {
-        Some(match self.fault.severity {
-            Severity::Warning => miette::Severity::Warning,
-            Severity::Error => miette::Severity::Error,
-        })
-    }
+const RED: &str = "31";
+const YELLOW: &str = "33";
+const CYAN: &str = "36";
+const PURPLE: &str = "35";
+const DIM: &str = "2";
 
-    fn help<'a>(&'a self) -> Option<Box<dyn Display + 'a>> {
-        let help = self.fault.help.as_ref()?;
-        Some(Box::new(help))
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.text.as_ref().map(|text| text as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = self.fault.label.to_string();
-        let label = LabeledSpan::new_with_span(Some(label), self.fault.span.clone());
-        Some(Box::new(std::iter::once(label)))
+impl Look {
+    fn paint(self, color: &str, text: &str) -> String {
+        if self.color {
+            format!("\x1b[{color}m{text}\x1b[0m")
+        } else {
+            text.to_string()
+        }
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use rheotaxis::scenario::{ScenarioError, parse, template};
+    use rheotaxis::scenario::{parse, template};
 
     /// What is drawn of a channel with a field too many, behind a title of that length.
-    fn drawn(title: usize) -> String {
+    fn drawn(title: usize, look: Look) -> String {
         let text = template("uniform_channel").expect("in the catalogue").text;
         let long = format!("title: \"{}\", colour: 3, // ", "x".repeat(title));
         let text = text.replacen("title: ", &long, 1);
         match parse("long.ron", &text) {
-            Err(ScenarioError::Text(fault)) => Shown::from(*fault).to_string(),
+            Err(ScenarioError::Text(one)) => fault(&one, look),
             other => panic!("one mistake expected, got {other:?}"),
         }
     }
 
     #[test]
     fn a_fault_on_a_line_too_long_to_show_names_its_place() {
-        assert_eq!(drawn(10), "there is no field `colour`");
-        let said = drawn(1000);
+        let drawn_short = drawn(10, PLAIN);
+        assert!(
+            drawn_short.starts_with("  × there is no field `colour`\n   ╭─[long.ron:4:"),
+            "{drawn_short}"
+        );
+        let said = drawn(1000, PLAIN);
+        assert!(
+            said.starts_with(
+                "  × there is no field `colour` (long.ron, line 4, column 1016)\n  help: "
+            ),
+            "{said}"
+        );
+    }
+
+    #[test]
+    fn a_narrow_terminal_gets_lines_of_its_width() {
+        let said = error(
+            "one two three four five six",
+            Some("seven eight nine ten eleven"),
+            Look {
+                color: false,
+                width: Some(24),
+            },
+        );
         assert_eq!(
             said,
-            "there is no field `colour` (long.ron, line 4, column 1016)"
+            "  × one two three four\n  │ five six\n  help: seven eight nine ten\n        eleven\n"
         );
+        let colored = drawn(
+            10,
+            Look {
+                color: true,
+                width: Some(80),
+            },
+        );
+        assert!(colored.contains("\x1b[31m×\x1b[0m"), "{colored}");
     }
 }

@@ -1,5 +1,6 @@
 //! Mistakes and panics as Python's exceptions.
 
+use output::shown::{self, PLAIN};
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
@@ -38,7 +39,10 @@ pub(crate) fn scenario_error(py: Python<'_>, error: scenario::ScenarioError) -> 
         scenario::ScenarioError::Text(fault) => listed(py, std::slice::from_ref(&**fault)),
         scenario::ScenarioError::Many { faults, .. } => listed(py, faults),
     };
-    let raised = ScenarioError::new_err(format!("\n{}", output::shown::text(error).trim_end()));
+    let raised = ScenarioError::new_err(format!(
+        "\n{}",
+        shown::all(&error, PLAIN).join("\n").trim_end()
+    ));
     match faults.and_then(|faults| raised.value(py).setattr("faults", faults)) {
         Ok(()) => raised,
         Err(error) => error,
@@ -62,8 +66,8 @@ fn listed<'py>(py: Python<'py>, faults: &[Fault]) -> PyResult<Bound<'py, PyList>
 /// Warns of what is probably not meant in a scenario.
 pub(crate) fn warn_of(py: Python<'_>, faults: Vec<Fault>) -> PyResult<()> {
     let category = py.get_type::<ScenarioWarning>();
-    for fault in faults {
-        warn(py, &category, output::shown::fault_text(fault).trim_end())?;
+    for fault in &faults {
+        warn(py, &category, shown::fault(fault, PLAIN).trim_end())?;
     }
     Ok(())
 }

@@ -110,7 +110,7 @@ fn told(text: &str, folder: &std::path::Path) -> Vec<(usize, usize, String)> {
     told.collect()
 }
 
-/// Three numbers of each shipped scenario broken in three ways: each is told at its place, and nothing else.
+/// Three numbers of each shipped scenario broken, each in its own way: each is told at its place, and nothing else.
 #[test]
 fn broken_values_of_the_catalogue_are_all_told_and_only_they() {
     let mut draw = Stream::new(1, "mutations", "of the catalogue");
@@ -118,31 +118,29 @@ fn broken_values_of_the_catalogue_are_all_told_and_only_they() {
         let folder = tempfile::tempdir().unwrap();
         template.write_files(folder.path()).unwrap();
         let numbers = numbers(template.text);
-        for _ in 0..3 {
-            let mut chosen: Vec<usize> = Vec::new();
-            while chosen.len() < 3.min(numbers.len()) {
-                let k = (draw.uniform() * numbers.len() as f64) as usize;
-                if !chosen.contains(&k) {
-                    chosen.push(k);
-                }
+        let mut chosen: Vec<usize> = Vec::new();
+        while chosen.len() < 3.min(numbers.len()) {
+            let k = (draw.uniform() * numbers.len() as f64) as usize;
+            if !chosen.contains(&k) {
+                chosen.push(k);
             }
-            chosen.sort_unstable();
-            let mut text = template.text.to_string();
-            for (k, wrong) in chosen.iter().zip(["\"x\"", "NaN", "[1]"]).rev() {
-                let (at, len) = numbers[*k];
-                text.replace_range(at..at + len, wrong);
-            }
-            let mut expected = Vec::new();
-            let mut shift = 0_isize;
-            for (k, wrong) in chosen.iter().zip(["\"x\"", "NaN", "[1]"]) {
-                let (at, len) = numbers[*k];
-                expected.push(place(&text, (at as isize + shift) as usize));
-                shift += wrong.len() as isize - len as isize;
-            }
-            let told = told(&text, folder.path());
-            let places: Vec<(usize, usize)> = told.iter().map(|t| (t.0, t.1)).collect();
-            assert_eq!(places, expected, "{}: {told:#?}", template.name);
         }
+        chosen.sort_unstable();
+        let mut text = template.text.to_string();
+        for (k, wrong) in chosen.iter().zip(["\"x\"", "NaN", "[1]"]).rev() {
+            let (at, len) = numbers[*k];
+            text.replace_range(at..at + len, wrong);
+        }
+        let mut expected = Vec::new();
+        let mut shift = 0_isize;
+        for (k, wrong) in chosen.iter().zip(["\"x\"", "NaN", "[1]"]) {
+            let (at, len) = numbers[*k];
+            expected.push(place(&text, (at as isize + shift) as usize));
+            shift += wrong.len() as isize - len as isize;
+        }
+        let told = told(&text, folder.path());
+        let places: Vec<(usize, usize)> = told.iter().map(|t| (t.0, t.1)).collect();
+        assert_eq!(places, expected, "{}: {told:#?}", template.name);
     }
 }
 

@@ -1,8 +1,10 @@
 //! What stands in a scenario where something is chosen by name.
 
 use super::names::{Known, Where};
+use super::source::Source;
+use super::source_error::SourceError;
 use super::{Kind, Row, Spec, Standard, Takes};
-use serde::de::{DeserializeSeed, EnumAccess, Error, VariantAccess, Visitor};
+use serde::de::{DeserializeSeed, EnumAccess, VariantAccess, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use std::fmt;
 use std::ops::{Deref, DerefMut};
@@ -125,6 +127,8 @@ impl<'de, K: Kind> DeserializeSeed<'de> for Row<K> {
 
     fn deserialize<D: Deserializer<'de>>(self, from: D) -> Result<Choice<K>, D::Error> {
         let mut from = <dyn erased_serde::Deserializer>::erase(from);
-        (self.read)(&mut from).map(Choice).map_err(Error::custom)
+        (self.read)(Source(&mut from))
+            .map(Choice)
+            .map_err(SourceError::into_other)
     }
 }

@@ -12,6 +12,8 @@ mod names;
 mod row;
 mod schema;
 mod set;
+mod source;
+mod source_error;
 #[cfg(test)]
 mod tests;
 
@@ -20,3 +22,4 @@ pub use choice::Choice;
 pub use kind::{Kind, Listed, Spec, Standard, Takes};
 pub use row::Row;
 pub use set::Set;
+pub use source::read_from;

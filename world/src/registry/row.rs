@@ -1,14 +1,14 @@
 //! A row: one thing of a kind, and how it is read.
 
+use super::source::Source;
+use super::source_error::SourceError;
 use super::{Kind, Listed, Takes};
 use crate::catalogue::Entry;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::de::DeserializeOwned;
 
 /// Reads the parameters of a thing.
-type Read<K> = fn(
-    &mut dyn erased_serde::Deserializer<'_>,
-) -> Result<Box<<K as Kind>::Spec>, erased_serde::Error>;
+type Read<K> = fn(Source<'_, '_>) -> Result<Box<<K as Kind>::Spec>, SourceError>;
 
 /// One thing of a kind.
 pub struct Row<K: Kind> {
@@ -27,7 +27,7 @@ impl<K: Kind> Row<K> {
     {
         Self {
             entry: S::ENTRY,
-            read: |from| erased_serde::deserialize::<S>(from).map(K::boxed),
+            read: |from| S::deserialize(from).map(K::boxed),
             schema: SchemaGenerator::subschema_for::<S>,
         }
     }

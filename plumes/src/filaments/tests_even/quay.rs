@@ -53,10 +53,10 @@ fn under_a_quay() {
     assert!(open < scene.cells().open.len() - 500, "{open}");
     stays_even(
         scene,
-        1.0,
+        2.0,
         Shots {
-            first: 50,
-            then: 20,
+            first: 25,
+            then: 10,
             count: 4,
         },
         blocks_of(2, 2),

@@ -10,6 +10,7 @@ use crate::scenario::outline::{Outline, joined};
 use serde::de::DeserializeOwned;
 use std::cell::RefCell;
 use std::ops::Range;
+use world::registry::read_from;
 use world::spelling::{choose, nearest};
 
 /// Most rounds of one reading. Each reports a mistake or gives a stand-in another value.
@@ -64,7 +65,7 @@ impl<'a> Mender<'a> {
                 unwrapped: false,
             };
             self.reading.first.take();
-            match T::deserialize(root) {
+            match read_from::<T, _>(root) {
                 Ok(value) if self.settled() => return Some(value),
                 Ok(_) => {}
                 Err(fail) => {

@@ -26,7 +26,18 @@ use mend::Mender;
 pub(super) use names::Renamed;
 use ron::extensions::Extensions;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Deserializer};
 use tree::{Placed, Tree};
+use world::registry::read_from;
+
+/// A value of which every part is read by the one reader for all formats.
+struct Whole<T>(T);
+
+impl<'de, T: DeserializeOwned> Deserialize<'de> for Whole<T> {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        read_from(from).map(Self)
+    }
+}
 
 /// Number of sets of stand-ins: two of values, one of defaults.
 const FILLINGS: usize = 3;
@@ -53,7 +64,7 @@ pub(super) fn read_renamed<T: DeserializeOwned>(
 ) -> Result<T, ScenarioError> {
     let reader = ron::Options::default()
         .with_default_extension(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
-    let error = match reader.from_str(text) {
+    let error = match reader.from_str(text).map(|Whole(value)| value) {
         // The type reads both names, so ron does not notice the wrong one.
         Ok(_) if renamed.as_ref().is_some_and(|r| r.misused(text)) => None,
         Ok(value) => return Ok(value),

@@ -1,0 +1,505 @@
+//! What parameters are read from: one reader for all formats.
+//!
+//! A type is compiled for this reader alone, and its visitor is asked only for what the type says it wants:
+//! `deserialize_struct` ends in `visit_map` and nowhere else. `erased_serde` by itself makes all 27 methods of a visitor
+//! for each type and for the names of its fields, a quarter of all code of the robots. What a type asks for reaches the
+//! format, and its errors keep their kind.
+
+use super::source_error::SourceError;
+use serde::Deserialize;
+use serde::de::{
+    DeserializeSeed, Deserializer, EnumAccess, Error as _, IgnoredAny, MapAccess, SeqAccess,
+    Unexpected, VariantAccess, Visitor,
+};
+use std::fmt;
+
+type Format<'f, 'de> = dyn erased_serde::Deserializer<'de> + 'f;
+type Result<T> = std::result::Result<T, SourceError>;
+
+/// Reads a value from any format.
+///
+/// # Errors
+/// The format's, and those of the type.
+pub fn read_from<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
+    from: D,
+) -> std::result::Result<T, D::Error> {
+    let mut from = <dyn erased_serde::Deserializer>::erase(from);
+    T::deserialize(Source(&mut from)).map_err(SourceError::into_other)
+}
+
+/// A value in any format.
+pub(super) struct Source<'f, 'de>(pub(super) &'f mut Format<'f, 'de>);
+
+/// What a format gives, to be taken by the visitor of a type.
+enum Given<'g, 'de> {
+    Nothing,
+    Inner(&'g mut Format<'g, 'de>),
+    Map(&'g mut dyn Pairs<'de>),
+    Seq(&'g mut dyn Elements<'de>),
+    Choice(&'g mut dyn Variants<'de>),
+}
+
+impl Given<'_, '_> {
+    /// It is not what the type asked for.
+    fn unfit(&self, expected: &dyn serde::de::Expected) -> SourceError {
+        SourceError::invalid_type(
+            match self {
+                Self::Nothing => Unexpected::Unit,
+                Self::Inner(_) => Unexpected::NewtypeStruct,
+                Self::Map(_) => Unexpected::Map,
+                Self::Seq(_) => Unexpected::Seq,
+                Self::Choice(_) => Unexpected::Enum,
+            },
+            expected,
+        )
+    }
+}
+
+type Take<'t, 'de> = &'t mut dyn FnMut(Given<'_, 'de>) -> Result<()>;
+
+/// A map, one step after the other.
+trait Pairs<'de> {
+    /// Passes the next key on, if there is one.
+    fn key(&mut self, take: Take<'_, 'de>) -> Result<bool>;
+    /// Passes the value of that key on.
+    fn value(&mut self, take: Take<'_, 'de>) -> Result<()>;
+}
+
+/// A sequence.
+trait Elements<'de> {
+    /// Passes the next element on, if there is one.
+    fn element(&mut self, take: Take<'_, 'de>) -> Result<bool>;
+}
+
+/// A choice: first its name, then what it holds.
+trait Variants<'de> {
+    fn name(&mut self, take: Take<'_, 'de>) -> Result<()>;
+    fn unit(&mut self) -> Result<()>;
+    fn newtype(&mut self, take: Take<'_, 'de>) -> Result<()>;
+    fn tuple(&mut self, len: usize, take: Take<'_, 'de>) -> Result<()>;
+    fn fields(&mut self, fields: &'static [&'static str], take: Take<'_, 'de>) -> Result<()>;
+}
+
+/// Passes on what a format gives: as a seed the value itself, as a visitor what is in it.
+struct Pass<'t, 'de>(Take<'t, 'de>);
+
+impl<'de> DeserializeSeed<'de> for Pass<'_, 'de> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
+        let mut from = <dyn erased_serde::Deserializer>::erase(from);
+        (self.0)(Given::Inner(&mut from)).map_err(SourceError::into_other)
+    }
+}
+
+impl<'de> Visitor<'de> for Pass<'_, 'de> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("another kind of value")
+    }
+
+    fn visit_none<E: serde::de::Error>(self) -> std::result::Result<(), E> {
+        (self.0)(Given::Nothing).map_err(SourceError::into_other)
+    }
+
+    fn visit_unit<E: serde::de::Error>(self) -> std::result::Result<(), E> {
+        self.visit_none()
+    }
+
+    fn visit_some<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
+        self.deserialize(from)
+    }
+
+    fn visit_newtype_struct<D: Deserializer<'de>>(
+        self,
+        from: D,
+    ) -> std::result::Result<(), D::Error> {
+        self.deserialize(from)
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> std::result::Result<(), A::Error> {
+        (self.0)(Given::Map(&mut map)).map_err(SourceError::into_other)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut seq: A) -> std::result::Result<(), A::Error> {
+        (self.0)(Given::Seq(&mut seq)).map_err(SourceError::into_other)
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, choice: A) -> std::result::Result<(), A::Error> {
+        let mut choice = OneOf {
+            choice: Some(choice),
+            variant: None,
+        };
+        (self.0)(Given::Choice(&mut choice)).map_err(SourceError::into_other)
+    }
+}
+
+impl<'de, A: MapAccess<'de>> Pairs<'de> for A {
+    fn key(&mut self, take: Take<'_, 'de>) -> Result<bool> {
+        let next = self
+            .next_key_seed(Pass(take))
+            .map_err(SourceError::custom)?;
+        Ok(next.is_some())
+    }
+
+    fn value(&mut self, take: Take<'_, 'de>) -> Result<()> {
+        self.next_value_seed(Pass(take))
+            .map_err(SourceError::custom)
+    }
+}
+
+impl<'de, A: SeqAccess<'de>> Elements<'de> for A {
+    fn element(&mut self, take: Take<'_, 'de>) -> Result<bool> {
+        let next = self
+            .next_element_seed(Pass(take))
+            .map_err(SourceError::custom)?;
+        Ok(next.is_some())
+    }
+}
+
+/// A choice of a format before and after its name is read.
+struct OneOf<A, V> {
+    choice: Option<A>,
+    variant: Option<V>,
+}
+
+impl<A, V> OneOf<A, V> {
+    fn held(&mut self) -> V {
+        self.variant
+            .take()
+            .expect("its name was read, and what it holds is read once")
+    }
+}
+
+impl<'de, A: EnumAccess<'de, Variant = V>, V: VariantAccess<'de>> Variants<'de> for OneOf<A, V> {
+    fn name(&mut self, take: Take<'_, 'de>) -> Result<()> {
+        let choice = self.choice.take().expect("its name is read once");
+        let ((), variant) = choice
+            .variant_seed(Pass(take))
+            .map_err(SourceError::custom)?;
+        self.variant = Some(variant);
+        Ok(())
+    }
+
+    fn unit(&mut self) -> Result<()> {
+        self.held().unit_variant().map_err(SourceError::custom)
+    }
+
+    fn newtype(&mut self, take: Take<'_, 'de>) -> Result<()> {
+        self.held()
+            .newtype_variant_seed(Pass(take))
+            .map_err(SourceError::custom)
+    }
+
+    fn tuple(&mut self, len: usize, take: Take<'_, 'de>) -> Result<()> {
+        self.held()
+            .tuple_variant(len, Pass(take))
+            .map_err(SourceError::custom)
+    }
+
+    fn fields(&mut self, fields: &'static [&'static str], take: Take<'_, 'de>) -> Result<()> {
+        self.held()
+            .struct_variant(fields, Pass(take))
+            .map_err(SourceError::custom)
+    }
+}
+
+// What asks a format, compiled once.
+
+fn word(from: &mut Format<'_, '_>) -> Result<String> {
+    struct Word;
+    impl Visitor<'_> for Word {
+        type Value = String;
+
+        fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+            f.write_str("a name")
+        }
+
+        fn visit_str<E: serde::de::Error>(self, name: &str) -> std::result::Result<String, E> {
+            Ok(name.to_string())
+        }
+    }
+    from.deserialize_identifier(Word)
+        .map_err(SourceError::custom)
+}
+
+fn unit(from: &mut Format<'_, '_>, name: &'static str) -> Result<()> {
+    let nothing = &mut |_: Given<'_, '_>| Ok(());
+    from.deserialize_unit_struct(name, Pass(nothing))
+        .map_err(SourceError::custom)
+}
+
+macro_rules! ask {
+    ($($ask:ident $method:ident($($arg:ident: $of:ty),*);)*) => {$(
+        fn $ask<'de>(from: &mut Format<'_, 'de>, $($arg: $of,)* take: Take<'_, 'de>) -> Result<()> {
+            from.$method($($arg,)* Pass(take)).map_err(SourceError::custom)
+        }
+    )*};
+}
+
+ask! {
+    option deserialize_option();
+    newtype deserialize_newtype_struct(name: &'static str);
+    seq deserialize_seq();
+    tuple deserialize_tuple(len: usize);
+    tuple_struct deserialize_tuple_struct(name: &'static str, len: usize);
+    map deserialize_map();
+    fields deserialize_struct(name: &'static str, legal: &'static [&'static str]);
+    choice deserialize_enum(name: &'static str, legal: &'static [&'static str]);
+}
+
+/// What `take` makes of what `ask` is given.
+fn taken<'de, T>(
+    ask: impl FnOnce(Take<'_, 'de>) -> Result<()>,
+    take: impl FnOnce(Given<'_, 'de>) -> Result<T>,
+) -> Result<T> {
+    let (mut take, mut value) = (Some(take), None);
+    ask(&mut |given| {
+        let take = take
+            .take()
+            .expect("a format gives one value for one question");
+        value = Some(take(given)?);
+        Ok(())
+    })?;
+    Ok(value.expect("a format that has not failed has given a value"))
+}
+
+/// A seed on the value within.
+fn seeded<'de, S: DeserializeSeed<'de>>(seed: S, given: Given<'_, 'de>) -> Result<S::Value> {
+    match given {
+        Given::Inner(from) => seed.deserialize(Source(from)),
+        other => Err(other.unfit(&"a value")),
+    }
+}
+
+fn in_sequence<'de, V: Visitor<'de>>(visitor: V, given: Given<'_, 'de>) -> Result<V::Value> {
+    match given {
+        Given::Seq(seq) => visitor.visit_seq(Access(seq)),
+        other => Err(other.unfit(&visitor)),
+    }
+}
+
+fn in_map<'de, V: Visitor<'de>>(visitor: V, given: Given<'_, 'de>) -> Result<V::Value> {
+    match given {
+        Given::Map(map) => visitor.visit_map(Access(map)),
+        other => Err(other.unfit(&visitor)),
+    }
+}
+
+macro_rules! plain {
+    ($($method:ident $visit:ident $of:ty;)*) => {$(
+        fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+            visitor.$visit(<$of>::deserialize(self.0).map_err(SourceError::custom)?)
+        }
+    )*};
+}
+
+macro_rules! as_the_format_does {
+    ($($method:ident)*) => {$(
+        fn $method<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+            self.0.$method(visitor).map_err(SourceError::custom)
+        }
+    )*};
+}
+
+impl<'de> Deserializer<'de> for Source<'_, 'de> {
+    type Error = SourceError;
+
+    plain! {
+        deserialize_bool visit_bool bool;
+        deserialize_i8 visit_i8 i8;
+        deserialize_i16 visit_i16 i16;
+        deserialize_i32 visit_i32 i32;
+        deserialize_i64 visit_i64 i64;
+        deserialize_u8 visit_u8 u8;
+        deserialize_u16 visit_u16 u16;
+        deserialize_u32 visit_u32 u32;
+        deserialize_u64 visit_u64 u64;
+        deserialize_f32 visit_f32 f32;
+        deserialize_f64 visit_f64 f64;
+        deserialize_char visit_char char;
+        deserialize_str visit_string String;
+        deserialize_string visit_string String;
+    }
+
+    as_the_format_does! { deserialize_any deserialize_i128 deserialize_u128 deserialize_bytes deserialize_byte_buf }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        taken(
+            |take| option(self.0, take),
+            |given| match given {
+                Given::Nothing => visitor.visit_none(),
+                Given::Inner(from) => visitor.visit_some(Source(from)),
+                other => Err(other.unfit(&visitor)),
+            },
+        )
+    }
+
+    fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        <()>::deserialize(self.0).map_err(SourceError::custom)?;
+        visitor.visit_unit()
+    }
+
+    fn deserialize_unit_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value> {
+        unit(self.0, name)?;
+        visitor.visit_unit()
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value> {
+        taken(
+            |take| newtype(self.0, name, take),
+            |given| match given {
+                Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
+                other => Err(other.unfit(&visitor)),
+            },
+        )
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        taken(
+            |take| seq(self.0, take),
+            |given| in_sequence(visitor, given),
+        )
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
+        taken(
+            |take| tuple(self.0, len, take),
+            |given| in_sequence(visitor, given),
+        )
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        len: usize,
+        visitor: V,
+    ) -> Result<V::Value> {
+        taken(
+            |take| tuple_struct(self.0, name, len, take),
+            |given| in_sequence(visitor, given),
+        )
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        taken(|take| map(self.0, take), |given| in_map(visitor, given))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value> {
+        taken(
+            |take| fields(self.0, name, legal, take),
+            |given| in_map(visitor, given),
+        )
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value> {
+        taken(
+            |take| choice(self.0, name, legal, take),
+            |given| match given {
+                Given::Choice(of) => visitor.visit_enum(Access(of)),
+                other => Err(other.unfit(&visitor)),
+            },
+        )
+    }
+
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        visitor.visit_string(word(self.0)?)
+    }
+
+    fn deserialize_ignored_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
+        IgnoredAny::deserialize(self.0).map_err(SourceError::custom)?;
+        visitor.visit_unit()
+    }
+}
+
+/// serde's access to what a format gives.
+struct Access<A>(A);
+
+impl<'de> MapAccess<'de> for Access<&mut dyn Pairs<'de>> {
+    type Error = SourceError;
+
+    fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
+        let (mut seed, mut key) = (Some(seed), None);
+        self.0.key(&mut |given| {
+            key = seed.take().map(|seed| seeded(seed, given)).transpose()?;
+            Ok(())
+        })?;
+        Ok(key)
+    }
+
+    fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value> {
+        taken(|take| self.0.value(take), |given| seeded(seed, given))
+    }
+}
+
+impl<'de> SeqAccess<'de> for Access<&mut dyn Elements<'de>> {
+    type Error = SourceError;
+
+    fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
+        let (mut seed, mut element) = (Some(seed), None);
+        self.0.element(&mut |given| {
+            element = seed.take().map(|seed| seeded(seed, given)).transpose()?;
+            Ok(())
+        })?;
+        Ok(element)
+    }
+}
+
+impl<'de> EnumAccess<'de> for Access<&mut dyn Variants<'de>> {
+    type Error = SourceError;
+    type Variant = Self;
+
+    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self)> {
+        let name = taken(|take| self.0.name(take), |given| seeded(seed, given))?;
+        Ok((name, self))
+    }
+}
+
+impl<'de> VariantAccess<'de> for Access<&mut dyn Variants<'de>> {
+    type Error = SourceError;
+
+    fn unit_variant(self) -> Result<()> {
+        self.0.unit()
+    }
+
+    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value> {
+        taken(|take| self.0.newtype(take), |given| seeded(seed, given))
+    }
+
+    fn tuple_variant<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
+        taken(
+            |take| self.0.tuple(len, take),
+            |given| in_sequence(visitor, given),
+        )
+    }
+
+    fn struct_variant<V: Visitor<'de>>(
+        self,
+        legal: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value> {
+        taken(
+            |take| self.0.fields(legal, take),
+            |given| in_map(visitor, given),
+        )
+    }
+}
