@@ -1,6 +1,7 @@
 //! What holds: one test binary.
 
 mod abnormal;
+mod arguments;
 mod autopilot;
 mod bad_input;
 mod cache;

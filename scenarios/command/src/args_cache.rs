@@ -122,31 +122,3 @@ pub enum CacheCommand {
     /// Remove all kept spin-ups, of all builds of the program; other files in the folder stay.
     Clear,
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::Args;
-    use super::*;
-    use clap::{CommandFactory, Parser};
-
-    #[test]
-    fn its_help_teaches_and_what_is_not_given_is_as_in_the_library() {
-        let mut all = Args::command();
-        let cache = all.find_subcommand_mut("cache").expect("a command");
-        let given = |id: &str| {
-            let arg = cache.get_arguments().find(|a| a.get_id() == id);
-            let given = arg.expect("an argument").get_default_values();
-            given[0].to_str().expect("text").to_string()
-        };
-        assert_eq!(bytes(&given("size")), Ok(CachePlace::default().size));
-        assert_eq!(seconds(&given("from")), Ok(CachePlace::default().from));
-        let help = cache.render_long_help().to_string().replace('\n', " ");
-        for word in ["same, bit by bit", "--no-cache", "--key", "clear"] {
-            assert!(help.contains(word), "{word} in {help}");
-        }
-        for wrong in ["-1", "nan", "soon"] {
-            let args = ["rheotaxis", "cache", "--cache-from", wrong];
-            assert!(Args::try_parse_from(args).is_err(), "{wrong}");
-        }
-    }
-}

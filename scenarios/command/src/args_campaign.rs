@@ -208,22 +208,6 @@ pub(super) const REPORT_ABOUT: &str = "Compares the arms of a campaign, even if 
         - where the computing time went.\n\n\
         It is written as report.html, with figures as SVG and PNG and a CSV file for everything drawn.";
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn wall_times_read_as_hours_minutes_and_seconds() {
-        let seconds = |text: &str| wall_time(text).map(|d| d.as_secs()).ok();
-        assert_eq!(seconds("55m"), Some(3300));
-        assert_eq!(seconds("1h30m"), Some(5400));
-        assert_eq!(seconds("1h2m3s"), Some(3723));
-        for bad in ["", "5", "m", "30m1h", "0s", "-5s", "1.5h", "5 m"] {
-            assert_eq!(seconds(bad), None, "{bad}");
-        }
-    }
-}
-
 /// Arguments of `campaign report`.
 #[derive(Clone, Debug, PartialEq, clap::Args)]
 pub struct ReportArgs {

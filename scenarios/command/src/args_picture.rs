@@ -78,21 +78,3 @@ pub(super) const PICTURE_ABOUT: &str = "Lets a scenario's plume develop, takes o
         PNG file.\n\n\
         Clarity and light of the water come from the scenario's `optics`. The camera is that of the first robot that \
         has one, or a default camera. The same scenario, seed and place give the same picture, bit by bit.";
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn so_many_numbers_and_no_others_are_read() {
-        assert_eq!("1, -2.5,3e1".parse(), Ok(Numbers([1.0, -2.5, 30.0])));
-        for wrong in ["", "1,2", "1,2,3,4", "1,2,x", "1,2,inf", "1,,3"] {
-            let said = wrong.parse::<Numbers<3>>();
-            assert_eq!(
-                said,
-                Err("must be 3 numbers separated by commas".into()),
-                "{wrong}"
-            );
-        }
-    }
-}

@@ -104,16 +104,3 @@ pub(super) const REPRODUCE_ABOUT: &str = "Repeats the papers' experiments over m
         later run takes from them what they hold, adds what they lack, and prints the figures of both. Before that, \
         seeds drawn at random are run again: if they give other digests, or the scenario has changed, the row is out \
         of date, which is an error.";
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn widths_are_shares_below_a_half() {
-        assert_eq!(half_width("0.05"), Ok(0.05));
-        for bad in ["0", "0.5", "-0.1", "nan", "inf", "5%", ""] {
-            assert!(half_width(bad).is_err(), "{bad}");
-        }
-    }
-}

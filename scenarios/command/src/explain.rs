@@ -32,35 +32,3 @@ fn help(near: &[String]) -> String {
         several => format!("the nearest are {}", several.join(", ")),
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn explained(path: Option<&str>) -> Exit {
-        explain(&ExplainArgs {
-            path: path.map(str::to_string),
-            markdown: false,
-            json_schema: false,
-        })
-    }
-
-    #[test]
-    fn what_is_there_is_a_success_and_what_is_not_an_error() {
-        assert_eq!(explained(None), Exit::Success);
-        assert_eq!(
-            explained(Some("robots[0].strategy.reacquire")),
-            Exit::Success
-        );
-        assert_eq!(explained(Some("robots.strategy.reaquire")), Exit::Error);
-    }
-
-    #[test]
-    fn help_names_the_nearest() {
-        assert_eq!(help(&["water".to_string()]), "did you mean water?");
-        assert_eq!(
-            help(&["a".to_string(), "b".to_string()]),
-            "the nearest are a, b"
-        );
-    }
-}

@@ -38,7 +38,6 @@ mod score_vision;
 mod segment;
 mod statistics;
 mod stop;
-mod time_left;
 mod topics;
 mod vehicle;
 mod vehicle_fly;
@@ -108,17 +107,5 @@ fn dispatch(command: Command) -> Exit {
         Command::Segment(args) => segment::segment(&args),
         Command::ScoreVision(args) => score_vision::score_vision(&args),
         Command::Vehicle(args) => vehicle::vehicle(&args),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_broken_assumption_is_an_error_to_the_shell() {
-        assert_eq!(guarded(|| Exit::NotFound), Exit::NotFound);
-        let broken = guarded(|| panic!("the hull is {} m long", -1));
-        assert_eq!(broken, Exit::Error);
     }
 }

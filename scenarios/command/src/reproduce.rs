@@ -3,7 +3,6 @@
 use super::args_reproduce::ReproduceArgs;
 use super::campaign_plan::count;
 use super::exit::Exit;
-use super::time_left::TimeLeft;
 use super::{cache, say, stop};
 use indicatif::{ProgressBar, ProgressStyle};
 use rheotaxis::cache::SpinUps;
@@ -12,7 +11,8 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 use studies::campaign::RunRow;
 use studies::reproduce::{
-    Plan, Reference, ReproduceError, Reproduced, Table, compare, reproduce, table, wanted, write,
+    Plan, Reference, ReproduceError, Reproduced, Table, TimeLeft, compare, reproduce, table,
+    wanted, write,
 };
 
 /// Runs the rows, prints their tables and writes them.

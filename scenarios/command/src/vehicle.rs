@@ -304,33 +304,3 @@ fn init(args: &VehicleInitArgs) -> Result<(), Wrong> {
     }
     Ok(())
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use rheotaxis::registry::{Group, Registry, sections};
-
-    /// What `list vehicles` prints either has trials, or the error says which name to give instead.
-    #[test]
-    fn every_name_that_list_vehicles_prints_is_known() {
-        let mut names: Vec<&str> = (sections(&Registry::default()).into_iter())
-            .filter(|s| s.group == Group::Vehicles)
-            .flat_map(|s| s.entries.into_iter().map(|e| e.name))
-            .collect();
-        names.extend(SHIPPED.iter().map(|s| s.folder));
-        let mut free = Vec::new();
-        for name in names {
-            match loaded(Path::new(name)) {
-                Ok(_) => free.push(name),
-                Err((problem, hint)) => {
-                    assert!(!problem.contains("no such"), "{problem}");
-                    assert!(hint.is_some(), "{problem}");
-                }
-            }
-        }
-        let listed = ["Remus100", "Kinematic"].into_iter();
-        let all: Vec<&str> = listed.chain(SHIPPED.iter().map(|s| s.folder)).collect();
-        assert_eq!(free, all);
-        assert!(loaded(Path::new("submarine")).is_err_and(|(p, _)| p.contains("no such folder")));
-    }
-}

@@ -7,6 +7,7 @@ mod measure;
 mod quantity;
 mod row;
 mod run;
+mod time_left;
 mod write;
 
 pub use compare::{Compared, Standing, compare};
@@ -15,4 +16,5 @@ pub use measure::{Measure, RunEvent};
 pub use quantity::{Estimate, Quantity};
 pub use row::{Figure, Paper, Reference, ReproduceError, Row, rows, wanted};
 pub use run::{Plan, Reproduced, reproduce};
+pub use time_left::TimeLeft;
 pub use write::{table, write};

@@ -1,8 +1,8 @@
 //! How long the rows of an experiment still take, from the wall times of the runs that have ended.
 
+use crate::campaign::RunRow;
 use std::num::NonZero;
 use std::sync::{Mutex, PoisonError};
-use studies::campaign::RunRow;
 use world::cost::duration;
 
 /// What is known of a row.
@@ -28,14 +28,16 @@ impl Spent {
 }
 
 /// The clock of an experiment with several rows; runs are heard from all threads.
-pub(super) struct TimeLeft {
+#[derive(Debug)]
+pub struct TimeLeft {
     rows: Mutex<Vec<Spent>>,
     threads: usize,
 }
 
 impl TimeLeft {
     /// For rows of so many planned runs; `jobs` as on the command line, 0 means one for each core.
-    pub(super) fn new(planned: impl Iterator<Item = u64>, jobs: usize) -> Self {
+    #[must_use]
+    pub fn new(planned: impl Iterator<Item = u64>, jobs: usize) -> Self {
         let cores = || std::thread::available_parallelism().map_or(1, NonZero::get);
         let of_row = |planned| Spent {
             planned,
@@ -48,12 +50,16 @@ impl TimeLeft {
     }
 
     /// Runs at the same time.
-    pub(super) fn threads(&self) -> u64 {
+    #[must_use]
+    pub fn threads(&self) -> u64 {
         self.threads as u64
     }
 
     /// Notes a run of row `k` that has ended, and how many the row is now planned to have.
-    pub(super) fn heard(&self, k: usize, run: &RunRow, planned: u64) {
+    ///
+    /// # Panics
+    /// If there is no such row.
+    pub fn heard(&self, k: usize, run: &RunRow, planned: u64) {
         let mut rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         rows[k].planned = planned;
         rows[k].ended += 1;
@@ -61,7 +67,8 @@ impl TimeLeft {
     }
 
     /// Time until all rows are done, in words; `None` as long as a row has not been measured.
-    pub(super) fn words(&self) -> Option<String> {
+    #[must_use]
+    pub fn words(&self) -> Option<String> {
         let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
         let left: Option<Vec<f64>> = rows.iter().map(|r| r.left_s()).collect();
         Some(duration(left?.iter().sum::<f64>() / self.threads as f64))
