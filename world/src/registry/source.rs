@@ -33,6 +33,8 @@ pub(super) struct Source<'f, 'de>(pub(super) &'f mut Format<'f, 'de>);
 /// What a format gives, to be taken by the visitor of a type.
 enum Given<'g, 'de> {
     Nothing,
+    /// The text of a value as it stands in the file: `ron::value::RawValue` asks for it.
+    Text(&'g str),
     Inner(&'g mut Format<'g, 'de>),
     Map(&'g mut dyn Pairs<'de>),
     Seq(&'g mut dyn Elements<'de>),
@@ -45,6 +47,7 @@ impl Given<'_, '_> {
         SourceError::invalid_type(
             match self {
                 Self::Nothing => Unexpected::Unit,
+                Self::Text(text) => Unexpected::Str(text),
                 Self::Inner(_) => Unexpected::NewtypeStruct,
                 Self::Map(_) => Unexpected::Map,
                 Self::Seq(_) => Unexpected::Seq,
@@ -105,6 +108,10 @@ impl<'de> Visitor<'de> for Pass<'_, 'de> {
 
     fn visit_unit<E: serde::de::Error>(self) -> std::result::Result<(), E> {
         self.visit_none()
+    }
+
+    fn visit_str<E: serde::de::Error>(self, text: &str) -> std::result::Result<(), E> {
+        (self.0)(Given::Text(text)).map_err(SourceError::into_other)
     }
 
     fn visit_some<D: Deserializer<'de>>(self, from: D) -> std::result::Result<(), D::Error> {
@@ -358,6 +365,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         taken(
             |take| newtype(self.0, name, take),
             |given| match given {
+                Given::Text(text) => visitor.visit_str(text),
                 Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
                 other => Err(other.unfit(&visitor)),
             },
