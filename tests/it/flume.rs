@@ -67,6 +67,63 @@ fn a_run_leaves_table_recording_and_figures_and_nobody_changes_it() {
 }
 
 #[test]
+fn a_users_urdf_says_where_the_probes_are() {
+    let dir = tempfile::tempdir().unwrap();
+    let file = short_flume(dir.path());
+    let init = ["init", "--gantry", dir.path().to_str().unwrap()];
+    let code = || common::rheotaxis(&init).status.code();
+    assert_eq!([code(), code()], [Some(0), Some(1)], "never overwritten");
+    let urdf = dir.path().join("crab_gantry.urdf");
+    let text = std::fs::read_to_string(&urdf).unwrap();
+    let scenario = std::fs::read_to_string(&file).unwrap();
+    let own = scenario.replace("CrabGantry()", "CrabGantry(urdf: \"crab_gantry.urdf\")");
+    let short = common::with_fields(&own, &[("spin_up_s", "1"), ("limit_s", "0.5")]);
+    std::fs::write(&file, short).unwrap();
+    // The place of the left probe, from the head, in the first row of the table.
+    let place = || {
+        let out = dir.path().join("out");
+        let run = [
+            "run",
+            file.to_str().unwrap(),
+            "--quiet",
+            "--no-zenoh",
+            "--no-record",
+            "--out",
+        ];
+        common::rheotaxis(&[&run[..], &[out.to_str().unwrap()]].concat());
+        let table = std::fs::read_to_string(out.join("probes-crab0.csv")).unwrap();
+        let mut lines = table.lines().map(|l| l.split(',').collect::<Vec<_>>());
+        let (header, row) = (lines.next().unwrap(), lines.next().unwrap());
+        let value = |name: String| -> f64 {
+            let k = header.iter().position(|h| *h == name).unwrap();
+            row[k].parse().unwrap()
+        };
+        ["east_m", "north_m", "up_m"]
+            .map(|axis| value(format!("probe_left_{axis}")) - value(format!("head_{axis}")))
+    };
+    let before = place();
+    // Forward is up-stream, west in this flume; left is south.
+    let moved = text.replace("xyz=\"0 0.0625 -0.05\"", "xyz=\"0.02 0.0825 -0.04\"");
+    assert_ne!(text, moved);
+    std::fs::write(&urdf, &moved).unwrap();
+    let after = place();
+    for (k, by) in [-0.02, -0.02, 0.01].into_iter().enumerate() {
+        assert!(
+            (after[k] - before[k] - by).abs() < 3e-4,
+            "{before:?} {after:?}"
+        );
+    }
+    std::fs::write(&urdf, moved.replace("name=\"probe_left\"", "name=\"left\"")).unwrap();
+    let end = common::rheotaxis(&["check", file.to_str().unwrap()]);
+    let said = String::from_utf8_lossy(&end.stderr);
+    assert!(
+        end.status.code() == Some(1) && said.contains("crab_gantry.urdf"),
+        "{said}"
+    );
+    assert!(said.contains("probe_left"), "{said}");
+}
+
+#[test]
 fn list_explains_the_tracker_and_the_gantry() {
     let algorithms = common::rheotaxis(&["list", "algorithms"]).stdout;
     let algorithms = String::from_utf8(algorithms).unwrap();

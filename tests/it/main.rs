@@ -9,6 +9,7 @@ mod campaign;
 mod common;
 mod cost;
 mod determinism;
+mod explained;
 mod eyes;
 mod faults;
 mod flume;

@@ -31,7 +31,7 @@ pub use files::{Files, InMemory};
 pub use folder::{
     Axes, Block, Described, HydrodynamicsSpec, Row, Rows, SHIPPED, Shipped, VehicleFile,
 };
-pub use gantry::{CrabGantrySpec, Gantry, GantrySpec};
+pub use gantry::{CRAB_GANTRY, CrabGantrySpec, Gantry, GantrySpec};
 pub use kinematic::Kinematic;
 pub use kinematic_spec::{KinematicSpec, Moves, RadiusSpec, RateSpec, TurnSpec};
 pub use looks::{Form, JointKind, LinkLook, Look, Moved};

@@ -4,6 +4,7 @@ use super::args_cache::{self, CacheArgs, CacheCommandArgs};
 use super::args_campaign::CampaignArgs;
 use super::args_control::{ControlArgs, RerunMcapArgs};
 use super::args_explain::ExplainArgs;
+use super::args_init::InitArgs;
 use super::args_key::KeyArgs;
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
@@ -230,16 +231,6 @@ pub struct CheckArgs {
     /// Scenario file, or the name of a scenario that comes with the program.
     #[arg(required = true, value_name = "FILE")]
     pub files: Vec<PathBuf>,
-}
-
-/// Arguments of `init`.
-#[derive(Clone, Debug, PartialEq, clap::Args)]
-#[command(after_help = "Examples:\n  rheotaxis init\n  rheotaxis init duck_st mine.ron")]
-pub struct InitArgs {
-    /// Name of a scenario that comes with the program.
-    pub template: Option<String>,
-    /// File to write, or the folder to write it in [default: TEMPLATE.ron in this folder].
-    pub path: Option<PathBuf>,
 }
 
 /// Arguments of `list`.

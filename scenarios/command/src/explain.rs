@@ -1,17 +1,30 @@
-//! `rheotaxis explain`: explains the fields of a scenario file.
+//! `rheotaxis explain`: explains the fields of a scenario, a campaign and a vehicle, and the columns of tables.
 
 use super::args_explain::ExplainArgs;
 use super::exit::Exit;
 use super::say;
-use rheotaxis::explain;
+use output::columns::TableInfo;
+use output::report;
+use rheotaxis::explain::{self, FileKind};
+use studies::campaign;
+
+/// The files that this command knows beside those of the library.
+const MORE: &[FileKind] = &[campaign::FILE];
+
+/// The tables of runs and campaigns.
+fn tables() -> Vec<TableInfo> {
+    [report::tables(), campaign::tables()].concat()
+}
 
 /// Prints the explanation of one place, or the whole reference as Markdown or JSON Schema.
 pub(super) fn explain(args: &ExplainArgs) -> Exit {
     let path = args.path.as_deref().unwrap_or_default();
-    let text = match (args.markdown, args.json_schema) {
-        (true, _) => Ok(explain::markdown()),
-        (_, true) => Ok(explain::json_schema()),
-        _ => explain::explain(path),
+    let table = tables().into_iter().find(|table| table.is_in(path));
+    let text = match (args.markdown, args.json_schema, table) {
+        (true, ..) => Ok(explain::markdown(MORE)),
+        (_, true, _) => Ok(explain::json_schema()),
+        (.., Some(table)) => Ok(table.text()),
+        _ => explain::explain(path, MORE),
     };
     match text {
         Ok(text) => {
@@ -27,7 +40,7 @@ pub(super) fn explain(args: &ExplainArgs) -> Exit {
 
 fn help(near: &[String]) -> String {
     match near {
-        [] => "`rheotaxis explain` lists the blocks of a scenario".to_string(),
+        [] => "`rheotaxis explain` lists the blocks of a scenario and the other files".to_string(),
         [one] => format!("did you mean {one}?"),
         several => format!("the nearest are {}", several.join(", ")),
     }

@@ -1,15 +1,20 @@
-//! `rheotaxis init`: writes a scenario that comes with the program to a file, for the user to change.
+//! `rheotaxis init`: writes a scenario that comes with the program, or the URDF of its gantry, to a file, for the user
+//! to change.
 
-use super::args::InitArgs;
+use super::args_init::InitArgs;
 use super::exit::Exit;
 use super::{list, say};
 use rheotaxis::scenario::template;
+use robots::vehicles::CRAB_GANTRY;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
-use world::files::write_new;
+use world::files::{OutputError, make_folder, write_new};
 
 /// Writes the template, or lists the templates if none is named.
 pub(super) fn init(args: &InitArgs) -> Exit {
+    if let Some(folder) = &args.gantry {
+        return gantry(folder);
+    }
     let Some(name) = &args.template else {
         say::line(format_args!(
             "Templates for `rheotaxis init TEMPLATE [PATH]`:\n"
@@ -38,19 +43,34 @@ pub(super) fn init(args: &InitArgs) -> Exit {
             say::line(format_args!("wrote {shown}; next: rheotaxis run {shown}"));
             Exit::Success
         }
-        Err(e) if e.source.kind() == ErrorKind::AlreadyExists => {
-            say::error(
-                format!(
-                    "{}: is there already and is not overwritten",
-                    e.path.display()
-                ),
-                Some("name another PATH"),
-            );
-            Exit::Error
-        }
-        Err(e) => {
-            say::error(e, None);
-            Exit::Error
-        }
+        Err(e) => refused(&e, "name another PATH"),
     }
+}
+
+/// Writes the URDF of the built-in gantry.
+fn gantry(folder: &Path) -> Exit {
+    let (name, text) = CRAB_GANTRY;
+    let path = folder.join(name);
+    let made = make_folder(folder).map_err(|e| OutputError::new(folder, e));
+    match made.and_then(|()| write_new(&path, text.as_bytes())) {
+        Ok(_) => {
+            say::line(format_args!(
+                "wrote {}; a scenario beside it takes it with `gantry: CrabGantry(urdf: \"{name}\")`",
+                path.display()
+            ));
+            Exit::Success
+        }
+        Err(e) => refused(&e, "name another FOLDER"),
+    }
+}
+
+/// Reports why a file was not written.
+fn refused(error: &OutputError, other: &str) -> Exit {
+    if error.source.kind() == ErrorKind::AlreadyExists {
+        let problem = "is there already and is not overwritten";
+        say::error(format!("{}: {problem}", error.path.display()), Some(other));
+    } else {
+        say::error(error, None);
+    }
+    Exit::Error
 }

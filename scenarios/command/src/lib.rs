@@ -11,6 +11,7 @@ mod args_cache;
 mod args_campaign;
 mod args_control;
 mod args_explain;
+mod args_init;
 mod args_key;
 mod args_picture;
 mod args_reproduce;
@@ -44,8 +45,7 @@ mod vehicle_fly;
 mod version;
 
 pub use args::{
-    Args, CheckArgs, Command, InitArgs, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs,
-    TopicsArgs,
+    Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs, TopicsArgs,
 };
 pub use args_cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args_campaign::{
@@ -54,6 +54,7 @@ pub use args_campaign::{
 };
 pub use args_control::{ControlArgs, RerunMcapArgs};
 pub use args_explain::ExplainArgs;
+pub use args_init::InitArgs;
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
 pub use args_vehicle::{

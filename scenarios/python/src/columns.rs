@@ -1,6 +1,7 @@
 //! What each robot did, as columns: those of `track.csv`, with all digits and without gaps.
 
 use super::arrays::{column, texts};
+use output::columns::ColumnInfo;
 use output::results::{COLUMNS, RobotInfo, numbers};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -55,7 +56,7 @@ impl RobotColumns {
     pub(crate) fn arrays<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         let dict = PyDict::new(py);
         dict.set_item("t_s", column(py, &self.t_s)?)?;
-        for ((name, _), values) in COLUMNS.iter().zip(&self.numbers) {
+        for (ColumnInfo { name, .. }, values) in COLUMNS.iter().zip(&self.numbers) {
             if *name == DETECTED {
                 let detected: Vec<bool> = values.iter().map(|v| *v > 0.0).collect();
                 dict.set_item(name, column(py, &detected)?)?;

@@ -7,6 +7,7 @@ use world::ranges::{Finite, NonNegative, Positive};
 /// A drive, on a link of the URDF.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[schemars(rename = "VehicleDriveSpec")]
 pub enum DriveSpec {
     /// A propeller that pushes the hull along the link's x axis.
     Thruster(ThrusterSpec),

@@ -21,7 +21,7 @@ use world::physics::{AxisDrive, AxisSpec, GantryBodySpec, JointState};
 use world::seeds::Stream;
 
 /// Name and text of the built-in URDF.
-pub(in crate::vehicles) const CRAB_GANTRY: (&str, &str) = (
+pub const CRAB_GANTRY: (&str, &str) = (
     "crab_gantry.urdf",
     include_str!("../../../urdf/crab_gantry.urdf"),
 );

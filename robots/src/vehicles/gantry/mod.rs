@@ -9,6 +9,5 @@ mod test_drive;
 #[cfg(test)]
 mod test_frame;
 
-pub(super) use machine::CRAB_GANTRY;
-pub use machine::Gantry;
+pub use machine::{CRAB_GANTRY, Gantry};
 pub use spec::{CrabGantrySpec, GantrySpec};

@@ -23,7 +23,7 @@ impl Default for GantrySpec {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CrabGantrySpec {
-    /// URDF file, relative to the scenario file; `None`: the built-in one.
+    /// URDF file, relative to the scenario file; `None`: the built-in one, which `rheotaxis init --gantry` writes.
     pub urdf: Option<String>,
     /// Acceleration and braking of each axis, m/s²: top speed within 0.3 s.
     pub acceleration_m_s2: Positive,

@@ -2,10 +2,12 @@
 
 mod film;
 mod html;
+mod tables;
 mod write;
 
 pub use film::{FILM_STYLE, film, film_script, film_section};
 pub use html::STYLE;
+pub use tables::tables;
 pub use write::{Figure, figures, write_all};
 
 #[cfg(test)]

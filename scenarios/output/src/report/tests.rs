@@ -258,12 +258,28 @@ fn report_of(
             let text = String::from_utf8(bytes).unwrap();
             assert!(!text.contains("NaN") && !text.contains("inf\""), "{name}");
             assert!(!text.contains("<&>"), "{name} holds raw markup");
+        } else if name.ends_with(".csv") {
+            described(&name, &String::from_utf8(bytes).unwrap());
         } else {
             assert!(!bytes.is_empty(), "{name}");
         }
         names.push(name);
     }
     names
+}
+
+/// Every column of a table has a description, and every row has a field for each.
+fn described(name: &str, text: &str) {
+    let tables = super::tables();
+    let table = tables.iter().find(|table| table.is_in(name));
+    let table = table.unwrap_or_else(|| panic!("{name} has no description"));
+    let fields = |line: &str| line.split(',').map(str::to_string).collect::<Vec<_>>();
+    let names = fields(text.lines().next().unwrap());
+    for column in &names {
+        let known = table.columns.iter().any(|c| c.name == column);
+        assert!(known, "{name}: {column} has no description");
+    }
+    assert!(text.lines().all(|line| fields(line).len() == names.len()));
 }
 
 #[test]

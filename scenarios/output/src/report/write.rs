@@ -2,6 +2,7 @@
 
 use super::{film, html};
 use crate::charts::png;
+use crate::columns::{ColumnInfo, columns, header};
 use crate::figures as draw;
 use crate::files::{Kept, ReportError, guarded};
 use crate::results::probes::file_name;
@@ -195,6 +196,17 @@ pub fn figures(run: &RunReport<'_>) -> Vec<Figure> {
     figures
 }
 
+/// The columns of `plume.csv`.
+pub(super) const PLUME: [ColumnInfo; 7] = columns! {
+    "t_s", "s", "Time since the start of the mission.";
+    "east_m", "m", "Centre of the filament, east.";
+    "north_m", "m", "Centre of the filament, north.";
+    "up_m", "m", "Centre of the filament, up.";
+    "size_m", "m", "Horizontal standard deviation of its concentration about the centre.";
+    "mass_kg", "kg", "Mass of all filaments that the row stands for; the column sums to the mass in the water.";
+    "stands_for", "", "Number of filaments that the row stands for.";
+};
+
 /// The filaments that the map shows. `mass_kg` is that of all filaments for which one stands, so that the column sums
 /// to the mass in the water; `stands_for` is their number. Places are rounded to a hundredth of a metre, in a flume of
 /// a millimetre.
@@ -204,7 +216,7 @@ pub(super) fn plume_csv(plume: &PlumeFrame, area: &Area) -> String {
     } else {
         (2, 3, 4)
     };
-    let mut text = String::from("t_s,east_m,north_m,up_m,size_m,mass_kg,stands_for\n");
+    let mut text = header(&PLUME) + "\n";
     for [x, y, z, size, mass, n] in &plume.points {
         writeln!(
             text,

@@ -1,6 +1,7 @@
 //! `belief-<robot>.csv`: how a map of where the source may be converged. Also the maps kept for the figures.
 
 use super::SourceTruth;
+use crate::columns::{ColumnInfo, columns, header};
 use nalgebra::Vector3;
 use rheotaxis::frame::{Frame, PlumeFrame, RobotFrame};
 use robots::handoff::{Belief, Odour};
@@ -181,13 +182,28 @@ pub(crate) fn off(best: &Vector3<f64>, sources: &[SourceTruth]) -> Option<f64> {
     away.min_by(f64::total_cmp)
 }
 
+pub(crate) const COLUMNS: [ColumnInfo; 9] = columns! {
+    "t_s", "s", "Time of the update since the start of the mission.";
+    "updates", "", "Number of updates so far.";
+    "informed", "", "Whether the map includes a detection: 1 or 0.";
+    "entropy_nat", "nat", "Entropy of the map.";
+    "best_east_m", "m", "Centre of the most probable cell, east.";
+    "best_north_m", "m", "Centre of the most probable cell, north.";
+    "best_up_m", "m", "Centre of the most probable cell, up; empty for a map of the plane.";
+    "best_probability", "", "Probability of this cell.";
+    "off_m", "m", "Horizontal distance from its centre to the nearest true source.";
+};
+/// The last column, of a map of the plane or of space.
+pub(crate) const CREDIBLE: [ColumnInfo; 2] = columns! {
+    "credible_95_m2", "m2", "Smallest set of cells with 95 % of the probability; for a map of the plane.";
+    "credible_95_m3", "m3", "The same for a map of space, in its place.";
+};
+
 /// The table; its header gives the unit of the credible region's size.
 pub(crate) fn csv(robot: &RobotBelief, sources: &[SourceTruth]) -> String {
     let plane = robot.last.belief.grid.n[2] == 1;
-    let unit = if plane { "m2" } else { "m3" };
-    let mut text = format!(
-        "t_s,updates,informed,entropy_nat,best_east_m,best_north_m,best_up_m,best_probability,off_m,credible_95_{unit}\n"
-    );
+    let size = CREDIBLE[usize::from(!plane)];
+    let mut text = format!("{},{}\n", header(&COLUMNS), size.name);
     for r in &robot.rows {
         // A map of the plane does not tell the height.
         let up = if plane {

@@ -7,7 +7,7 @@ mod headline;
 mod map_end;
 mod map_stated;
 pub mod odour;
-mod pictures;
+pub(crate) mod pictures;
 mod plume_film;
 pub mod probes;
 mod run;
@@ -15,6 +15,7 @@ mod sources;
 mod summary;
 mod summary_builder;
 mod track;
+pub(crate) mod track_columns;
 
 pub use belief_track::{BeliefRow, BeliefSnapshot, BeliefTrack, RobotBelief};
 pub use echoes::{Echoes, RobotEchoes};
@@ -31,4 +32,5 @@ pub use summary::{
     RobotSummary, RunSummary, SourceError, SourceSummary, Summary, Totals, Versions,
 };
 pub use summary_builder::{RunEnd, SummaryBuilder};
-pub use track::{COLUMNS, LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable, numbers};
+pub use track::{LostPoint, RobotInfo, RobotTrack, Track, TrackRow, TrackTable};
+pub use track_columns::{COLUMNS, numbers};

@@ -1,5 +1,6 @@
 //! `odour-<robot>.csv`: where a map expects odour, which way it came, and the way to meet it.
 
+use crate::columns::{ColumnInfo, columns, header};
 use robots::handoff::Odour;
 use std::fmt::Write as _;
 use std::sync::Arc;
@@ -7,9 +8,19 @@ use std::sync::Arc;
 /// Cells with a smaller probability are omitted.
 const LEAST: f64 = 1e-4;
 
+pub(crate) const COLUMNS: [ColumnInfo; 7] = columns! {
+    "t_s", "s", "Time of the map since the start of the mission.";
+    "what", "", "`detection`: odour may be met; `came`: the way it came; `walk`: the way most likely to meet it.";
+    "step", "", "Number of the row in its list or way, from 0.";
+    "east_m", "m", "Centre of the cell, east.";
+    "north_m", "m", "Centre of the cell, north.";
+    "up_m", "m", "Centre of the cell, up; empty for a map of the plane.";
+    "chance", "", "Probability of a detection in the cell.";
+};
+
 /// The table: for each time, the cells where odour may be detected, then the two paths cell by cell.
 pub(crate) fn csv(said: &[Arc<Odour>]) -> String {
-    let mut text = String::from("t_s,what,step,east_m,north_m,up_m,chance\n");
+    let mut text = header(&COLUMNS) + "\n";
     for o in said {
         let likely = (0..o.detection.len()).filter(|c| o.detection[*c] >= LEAST);
         let all = [

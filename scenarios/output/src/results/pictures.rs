@@ -1,6 +1,7 @@
 //! Pictures from the robots' cameras. Each becomes a file at once; a table says where and when it was taken.
 
 use super::probes::file_name;
+use crate::columns::{ColumnInfo, columns, header};
 use crate::files::{ReportError, csv_text, write_whole};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
 use image::codecs::jpeg::JpegEncoder;
@@ -16,8 +17,20 @@ use world::units::Heading;
 const PAGE_QUALITY: u8 = 85;
 
 /// Columns of the table.
-const COLUMNS: &str = "file,robot,t_s,camera_east_m,camera_north_m,camera_up_m,look_heading_deg,look_down_deg,\
-    view_deg,believed_east_m,believed_north_m,believed_depth_m";
+pub(crate) const COLUMNS: [ColumnInfo; 12] = columns! {
+    "file", "", "Name of the picture's file.";
+    "robot", "", "Id of the robot that took it.";
+    "t_s", "s", "Time since the start of the mission.";
+    "camera_east_m", "m", "True place of the camera, east.";
+    "camera_north_m", "m", "True place of the camera, north.";
+    "camera_up_m", "m", "True place of the camera, up.";
+    "look_heading_deg", "degrees", "True heading in which the camera looks.";
+    "look_down_deg", "degrees", "Angle below the horizon at which the camera looks.";
+    "view_deg", "degrees", "Its full horizontal angle of view in the water.";
+    "believed_east_m", "m", "Position of the robot east of the datum, as it believed.";
+    "believed_north_m", "m", "Position of the robot north of the datum, as it believed.";
+    "believed_depth_m", "m", "Depth of the robot, as it believed.";
+};
 
 /// A picture as the report shows it.
 #[derive(Clone, Debug, PartialEq)]
@@ -54,7 +67,7 @@ pub struct Pictures {
     out: Folder,
     most: usize,
     /// The rows of the table so far.
-    rows: Vec<[String; 12]>,
+    rows: Vec<[String; COLUMNS.len()]>,
     shown: Vec<ShownPicture>,
 }
 
@@ -97,7 +110,7 @@ impl Pictures {
             .map_err(drawn)?;
         write_whole(&path, png.get_ref())?;
         self.row(&file, taken);
-        let table = csv_text(COLUMNS, &self.rows);
+        let table = csv_text(&header(&COLUMNS), &self.rows);
         write_whole(&self.out.file("pictures.csv")?, table.as_bytes())?;
         self.shown.push(ShownPicture {
             file,

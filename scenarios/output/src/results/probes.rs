@@ -1,6 +1,7 @@
 //! `probes-<gantry>.csv`: readings of each gantry's probes, what its searcher derived from them, and the position of
 //! its head. The same data are kept for the figures.
 
+use crate::columns::{ColumnInfo, columns, header};
 use crate::decimal::push_decimal;
 use crate::files::ReportError;
 use rheotaxis::frame::Frame;
@@ -157,7 +158,7 @@ impl ProbeTables {
         for info in &gantries {
             let path = folder.file(&format!("probes-{}.csv", file_name(&info.id)))?;
             let mut file = Output::create(&path)?;
-            (file.write_all(header(info).as_bytes())).map_err(|e| file.failed(e))?;
+            (file.write_all(names(info).as_bytes())).map_err(|e| file.failed(e))?;
             file.place()?;
             files.push(file);
         }
@@ -212,18 +213,43 @@ pub(crate) fn file_name(id: &str) -> String {
 
 const TEXT: &str = "writing to a String succeeds";
 
-fn header(info: &GantryInfo) -> String {
-    let mut text = String::from(
-        "t_s,scan_s,behaviour,command,head_east_m,head_north_m,head_up_m,joint_1_m,joint_2_m,joint_1_m_s,\
-         joint_2_m_s,speed_m_s,arrived,blocked,spike_hz,magnitude_v,predicted_v,contrast",
-    );
-    for name in &info.probes {
-        let name = file_name(name);
-        write!(
-            text,
-            ",{name}_east_m,{name}_north_m,{name}_up_m,{name}_v,{name}_threshold_v,{name}_spike"
-        )
-        .expect(TEXT);
+/// The columns of every gantry.
+pub(crate) const COLUMNS: [ColumnInfo; 18] = columns! {
+    "t_s", "s", "Time since the start of the mission.";
+    "scan_s", "s", "Time of the newest scan of the probes; empty before the first.";
+    "behaviour", "", "What the searcher does: the name of its behaviour.";
+    "command", "", "Number of its motion command; 0 before the first.";
+    "head_east_m", "m", "True place of the head, east.";
+    "head_north_m", "m", "True place of the head, north.";
+    "head_up_m", "m", "True place of the head, up.";
+    "joint_1_m", "m", "True place of the slide on the base, along its joint.";
+    "joint_2_m", "m", "True place of the slide with the head, along its joint.";
+    "joint_1_m_s", "m/s", "True speed of the slide on the base.";
+    "joint_2_m_s", "m/s", "True speed of the slide with the head.";
+    "speed_m_s", "m/s", "True speed of the head, along both slides together.";
+    "arrived", "", "Whether both encoders are at their targets: 1 or 0.";
+    "blocked", "", "Whether the drives gave up because something holds an axis: 1 or 0.";
+    "spike_hz", "1/s", "Recent rate of spikes of all probes, as the searcher counts them.";
+    "magnitude_v", "V", "Mean magnitude of spikes since the latest step, above the output in clean water.";
+    "predicted_v", "V", "Magnitude that the searcher predicted for the present step; empty if it did not.";
+    "contrast", "", "Bilateral contrast of the probes, left positive, -1 to 1.";
+};
+
+/// The columns of each probe.
+pub(crate) const OF_PROBE: [ColumnInfo; 6] = columns! {
+    "<probe>_east_m", "m", "True place of the probe's tip, east.";
+    "<probe>_north_m", "m", "True place of the probe's tip, north.";
+    "<probe>_up_m", "m", "True place of the probe's tip, up.";
+    "<probe>_v", "V", "Output of the probe in the newest scan; empty before the first.";
+    "<probe>_threshold_v", "V", "Dynamic threshold of this probe, above which its output can be a spike.";
+    "<probe>_spike", "", "Whether the searcher found a spike of this probe in a scan that is new in this row: 1 or 0.";
+};
+
+fn names(info: &GantryInfo) -> String {
+    let mut text = header(&COLUMNS);
+    for probe in &info.probes {
+        text.push(',');
+        text.push_str(&header(&OF_PROBE).replace("<probe>", &file_name(probe)));
     }
     text.push('\n');
     text

@@ -1,5 +1,7 @@
 //! `track.csv`: where each robot was, and what it believed, read and did. The same data are kept for the figures.
 
+use super::track_columns::{COLUMNS, DECIMALS, columns, numbers};
+use crate::columns::header;
 use crate::decimal::push_decimal;
 use crate::files::ReportError;
 use csv::StringRecord;
@@ -220,42 +222,6 @@ impl RobotTrack {
     }
 }
 
-/// The columns of numbers in the table, each with its decimals. Their units are in their names; east, north and up are
-/// world axes (ENU).
-pub const COLUMNS: [(&str, usize); 19] = [
-    ("east_m", 3),
-    ("north_m", 3),
-    ("up_m", 3),
-    ("roll_deg", 3),
-    ("pitch_up_deg", 3),
-    ("heading_deg", 3),
-    ("est_east_m", 3),
-    ("est_north_m", 3),
-    ("est_depth_m", 3),
-    ("est_roll_deg", 3),
-    ("est_pitch_up_deg", 3),
-    ("est_heading_deg", 3),
-    ("speed_m_s", 4),
-    ("altitude_m", 3),
-    ("reading_v", 4),
-    ("reading_ug_l", 4),
-    ("detected", 0),
-    ("flow_east_m_s", 4),
-    ("flow_north_m_s", 4),
-];
-
-/// Header of the table.
-fn header() -> String {
-    let names = COLUMNS.map(|(name, _)| name).join(",");
-    format!("t_s,robot,{names},behaviour")
-}
-
-/// An additional column if a robot's mission has subregions: the letter of the one it searches; empty in transits.
-const REGION: &str = ",region";
-
-/// An additional column if a robot's planner has layers: the one that controls the vehicle.
-const LAYER: &str = ",layer";
-
 /// The table being written. Every row is passed to the system at once, so a kill loses nothing.
 #[derive(Debug)]
 pub struct TrackTable {
@@ -279,9 +245,7 @@ impl TrackTable {
         let mut file = Output::create(path)?;
         // There is a column for layers or subregions only if a robot has them.
         let mut table = Self::in_memory(robots);
-        let region = if table.regions { REGION } else { "" };
-        let layer = if table.layered { LAYER } else { "" };
-        let header = format!("{}{region}{layer}\n", header());
+        let header = header(&columns(table.regions, table.layered)) + "\n";
         (file.write_all(header.as_bytes())).map_err(|e| file.failed(e))?;
         file.place()?;
         table.file = Some(csv::Writer::from_writer(file));
@@ -357,40 +321,9 @@ fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> StringRecord {
     };
     field(&mut fields, Some(t_s), 3);
     fields.push_field(&r.id);
-    for (number, (_, places)) in numbers(r, info).into_iter().zip(COLUMNS) {
+    for (number, places) in numbers(r, info).into_iter().zip(DECIMALS) {
         field(&mut fields, number, places);
     }
     fields.push_field(r.behaviour.name());
     fields
-}
-
-/// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. The pitch of the true pose is
-/// converted to nose-up, as in the estimate.
-#[must_use]
-pub fn numbers(r: &RobotFrame, info: &RobotInfo) -> [Option<f64>; 19] {
-    let (p, e) = (&r.truth.pose, &r.estimate);
-    let (roll, pitch_down) = p.roll_pitch();
-    let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
-    let flow = e.flow.map(|f| f.velocity);
-    [
-        Some(p.p_WB.x),
-        Some(p.p_WB.y),
-        Some(p.p_WB.z),
-        Some(roll.to_degrees()),
-        Some(-pitch_down.to_degrees()),
-        Some(p.heading().deg()),
-        Some(e.position.x),
-        Some(e.position.y),
-        Some(e.depth_m),
-        Some(e.attitude.roll_rad.to_degrees()),
-        Some(e.attitude.pitch_rad.to_degrees()),
-        Some(e.attitude.heading.deg()),
-        Some(r.truth.v_WB_B.norm()),
-        Some(r.altitude_m),
-        chemical.map(|c| c.0),
-        chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f),
-        Some(f64::from(u8::from(r.detected))),
-        flow.map(|v| v.x),
-        flow.map(|v| v.y),
-    ]
 }

@@ -149,7 +149,7 @@ class Result:
         ``speed_m_s``, ``altitude_m``; the vehicle's estimate: ``est_east_m``, ``est_north_m``, ``est_depth_m``,
         ``est_roll_deg``, ``est_pitch_up_deg``, ``est_heading_deg``, ``flow_east_m_s``, ``flow_north_m_s``; the
         chemical sensor: ``reading_v``, ``reading_ug_l``, ``detected`` (bool); ``behaviour`` (str). NaN where there is
-        no value.
+        no value. docs/columns.md has the unit and meaning of each.
         """
 
     @property
@@ -158,7 +158,7 @@ class Result:
 
         ``t_s``, ``scan_s`` (time of the newest scan), ``head_m`` (n, 3) and ``tip_m`` (n, k, 3) in ENU,
         ``joint_m`` and ``joint_m_s`` (n, 2), ``volts`` and ``threshold_v`` (n, k), ``spike`` (n, k, bool),
-        ``spike_hz``, ``blocked`` (bool), ``behaviour`` (str).
+        ``spike_hz``, ``blocked`` (bool), ``behaviour`` (str). docs/columns.md says what each means.
         """
 
     @property
@@ -242,7 +242,8 @@ def catalogue() -> dict[str, dict[str, Any]]:
 
 def _panic(words: str) -> None: ...
 def explain(path: str = "") -> str:
-    """What a place of a scenario may hold: unit, range, default, meaning and source of each field.
+    """What a place of a scenario may hold: unit, range, default, meaning and source of each field. Paths that begin
+    with ``vehicle`` are places of a ``vehicle.ron``.
 
     Raises KeyError, with the nearest paths, if there is no such place.
     """

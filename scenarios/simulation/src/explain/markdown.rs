@@ -1,22 +1,25 @@
-//! Writes the whole reference as Markdown: a table for each type, in the order in which a scenario uses them.
+//! Writes the whole reference as Markdown: a table for each type, in the order in which the files use them.
 
-use super::path::walk;
+use super::path::walk_all;
 use super::read::{Field, Reference, Shape, Variant};
 use super::words;
 use super::wrap::wrap;
 use std::fmt::Write;
 
 const HEAD: &str = "\
-# Every field of a scenario file
+# Every field of a scenario, a campaign and a vehicle
 
-`rheotaxis explain --markdown` writes this page from the types that read a scenario; do not edit it. In a terminal,
+`rheotaxis explain --markdown` writes this page from the types that read these files; do not edit it. In a terminal,
 `rheotaxis explain PATH` shows the same for one place, such as `rheotaxis explain robots.strategy.Amp.reacquire`.
-Editors can use the [JSON Schema](scenario.schema.json).
 
-- *Range.* Both ends are legal, except an end after `>`. A number without a range may be anything from -1e18 to 1e18.
-  `rheotaxis check` also reports values that are legal alone and contradict each other.
+- *Range.* Both ends are legal, except an end after `>` or `<`. A number without a range may be anything from -1e18 to
+  1e18. `rheotaxis check` also reports values that are legal alone and contradict each other.
 - *Default.* It holds if the field is left out. A field without one **must be given**. A dash (–) means that the field
   may be left out and then nothing takes its place. `(…)` means that the fields inside have their own defaults.
+
+The files, and the first word of their paths:
+
+- A scenario: [Scenario](#scenario). Its paths begin with the name of a block.
 ";
 
 /// Longest line of prose, characters; rows of tables cannot be broken.
@@ -27,6 +30,10 @@ const PLACES: usize = 4;
 /// The document.
 pub(super) fn document(r: &Reference) -> String {
     let mut out = String::from(HEAD);
+    for file in &r.files {
+        let kind = words::kind(r, &file.shape, &link);
+        let _ = writeln!(out, "- `{}`: {kind}. {}", file.name, file.what);
+    }
     out.push_str("\n## Scenario\n\n");
     paragraph(&mut out, &cell(&r.what));
     shape(r, &mut out, &r.root);
@@ -64,7 +71,7 @@ fn paragraph(out: &mut String, text: &str) {
 /// The types in the order in which they appear, each with its places.
 fn types(r: &Reference) -> Vec<(&str, Vec<String>)> {
     let mut types: Vec<(&str, Vec<String>)> = Vec::new();
-    walk(r, &r.root, "", &mut Vec::new(), &mut |path, _, shape| {
+    walk_all(r, &mut |path, _, shape| {
         let Some(name) = shape.and_then(named) else {
             return;
         };

@@ -1,8 +1,10 @@
-//! Explains every field of a scenario file: unit, range, default, meaning and source, from the types that read it.
+//! Explains every field of a scenario file, and of the other files that a user writes: unit, range, default, meaning
+//! and source, from the types that read them.
 //!
 //! `schema` makes a JSON Schema from the types, `read` turns it into a reference, `path` finds a place in it, and
-//! `terminal` and `markdown` write it.
+//! `terminal` and `markdown` write it. A crate that reads files of its own names their types in a [`FileKind`].
 
+mod kind;
 mod markdown;
 mod path;
 mod read;
@@ -15,17 +17,19 @@ mod units;
 mod words;
 mod wrap;
 
+pub use kind::FileKind;
 pub use path::Unknown;
 
 use read::Reference;
 
 /// Explains a path such as `robots[0].strategy.reacquire` for a terminal. The empty path means the blocks of a
-/// scenario. Numbers of elements and names of variants may be left out.
+/// scenario. Numbers of elements and names of variants may be left out. The first word may also be the name of another
+/// kind of file: `vehicle`, or one of `more`.
 ///
 /// # Errors
 /// [`Unknown`], with the nearest legal paths, if there is no such path.
-pub fn explain(path: &str) -> Result<String, Unknown> {
-    let reference = Reference::of(&schema::schema());
+pub fn explain(path: &str, more: &[FileKind]) -> Result<String, Unknown> {
+    let reference = reference(more);
     if path.trim().is_empty() {
         return Ok(terminal::top(&reference));
     }
@@ -33,14 +37,19 @@ pub fn explain(path: &str) -> Result<String, Unknown> {
     Ok(terminal::places(&reference, &places))
 }
 
-/// The whole reference as Markdown, for `docs/reference.md`.
+/// The whole reference as Markdown, for `docs/reference.md`, with `more` kinds of files.
 #[must_use]
-pub fn markdown() -> String {
-    markdown::document(&Reference::of(&schema::schema()))
+pub fn markdown(more: &[FileKind]) -> String {
+    markdown::document(&reference(more))
+}
+
+fn reference(more: &[FileKind]) -> Reference {
+    let kinds: Vec<FileKind> = [kind::VEHICLE].iter().chain(more).copied().collect();
+    Reference::of(&schema::schema(&kinds))
 }
 
 /// The JSON Schema of a scenario, for `docs/scenario.schema.json`.
 #[must_use]
 pub fn json_schema() -> String {
-    format!("{:#}\n", schema::schema())
+    format!("{:#}\n", schema::schema(&[]))
 }

@@ -20,6 +20,8 @@ pub(super) struct Place<'a> {
 /// What is at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum At<'a> {
+    /// Another kind of file, as a field with its name.
+    File(&'a Field),
     /// A field.
     Field(&'a Field),
     /// One of a choice.
@@ -32,7 +34,7 @@ impl<'a> Place<'a> {
     /// What may stand there; `None` for a variant without parentheses.
     pub(super) fn shape(&self) -> Option<&'a Shape> {
         match self.at {
-            At::Field(f) => Some(&f.shape),
+            At::File(f) | At::Field(f) => Some(&f.shape),
             At::Variant(v) => v.holds.as_ref(),
             At::Part(shape) => Some(shape),
         }
@@ -41,7 +43,9 @@ impl<'a> Place<'a> {
 
 /// There is no such path.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("a scenario has no `{path}`: {}", if within.is_empty() { "no block has this name".to_string() } else {
+#[error("there is no `{path}`: {}", if within.is_empty() {
+    "no block of a scenario and no other file has this name".to_string()
+} else {
     format!("`{within}` has no such field or variant")
 })]
 pub struct Unknown {
@@ -61,6 +65,12 @@ pub(super) fn find<'a>(r: &'a Reference, path: &str) -> Result<Vec<Place<'a>>, U
         let mut next = Vec::new();
         if i == 0 {
             step(r, &r.root, word, "", None, &mut next);
+            let file = r.files.iter().find(|f| f.name == word);
+            next.extend(file.map(|f| Place {
+                path: word.to_string(),
+                at: At::File(f),
+                source: None,
+            }));
         }
         for place in &places {
             if let Some(shape) = place.shape() {
@@ -149,17 +159,26 @@ pub(super) fn joined(path: &str, name: &str) -> String {
     format!("{path}{dot}{name}")
 }
 
-/// Every place of a scenario: its path and its last name. A type inside itself is left out.
+/// Every place of all files: its path and its last name. A type inside itself is left out.
 pub(super) fn all(r: &Reference) -> Vec<(String, String)> {
     let mut found = Vec::new();
-    walk(r, &r.root, "", &mut Vec::new(), &mut |path, name, _| {
-        found.push((path.to_string(), name.to_string()));
+    walk_all(r, &mut |path, name, _| {
+        found.push((path.to_string(), name.to_string()))
     });
     found
 }
 
+/// Calls `seen` with path, name and shape of everything in a scenario, then in the other files.
+pub(super) fn walk_all<'a>(r: &'a Reference, seen: &mut dyn FnMut(&str, &str, Option<&'a Shape>)) {
+    walk(r, &r.root, "", &mut Vec::new(), seen);
+    for file in &r.files {
+        seen(&file.name, &file.name, Some(&file.shape));
+        walk(r, &file.shape, &file.name, &mut Vec::new(), seen);
+    }
+}
+
 /// Calls `seen` with path, name and shape of everything in a shape, in the order of the types.
-pub(super) fn walk<'a>(
+fn walk<'a>(
     r: &'a Reference,
     shape: &'a Shape,
     path: &str,

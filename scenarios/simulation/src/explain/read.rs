@@ -3,7 +3,7 @@
 //! It knows only the forms of JSON Schema, not how the types are written. A choice is a `oneOf` of names (`const`,
 //! `enum`) and of objects with one property, which is the variant's name.
 
-use super::schema::{ORDER, Object, SOURCE, WHAT};
+use super::schema::{FILES, ORDER, Object, SOURCE, WHAT};
 use serde_json::Value;
 use std::collections::BTreeMap;
 use world::limits::UNIT;
@@ -15,7 +15,9 @@ pub(super) struct Reference {
     pub(super) root: Shape,
     /// What the scenario itself is.
     pub(super) what: String,
-    /// The types it is made of, by name.
+    /// The other kinds of files, as fields with their names.
+    pub(super) files: Vec<Field>,
+    /// The types they are made of, by name.
     pub(super) types: BTreeMap<String, Named>,
 }
 
@@ -60,6 +62,8 @@ pub(super) struct Number {
     pub(super) above: Option<f64>,
     /// Greatest.
     pub(super) high: Option<f64>,
+    /// The number that it must not reach.
+    pub(super) below: Option<f64>,
     /// Unit; empty for a pure number.
     pub(super) unit: String,
 }
@@ -106,6 +110,7 @@ impl Reference {
         Self {
             root,
             what,
+            files: fields(&schema[FILES]),
             types: types.map(|(name, s)| (name.clone(), named(s))).collect(),
         }
     }
@@ -160,6 +165,15 @@ fn shape(schema: &Value) -> Shape {
 }
 
 fn variant(schema: &Value) -> Vec<Variant> {
+    if schema["type"] == "integer" {
+        // A choice that may also be a bare number.
+        return vec![Variant {
+            name: "number".to_string(),
+            what: what(schema),
+            source: None,
+            holds: Some(shape(schema)),
+        }];
+    }
     if let Some(Value::Array(names)) = schema.get("enum") {
         return names.iter().filter_map(bare).collect();
     }
@@ -232,6 +246,7 @@ fn number(schema: &Value, whole: bool) -> Number {
         low: only.or(schema["minimum"].as_f64()),
         above: schema["exclusiveMinimum"].as_f64(),
         high: only.or(schema["maximum"].as_f64()),
+        below: schema["exclusiveMaximum"].as_f64(),
         unit: text(schema, UNIT).unwrap_or_default(),
     }
 }

@@ -17,6 +17,10 @@ pub(super) fn top(r: &Reference) -> String {
     out.push_str(
         "\nFor more about one of them: rheotaxis explain FIELD, such as `rheotaxis explain water.currents`.\n",
     );
+    for file in &r.files {
+        let _ = writeln!(out, "\n  rheotaxis explain {}", file.name);
+        wrapped(&mut out, 6, &file.what);
+    }
     out
 }
 
@@ -33,7 +37,7 @@ pub(super) fn places(r: &Reference, places: &[Place<'_>]) -> String {
 fn place(r: &Reference, place: &Place<'_>) -> String {
     let mut out = place.path.clone() + "\n";
     let (what, own) = match place.at {
-        At::Field(f) => (f.what.as_str(), f.source.as_deref()),
+        At::File(f) | At::Field(f) => (f.what.as_str(), f.source.as_deref()),
         At::Variant(v) => (v.what.as_str(), v.source.as_deref()),
         At::Part(_) => ("", None),
     };

@@ -9,14 +9,20 @@ use world::ranges::LARGEST;
 pub(super) fn range(n: &Number) -> String {
     let low = n.low.filter(|v| *v > -LARGEST);
     let high = n.high.filter(|v| *v < LARGEST);
-    match (n.above, low, high) {
-        (_, Some(low), Some(high)) if low == high => shown(low),
-        (Some(above), _, Some(high)) => format!("> {} to {}", shown(above), shown(high)),
-        (Some(above), _, None) => format!("> {}", shown(above)),
-        (None, Some(low), Some(high)) => format!("{} to {}", shown(low), shown(high)),
-        (None, Some(low), None) => format!(">= {}", shown(low)),
-        (None, None, Some(high)) => format!("<= {}", shown(high)),
-        (None, None, None) => String::new(),
+    if let (Some(low), Some(high)) = (low, high)
+        && low == high
+    {
+        return shown(low);
+    }
+    let least = n.above.map(|v| format!("> {}", shown(v)));
+    let most = n.below.map(|v| format!("< {}", shown(v)));
+    match (least.or(low.map(shown)), most.or(high.map(shown))) {
+        (Some(least), Some(most)) => format!("{least} to {most}"),
+        (Some(least), None) if n.above.is_some() => least,
+        (Some(least), None) => format!(">= {least}"),
+        (None, Some(most)) if n.below.is_some() => most,
+        (None, Some(most)) => format!("<= {most}"),
+        (None, None) => String::new(),
     }
 }
 
@@ -130,5 +136,11 @@ mod tests {
         assert_eq!(n(Some(1e-3), None, Some(1e6)), "0.001 to 1000000");
         assert_eq!(n(None, Some(0.0), Some(15.0)), "> 0 to 15");
         assert_eq!(n(Some(1.0), None, Some(1.0)), "1");
+        let share = Number {
+            above: Some(0.0),
+            below: Some(0.5),
+            ..Number::default()
+        };
+        assert_eq!(range(&share), "> 0 to < 0.5");
     }
 }

@@ -2,6 +2,7 @@
 //! of its record, with the field's name.
 
 use super::row::{DeclarationRow, RunRow};
+use output::columns::{ColumnInfo, TableInfo};
 use output::files::{csv_number, csv_text};
 
 /// How a column is read from a record and written to it. A value that is missing is not written: it stays as in a new
@@ -17,109 +18,82 @@ pub(crate) enum Column<T> {
 pub(crate) trait Record: Default + 'static {
     /// Name of the table.
     const TABLE: &'static str;
-    /// Of each column: name, whether it may be empty, and access.
-    const COLUMNS: &'static [(&'static str, bool, Column<Self>)];
+    /// Of each column: description, whether it may be empty, and access.
+    const COLUMNS: &'static [(ColumnInfo, bool, Column<Self>)];
 }
 
-/// A column with a field's name: whether it may be empty, its kind, how it is read and written.
-macro_rules! column {
-    ($f:ident, $empty:literal, $kind:ident, $read:expr, $write:expr) => {
-        (stringify!($f), $empty, Column::$kind($read, $write))
-    };
-}
-macro_rules! number {
-    ($f:ident) => {
-        column!($f, false, Number, |r| Some(r.$f), |r, v| r.$f = v)
-    };
-}
-macro_rules! maybe_number {
-    ($f:ident) => {
-        column!($f, true, Number, |r| r.$f, |r, v| r.$f = Some(v))
-    };
-}
-macro_rules! text {
-    ($f:ident) => {
-        column!($f, false, Text, |r| Some(&r.$f), |r, v| r.$f = v)
-    };
-}
-macro_rules! real {
-    ($f:ident) => {
-        column!($f, false, Real, |r| Some(r.$f), |r, v| r.$f = v)
-    };
-}
-macro_rules! maybe {
-    ($f:ident) => {
-        column!($f, true, Real, |r| r.$f, |r, v| r.$f = Some(v))
-    };
-}
+/// Defines a record, whose fields are the columns of its table: name, meaning, kind and unit. What stands `beside` is
+/// no column.
+macro_rules! record {
+    (
+        $(#[$about:meta])* $record:ident, $table:literal:
+        $($(#[doc = $what:literal])+ $field:ident: $kind:ident $unit:literal,)*
+        $(beside: $(#[$more:meta])* $other:ident: $type:ty,)?
+    ) => {
+        $(#[$about])*
+        #[derive(Clone, Debug, Default, PartialEq)]
+        pub struct $record {
+            $($(#[doc = $what])+ pub $field: record!(@type $kind),)*
+            $($(#[$more])* pub $other: $type,)?
+        }
 
-impl Record for RunRow {
-    const TABLE: &'static str = "runs";
-    const COLUMNS: &'static [(&'static str, bool, Column<Self>)] = &[
-        number!(run),
-        text!(arm),
-        text!(condition),
-        number!(seed_index),
-        number!(seed),
-        text!(outcome),
-        column!(success, false, Truth, |r| r.success, |r, v| r.success = v),
-        column!(error, true, Text, |r| r.error.as_deref(), |r, v| r.error =
-            Some(v)),
-        text!(digest),
-        real!(mission_s),
-        maybe!(first_detection_s),
-        maybe!(declared_s),
-        maybe!(declared_east_m),
-        maybe!(declared_north_m),
-        maybe!(error_m),
-        maybe!(error_along_m),
-        maybe!(error_across_m),
-        maybe!(zone_points),
-        maybe!(zone_since_s),
-        maybe!(traced_m),
-        number!(sources_declared),
-        real!(travelled_m),
-        number!(detections),
-        maybe!(sweep_s),
-        maybe!(speed_m_s),
-        maybe!(ngdr),
-        maybe!(far_speed_m_s),
-        maybe!(near_speed_m_s),
-        maybe!(far_offset_m),
-        maybe!(near_offset_m),
-        maybe!(correct_cell_s),
-        maybe!(map_cell_p),
-        maybe!(map_near_p),
-        maybe_number!(map_cell_true),
-        maybe_number!(map_near_true),
-        maybe_number!(map_declared),
-        real!(spin_up_wall_s),
-        real!(mission_wall_s),
-    ];
+        impl Record for $record {
+            const TABLE: &'static str = $table;
+            const COLUMNS: &'static [(ColumnInfo, bool, Column<Self>)] = &[$(record!(
+                @column $kind $field,
+                ColumnInfo::new(stringify!($field), $unit, concat!($($what),+))
+            )),*];
+        }
+    };
+    (@type Number) => { u64 };
+    (@type Truth) => { bool };
+    (@type Text) => { String };
+    (@type Real) => { f64 };
+    (@type MaybeNumber) => { Option<u64> };
+    (@type MaybeText) => { Option<String> };
+    (@type Maybe) => { Option<f64> };
+    (@column Number $f:ident, $info:expr) => {
+        ($info, false, Column::Number(|r| Some(r.$f), |r, v| r.$f = v))
+    };
+    (@column Truth $f:ident, $info:expr) => {
+        ($info, false, Column::Truth(|r| r.$f, |r, v| r.$f = v))
+    };
+    (@column Text $f:ident, $info:expr) => {
+        ($info, false, Column::Text(|r| Some(&r.$f), |r, v| r.$f = v))
+    };
+    (@column Real $f:ident, $info:expr) => {
+        ($info, false, Column::Real(|r| Some(r.$f), |r, v| r.$f = v))
+    };
+    (@column MaybeNumber $f:ident, $info:expr) => {
+        ($info, true, Column::Number(|r| r.$f, |r, v| r.$f = Some(v)))
+    };
+    (@column MaybeText $f:ident, $info:expr) => {
+        ($info, true, Column::Text(|r| r.$f.as_deref(), |r, v| r.$f = Some(v)))
+    };
+    (@column Maybe $f:ident, $info:expr) => {
+        ($info, true, Column::Real(|r| r.$f, |r, v| r.$f = Some(v)))
+    };
 }
+pub(super) use record;
 
-impl Record for DeclarationRow {
-    const TABLE: &'static str = "declarations";
-    const COLUMNS: &'static [(&'static str, bool, Column<Self>)] = &[
-        number!(run),
-        text!(arm),
-        text!(condition),
-        number!(seed_index),
-        number!(seed),
-        text!(robot),
-        number!(number),
-        maybe_number!(region),
-        text!(rule),
-        text!(verdict),
-        real!(t_s),
-        real!(east_m),
-        real!(north_m),
-        maybe!(error_m),
-        maybe!(error_along_m),
-        maybe!(error_across_m),
-        maybe!(traced_m),
-        maybe!(fix_m),
-    ];
+/// The tables of a campaign.
+#[must_use]
+pub fn tables() -> Vec<TableInfo> {
+    fn columns<T: Record>() -> Vec<ColumnInfo> {
+        T::COLUMNS.iter().map(|(info, ..)| *info).collect()
+    }
+    vec![
+        TableInfo {
+            file: "part-<block>.parquet",
+            what: "The runs of a campaign: a row for each. The file that `campaign merge` writes has the same columns.",
+            columns: columns::<RunRow>(),
+        },
+        TableInfo {
+            file: "declarations-<block>.parquet",
+            what: "The declarations of a campaign's runs: a row for each. `campaign merge` writes such a file, too.",
+            columns: columns::<DeclarationRow>(),
+        },
+    ]
 }
 
 /// The fields of a line of CSV; a missing value is empty. Numbers read back bit for bit.
@@ -133,7 +107,7 @@ pub(super) fn csv_fields<T: Record>(record: &T) -> impl Iterator<Item = String> 
 }
 
 fn csv<'a, T: Record>(records: impl IntoIterator<Item = &'a T>) -> String {
-    let names: Vec<&str> = T::COLUMNS.iter().map(|(name, ..)| *name).collect();
+    let names: Vec<&str> = T::COLUMNS.iter().map(|(info, ..)| info.name).collect();
     csv_text(&names.join(","), records.into_iter().map(csv_fields))
 }
 
@@ -146,7 +120,7 @@ pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, Str
     for (n, line) in table.records().enumerate() {
         let line = line.map_err(|e| format!("after line {}: {e}", before + n as u64))?;
         let at = before + line.position().map_or(0, csv::Position::line);
-        for ((name, ..), field) in T::COLUMNS.iter().zip(&line) {
+        for ((ColumnInfo { name, .. }, ..), field) in T::COLUMNS.iter().zip(&line) {
             if n == 0 && *name != field {
                 return Err(format!(
                     "line {at}: a column must be called {name}, not `{field}`"
@@ -158,7 +132,7 @@ pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, Str
             return Err(format!("line {at}: must have {want} fields, has {got}"));
         }
         if n > 0 {
-            records.push(record(&line).map_err(|e| format!("line {at}, {e}"))?);
+            records.push(read_line(&line).map_err(|e| format!("line {at}, {e}"))?);
         }
     }
     match text.is_empty() {
@@ -167,9 +141,9 @@ pub(crate) fn from_csv<T: Record>(text: &str, before: u64) -> Result<Vec<T>, Str
     }
 }
 
-fn record<T: Record>(line: &csv::StringRecord) -> Result<T, String> {
+fn read_line<T: Record>(line: &csv::StringRecord) -> Result<T, String> {
     let mut record = T::default();
-    for ((name, optional, column), field) in T::COLUMNS.iter().zip(line) {
+    for ((ColumnInfo { name, .. }, optional, column), field) in T::COLUMNS.iter().zip(line) {
         if *optional && field.is_empty() {
             continue;
         }

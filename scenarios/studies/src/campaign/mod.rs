@@ -28,6 +28,7 @@ mod table;
 mod work;
 
 pub use block::{BlockState, block_path, declarations_path, read_block};
+pub use columns::tables;
 pub(crate) use columns::{as_csv, from_csv};
 pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
@@ -42,5 +43,5 @@ pub use row::{DeclarationRow, RunRow};
 pub use run::{Event, RunEnded, RunOptions, run};
 pub use seeds::Seeds;
 pub use shard::Shard;
-pub use spec::{Arm, CampaignSpec, Conditions, Draw, RandomConditions, Until};
+pub use spec::{Arm, CampaignSpec, Conditions, Draw, FILE, RandomConditions, Until};
 pub use status::{ArmStatus, Status};

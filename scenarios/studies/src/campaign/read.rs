@@ -138,7 +138,7 @@ impl<'a, T: Record> Table<'a, T> {
             None => None,
             Some(path) => {
                 let mut to = csv::Writer::from_writer(Output::create(path)?);
-                let head = T::COLUMNS.iter().map(|(name, ..)| name);
+                let head = T::COLUMNS.iter().map(|(info, ..)| info.name);
                 to.write_record(head).map_err(unwritten(path))?;
                 Some((path, to))
             }

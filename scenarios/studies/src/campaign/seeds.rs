@@ -1,20 +1,25 @@
 //! The seeds of a campaign's runs.
 
 use ron::value::RawValue;
+use schemars::{JsonSchema, Schema};
 use serde::{Deserialize, Deserializer};
+use serde_json::{Value, json};
 use world::seeds::key;
 
 /// Most seeds of a campaign, and most runs.
 pub(super) const MOST: u64 = 1 << 40;
 
 /// The seeds under each condition. Every arm runs with each of them.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(transform = or_number)]
 pub enum Seeds {
     /// Consecutive seeds, the same under each condition: those of `rheotaxis run --seed`.
     Literal {
         /// The first seed.
         first: u64,
         /// Number of seeds.
+        #[schemars(extend("minimum" = 1, "maximum" = MOST))]
         count: u64,
     },
     /// Each seed is a hash of this seed, the condition and its index. They differ between conditions, and nobody would
@@ -23,6 +28,7 @@ pub enum Seeds {
         /// The seed from which they are made.
         seed: u64,
         /// Number of seeds.
+        #[schemars(extend("minimum" = 1, "maximum" = MOST))]
         count: u64,
     },
 }
@@ -89,11 +95,16 @@ pub(super) enum Asked {
     Odd(String),
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-enum Form {
-    Literal { first: u64, count: u64 },
-    Hashed { seed: u64, count: u64 },
+/// Puts the bare number that [`Asked`] reads into the schema of the forms.
+fn or_number(forms: &mut Schema) {
+    if let Some(Value::Array(forms)) = forms.get_mut("oneOf") {
+        let what =
+            "`20` is seeds 1 to 20; in a file of version 1, 20 seeds hashed from its `seed`.";
+        forms.insert(
+            0,
+            json!({ "type": "integer", "minimum": 1, "maximum": MOST, "description": what }),
+        );
+    }
 }
 
 const FORMS: &str = "must be a number (`20`: seeds 1 to 20), `Literal(first: 101, count: 20)` (101 to 120) or \
@@ -107,9 +118,8 @@ impl<'de> Deserialize<'de> for Asked {
             return Ok(Self::Number(number));
         }
         let number = text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-        Ok(match ron::from_str::<Form>(text) {
-            Ok(Form::Literal { first, count }) => Self::Form(Seeds::Literal { first, count }),
-            Ok(Form::Hashed { seed, count }) => Self::Form(Seeds::Hashed { seed, count }),
+        Ok(match ron::from_str::<Seeds>(text) {
+            Ok(seeds) => Self::Form(seeds),
             Err(_) if number => Self::Odd(format!("{FORMS}, got {text}")),
             Err(e) => Self::Odd(format!("{FORMS}: {}", e.code)),
         })

@@ -1,11 +1,21 @@
 //! The content of a campaign file.
 
 use super::seeds::{Asked, MOST, Seeds};
+use rheotaxis::explain::FileKind;
 use rheotaxis::scenario::{Fault, Found, Outline, ScenarioError, read};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Version of the campaign files that this program writes. It also reads version 1.
 const VERSION: u32 = 2;
+/// The half width that an interval of a share must be narrower than to say anything.
+const WIDEST: f64 = 0.5;
+
+/// Campaign files, for `rheotaxis explain`.
+pub const FILE: FileKind = FileKind::new::<File>(
+    "campaign",
+    "A campaign file, which `rheotaxis campaign plan` reads.",
+);
 
 /// A campaign: one scenario, several arms, many seeds.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,7 +26,7 @@ pub struct CampaignSpec {
     pub title: String,
     /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
     pub base: String,
-    /// Seeds for each condition. Every arm runs with each of them.
+    /// How many seeds, or which.
     pub seeds: Seeds,
     /// Stop earlier, once every success share is known precisely enough.
     pub until: Option<Until>,
@@ -26,37 +36,47 @@ pub struct CampaignSpec {
     pub conditions: Conditions,
 }
 
-/// The file, field by field.
-#[derive(Clone, Deserialize)]
+/// A campaign: one scenario, several arms, many seeds.
+#[derive(Clone, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "CampaignSpec")]
 struct File {
+    /// Version of the file; write 2.
+    #[schemars(extend("minimum" = 1, "maximum" = VERSION))]
     version: u32,
+    /// What is compared, in one line.
     title: String,
+    /// Scenario: a file relative to the campaign's, or the name of one that comes with the program.
     base: String,
     /// Only in version 1: what seeds and drawn conditions are derived from.
     #[serde(default)]
     seed: Option<u64>,
+    /// How many seeds, or which.
+    #[schemars(with = "Seeds")]
     seeds: Asked,
+    /// Stop earlier, once every success share is known precisely enough.
     #[serde(default)]
     until: Option<Until>,
+    /// The things compared, at least one.
     arms: Vec<Arm>,
+    /// The conditions under which they are compared.
     #[serde(default)]
     conditions: Conditions,
 }
 
 /// When enough is known to stop.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Until {
-    /// Largest half width of the 95 % interval of any arm's success share under any condition, 0 to 0.5.
+    /// Largest half width of the 95 % interval of any arm's success share under any condition.
+    #[schemars(extend("exclusiveMinimum" = 0.0, "exclusiveMaximum" = WIDEST))]
     pub half_width: f64,
 }
 
 /// One of the things compared: the scenario with some values changed.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Arm {
-    /// Its name in tables.
+    /// Its name in tables, unlike those of other arms.
     pub name: String,
     /// Changes: a path in the scenario and the new value in RON.
     #[serde(default)]
@@ -77,7 +97,7 @@ impl Arm {
 }
 
 /// Conditions, the same for every arm.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Conditions {
     /// Only the scenario as it is.
     #[default]
@@ -89,20 +109,21 @@ pub enum Conditions {
 }
 
 /// Conditions drawn at random.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct RandomConditions {
-    /// Number of conditions, 1 to 2^40.
+    /// Number of conditions.
+    #[schemars(extend("minimum" = 1, "maximum" = MOST))]
     pub n: u64,
     /// Seed of the random values; 1 by default. In a file of version 1, the `seed` of the file.
     #[serde(default)]
     pub seed: Option<u64>,
-    /// Which values vary, and how.
+    /// Which values vary, and how: a path in the scenario and a distribution.
     pub draw: Vec<(String, Draw)>,
 }
 
-/// The distribution of a value.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+/// The distribution of a value, in the unit of the field that varies.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub enum Draw {
     /// Uniform between two numbers.
     Uniform(f64, f64),
@@ -235,12 +256,12 @@ impl CampaignSpec {
             wrong("seeds", format!("{field} {problem}"));
         }
         if let Some(until) = &self.until
-            && !(until.half_width > 0.0 && until.half_width < 0.5)
+            && !(until.half_width > 0.0 && until.half_width < WIDEST)
         {
             let got = until.half_width;
             wrong(
                 "until.half_width",
-                format!("must be above 0 and below 0.5, got {got}"),
+                format!("must be above 0 and below {WIDEST}, got {got}"),
             );
         }
         if self.arms.is_empty() {

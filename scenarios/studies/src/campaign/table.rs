@@ -1,6 +1,7 @@
 //! Tables as Parquet files.
 
 use super::columns::{Column, Record};
+use output::columns::ColumnInfo;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::{ParquetError, Result};
@@ -10,18 +11,22 @@ use parquet::file::reader::{ChunkReader, FileReader, SerializedFileReader};
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::record::{Field, Row};
 use parquet::schema::parser::parse_message_type;
+use serde_json::{Value, json};
 use std::io::Write;
 use std::marker::PhantomData;
 use std::sync::Arc;
+
+/// Key of the note that describes the columns: JSON, unit and meaning of each by its name.
+const COLUMNS: &str = "columns";
 
 /// A Parquet file of records, written group by group.
 pub(super) struct TableWriter<T, W: Write + Send>(SerializedFileWriter<W>, PhantomData<T>);
 
 impl<T: Record, W: Write + Send> TableWriter<T, W> {
-    /// Begins a table with these notes in its footer.
+    /// Begins a table with these notes in its footer, and one that describes the columns.
     pub(super) fn new(to: W, notes: &[(&str, String)]) -> Result<Self> {
         let mut schema = format!("message {} {{\n", T::TABLE);
-        for (name, optional, column) in T::COLUMNS {
+        for (ColumnInfo { name, .. }, optional, column) in T::COLUMNS {
             let presence = if *optional { "OPTIONAL" } else { "REQUIRED" };
             let (kind, logical) = match column {
                 Column::Number(..) => ("INT64", " (INTEGER(64,false))"),
@@ -32,8 +37,16 @@ impl<T: Record, W: Write + Send> TableWriter<T, W> {
             schema.push_str(&format!("  {presence} {kind} {name}{logical};\n"));
         }
         schema.push('}');
+        let said = (T::COLUMNS.iter()).map(|(c, ..)| {
+            (
+                c.name.to_string(),
+                json!({ "unit": c.unit, "meaning": c.what }),
+            )
+        });
+        let said = Value::Object(said.collect()).to_string();
         let notes = (notes.iter())
             .map(|(key, value)| KeyValue::new((*key).to_string(), value.clone()))
+            .chain([KeyValue::new(COLUMNS.to_string(), said)])
             .collect();
         let properties = WriterProperties::builder()
             .set_compression(Compression::LZ4_RAW)
@@ -116,7 +129,10 @@ pub(super) fn read<T: Record>(
         .iter()
         .map(|f| f.name())
         .collect();
-    if !names.iter().eq(T::COLUMNS.iter().map(|(name, ..)| name)) {
+    if !names
+        .iter()
+        .eq(T::COLUMNS.iter().map(|(info, ..)| &info.name))
+    {
         return Err(odd("its columns are not those of this table"));
     }
     let fits = |n: i64| usize::try_from(n).is_ok_and(|n| n <= most);
@@ -151,7 +167,9 @@ pub(super) fn read<T: Record>(
 
 fn row_of<T: Record>(fields: &Row) -> Result<T> {
     let mut row = T::default();
-    for ((name, _, column), (_, field)) in T::COLUMNS.iter().zip(fields.get_column_iter()) {
+    for ((ColumnInfo { name, .. }, _, column), (_, field)) in
+        T::COLUMNS.iter().zip(fields.get_column_iter())
+    {
         match (column, field) {
             (Column::Number(_, set), Field::ULong(v)) => set(&mut row, *v),
             (Column::Truth(_, set), Field::Bool(v)) => set(&mut row, *v),
@@ -204,6 +222,12 @@ mod tests {
                 .iter()
                 .any(|n| n.key == "k" && n.value.as_deref() == Some("v"))
         );
+        let said = notes.iter().find(|n| n.key == COLUMNS).unwrap();
+        let said: Value = serde_json::from_str(said.value.as_deref().unwrap()).unwrap();
+        assert_eq!(said.as_object().unwrap().len(), RunRow::COLUMNS.len());
+        let traced = &said["traced_m"];
+        let what = "Straight distance from the first detection to the declaration.";
+        assert_eq!(traced, &json!({ "unit": "m", "meaning": what }));
         for cut in 0..bytes.len() {
             assert!(read_bytes(&bytes[..cut]).is_err(), "cut at {cut}");
         }

@@ -1,0 +1,92 @@
+//! What `rheotaxis explain` says of files and tables, and the pages in `docs` that are made from it.
+
+use crate::common::{rheotaxis, root};
+use output::{columns, report};
+use std::fs;
+use studies::campaign;
+
+/// What `rheotaxis explain` prints, with whether it found something.
+fn explained(what: &str) -> (bool, String) {
+    let end = rheotaxis(&["explain", what]);
+    let said = if end.status.success() {
+        end.stdout
+    } else {
+        end.stderr
+    };
+    (end.status.success(), String::from_utf8(said).unwrap())
+}
+
+/// Compares a file of `docs` with what is made now. `RHEOTAXIS_BLESS=1` writes it.
+fn is_up_to_date(name: &str, made: &str) {
+    let file = root().join("docs").join(name);
+    if std::env::var_os("RHEOTAXIS_BLESS").is_some() {
+        fs::write(&file, made).unwrap();
+    }
+    let stored = fs::read_to_string(&file).unwrap_or_default();
+    let differs = stored.lines().zip(made.lines()).position(|(a, b)| a != b);
+    assert!(
+        stored == made,
+        "docs/{name} is out of date (first different line: {}): write it anew with \
+         `RHEOTAXIS_BLESS=1 cargo test --release --test it -- explained`",
+        differs.map_or(stored.lines().count().min(made.lines().count()), |i| i + 1)
+    );
+}
+
+#[test]
+fn the_pages_in_docs_are_up_to_date() {
+    let tables = [report::tables(), campaign::tables()].concat();
+    is_up_to_date("reference.md", &explained("--markdown").1);
+    is_up_to_date("columns.md", &columns::markdown(&tables));
+    is_up_to_date("scenario.schema.json", &explained("--json-schema").1);
+}
+
+#[test]
+fn every_field_and_variant_has_a_meaning() {
+    let (_, page) = explained("--markdown");
+    let rows = page.lines().filter(|line| line.starts_with("| `"));
+    for row in rows.clone() {
+        assert!(!row.ends_with("|  |"), "{row}");
+    }
+    assert!(rows.count() > 500);
+}
+
+#[test]
+fn campaigns_vehicles_and_tables_are_explained_as_a_scenario_is() {
+    for (path, part) in [
+        ("", "rheotaxis explain campaign"),
+        ("robots[0].strategy.reacquire", "Bowtie"),
+        ("vehicle.hydrodynamics", "volume_m3"),
+        ("campaign", "\n  arms[]: list of (…); must be given\n"),
+        (
+            "campaign.until.half_width",
+            "value    number, > 0 to < 0.5\n",
+        ),
+        (
+            "campaign.seeds",
+            "\n  number(whole number, 1 to 1.099511627776e12)\n",
+        ),
+        (
+            "campaign.seeds.Literal",
+            "\n  first: whole number, >= 0; must be given\n",
+        ),
+        ("campaign.conditions", "default  Single\n"),
+        (
+            "campaign.conditions.draw",
+            "a path in the scenario and a distribution",
+        ),
+        ("track.csv", "\n  est_depth_m, m\n"),
+        ("probes-crab0.csv", "\n  <probe>_threshold_v, V\n"),
+        ("part-0001.parquet", "\n  traced_m, m\n"),
+    ] {
+        let (found, text) = explained(path);
+        assert!(found && text.contains(part), "no {part:?} in\n{text}");
+    }
+    for (path, near) in [
+        ("robots.strategy.reaquire", "reacquire"),
+        ("campaign.armes", "campaign.arms[]"),
+        ("tracks.csv", "tracks.csv"),
+    ] {
+        let (found, text) = explained(path);
+        assert!(!found && text.contains(near), "no {near:?} in\n{text}");
+    }
+}
