@@ -81,7 +81,15 @@ fn widths_are_shares_below_a_half() {
 
 #[test]
 fn wall_times_read_as_hours_minutes_and_seconds() {
-    let seconds = |text: &str| match parsed(&["campaign", "run", "c.ron", "--max-wall", text]) {
+    let seconds = |text: &str| match parsed(&[
+        "campaign",
+        "run",
+        "c.ron",
+        "--out",
+        "o",
+        "--max-wall",
+        text,
+    ]) {
         Some(Command::Campaign(args)) => match args.command {
             CampaignCommand::Run(args) => args.max_wall.map(|d| d.as_secs()),
             _ => None,
