@@ -48,28 +48,21 @@ pub enum LiveError {
         id: String,
     },
     /// What to listen to is no key expression.
-    #[error("`{key}` is not a key expression of zenoh: {why}")]
+    #[error(
+        "`{key}` is no key expression: {why}; write one like clock, auv/*/chemical, auv/auv0/** or \
+         rheotaxis/duck_st_1/plume"
+    )]
     Key {
-        /// As made from what was given.
+        /// As given.
         key: String,
         /// zenoh's message.
         why: String,
     },
-    /// What to listen to is one word, and no topic has that name.
-    #[error("no topic `{name}`: {cure}")]
-    NoTopic {
-        /// As given.
-        name: String,
-        /// The nearest name, or where they are listed.
-        cure: String,
-    },
-    /// What to listen to names its run, and another one was asked for as well.
-    #[error("`{key}` names its run itself: leave out `--run {run}`, or give the key below the run")]
-    TwoRuns {
-        /// As given.
-        key: String,
-        /// The other one.
-        run: String,
+    /// A listener whose configuration needs a run finds none, or is not let in.
+    #[error("zenoh finds no run: {why}")]
+    NoSession {
+        /// zenoh's message.
+        why: String,
     },
     /// zenoh did not start.
     #[error("zenoh did not start: {why}")]

@@ -1,17 +1,13 @@
 //! What a listener is asked for, and what it hears of runs.
 
-use serde::Serialize;
 use serde_json::Value;
 use std::path::PathBuf;
 
 /// What to hear, and where.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ListenOptions {
-    /// A topic's name, a key below that of a run, or a key expression that begins with `rheotaxis/`. `None` means all
-    /// that runs publish.
+    /// A key expression below the key of a run, or one that begins with `rheotaxis/`. `None` means all but the schemas.
     pub key: Option<String>,
-    /// Id of the one run to hear, as [`run_id`](super::run_id) makes it; `None` means all that are there.
-    pub run: Option<String>,
     /// zenoh endpoint of the run; `None` means those that runs on this machine take by default.
     pub connect: Option<String>,
     /// A zenoh configuration (JSON5), all of which is used. `None` means the file that the environment variable
@@ -24,25 +20,11 @@ pub struct ListenOptions {
 pub enum News {
     /// A run with this id is there.
     Begun(String),
-    /// A message of a run. What was published before the listener came is among them, the newest of each key.
-    Said(Said),
-    /// A run has published its last message.
+    /// A message: `key`, and `message` as JSON. Of packed numbers `message` is the header, and `packed` holds their
+    /// count, least, greatest and mean; of a picture, `jpeg` holds its size.
+    Message(Value),
+    /// A run has said all, and that it has ended.
     Ended(String),
     /// A run is gone and did not say that it ended.
     Gone(String),
-}
-
-/// A message of a run, in a form to be read.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Said {
-    /// Its key.
-    pub key: String,
-    /// Name of its topic; absent where this program does not know it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub topic: Option<&'static str>,
-    /// Simulated time, s, of what has one.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub t_s: Option<f64>,
-    /// The message. Packed numbers and pictures are summarised, beside their header.
-    pub message: Value,
 }

@@ -133,7 +133,7 @@ impl Listener {
     ///
     /// # Errors
     /// Always.
-    pub fn start(_options: &ListenOptions) -> Result<Self, LiveError> {
+    pub fn open(_options: &ListenOptions) -> Result<Self, LiveError> {
         Err(LiveError::Open {
             why: "built without the feature `live`".to_owned(),
         })
@@ -142,13 +142,13 @@ impl Listener {
     /// Nowhere.
     #[must_use]
     pub fn place(&self) -> &str {
-        "none (built without the feature `live`)"
+        "nowhere"
     }
 
-    /// Nothing.
+    /// None.
     #[must_use]
-    pub fn key(&self) -> &str {
-        ""
+    pub fn notice(&self) -> Option<&str> {
+        None
     }
 
     /// Nothing.

@@ -1,105 +1,53 @@
-//! What a user writes to say what to hear, as a key expression; and the topic of a key.
+//! What a user writes to say what to hear, as a key expression.
 
-use super::super::{ListenOptions, LiveError, LiveOptions, Topic};
+use super::super::config::plain;
+use super::super::{LiveError, Topic};
 use world::spelling::nearest;
-use zenoh::key_expr::OwnedKeyExpr;
+use zenoh::key_expr::{OwnedKeyExpr, keyexpr};
 
-/// Which keys to hear.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wanted {
-    /// All of them.
-    pub(super) all: OwnedKeyExpr,
-    /// The clocks of the runs they belong to: a run's last message is one.
-    pub(super) clocks: OwnedKeyExpr,
-    /// The tokens of these runs.
-    pub(super) tokens: OwnedKeyExpr,
+/// The key expression for what a user wrote: a key below that of any run, or one that begins with `rheotaxis/`.
+pub(super) fn expression(given: &str) -> Result<OwnedKeyExpr, LiveError> {
+    let key = match given.starts_with("rheotaxis/") {
+        true => starred(given),
+        false => format!("rheotaxis/*/{}", starred(given)),
+    };
+    OwnedKeyExpr::autocanonize(key).map_err(|e| {
+        let why = plain(&e);
+        // Before that zenoh repeats the key.
+        let why = why.split_once("`: ").map_or(&*why, |(_, why)| why);
+        LiveError::Key {
+            key: given.to_owned(),
+            why: why.to_owned(),
+        }
+    })
 }
 
-impl Wanted {
-    /// What the options ask for, among these topics.
-    pub(super) fn new(options: &ListenOptions, topics: &[Topic]) -> Result<Self, LiveError> {
-        if let Some(run) = &options.run {
-            LiveOptions::new(run.clone()).check()?;
-        }
-        let run = options.run.as_deref().unwrap_or("*");
-        let given = options.key.as_deref().unwrap_or("**");
-        let whole = given.split('/').next() == Some("rheotaxis");
-        if let (true, Some(run)) = (whole, &options.run) {
-            return Err(LiveError::TwoRuns {
-                key: given.to_owned(),
-                run: run.clone(),
-            });
-        }
-        let all = match whole {
-            true => expression(given.to_owned())?,
-            false => expression(format!("rheotaxis/{run}/{}", below(given, topics)?))?,
-        };
-        // `**` may stand for any number of chunks, and then for any run.
-        let run = match all.as_str().split('/').nth(1) {
-            Some(run) if !run.contains("**") => run.to_owned(),
-            _ => "*".to_owned(),
-        };
-        Ok(Self {
-            clocks: expression(format!("rheotaxis/{run}/clock"))?,
-            tokens: expression(format!("rheotaxis/{run}/@live/sim"))?,
-            all,
-        })
-    }
-}
-
-/// The key below that of a run: a topic's, or the one given. Names in it may stand as `rheotaxis topics` prints them.
-fn below(given: &str, topics: &[Topic]) -> Result<String, LiveError> {
-    if let Some(topic) = topics.iter().find(|t| t.name == given) {
-        return Ok(starred(topic.key));
-    }
-    if given.contains(['/', '*', '$']) {
-        return Ok(starred(given));
+/// A line for the user if no topic has such a key. Runs of other programs may still have one.
+pub(super) fn unknown(given: &str, key: &keyexpr, topics: &[Topic]) -> Option<String> {
+    let known = |topic: &Topic| {
+        let own = expression(topic.key);
+        own.is_ok_and(|own| own.intersects(key))
+    };
+    if topics.iter().any(known) {
+        return None;
     }
     let names: Vec<&str> = topics.iter().map(|t| t.name).collect();
-    let near = nearest(given, &names).map(|near| format!("did you mean `{near}`? "));
-    Err(LiveError::NoTopic {
-        name: given.to_owned(),
-        cure: format!("{}`rheotaxis topics` lists them", near.unwrap_or_default()),
-    })
+    let word = given.rsplit('/').next().unwrap_or(given);
+    let near = nearest(word, &names).and_then(|near| topics.iter().find(|t| t.name == near));
+    let near = near.map(|topic| format!("; did you mean `{}`?", starred(topic.key)));
+    Some(format!(
+        "no topic has the key `{given}`: `rheotaxis topics` lists all{}",
+        near.unwrap_or_default()
+    ))
 }
 
-fn is_name(chunk: &str) -> bool {
-    chunk.starts_with('<') && chunk.ends_with('>')
-}
-
-/// A key with `*` in the place of names like `<id>`.
+/// A key with `*` in the place of names like `<id>`, as `rheotaxis topics` prints them.
 fn starred(key: &str) -> String {
-    let chunks: Vec<&str> = (key.split('/'))
-        .map(|chunk| if is_name(chunk) { "*" } else { chunk })
-        .collect();
-    chunks.join("/")
-}
-
-fn expression(key: String) -> Result<OwnedKeyExpr, LiveError> {
-    OwnedKeyExpr::autocanonize(key.clone()).map_err(|e| LiveError::Key {
-        key,
-        why: super::super::config::plain(&e),
-    })
-}
-
-/// The run of a key, and what stands below it; nothing of both for a key that is not of a run.
-pub(super) fn parts(key: &str) -> Option<(&str, &str)> {
-    key.strip_prefix("rheotaxis/")?.split_once('/')
-}
-
-/// The topic of a key below that of a run.
-pub(super) fn topic<'t>(below: &str, topics: &'t [Topic]) -> Option<&'t Topic> {
-    let fits = |topic: &&Topic| {
-        let (mut chunks, mut own) = (below.split('/'), topic.key.split('/'));
-        loop {
-            match (own.next(), chunks.next()) {
-                (None, None) => return true,
-                (Some(own), Some(chunk)) if own == chunk || is_name(own) => {}
-                _ => return false,
-            }
-        }
+    let one = |chunk| match chunk {
+        name if str::starts_with(name, '<') && name.ends_with('>') => "*",
+        chunk => chunk,
     };
-    topics.iter().find(fits)
+    key.split('/').map(one).collect::<Vec<_>>().join("/")
 }
 
 #[cfg(test)]
@@ -107,102 +55,40 @@ mod tests {
     use super::super::super::topics;
     use super::*;
 
-    fn wanted(key: &str, run: Option<&str>) -> Result<[String; 2], LiveError> {
-        let options = ListenOptions {
-            key: Some(key.to_owned()),
-            run: run.map(str::to_owned),
-            ..ListenOptions::default()
-        };
-        let w = Wanted::new(&options, &topics())?;
-        Ok([w.all.to_string(), w.clocks.to_string()])
-    }
-
     #[test]
-    fn a_name_a_key_below_a_run_and_a_whole_key_are_understood() {
-        for (given, run, all, clocks) in [
-            (
-                "chemical",
-                None,
-                "rheotaxis/*/auv/*/chemical",
-                "rheotaxis/*/clock",
-            ),
-            (
-                "gantry_behaviour",
-                Some("a_1"),
-                "rheotaxis/a_1/gantry/*/behaviour",
-                "rheotaxis/a_1/clock",
-            ),
-            (
-                "auv/<id>/truth",
-                None,
-                "rheotaxis/*/auv/*/truth",
-                "rheotaxis/*/clock",
-            ),
-            (
-                "auv/auv0/**",
-                Some("a_1"),
-                "rheotaxis/a_1/auv/auv0/**",
-                "rheotaxis/a_1/clock",
-            ),
-            ("**", None, "rheotaxis/*/**", "rheotaxis/*/clock"),
-            (
-                "rheotaxis/a_1/plume",
-                None,
-                "rheotaxis/a_1/plume",
-                "rheotaxis/a_1/clock",
-            ),
-            ("rheotaxis/**", None, "rheotaxis/**", "rheotaxis/*/clock"),
-            (
-                "rheotaxis/**/clock",
-                None,
-                "rheotaxis/**/clock",
-                "rheotaxis/*/clock",
-            ),
+    fn a_key_is_that_of_any_run_or_a_whole_one() {
+        for (given, key) in [
+            ("clock", "rheotaxis/*/clock"),
+            ("auv/<id>/chemical", "rheotaxis/*/auv/*/chemical"),
+            ("auv/auv0/**", "rheotaxis/*/auv/auv0/**"),
+            ("**", "rheotaxis/*/**"),
+            ("**/**", "rheotaxis/*/**"),
+            ("rheotaxis/a_1/plume", "rheotaxis/a_1/plume"),
+            ("rheotaxis/**", "rheotaxis/**"),
         ] {
-            assert_eq!(
-                wanted(given, run),
-                Ok([all.to_owned(), clocks.to_owned()]),
-                "{given}"
-            );
+            let key = OwnedKeyExpr::new(key).unwrap();
+            assert_eq!(expression(given), Ok(key.clone()), "{given}");
+            assert_eq!(unknown(given, &key, &topics()), None, "{given}");
         }
     }
 
     #[test]
-    fn what_cannot_be_heard_is_refused_with_a_cure() {
-        for (given, run, said) in [
-            (
-                "chemcal",
-                None,
-                "no topic `chemcal`: did you mean `chemical`? `rheotaxis topics` lists them",
-            ),
-            (
-                "auv//truth",
-                None,
-                "`rheotaxis/*/auv//truth` is not a key expression of zenoh",
-            ),
-            ("rheotaxis/a_1/**", Some("b_1"), "leave out `--run b_1`"),
-            ("clock", Some("b/1"), "run id `b/1` must be of a-z"),
-        ] {
-            let why = wanted(given, run).expect_err(given).to_string();
-            assert!(why.contains(said), "{given}: {why}");
+    fn what_is_no_key_is_refused_with_the_legal_form() {
+        for given in ["", "/clock", "auv//truth", "auv/*uv0", "clock?", "clock/"] {
+            let why = expression(given).unwrap_err().to_string();
+            let named = why.starts_with(&format!("`{given}` is no key expression: "));
+            assert!(named && why.contains("auv/*/chemical"), "{why}");
         }
     }
 
     #[test]
-    fn every_topic_is_that_of_its_own_key() {
-        for one in topics() {
-            let key = one.key.replace(['<', '>'], "");
-            assert_eq!(
-                topic(&key, &topics()).map(|t| t.name),
-                Some(one.name),
-                "{key}"
-            );
+    fn a_key_that_no_topic_has_is_told_with_the_nearest() {
+        let told = |given| unknown(given, &expression(given).unwrap(), &topics());
+        for given in ["chemical", "auv/auv0/chemicl"] {
+            let told = told(given).unwrap();
+            assert!(told.ends_with("did you mean `auv/*/chemical`?"), "{told}");
         }
-        assert_eq!(topic("auv/auv0/nothing", &topics()), None);
-        assert_eq!(
-            parts("rheotaxis/a_1/auv/b/truth"),
-            Some(("a_1", "auv/b/truth"))
-        );
-        assert_eq!(parts("0/chatter"), None);
+        let told = told("robots/auv0/pose").unwrap();
+        assert!(told.ends_with("`rheotaxis topics` lists all"), "{told}");
     }
 }

@@ -3,6 +3,6 @@
 mod key;
 mod listener;
 mod reach;
-mod said;
+mod readable;
 
 pub use listener::Listener;

@@ -15,29 +15,27 @@ pub(super) fn reached(
     options: &ListenOptions,
     from_env: Option<PathBuf>,
 ) -> Result<(Config, String), LiveError> {
-    if let Some(endpoint) = &options.connect {
-        checked(endpoint)?;
-    }
-    if let Some(path) = options.config_file.clone().or(from_env) {
-        let mut config = from_file(&path)?;
-        let mut place = format!("the endpoints of {}", path.display());
-        if let Some(endpoint) = &options.connect {
-            set(&mut config, "connect/endpoints", &json!([endpoint]))?;
-            place.clone_from(endpoint);
-        }
-        return Ok((config, place));
-    }
-    let (endpoints, place) = match &options.connect {
-        Some(endpoint) => (vec![endpoint.clone()], endpoint.clone()),
-        None => {
-            let last = DEFAULT_PORT + SPARE_PORTS;
-            let all = (DEFAULT_PORT..=last).map(|port| format!("tcp/127.0.0.1:{port}"));
-            (
-                all.collect(),
-                format!("tcp/127.0.0.1:{DEFAULT_PORT} to {last}"),
-            )
-        }
+    let file = options.config_file.clone().or(from_env);
+    let (mut config, mut place) = match &file {
+        Some(path) => (
+            from_file(path)?,
+            format!("the endpoints of {}", path.display()),
+        ),
+        None => default_ports()?,
     };
+    if let Some(endpoint) = &options.connect {
+        check(endpoint)?;
+        set(&mut config, "connect/endpoints", &json!([endpoint]))?;
+        place.clone_from(endpoint);
+    }
+    Ok((config, place))
+}
+
+/// All ports that runs take by default.
+fn default_ports() -> Result<(Config, String), LiveError> {
+    let last = DEFAULT_PORT + SPARE_PORTS;
+    let all = (DEFAULT_PORT..=last).map(|port| format!("tcp/127.0.0.1:{port}"));
+    let endpoints: Vec<String> = all.collect();
     let mut config = Config::default();
     let [first, most] = RETRY_MS;
     for (key, value) in [
@@ -54,23 +52,20 @@ pub(super) fn reached(
     ] {
         set(&mut config, key, &value)?;
     }
-    Ok((config, place))
+    Ok((config, format!("tcp/127.0.0.1:{DEFAULT_PORT} to {last}")))
 }
 
 /// zenoh tries an address without a port for ever, and says nothing.
-fn checked(endpoint: &str) -> Result<(), LiveError> {
-    let bad = || LiveError::Endpoint {
+fn check(endpoint: &str) -> Result<(), LiveError> {
+    let whole = endpoint.parse::<EndPoint>().is_ok_and(|parsed| {
+        let (protocol, address) = (parsed.protocol(), parsed.address());
+        let port = address.as_str().rsplit_once(':').map(|(_, port)| port);
+        !["tcp", "tls"].contains(&protocol.as_str())
+            || port.is_some_and(|port| port.parse::<u16>().is_ok())
+    });
+    whole.then_some(()).ok_or_else(|| LiveError::Endpoint {
         endpoint: endpoint.to_owned(),
-    };
-    let parsed: EndPoint = endpoint.parse().map_err(|_| bad())?;
-    let port = |address: &str| {
-        let (host, port) = address.rsplit_once(':')?;
-        (!host.is_empty()).then(|| port.parse::<u16>().ok())?
-    };
-    match parsed.protocol().as_str() {
-        "tcp" | "tls" => port(parsed.address().as_str()).map(|_| ()).ok_or_else(bad),
-        _ => Ok(()),
-    }
+    })
 }
 
 #[cfg(test)]
@@ -78,27 +73,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_endpoint_has_a_protocol_a_host_and_a_port() {
+    fn an_endpoint_has_a_protocol_and_a_port() {
         for good in [
             "tcp/127.0.0.1:7447",
             "tcp/[::1]:7447",
             "tls/ship.example:1",
             "unixsock-stream/run.sock",
         ] {
-            assert_eq!(checked(good), Ok(()), "{good}");
+            assert_eq!(check(good), Ok(()), "{good}");
         }
-        for bad in [
-            "",
-            "127.0.0.1:7447",
-            "tcp/127.0.0.1",
-            "tcp/:7447",
-            "tcp/host:port",
-            "tcp/host:70000",
-        ] {
-            assert!(
-                matches!(checked(bad), Err(LiveError::Endpoint { .. })),
-                "{bad}"
-            );
+        for bad in ["", "127.0.0.1:7447", "tcp/127.0.0.1", "tcp/host:70000"] {
+            assert!(check(bad).is_err(), "{bad}");
         }
     }
 
@@ -106,26 +91,23 @@ mod tests {
     fn an_endpoint_goes_before_those_of_a_file_and_a_file_before_the_ports_of_runs() {
         let dir = tempfile::tempdir().unwrap();
         let file = dir.path().join("client.json5");
-        std::fs::write(
-            &file,
-            "{ mode: 'client', connect: { endpoints: ['tcp/127.0.0.1:1'] } }",
-        )
-        .unwrap();
-        let place = |connect: Option<&str>, file: Option<&PathBuf>| {
+        let text = "{ mode: 'client', connect: { endpoints: ['tcp/127.0.0.1:1'] } }";
+        std::fs::write(&file, text).unwrap();
+        let endpoints = |connect: Option<&str>, config_file: Option<PathBuf>| {
             let options = ListenOptions {
                 connect: connect.map(str::to_owned),
-                config_file: file.cloned(),
+                config_file,
                 ..ListenOptions::default()
             };
             let (config, place) = reached(&options, None).unwrap();
-            let endpoints = config.get_json("connect/endpoints").unwrap();
-            (endpoints.matches("tcp/").count(), endpoints, place)
+            (config.get_json("connect/endpoints").unwrap(), place)
         };
-        assert_eq!(place(None, None).0, 17);
-        assert_eq!(place(None, None).2, "tcp/127.0.0.1:7447 to 7463");
-        assert!(place(None, Some(&file)).1.contains(":1\""));
-        let (count, endpoints, said) = place(Some("tcp/127.0.0.1:2"), Some(&file));
-        assert!(count == 1 && endpoints.contains(":2\""), "{endpoints}");
-        assert_eq!(said, "tcp/127.0.0.1:2");
+        let (all, place) = endpoints(None, None);
+        assert_eq!(all.matches("tcp/").count(), 17);
+        assert_eq!(place, "tcp/127.0.0.1:7447 to 7463");
+        assert!(endpoints(None, Some(file.clone())).0.contains(":1\""));
+        let (one, place) = endpoints(Some("tcp/127.0.0.1:2"), Some(file));
+        assert!(!one.contains(":1\"") && one.contains(":2\""), "{one}");
+        assert_eq!(place, "tcp/127.0.0.1:2");
     }
 }
