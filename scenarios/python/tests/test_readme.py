@@ -36,7 +36,7 @@ def test_the_subscriber_of_readme_hears_a_run_to_its_end(tmp_path, capsys):
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         end = f"tcp/127.0.0.1:{probe.getsockname()[1]}"
-    command = [BINARY, "run", "uniform_channel", "--speed", "200", "--quiet", "--no-cache", "--out", tmp_path / "run"]
+    command = [BINARY, "run", "uniform_channel", "--speed", "50", "--quiet", "--no-cache", "--out", tmp_path / "run"]
     run = subprocess.Popen([*command, "--zenoh-listen", end])
     try:
         exec(compile(block.replace(default, end), "README.md", "exec"), {})
