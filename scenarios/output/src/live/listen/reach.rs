@@ -43,8 +43,10 @@ fn default_ports() -> Result<(Config, String), LiveError> {
         ("mode", json!("peer")),
         ("listen/endpoints", json!([])),
         ("connect/endpoints", json!(endpoints)),
-        ("connect/retry/period_init_ms", json!(first)),
-        ("connect/retry/period_max_ms", json!(most)),
+        (
+            "connect/retry",
+            json!({"period_init_ms": first, "period_max_ms": most}),
+        ),
         ("scouting/delay", json!(0)),
         ("scouting/multicast/enabled", json!(false)),
         // Otherwise it would pass the address of each run on to the others.
