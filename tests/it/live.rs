@@ -6,6 +6,7 @@
 
 mod hostile;
 mod kit;
+mod listen;
 mod readings;
 mod ros2;
 mod setup;

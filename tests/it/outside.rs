@@ -4,6 +4,7 @@
 mod certificates;
 mod decisions;
 mod kit;
+mod listen;
 mod plane;
 mod processes;
 mod rogue;

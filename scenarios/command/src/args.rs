@@ -6,6 +6,7 @@ use super::args_control::{ControlArgs, RerunMcapArgs};
 use super::args_explain::ExplainArgs;
 use super::args_init::InitArgs;
 use super::args_key::KeyArgs;
+use super::args_live::{ListenArgs, TopicsArgs};
 use super::args_picture::PictureArgs;
 use super::args_reproduce::ReproduceArgs;
 use super::args_ros2::Ros2Args;
@@ -103,8 +104,11 @@ pub enum Command {
     #[command(long_about = super::args_explain::EXPLAIN_ABOUT)]
     Explain(ExplainArgs),
     /// List the live state that a run publishes over zenoh.
-    #[command(long_about = TOPICS_ABOUT)]
+    #[command(long_about = super::args_live::TOPICS_ABOUT)]
     Topics(TopicsArgs),
+    /// Print what runs publish over zenoh while they go, one JSON object a line.
+    #[command(long_about = super::args_live::LISTEN_ABOUT)]
+    Listen(ListenArgs),
     /// Compare variants of a scenario over thousands of runs, on one machine or many.
     #[command(long_about = super::args_campaign::CAMPAIGN_ABOUT)]
     Campaign(CampaignArgs),
@@ -289,20 +293,6 @@ fn seconds(s: &str) -> Result<f64, String> {
     }
 }
 
-/// Arguments of `topics`.
-#[derive(Clone, Debug, PartialEq, Eq, clap::Args)]
-#[command(
-    after_help = "Examples:\n  rheotaxis topics\n  rheotaxis topics --schema > schemas.json\n  rheotaxis topics --ros2"
-)]
-pub struct TopicsArgs {
-    /// Print the JSON Schemas of all messages instead, as one object. With --ros2: definition and hash of each type.
-    #[arg(long)]
-    pub schema: bool,
-    /// List the topics that `rheotaxis run --ros2` publishes, with type and QoS.
-    #[arg(long)]
-    pub ros2: bool,
-}
-
 /// What the help of this command begins with.
 pub(super) const RUN_ABOUT: &str = "Runs scenarios. In each, the plume first develops (spin-up); then the mission begins. The developed \
         plume is kept in a cache: the next run with the same seed, and with any robots and strategy, takes it from \
@@ -334,7 +324,3 @@ pub(super) const STATISTICS_ABOUT: &str = "Lets a scenario's plume develop witho
         In an open channel it also measures the velocity profile and the turbulence intensities.\n\n\
         A table shows each figure beside the published one and marks those outside a factor of 0.5 to 2. The same \
         table is written to statistics.csv.";
-
-/// What the help of this command begins with.
-pub(super) const TOPICS_ABOUT: &str = "Lists the keys under which a run publishes its state over zenoh: each with its rate, its meaning and \
-        its fields. A `?` marks a field that may be missing. With --ros2 it lists the topics of ROS 2 instead.";

@@ -13,6 +13,7 @@ mod args_control;
 mod args_explain;
 mod args_init;
 mod args_key;
+mod args_live;
 mod args_picture;
 mod args_reproduce;
 mod args_ros2;
@@ -28,6 +29,7 @@ mod exit;
 mod explain;
 mod init;
 mod list;
+mod listen;
 mod onlooker;
 mod picture;
 mod progress;
@@ -44,9 +46,7 @@ mod vehicle;
 mod vehicle_fly;
 mod version;
 
-pub use args::{
-    Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs, TopicsArgs,
-};
+pub use args::{Args, CheckArgs, Command, ListArgs, ListKind, RunArgs, Speed, StatisticsArgs};
 pub use args_cache::{CacheArgs, CacheCommand, CacheCommandArgs, CachePlace};
 pub use args_campaign::{
     CampaignArgs, CampaignCommand, CampaignRunArgs, MergeArgs, PlanArgs, ReportArgs, RerunArgs,
@@ -55,6 +55,7 @@ pub use args_campaign::{
 pub use args_control::{ControlArgs, RerunMcapArgs};
 pub use args_explain::ExplainArgs;
 pub use args_init::InitArgs;
+pub use args_live::{ListenArgs, TopicsArgs};
 pub use args_picture::{Numbers, PictureArgs};
 pub use args_reproduce::ReproduceArgs;
 pub use args_vehicle::{
@@ -100,6 +101,7 @@ fn dispatch(command: Command) -> Exit {
         Command::List(args) => list::list(&args),
         Command::Explain(args) => explain::explain(&args),
         Command::Topics(args) => topics::topics(&args),
+        Command::Listen(args) => listen::listen(&args),
         Command::Campaign(args) => campaign::campaign(&args.command),
         Command::Reproduce(args) => reproduce::run(&args),
         Command::Cache(args) => cache::cache(&args),

@@ -1,6 +1,6 @@
 //! `rheotaxis topics`: lists what a run publishes over zenoh.
 
-use super::args::TopicsArgs;
+use super::args_live::TopicsArgs;
 use super::exit::Exit;
 use super::say;
 use output::live;

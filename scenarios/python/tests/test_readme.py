@@ -1,15 +1,46 @@
-"""README's example in Python runs as it is printed."""
+"""README's examples in Python run as they are printed."""
 
+import os
 import re
+import socket
+import subprocess
 from pathlib import Path
 
 import pytest
 
+ROOT = Path(__file__).parents[3]
+BINARY = Path(os.environ.get("RHEOTAXIS_BINARY", ROOT / "target/release/rheotaxis"))
+
+
+def example(words):
+    """The one block with these words."""
+    blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(), re.S)
+    assert len(blocks) == 2
+    [block] = [block for block in blocks if words in block]
+    return block
+
 
 def test_readme_runs_as_printed(capsys):
     pytest.importorskip("gymnasium")
-    text = (Path(__file__).parents[3] / "README.md").read_text()
-    blocks = re.findall(r"```python\n(.*?)```", text, re.S)
-    assert len(blocks) == 1
-    exec(compile(blocks[0], "README.md", "exec"), {})
+    exec(compile(example("import rheotaxis"), "README.md", "exec"), {})
     assert "found" in capsys.readouterr().out
+
+
+@pytest.mark.skipif(
+    not BINARY.is_file(), reason=f"skipped: no {BINARY} (cargo build --release, or set RHEOTAXIS_BINARY)"
+)
+def test_the_subscriber_of_readme_hears_a_run_to_its_end(tmp_path, capsys):
+    pytest.importorskip("zenoh")
+    block, default = example("zenoh.open"), "tcp/127.0.0.1:7447"
+    assert block.count(default) == 1 and len(block.split("\n\n")[1].splitlines()) < 10
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        end = f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+    command = [BINARY, "run", "uniform_channel", "--speed", "50", "--quiet", "--no-cache", "--out", tmp_path / "run"]
+    run = subprocess.Popen([*command, "--zenoh-listen", end])
+    try:
+        exec(compile(block.replace(default, end), "README.md", "exec"), {})
+    finally:
+        run.kill()
+        run.wait()
+    assert capsys.readouterr().out.startswith("rheotaxis/uniform_channel_1/clock ")

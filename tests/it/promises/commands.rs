@@ -102,8 +102,12 @@ pub(super) const COMMANDS: &[(&str, Told)] = &[
         No("it takes 90 s at that speed"),
     ),
     (
-        "python scenarios/clients/subscribe.py",
-        No("it ends at Ctrl-C; .ci/run checks the same keys with check_live.py"),
+        "rheotaxis listen clock",
+        In("tests/it/outside/listen.rs", "at(&[\"clock\"])"),
+    ),
+    (
+        "rheotaxis listen clock --zenoh-config docs/zenoh/as_user.json5",
+        In("tests/it/outside/listen.rs", "docs/zenoh/as_user.json5"),
     ),
     (
         "cargo run --release -- run duck_external --allow-control &",

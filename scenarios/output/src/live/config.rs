@@ -2,13 +2,13 @@
 
 use super::{DEFAULT_PORT, LiveError, LiveOptions};
 use std::net::{SocketAddr, TcpListener};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use world::files;
 use zenoh::Config;
 use zenoh::config::EndPoint;
 
 /// Number of ports after the default one that are tried.
-const SPARE_PORTS: u16 = 16;
+pub(super) const SPARE_PORTS: u16 = 16;
 
 /// Where zenoh's configuration says how many batches of 64 kB wait for a subscriber.
 const QUEUE: &str = "transport/link/tx/queue/size/data";
@@ -23,12 +23,7 @@ pub(super) fn configured(
     from_env: Option<PathBuf>,
 ) -> Result<(Config, Option<String>), LiveError> {
     if let Some(path) = options.config_file.clone().or(from_env) {
-        let unread = |why: String| LiveError::Config {
-            path: path.clone(),
-            why,
-        };
-        files::open(&path).map_err(|e| unread(e.to_string()))?;
-        let mut config = Config::from_file(&path).map_err(|e| unread(plain(&e)))?;
+        let mut config = from_file(&path)?;
         if let Some(endpoint) = &options.listen {
             free_port_of(endpoint)?;
             set(
@@ -77,7 +72,21 @@ pub(super) fn configured(
     Ok((config, notice))
 }
 
-fn set(config: &mut Config, key: &str, value: &serde_json::Value) -> Result<(), LiveError> {
+/// The configuration in a file.
+pub(super) fn from_file(path: &Path) -> Result<Config, LiveError> {
+    let unread = |why: String| LiveError::Config {
+        path: path.to_path_buf(),
+        why,
+    };
+    files::open(path).map_err(|e| unread(e.to_string()))?;
+    Config::from_file(path).map_err(|e| unread(plain(&e)))
+}
+
+pub(super) fn set(
+    config: &mut Config,
+    key: &str,
+    value: &serde_json::Value,
+) -> Result<(), LiveError> {
     config
         .insert_json5(key, &value.to_string())
         .map_err(|e| LiveError::Open { why: plain(&e) })

@@ -47,6 +47,23 @@ pub enum LiveError {
         /// As given.
         id: String,
     },
+    /// What to listen to is no key expression.
+    #[error(
+        "`{key}` is no key expression: {why}; write one like clock, auv/*/chemical, auv/auv0/** or \
+         rheotaxis/duck_st_1/plume"
+    )]
+    Key {
+        /// As given.
+        key: String,
+        /// zenoh's message.
+        why: String,
+    },
+    /// A listener whose configuration needs a run finds none, or is not let in.
+    #[error("zenoh finds no run: {why}")]
+    NoSession {
+        /// zenoh's message.
+        why: String,
+    },
     /// zenoh did not start.
     #[error("zenoh did not start: {why}")]
     Open {

@@ -2,10 +2,11 @@
 //!
 //! A run publishes its state under `rheotaxis/<run>/`: JSON (UTF-8), SI units, ENU axes. [`topics`] has every key with
 //! its JSON Schema. zenoh runs in its own thread behind a mailbox that keeps only the newest state, so no subscriber
-//! can delay or change a run. Nodes of ROS 2 see the same run as topics if [`LiveOptions::ros2`] says so. Without the
-//! feature `live`, the same types exist and do nothing.
+//! can delay or change a run. Nodes of ROS 2 see the same run as topics if [`LiveOptions::ros2`] says so. A [`Listener`]
+//! hears what runs publish. Without the feature `live`, the same types exist and do nothing.
 
 mod error;
+mod news;
 mod options;
 mod plane;
 mod ros2;
@@ -17,6 +18,8 @@ mod config;
 mod controller;
 #[cfg(feature = "live")]
 mod exposed;
+#[cfg(feature = "live")]
+mod listen;
 #[cfg(feature = "live")]
 mod look_message;
 #[cfg(feature = "live")]
@@ -37,6 +40,7 @@ mod off;
 
 pub use crate::scene::{Machine, Scene};
 pub use error::LiveError;
+pub use news::{ListenOptions, News};
 pub use options::{DEFAULT_PORT, LiveCounts, LiveMeta, LiveOptions, run_id};
 pub use plane::Plane;
 pub use ros2::{Qos, Ros2, RosTopic, ros_topics};
@@ -44,7 +48,9 @@ pub use topics::{Field, FieldKind, Payload, Topic, topics};
 
 #[cfg(feature = "live")]
 pub use controller::{Going, LiveController};
+#[cfg(feature = "live")]
+pub use listen::Listener;
 #[cfg(not(feature = "live"))]
-pub use off::{Going, Live, LiveController, LiveSession};
+pub use off::{Going, Listener, Live, LiveController, LiveSession};
 #[cfg(feature = "live")]
 pub use session::{Live, LiveSession};

@@ -1,6 +1,6 @@
 //! Replacement for live state if it is not built in: the same functions, which do nothing.
 
-use super::{LiveCounts, LiveError, LiveMeta, LiveOptions};
+use super::{ListenOptions, LiveCounts, LiveError, LiveMeta, LiveOptions, News};
 use rheotaxis::control::{Controller, Heard, Question};
 use rheotaxis::frame::{Frame, PictureFrame, PingFrame, PlumeFrame, WaterFrame};
 use std::sync::Arc;
@@ -122,4 +122,40 @@ impl Live {
 
     /// Does nothing.
     pub fn finish(self, _digest: &str) {}
+}
+
+/// What runs publish, not heard (feature `live`).
+#[derive(Debug)]
+pub struct Listener;
+
+impl Listener {
+    /// Says that it is not built in.
+    ///
+    /// # Errors
+    /// Always.
+    pub fn open(_options: &ListenOptions) -> Result<Self, LiveError> {
+        Err(LiveError::Open {
+            why: "built without the feature `live`".to_owned(),
+        })
+    }
+
+    /// Nowhere.
+    #[must_use]
+    pub fn place(&self) -> &str {
+        "nowhere"
+    }
+
+    /// None.
+    #[must_use]
+    pub fn notice(&self) -> Option<&str> {
+        None
+    }
+
+    /// Nothing.
+    ///
+    /// # Errors
+    /// None.
+    pub fn next(&mut self, _wait: Duration) -> Result<Option<News>, LiveError> {
+        Ok(None)
+    }
 }

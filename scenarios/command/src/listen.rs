@@ -1,0 +1,110 @@
+//! `rheotaxis listen`: prints what runs publish over zenoh while they go.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "it waits for runs of other processes, outside any tick"
+)]
+
+use super::args_live::ListenArgs;
+use super::exit::Exit;
+use super::{say, stop};
+use output::live::{ListenOptions, Listener, LiveError, News};
+use std::collections::BTreeSet;
+use std::io::{ErrorKind, Write};
+use std::num::NonZeroU64;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::sleep;
+use std::time::Duration;
+
+/// How often it looks whether Ctrl-C was pressed.
+const STEP: Duration = Duration::from_millis(100);
+
+/// After so many steps without a run it says where it looks for one.
+const PATIENCE: u32 = 10;
+
+/// Prints messages until all runs have ended, there are enough, or nobody reads them.
+pub(super) fn listen(args: &ListenArgs) -> Exit {
+    let stop = stop::listen();
+    let mut listener = match opened(args, stop) {
+        Ok(Some(listener)) => listener,
+        Ok(None) => return Exit::Interrupted,
+        Err(error) => return refused(&error),
+    };
+    if let Some(notice) = listener.notice() {
+        eprintln!("{notice}");
+    }
+    let mut exit = Exit::Success;
+    let (mut going, mut met, mut steps) = (BTreeSet::new(), false, 0);
+    let mut left = args.count.map(NonZeroU64::get);
+    while !stop.load(Ordering::Relaxed) {
+        match listener.next(STEP) {
+            Err(error) => return refused(&error),
+            Ok(None) => {
+                steps += 1;
+                if steps == PATIENCE && !met {
+                    let place = listener.place();
+                    eprintln!(
+                        "no run is there yet: it looks at {place}, until Ctrl-C; `rheotaxis run SCENARIO` in another \
+                         terminal is one, and --connect names another place"
+                    );
+                }
+            }
+            Ok(Some(News::Message(line))) => {
+                if let Err(error) = writeln!(std::io::stdout(), "{line}") {
+                    // A reader that closes the pipe early (`| head`) has what it wanted.
+                    let enough = error.kind() == ErrorKind::BrokenPipe;
+                    return if enough { exit } else { refused(&error) };
+                }
+                left = left.map(|left| left - 1);
+                if left == Some(0) {
+                    return exit;
+                }
+            }
+            Ok(Some(News::Begun(run))) => {
+                eprintln!("rheotaxis/{run} is there");
+                met = true;
+                going.insert(run);
+            }
+            Ok(Some(News::Ended(run))) => {
+                eprintln!("rheotaxis/{run} has ended");
+                going.remove(&run);
+            }
+            Ok(Some(News::Gone(run))) => {
+                eprintln!("rheotaxis/{run} is gone and did not say that it ended");
+                going.remove(&run);
+                exit = Exit::Error;
+            }
+        }
+        if met && going.is_empty() && !args.follow {
+            return exit;
+        }
+    }
+    Exit::Interrupted
+}
+
+/// A listener as soon as there is a session, which a client's configuration gives only with a run. `None` at Ctrl-C.
+fn opened(args: &ListenArgs, stop: &AtomicBool) -> Result<Option<Listener>, LiveError> {
+    let options = ListenOptions {
+        key: args.key.clone(),
+        connect: args.connect.clone(),
+        config_file: args.zenoh_config.clone(),
+    };
+    let mut told = false;
+    while !stop.load(Ordering::Relaxed) {
+        match Listener::open(&options) {
+            Err(error @ LiveError::NoSession { .. }) => {
+                if !told {
+                    eprintln!("{error}; it tries again until Ctrl-C");
+                }
+                told = true;
+                sleep(STEP);
+            }
+            opened => return opened.map(Some),
+        }
+    }
+    Ok(None)
+}
+
+fn refused(error: &dyn std::error::Error) -> Exit {
+    say::error(error, None);
+    Exit::Error
+}
