@@ -7,6 +7,7 @@
 
 mod added;
 mod choice;
+mod given;
 mod kind;
 mod names;
 mod row;
