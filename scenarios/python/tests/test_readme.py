@@ -4,6 +4,7 @@ import os
 import re
 import socket
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -35,10 +36,18 @@ def test_the_subscriber_of_readme_hears_a_run_to_its_end(tmp_path, capsys):
     assert block.count(default) == 1 and len(block.split("\n\n")[1].splitlines()) < 10
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
-        end = f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+        address = probe.getsockname()
+    end = f"tcp/127.0.0.1:{address[1]}"
     command = [BINARY, "run", "uniform_channel", "--speed", "50", "--quiet", "--no-cache", "--out", tmp_path / "run"]
     run = subprocess.Popen([*command, "--zenoh-listen", end])
     try:
+        # The run would otherwise be over before a subscriber that came too early tries again.
+        for _ in range(6000):
+            with socket.socket() as knock:
+                if knock.connect_ex(address) == 0:
+                    break
+            assert run.poll() is None, "the run has ended"
+            time.sleep(0.1)
         exec(compile(block.replace(default, end), "README.md", "exec"), {})
     finally:
         run.kill()
