@@ -1,6 +1,6 @@
 //! A sheet with one panel for each trial.
 
-use super::manoeuvres::{Curve, Trial};
+use super::trial::{Curve, Trial};
 use output::charts::canvas::{Anchor, Canvas, Style};
 use output::charts::panel::{Panel, range_of};
 

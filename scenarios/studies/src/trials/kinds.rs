@@ -2,8 +2,8 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see `manoeuvres.rs`.
 
-use super::manoeuvres::{Curve, THINNED, Trial, command, depth_of, measured};
 use super::sail::{DEPTH_M, STEP_S, Sailing};
+use super::trial::{Curve, THINNED, Trial, command, depth_of, measured};
 use nalgebra::{Vector2, Vector3};
 use robots::handoff::{Capabilities, Goal, Manoeuvre, Vertical};
 use robots::vehicles::Craft;

@@ -9,10 +9,11 @@ mod rudder;
 mod sail;
 mod steering;
 mod straight;
+mod trial;
 mod turns;
 
 pub use figure::figure;
 pub use fly::{Flight, Flown, fly, table};
 pub use hull::{Looks, drawn};
-pub use manoeuvres::{Curve, Measured, Trial, has_rudder, trials};
-pub use steering::SteeringRow;
+pub use manoeuvres::{has_rudder, trials};
+pub use trial::{Curve, Measured, SteeringRow, Trial};

@@ -9,30 +9,13 @@
 //! *Deviations*: the approach is at cruise, not at 90 % of full speed, and the propeller stays as it was on it. Depth is
 //! held by the autopilot. Lengths are those of the body's origin.
 
-use super::manoeuvres::{
-    Curve, Measured, THINNED, Trial, approach, command, cruise, depth_of, measured,
-};
 use super::rudder::Rudder;
 use super::sail::STEP_S;
+use super::trial::{
+    Curve, Measured, SteeringRow, THINNED, Trial, approach, command, cruise, depth_of, measured,
+};
 use robots::handoff::Capabilities;
 use robots::vehicles::Craft;
-
-/// A vehicle at one moment of a trial by rudder; all since the first order to the rudder.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SteeringRow {
-    /// Time, s.
-    pub t_s: f64,
-    /// Way along the first course, m.
-    pub ahead_m: f64,
-    /// Way across it, to starboard, m.
-    pub starboard_m: f64,
-    /// How far it has turned to starboard, degrees; more than 360 after more than one circle.
-    pub heading_deg: f64,
-    /// Where the rudder is, degrees, positive to starboard.
-    pub rudder_deg: f64,
-    /// Speed through the water, m/s.
-    pub speed_m_s: f64,
-}
 
 /// The turning circle, to 540 degrees or for `most_s`.
 pub(super) fn circle(craft: &Craft, able: &Capabilities, rudder: &Rudder, most_s: f64) -> Trial {

@@ -2,8 +2,8 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see `manoeuvres.rs`.
 
-use super::manoeuvres::{Curve, THINNED, Trial, command, cruise, cruising, depth_of, measured};
 use super::sail::{STEP_S, Sailing};
+use super::trial::{Curve, THINNED, Trial, command, cruise, cruising, depth_of, measured};
 use nalgebra::Vector3;
 use robots::handoff::Capabilities;
 use robots::vehicles::Craft;

@@ -2,10 +2,10 @@
 //!
 //! *Source*, *Parameters*, *Deviations*: see `manoeuvres.rs`.
 
-use super::manoeuvres::{
+use super::sail::STEP_S;
+use super::trial::{
     Curve, THINNED, Trial, approach, command, cruise, cruising, depth_of, measured, patience_s,
 };
-use super::sail::STEP_S;
 use robots::handoff::{Capabilities, Command, MoveSetpoint, Vertical};
 use robots::vehicles::Craft;
 use world::units::Heading;
