@@ -41,7 +41,11 @@ impl RobotColumns {
 
     fn row(&mut self, t_s: f64, robot: &RobotFrame) {
         self.t_s.push(t_s);
-        for (column, value) in self.numbers.iter_mut().zip(numbers(robot, &self.info)) {
+        for (column, value) in self
+            .numbers
+            .iter_mut()
+            .zip(numbers(robot, self.info.full_scale_ug_l))
+        {
             column.push(value.unwrap_or(f64::NAN));
         }
         self.behaviours.push(robot.behaviour.name());

@@ -321,7 +321,7 @@ fn row(t_s: f64, r: &RobotFrame, info: &RobotInfo) -> StringRecord {
     };
     field(&mut fields, Some(t_s), 3);
     fields.push_field(&r.id);
-    for (number, places) in numbers(r, info).into_iter().zip(DECIMALS) {
+    for (number, places) in numbers(r, info.full_scale_ug_l).into_iter().zip(DECIMALS) {
         field(&mut fields, number, places);
     }
     fields.push_field(r.behaviour.name());

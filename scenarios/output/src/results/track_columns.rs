@@ -1,6 +1,5 @@
 //! The columns of `track.csv`, and the numbers in them.
 
-use super::track::RobotInfo;
 use crate::columns::{ColumnInfo, columns};
 use rheotaxis::frame::RobotFrame;
 
@@ -49,10 +48,10 @@ pub(crate) fn columns(regions: bool, layered: bool) -> Vec<ColumnInfo> {
     written.collect()
 }
 
-/// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. The pitch of the true pose is
-/// converted to nose-up, as in the estimate.
+/// The numbers of a row, in the order of [`COLUMNS`]; `None` where there is none. `full_scale_ug_l` is the greatest
+/// concentration of the chemical sensor, µg/L. The pitch of the true pose is converted to nose-up, as in the estimate.
 #[must_use]
-pub fn numbers(r: &RobotFrame, info: &RobotInfo) -> [Option<f64>; 19] {
+pub fn numbers(r: &RobotFrame, full_scale_ug_l: Option<f64>) -> [Option<f64>; 19] {
     let (p, e) = (&r.truth.pose, &r.estimate);
     let (roll, pitch_down) = p.roll_pitch();
     let chemical = r.chemical.map(|c| (c.volts, c.of_full_scale));
@@ -73,7 +72,7 @@ pub fn numbers(r: &RobotFrame, info: &RobotInfo) -> [Option<f64>; 19] {
         Some(r.truth.v_WB_B.norm()),
         Some(r.altitude_m),
         chemical.map(|c| c.0),
-        chemical.zip(info.full_scale_ug_l).map(|(c, f)| c.1 * f),
+        chemical.zip(full_scale_ug_l).map(|(c, f)| c.1 * f),
         Some(f64::from(u8::from(r.detected))),
         flow.map(|v| v.x),
         flow.map(|v| v.y),

@@ -4,11 +4,12 @@
 //! The declarations are written first, then the rows. If a kill comes between the two, there are declarations of runs
 //! that have no row yet. Readers leave these out, so no row that was written is lost.
 
-use super::columns::{Record, as_csv};
+use super::columns::as_csv;
 use super::contained::contained;
 use super::error::CampaignError;
 use super::manifest::Manifest;
 use super::plan::hash;
+use super::record::Record;
 use super::row::{DeclarationRow, RunRow};
 use super::seal;
 use super::table::{TableWriter, read};

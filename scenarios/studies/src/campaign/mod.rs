@@ -13,6 +13,7 @@ mod manifest;
 mod one_run;
 mod plan;
 mod read;
+mod record;
 pub mod report;
 mod row;
 mod rules;

@@ -1,10 +1,11 @@
 //! The rows of a campaign's folder.
 
 use super::block::{BlockState, present, read_block};
-use super::columns::{Record, csv_fields};
+use super::columns::csv_fields;
 use super::enough::wanted;
 use super::error::CampaignError;
 use super::manifest::Manifest;
+use super::record::Record;
 use super::row::RunRow;
 use super::table::TableWriter;
 use std::io::BufWriter;

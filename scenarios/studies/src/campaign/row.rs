@@ -1,6 +1,6 @@
 //! What a campaign keeps of a run: a row of the table of runs, and a row for each declaration.
 
-use super::columns::{Column, Record, record};
+use super::record::{Column, Record, record};
 use output::columns::ColumnInfo;
 use robots::handoff::{UP_FLOW_EDGE, Verdict};
 

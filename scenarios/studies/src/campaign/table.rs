@@ -1,6 +1,6 @@
 //! Tables as Parquet files.
 
-use super::columns::{Column, Record};
+use super::record::{Column, Record};
 use output::columns::ColumnInfo;
 use parquet::basic::Compression;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
