@@ -5,6 +5,7 @@
 use super::map_layers as layers;
 use super::map_legend::{BAR, LINE, SIZE, entry, heading, short};
 use super::section::{Axes, Section};
+use super::thinned::thinned;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, FLOW, INK};
 use crate::charts::panel::Panel;
@@ -139,7 +140,7 @@ fn height(t: &GantryTrack) -> Option<f64> {
 /// The head's track, coloured by what the searcher did, and where each motion ended.
 fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
     let at = |k: usize| panel.at(axes.cm(t.rows[k].head));
-    let all = layers::thinned((0..t.rows.len()).map(at));
+    let all = thinned((0..t.rows.len()).map(at));
     c.polyline(all, &Style::line("#ffffff", 4.4).faint(0.8));
     let mut k = 0;
     while k < t.rows.len() {
@@ -147,7 +148,7 @@ fn track(c: &mut Canvas, panel: &Panel, axes: &Axes, t: &GantryTrack) {
         let run = t.rows[k..].iter().take_while(|r| r.behaviour == b).count();
         // One point into the next stretch, so that the line has no gaps.
         let end = (k + run + 1).min(t.rows.len());
-        let points = layers::thinned((k..end).map(at));
+        let points = thinned((k..end).map(at));
         c.polyline(points, &Style::line(palette::gantry_behaviour(b), 2.2));
         k += run;
     }

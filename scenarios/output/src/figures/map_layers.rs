@@ -3,6 +3,7 @@
 use super::map::Bed;
 use super::map_vehicles::{AFTER, over_from};
 use super::plume_load::PlumeLoad;
+use super::thinned::thinned;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::palette::{self, BELIEVED, DECLARED, DETECTION, INK, TRUE_SOURCE};
 use crate::charts::panel::{Panel, decade, nice_step, number, power_of_ten};
@@ -13,8 +14,6 @@ use robots::handoff::region_name;
 
 /// Opacity of the plume over the bed.
 const PLUME_OPACITY: f64 = 0.6;
-/// Points of a track nearer than this to the last drawn point are omitted, px.
-const APART_PX: f64 = 0.5;
 
 /// Depth as shade.
 pub(super) fn bed(c: &mut Canvas, panel: &Panel, bed: &Bed) {
@@ -107,26 +106,6 @@ pub(super) fn track(c: &mut Canvas, panel: &Panel, t: &RobotTrack, close: bool, 
         c.polyline(points, &if k < over { style } else { style.faint(AFTER) });
         k += run;
     }
-}
-
-/// Points at least [`APART_PX`] apart, including the last.
-pub(super) fn thinned(points: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
-    let mut kept: Vec<[f64; 2]> = Vec::new();
-    let mut left_out = None;
-    for p in points {
-        let far = kept.last().is_none_or(|q| {
-            let d = [p[0] - q[0], p[1] - q[1]];
-            d[0] * d[0] + d[1] * d[1] >= APART_PX * APART_PX
-        });
-        if far {
-            kept.push(p);
-            left_out = None;
-        } else {
-            left_out = Some(p);
-        }
-    }
-    kept.extend(left_out);
-    kept
 }
 
 /// Detections: open rings under the track, apart from each other, so that they do not hide the track.

@@ -2,7 +2,7 @@
 
 use super::map::Bed;
 use super::map_layers as layers;
-use super::map_vehicles;
+use super::map_vehicles::{AFTER, BAND, WIDTH, over_from};
 use super::plume_load::PlumeLoad;
 use super::solids::{self, Passage};
 use crate::charts::canvas::{Anchor, Canvas, Style};
@@ -31,7 +31,7 @@ pub(super) fn keys<'a>(
     if !seen.is_empty() {
         blocks.push(Box::new(move |c, at| {
             let below = tracks(c, &seen, at);
-            map_vehicles::keys(c, run, [at[0], below])
+            vehicles(c, run, [at[0], below])
         }));
     }
     blocks.push(Box::new(|c, at| marks(c, run, at)));
@@ -45,6 +45,27 @@ pub(super) fn keys<'a>(
         y
     }));
     blocks
+}
+
+/// Keys of the bands, if there are several vehicles; returns where they end.
+fn vehicles(c: &mut Canvas, run: &RunReport<'_>, [x, top]: [f64; 2]) -> f64 {
+    let robots = &run.track.robots;
+    if robots.len() < 2 {
+        return top;
+    }
+    let mut y = top + 6.0;
+    heading(c, x, &mut y, "Vehicle, by the band round its track");
+    for (k, t) in robots.iter().enumerate() {
+        let style = Style::line(palette::vehicle(k), WIDTH).faint(BAND);
+        c.line([x, y], [x + 24.0, y], &style);
+        entry(c, x, &mut y, &t.info.id);
+    }
+    if robots.iter().any(|t| over_from(t) < t.rows.len()) {
+        let style = Style::line(palette::behaviour(Behaviour::Done), 2.6).faint(AFTER);
+        c.line([x, y], [x + 24.0, y], &style);
+        entry(c, x, &mut y, "after the end of its mission");
+    }
+    y
 }
 
 fn tracks(c: &mut Canvas, seen: &[Behaviour], [x, top]: [f64; 2]) -> f64 {

@@ -5,6 +5,7 @@ use super::map_layers as layers;
 use super::map_legend::plume_levels;
 use super::plume_load::PlumeLoad;
 use super::solids::{self, Passage};
+use super::thinned::thinned;
 use crate::charts::canvas::{Anchor, Canvas, Style};
 use crate::charts::contours::Grid;
 use crate::charts::palette::{self, INK};
@@ -298,10 +299,7 @@ fn track(c: &mut Canvas, cut: &Cut, panel: &Panel, t: &RobotTrack) {
         let run = t.rows[k..].iter().take_while(inside).count();
         let points = t.rows[k..k + run].iter();
         let points = points.map(|r| panel.at([cut.local([r.p[0], r.p[1]]).x, r.p[2]]));
-        c.polyline(
-            layers::thinned(points),
-            &Style::line(palette::behaviour(b), 1.6),
-        );
+        c.polyline(thinned(points), &Style::line(palette::behaviour(b), 1.6));
         k += run.max(1);
     }
 }

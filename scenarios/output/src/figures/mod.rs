@@ -22,6 +22,7 @@ mod solids;
 mod tests_map;
 #[cfg(test)]
 mod tests_vehicles;
+mod thinned;
 
 pub use approach::approach;
 pub use belief::belief;

@@ -58,14 +58,6 @@ fn a_single_vehicle_has_no_band() {
 
 #[test]
 fn no_vehicle_has_the_colour_of_a_behaviour() {
-    let behaviours = [
-        Behaviour::Find,
-        Behaviour::TrackIn,
-        Behaviour::TrackOut,
-        Behaviour::Reacquire,
-        Behaviour::GoHome,
-        Behaviour::Done,
-    ];
     let rgb = |c: &str| -> [i32; 3] {
         [1, 3, 5].map(|k| i32::from_str_radix(&c[k..k + 2], 16).expect("a colour"))
     };
@@ -73,7 +65,7 @@ fn no_vehicle_has_the_colour_of_a_behaviour() {
         |a: &str, b: &str| -> i32 { rgb(a).iter().zip(rgb(b)).map(|(x, y)| (x - y).abs()).sum() };
     for k in 0..6 {
         let own = palette::vehicle(k);
-        for b in behaviours {
+        for b in Behaviour::ALL {
             assert!(apart(own, palette::behaviour(b)) > 60, "{own}, {b:?}");
         }
         for other in (0..6).filter(|j| *j != k) {
