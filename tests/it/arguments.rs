@@ -2,7 +2,9 @@
 
 use super::common::rheotaxis;
 use clap::{CommandFactory, Parser};
-use command::{Args, CacheCommandArgs, CampaignCommand, Command, Numbers, SegmentArgs, Speed};
+use command::{
+    Args, CacheCommandArgs, CampaignCommand, Command, Exit, Numbers, SegmentArgs, Speed,
+};
 use rheotaxis::registry::{Group, Registry, sections};
 use robots::vehicles::SHIPPED;
 use robots::vision::{ColourSpec, Edges, VerifierSpec};
@@ -152,6 +154,13 @@ fn segments_defaults_are_the_papers_and_flags_go_through() {
     for bad in ["0", "-3", "nan", "x"] {
         assert!(segment(&["--epsilon", bad]).is_none(), "{bad}");
     }
+}
+
+#[test]
+fn a_broken_assumption_is_an_error_to_the_shell() {
+    assert_eq!(Exit::guarded(|| Exit::NotFound), Exit::NotFound);
+    let broken = Exit::guarded(|| panic!("the hull is {} m long", -1));
+    assert_eq!(broken, Exit::Error);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Exit codes.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 
 /// How the command ended.
@@ -28,6 +29,12 @@ impl Exit {
             Exit::Unfinished => 75,
             Exit::Interrupted => 130,
         }
+    }
+
+    /// How some work ends. A panic has printed its message by now; to the shell it is an error like any other.
+    #[must_use]
+    pub fn guarded(work: impl FnOnce() -> Self) -> Self {
+        catch_unwind(AssertUnwindSafe(work)).unwrap_or(Self::Error)
     }
 
     /// The more important one of two.

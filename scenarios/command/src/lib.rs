@@ -67,7 +67,6 @@ pub use exit::Exit;
 
 use clap::Parser;
 use rheotaxis::scenario::cost;
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::process::ExitCode;
 use world::registry::Registry;
 
@@ -84,12 +83,7 @@ pub fn main_with(registry: &Registry) -> ExitCode {
     // clap ends the process itself for `--help` (0) and for wrong usage (2).
     let Args { command, memory } = Args::parse();
     cost::set_limit(memory);
-    // A panic has printed its message by now; to the shell it is an error like any other.
-    guarded(|| registry.scope(|| dispatch(command))).into()
-}
-
-fn guarded(work: impl FnOnce() -> Exit) -> Exit {
-    catch_unwind(AssertUnwindSafe(work)).unwrap_or(Exit::Error)
+    Exit::guarded(|| registry.scope(|| dispatch(command))).into()
 }
 
 fn dispatch(command: Command) -> Exit {
