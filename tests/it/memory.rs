@@ -1,7 +1,7 @@
 //! What a mission of a hundred thousand filaments holds in memory, measured on the program itself.
 //!
 //! The short one runs with all others; the whole two hours take minutes and are asked for by name:
-//! `cargo test --release -p rheotaxis-command two_hours_of_a_hundred_thousand -- --ignored --nocapture`.
+//! `cargo test --release --test it -- two_hours_of_a_hundred_thousand --ignored --nocapture`.
 
 #![cfg(target_os = "linux")]
 

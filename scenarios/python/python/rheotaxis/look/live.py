@@ -10,7 +10,7 @@ from .events import Ended, SceneSaid
 from .wire import Wire
 
 #: Where runs listen: the first of these ports that is free when they start.
-FIRST_PORT, PORTS = 7447, 8
+FIRST_PORT, PORTS = 7447, 17
 #: How long to ask a run for its scene before it is shown without, s.
 SCENE_S = 5.0
 
