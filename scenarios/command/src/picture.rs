@@ -3,14 +3,14 @@
 use super::args_picture::PictureArgs;
 use super::exit::Exit;
 use super::{cache, say};
-use image::{ImageFormat, RgbImage};
+use image::RgbImage;
 use nalgebra::Vector3;
+use output::charts::picture_png;
 use output::files::{ReportError, write_whole};
 use rheotaxis::assemble::WaterLight;
 use rheotaxis::scenario::load;
 use rheotaxis::trial::{Trial, Unwatched};
 use robots::sense::camera::{CameraModel, CameraSpec, Rendered, Scene, looking, render};
-use std::io::Cursor;
 use std::path::Path;
 use world::ranges::Positive;
 use world::seeds;
@@ -128,12 +128,9 @@ fn truth(camera: &CameraModel, made: &Rendered) -> RgbImage {
 }
 
 fn write_png(path: &Path, image: &RgbImage) -> Result<(), ReportError> {
-    let mut png = Cursor::new(Vec::new());
-    image
-        .write_to(&mut png, ImageFormat::Png)
-        .map_err(|e| ReportError::Draw {
-            path: path.to_owned(),
-            cause: e.to_string(),
-        })?;
-    write_whole(path, png.get_ref()).map(drop)
+    let png = picture_png(image).map_err(|e| ReportError::Draw {
+        path: path.to_owned(),
+        cause: e.to_string(),
+    })?;
+    write_whole(path, &png).map(drop)
 }

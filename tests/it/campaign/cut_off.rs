@@ -26,7 +26,7 @@ fn count(out: &Path) -> usize {
 
 #[test]
 fn killed_again_and_again_it_loses_repeats_and_corrupts_nothing() {
-    const BLOCKS: usize = 60;
+    const BLOCKS: usize = 40;
     let folder = folder(BLOCKS as u64, "10", "2");
     let dir = folder.path();
     let out = dir.join("out");
@@ -107,7 +107,7 @@ fn a_termination_signal_ends_it_with_code_75_and_leaves_nothing_half_written() {
 #[cfg(unix)]
 #[test]
 fn rows_of_a_block_that_is_not_whole_are_written_at_ctrl_c_and_taken_up_again() {
-    const RUNS: usize = 400;
+    const RUNS: usize = 160;
     let folder = folder(RUNS as u64 / 4, "10", "2");
     let dir = folder.path();
     let block = RUNS.to_string();

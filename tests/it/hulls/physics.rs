@@ -131,7 +131,7 @@ fn a_wall_stops_it_at_any_step() {
                 .collect();
             let mut touched = false;
             let mut fastest: f64 = 0.0;
-            for _ in 0..(60.0 / dt_s) as u32 {
+            for _ in 0..(30.0 / dt_s) as u32 {
                 let free = hull.step(&truth, &still(1025.0), &DriveCommand::new(&ahead), dt_s);
                 physics.push(id, free);
                 physics.step();

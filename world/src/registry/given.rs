@@ -217,21 +217,29 @@ pub(super) fn unit(from: &mut Format<'_, '_>, name: &'static str) -> Result<()> 
         .map_err(SourceError::custom)
 }
 
-macro_rules! ask {
-    ($($ask:ident $method:ident($($arg:ident: $of:ty),*);)*) => {$(
-        pub(super) fn $ask<'de>(from: &mut Format<'_, 'de>, $($arg: $of,)* take: Take<'_, 'de>) -> Result<()> {
-            from.$method($($arg,)* Pass(take)).map_err(SourceError::custom)
-        }
-    )*};
+/// What a type asks a format for.
+pub(super) enum Ask {
+    Option,
+    Newtype(&'static str),
+    Seq,
+    Tuple(usize),
+    TupleStruct(&'static str, usize),
+    Map,
+    Struct(&'static str, &'static [&'static str]),
+    Enum(&'static str, &'static [&'static str]),
 }
 
-ask! {
-    option deserialize_option();
-    newtype deserialize_newtype_struct(name: &'static str);
-    seq deserialize_seq();
-    tuple deserialize_tuple(len: usize);
-    tuple_struct deserialize_tuple_struct(name: &'static str, len: usize);
-    map deserialize_map();
-    fields deserialize_struct(name: &'static str, legal: &'static [&'static str]);
-    choice deserialize_enum(name: &'static str, legal: &'static [&'static str]);
+pub(super) fn ask<'de>(from: &mut Format<'_, 'de>, what: Ask, take: Take<'_, 'de>) -> Result<()> {
+    let pass = Pass(take);
+    let given = match what {
+        Ask::Option => from.deserialize_option(pass),
+        Ask::Newtype(name) => from.deserialize_newtype_struct(name, pass),
+        Ask::Seq => from.deserialize_seq(pass),
+        Ask::Tuple(len) => from.deserialize_tuple(len, pass),
+        Ask::TupleStruct(name, len) => from.deserialize_tuple_struct(name, len, pass),
+        Ask::Map => from.deserialize_map(pass),
+        Ask::Struct(name, legal) => from.deserialize_struct(name, legal, pass),
+        Ask::Enum(name, legal) => from.deserialize_enum(name, legal, pass),
+    };
+    given.map_err(SourceError::custom)
 }

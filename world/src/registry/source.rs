@@ -5,10 +5,7 @@
 //! for each type and for the names of its fields, a quarter of all code of the robots. What a type asks for reaches the
 //! format, and its errors keep their kind.
 
-use super::given::{
-    Elements, Format, Given, Pairs, Result, Take, Variants, choice, fields, map, newtype, option,
-    seq, tuple, tuple_struct, unit, word,
-};
+use super::given::{Ask, Elements, Format, Given, Pairs, Result, Variants, ask, unit, word};
 use super::source_error::SourceError;
 use serde::Deserialize;
 use serde::de::{
@@ -30,20 +27,45 @@ pub fn read_from<'de, T: Deserialize<'de>, D: Deserializer<'de>>(
 /// A value in any format.
 pub(super) struct Source<'f, 'de>(pub(super) &'f mut Format<'f, 'de>);
 
-/// What `take` makes of what `ask` is given.
-fn taken<'de, T>(
-    ask: impl FnOnce(Take<'_, 'de>) -> Result<()>,
+/// Where a type takes what it is given: once, as it asks once. As little as possible hangs on the type.
+struct Taker<F, T> {
+    take: Option<F>,
+    value: Option<T>,
+}
+
+impl<F, T> Taker<F, T> {
+    fn new(take: F) -> Self {
+        Self {
+            take: Some(take),
+            value: None,
+        }
+    }
+
+    fn give<'de>(&mut self, given: Given<'_, 'de>) -> Result<()>
+    where
+        F: FnOnce(Given<'_, 'de>) -> Result<T>,
+    {
+        if let Some(take) = self.take.take() {
+            self.value = Some(take(given)?);
+        }
+        Ok(())
+    }
+
+    /// The value, if the format has given one.
+    fn value(self) -> Result<T> {
+        self.value.ok_or_else(SourceError::nothing_given)
+    }
+}
+
+/// What `take` makes of what the format gives.
+fn asked<'de, T>(
+    from: &mut Format<'_, 'de>,
+    what: Ask,
     take: impl FnOnce(Given<'_, 'de>) -> Result<T>,
 ) -> Result<T> {
-    let (mut take, mut value) = (Some(take), None);
-    ask(&mut |given| {
-        let take = take
-            .take()
-            .expect("a format gives one value for one question");
-        value = Some(take(given)?);
-        Ok(())
-    })?;
-    Ok(value.expect("a format that has not failed has given a value"))
+    let mut taker = Taker::new(take);
+    ask(from, what, &mut |given| taker.give(given))?;
+    taker.value()
 }
 
 /// A seed on the value within.
@@ -107,14 +129,11 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
     as_the_format_does! { deserialize_any deserialize_i128 deserialize_u128 deserialize_bytes deserialize_byte_buf }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        taken(
-            |take| option(self.0, take),
-            |given| match given {
-                Given::Nothing => visitor.visit_none(),
-                Given::Inner(from) => visitor.visit_some(Source(from)),
-                other => Err(other.unfit(&visitor)),
-            },
-        )
+        asked(self.0, Ask::Option, |given| match given {
+            Given::Nothing => visitor.visit_none(),
+            Given::Inner(from) => visitor.visit_some(Source(from)),
+            other => Err(other.unfit(&visitor)),
+        })
     }
 
     fn deserialize_unit<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -136,28 +155,19 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value> {
-        taken(
-            |take| newtype(self.0, name, take),
-            |given| match given {
-                Given::Text(text) => visitor.visit_str(text),
-                Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
-                other => Err(other.unfit(&visitor)),
-            },
-        )
+        asked(self.0, Ask::Newtype(name), |given| match given {
+            Given::Text(text) => visitor.visit_str(text),
+            Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
+            other => Err(other.unfit(&visitor)),
+        })
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        taken(
-            |take| seq(self.0, take),
-            |given| in_sequence(visitor, given),
-        )
+        asked(self.0, Ask::Seq, |given| in_sequence(visitor, given))
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
-        taken(
-            |take| tuple(self.0, len, take),
-            |given| in_sequence(visitor, given),
-        )
+        asked(self.0, Ask::Tuple(len), |given| in_sequence(visitor, given))
     }
 
     fn deserialize_tuple_struct<V: Visitor<'de>>(
@@ -166,14 +176,13 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         len: usize,
         visitor: V,
     ) -> Result<V::Value> {
-        taken(
-            |take| tuple_struct(self.0, name, len, take),
-            |given| in_sequence(visitor, given),
-        )
+        asked(self.0, Ask::TupleStruct(name, len), |given| {
+            in_sequence(visitor, given)
+        })
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        taken(|take| map(self.0, take), |given| in_map(visitor, given))
+        asked(self.0, Ask::Map, |given| in_map(visitor, given))
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -182,10 +191,9 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        taken(
-            |take| fields(self.0, name, legal, take),
-            |given| in_map(visitor, given),
-        )
+        asked(self.0, Ask::Struct(name, legal), |given| {
+            in_map(visitor, given)
+        })
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -194,13 +202,10 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        taken(
-            |take| choice(self.0, name, legal, take),
-            |given| match given {
-                Given::Choice(of) => visitor.visit_enum(Access(of)),
-                other => Err(other.unfit(&visitor)),
-            },
-        )
+        asked(self.0, Ask::Enum(name, legal), |given| match given {
+            Given::Choice(of) => visitor.visit_enum(Access(of)),
+            other => Err(other.unfit(&visitor)),
+        })
     }
 
     fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
@@ -220,16 +225,15 @@ impl<'de> MapAccess<'de> for Access<&mut dyn Pairs<'de>> {
     type Error = SourceError;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>> {
-        let (mut seed, mut key) = (Some(seed), None);
-        self.0.key(&mut |given| {
-            key = seed.take().map(|seed| seeded(seed, given)).transpose()?;
-            Ok(())
-        })?;
-        Ok(key)
+        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        self.0.key(&mut |given| taker.give(given))?;
+        Ok(taker.value)
     }
 
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value> {
-        taken(|take| self.0.value(take), |given| seeded(seed, given))
+        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        self.0.value(&mut |given| taker.give(given))?;
+        taker.value()
     }
 }
 
@@ -237,12 +241,9 @@ impl<'de> SeqAccess<'de> for Access<&mut dyn Elements<'de>> {
     type Error = SourceError;
 
     fn next_element_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<Option<S::Value>> {
-        let (mut seed, mut element) = (Some(seed), None);
-        self.0.element(&mut |given| {
-            element = seed.take().map(|seed| seeded(seed, given)).transpose()?;
-            Ok(())
-        })?;
-        Ok(element)
+        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        self.0.element(&mut |given| taker.give(given))?;
+        Ok(taker.value)
     }
 }
 
@@ -251,8 +252,9 @@ impl<'de> EnumAccess<'de> for Access<&mut dyn Variants<'de>> {
     type Variant = Self;
 
     fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Self)> {
-        let name = taken(|take| self.0.name(take), |given| seeded(seed, given))?;
-        Ok((name, self))
+        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        self.0.name(&mut |given| taker.give(given))?;
+        Ok((taker.value()?, self))
     }
 }
 
@@ -264,14 +266,15 @@ impl<'de> VariantAccess<'de> for Access<&mut dyn Variants<'de>> {
     }
 
     fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value> {
-        taken(|take| self.0.newtype(take), |given| seeded(seed, given))
+        let mut taker = Taker::new(|given: Given<'_, 'de>| seeded(seed, given));
+        self.0.newtype(&mut |given| taker.give(given))?;
+        taker.value()
     }
 
     fn tuple_variant<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
-        taken(
-            |take| self.0.tuple(len, take),
-            |given| in_sequence(visitor, given),
-        )
+        let mut taker = Taker::new(|given: Given<'_, 'de>| in_sequence(visitor, given));
+        self.0.tuple(len, &mut |given| taker.give(given))?;
+        taker.value()
     }
 
     fn struct_variant<V: Visitor<'de>>(
@@ -279,9 +282,8 @@ impl<'de> VariantAccess<'de> for Access<&mut dyn Variants<'de>> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        taken(
-            |take| self.0.fields(legal, take),
-            |given| in_map(visitor, given),
-        )
+        let mut taker = Taker::new(|given: Given<'_, 'de>| in_map(visitor, given));
+        self.0.fields(legal, &mut |given| taker.give(given))?;
+        taker.value()
     }
 }

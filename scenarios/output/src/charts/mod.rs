@@ -15,4 +15,4 @@ pub mod room;
 mod thin;
 
 pub use canvas::escaped;
-pub use raster::{png, small_png};
+pub use raster::{mask_png, picture_png, png, small_png};

@@ -2,7 +2,7 @@
 
 use super::paint::painted;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder as _, ImageError};
+use image::{ExtendedColorType, GrayImage, ImageEncoder as _, ImageError, ImageResult, RgbImage};
 use tiny_skia::Pixmap;
 
 /// Pixels per pixel of the SVG: sharp in print at its natural size.
@@ -21,6 +21,20 @@ pub fn small_png(svg: &str, most_px: u32) -> Result<Vec<u8>, String> {
 fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
     let pixels = painted(svg, |[width, height]| scale(width.max(height)))?;
     packed(pixels).map_err(|e| e.to_string())
+}
+
+/// A picture as PNG bytes. `write_to` of `image` would bring the encoders of all formats into each crate that asks it.
+pub fn picture_png(picture: &RgbImage) -> ImageResult<Vec<u8>> {
+    let mut png = Vec::new();
+    picture.write_with_encoder(PngEncoder::new(&mut png))?;
+    Ok(png)
+}
+
+/// A mask as PNG bytes.
+pub fn mask_png(mask: &GrayImage) -> ImageResult<Vec<u8>> {
+    let mut png = Vec::new();
+    mask.write_with_encoder(PngEncoder::new(&mut png))?;
+    Ok(png)
 }
 
 /// The pixels as PNG: in three channels if none lets anything through, as on every sheet of ours.

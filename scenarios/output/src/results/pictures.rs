@@ -1,14 +1,14 @@
 //! Pictures from the robots' cameras. Each becomes a file at once; a table says where and when it was taken.
 
 use super::probes::file_name;
+use crate::charts::picture_png;
 use crate::columns::{ColumnInfo, columns, header};
 use crate::files::{ReportError, csv_text, write_whole};
 use base64::prelude::{BASE64_STANDARD, Engine as _};
+use image::ImageError;
 use image::codecs::jpeg::JpegEncoder;
-use image::{ImageError, ImageFormat};
 use nalgebra::Vector3;
 use rheotaxis::frame::PictureFrame;
-use std::io::Cursor;
 use world::files::Folder;
 use world::math;
 use world::units::Heading;
@@ -102,13 +102,12 @@ impl Pictures {
             cause: e.to_string(),
         };
         let image = &*taken.picture.image;
-        let mut png = Cursor::new(Vec::new());
-        image.write_to(&mut png, ImageFormat::Png).map_err(drawn)?;
+        let png = picture_png(image).map_err(drawn)?;
         let mut jpeg = Vec::new();
         JpegEncoder::new_with_quality(&mut jpeg, PAGE_QUALITY)
             .encode_image(image)
             .map_err(drawn)?;
-        write_whole(&path, png.get_ref())?;
+        write_whole(&path, &png)?;
         self.row(&file, taken);
         let table = csv_text(&header(&COLUMNS), &self.rows);
         write_whole(&self.out.file("pictures.csv")?, table.as_bytes())?;
@@ -118,7 +117,7 @@ impl Pictures {
             t_s: taken.t_s,
             jpeg,
         });
-        Ok(Some(png.into_inner()))
+        Ok(Some(png))
     }
 
     fn row(&mut self, file: &str, taken: &PictureFrame) {

@@ -16,7 +16,7 @@ use world::frames::Truth;
 
 own! {
     /// All components of a robot.
-    RobotOwn as RobotParts {
+    RobotOwn as RobotParts of RobotEach {
         id: SearcherId,
         truth: Truth,
         now: Now,

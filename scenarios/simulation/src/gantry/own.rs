@@ -8,7 +8,7 @@ use robots::handoff::{GantryDecision, GantryReadings};
 
 own! {
     /// All components of a gantry.
-    GantryOwn as GantryParts {
+    GantryOwn as GantryParts of GantryEach {
         id: SearcherId,
         rig: Rig,
         head: Head,

@@ -3,12 +3,12 @@
 use super::clusters::{clusters, fate};
 use super::overlay::overlay;
 use super::sheet::sheet;
-use image::{ImageFormat, ImageResult, RgbImage};
+use image::RgbImage;
+use output::charts::{mask_png, picture_png};
 use output::files::{Kept, ReportError};
 use robots::vision::{Segmentation, Sighting, Target, Verifier, VerifierSpec};
 use serde::Serialize;
 use std::fmt::Write as _;
-use std::io::Cursor;
 use std::path::PathBuf;
 use world::files::Folder;
 
@@ -69,8 +69,8 @@ pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
         let union = |kept| colours(&s.parts.union(target, kept));
         kept.draw(&format!("{name}.png"), union(false));
         kept.draw(&format!("{name}-kept.png"), union(true));
-        let mask = encoded(|bytes| s.parts.mask(target, true).write_to(bytes, ImageFormat::Png));
-        kept.draw(&format!("{name}-mask.png"), mask);
+        let mask = mask_png(&s.parts.mask(target, true));
+        kept.draw(&format!("{name}-mask.png"), mask.map_err(|e| e.to_string()));
     }
     kept.draw("left.png", colours(&s.parts.left()));
     kept.draw("overlay.png", colours(&s.overlay()));
@@ -91,13 +91,7 @@ pub fn write(out: &Folder, s: &Segmented) -> Result<PathBuf, ReportError> {
 }
 
 fn colours(picture: &RgbImage) -> Result<Vec<u8>, String> {
-    encoded(|bytes| picture.write_to(bytes, ImageFormat::Png))
-}
-
-fn encoded(write: impl Fn(&mut Cursor<Vec<u8>>) -> ImageResult<()>) -> Result<Vec<u8>, String> {
-    let mut bytes = Cursor::new(Vec::new());
-    write(&mut bytes).map_err(|e| e.to_string())?;
-    Ok(bytes.into_inner())
+    picture_png(picture).map_err(|e| e.to_string())
 }
 
 /// The passes and the verdict as text.
