@@ -28,13 +28,15 @@ fn groups(runs: &[(&Loaded, Seed)]) -> Vec<usize> {
     groups.iter().map(Vec::len).collect()
 }
 
-/// The row of the run alone.
+/// The row of the run alone; that of the first arm is the run of its scenario, by whatever makes rows.
 #[track_caller]
-fn row_alone(loaded: &Loaded, name: &RunName) -> RunRow {
+fn row_alone(loaded: &Loaded, name: &RunName, first: bool) -> RunRow {
     let row = timeless(one_run(loaded, name));
-    let mut trial = Trial::assemble(loaded, name.seed).unwrap();
-    let ended = trial.run(&mut rheotaxis::trial::Unwatched);
-    assert_eq!(row.digest, ended.digest, "{}: {}", loaded.name, name.arm);
+    if first {
+        let mut trial = Trial::assemble(loaded, name.seed).unwrap();
+        let ended = trial.run(&mut rheotaxis::trial::Unwatched);
+        assert_eq!(row.digest, ended.digest, "{}: {}", loaded.name, name.arm);
+    }
     row
 }
 
@@ -80,7 +82,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
                 _ => vec![arms],
             };
             assert_eq!(groups(&runs), want, "{}", template.name);
-            for (row, loaded) in of_seed.iter().zip(&loaded) {
+            for (arm, (row, loaded)) in of_seed.iter().zip(&loaded).enumerate() {
                 let name = RunName {
                     run: row.run,
                     arm: row.arm.clone(),
@@ -89,7 +91,7 @@ fn lanes_of_every_bundled_campaign_give_the_rows_of_runs_alone() {
                     seed,
                 };
                 assert!(row.error.is_none(), "{row:?}");
-                assert_eq!(timeless(row.clone()), row_alone(loaded, &name));
+                assert_eq!(timeless(row.clone()), row_alone(loaded, &name, arm == 0));
             }
         }
     }
@@ -104,7 +106,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
     for mut reference in rows.into_iter().filter(|r| r.row.draw.is_empty()) {
         for (k, (_, loaded)) in reference.arms.iter_mut().enumerate() {
             // Each arm ends at another time.
-            cut(loaded, 30.0, 8.0 + k as f64);
+            cut(loaded, 10.0, 3.0 + 0.5 * k as f64);
         }
         let plan = Plan {
             n: 1,
@@ -125,7 +127,7 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
         if groups.iter().any(|n| *n > 1) {
             shared.push(format!("{id} {groups:?}"));
         }
-        for (row, (arm, loaded)) in done.runs.iter().zip(&reference.arms) {
+        for (k, (row, (arm, loaded))) in done.runs.iter().zip(&reference.arms).enumerate() {
             let name = RunName {
                 run: row.run,
                 arm: arm.clone(),
@@ -134,7 +136,11 @@ fn lanes_of_every_row_of_figures_give_the_rows_of_runs_alone() {
                 seed: Seed::from(5),
             };
             assert!(row.error.is_none(), "{row:?}");
-            assert_eq!(timeless(row.clone()), row_alone(loaded, &name), "{id}");
+            assert_eq!(
+                timeless(row.clone()),
+                row_alone(loaded, &name, k == 0),
+                "{id}"
+            );
         }
     }
     assert!(shared.len() >= 5, "{shared:#?}");

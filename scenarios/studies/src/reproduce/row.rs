@@ -226,17 +226,20 @@ pub fn wanted(names: &[PathBuf], arms: &[String]) -> Result<Vec<Reference>, Repr
     Ok(found)
 }
 
-/// A row by its name; if no row has that name, all rows whose names begin with it and `_`; or a row file.
-fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
-    let name = path.display().to_string();
-    if let Some((id, text)) = ROWS.iter().find(|(id, _)| *id == name) {
-        return Ok(vec![embedded(id, text)?]);
+/// The row of that name; if there is none, all rows whose names begin with it and `_`.
+fn named(name: &str) -> Vec<&'static (&'static str, &'static str)> {
+    if let Some(row) = ROWS.iter().find(|(id, _)| *id == name) {
+        return vec![row];
     }
     let group = format!("{name}_");
-    let rows: Vec<_> = ROWS
-        .iter()
-        .filter(|(id, _)| id.starts_with(&group))
-        .collect();
+    let of_group = ROWS.iter().filter(|(id, _)| id.starts_with(&group));
+    of_group.collect()
+}
+
+/// Rows by their name or that of their group, or a row file.
+fn some(path: &Path) -> Result<Vec<Reference>, ReproduceError> {
+    let name = path.display().to_string();
+    let rows = named(&name);
     if !rows.is_empty() {
         return rows.iter().map(|(id, text)| embedded(id, text)).collect();
     }
