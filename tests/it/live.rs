@@ -11,6 +11,7 @@ mod readings;
 mod ros2;
 mod setup;
 
+use crate::waits::until;
 use image::Rgb;
 use kit::{
     broken, client, frame, json, kept, kept_at_the_end, listen, meta, next, options, plume,
@@ -105,10 +106,13 @@ fn a_subscriber_started_before_the_run_sees_schema_state_and_end() {
 fn a_subscriber_started_during_the_run_sees_schema_state_and_end() {
     let live = start("during_1");
     live.publish(&frame(1));
-    sent(&live);
     let session = client(live.endpoint());
     let samples = listen(&session, "during_1");
-    let mut seen = kept(&session, "during_1");
+    // Another thread sends it: it is asked for until it is there.
+    let mut seen = until("the run keeps a state", || {
+        let seen = kept(&session, "during_1");
+        seen.contains_key("clock").then_some(seen)
+    });
     assert_eq!(
         json(&seen["clock"])["step"],
         1,
