@@ -48,6 +48,8 @@ struct Slots {
     ended: bool,
     close: bool,
     counts: LiveCounts,
+    /// States taken up since work was last asked for: they may not be sent yet.
+    in_hand: u64,
     frame_gate: Gate,
     plume_gate: Gate,
     picture_gate: Gate,
@@ -115,6 +117,7 @@ impl Mailbox {
                 ended: false,
                 close: false,
                 counts: LiveCounts::default(),
+                in_hand: 0,
                 frame_gate: Gate::every(frame_period),
                 plume_gate: Gate::every(plume_period),
                 picture_gate: Gate::every(plume_period),
@@ -203,8 +206,18 @@ impl Mailbox {
         self.wake.notify_one();
     }
 
+    /// With the state that is being sent.
     pub(super) fn counts(&self) -> LiveCounts {
         self.slots().counts
+    }
+
+    /// Without the state that is being sent.
+    pub(super) fn done(&self) -> LiveCounts {
+        let slots = self.slots();
+        LiveCounts {
+            sent: slots.counts.sent - slots.in_hand,
+            ..slots.counts
+        }
     }
 
     /// Waits for work and observes the rates; the end comes at once.
@@ -214,10 +227,12 @@ impl Mailbox {
     )]
     pub(super) fn next(&self) -> Work {
         let mut slots = self.slots();
+        slots.in_hand = 0;
         loop {
             if let Some(digest) = slots.digest.take() {
                 let (frame, rest) = (slots.frame.take(), slots.rest());
-                slots.counts.sent += u64::from(frame.is_some());
+                slots.in_hand = u64::from(frame.is_some());
+                slots.counts.sent += slots.in_hand;
                 return Work::End {
                     frame,
                     rest,
@@ -232,6 +247,7 @@ impl Mailbox {
             if slots.frame_gate.pass(waiting, now)
                 && let Some(frame) = slots.frame.take()
             {
+                slots.in_hand = 1;
                 slots.counts.sent += 1;
                 return Work::Frame(frame);
             }
@@ -281,6 +297,11 @@ mod tests {
             superseded: 99,
         };
         assert_eq!(mailbox.counts(), counts);
+        // Taken up is not sent: that it is once more is asked for.
+        assert_eq!(mailbox.done().sent, 0);
+        mailbox.close();
+        assert_eq!(mailbox.next(), Work::Close);
+        assert_eq!(mailbox.done(), counts);
     }
 
     #[test]

@@ -209,7 +209,7 @@ impl Live {
     /// What happened to the states so far.
     #[must_use]
     pub fn counts(&self) -> LiveCounts {
-        self.mailbox.counts()
+        self.mailbox.done()
     }
 
     /// Publishes the last state, the digest and a clock that says `ended`, without waiting. Until this is dropped, late

@@ -68,14 +68,14 @@ impl<'a> Tree<'a> {
     /// Sends and keeps a message. If it does not fit into a subscriber's queue at once, that subscriber loses it.
     pub(super) fn say(&self, message: Message) -> Result<()> {
         let key = self.key(&message)?;
+        // Kept first: who subscribes in between and asks for what was said hears it at least once.
+        keep(&self.kept, key.clone(), message.clone());
         let put = self
             .session
             .put(&key, message.payload.clone())
             .encoding(encoding(&message))
             .congestion_control(CongestionControl::Drop);
-        put.attachment(message.attachment.clone()).wait()?;
-        keep(&self.kept, key, message);
-        Ok(())
+        put.attachment(message.attachment).wait()
     }
 
     /// Sends and keeps a message for zenoh-ext's advanced subscribers too, like those from the start.
