@@ -1,6 +1,6 @@
 //! `Listener`: what was published before, what comes, and the end of a run; nothing twice and nothing commanded.
 
-use super::kit::{frame, meta, options, plume, sent, start};
+use super::kit::{client, frame, kept, meta, options, plume, sent, start};
 use super::readings::picture;
 use crate::waits::until;
 use output::live::{ListenOptions, Listener, Live, LiveOptions, News, Plane};
@@ -50,7 +50,13 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     live.publish(&frame(1));
     live.plume(&plume(100));
     live.picture(&picture(1.0));
-    sent(&live);
+    // Another thread sends them: they are asked for until all are there.
+    let session = client(live.endpoint());
+    until("the run keeps all three", || {
+        let seen = kept(&session, "heard_1");
+        let there = |end: &str| seen.keys().any(|key| key.ends_with(end));
+        (there("clock") && there("plume") && there("picture")).then_some(())
+    });
     let mut listener = at(&live, None);
     assert_eq!(listener.notice(), None);
     assert_eq!(next(&mut listener), News::Begun("heard_1".to_owned()));
