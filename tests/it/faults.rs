@@ -211,7 +211,7 @@ fn a_mission_survives_every_fault() {
     ] {
         for at_s in ["0", "40"] {
             let fault = format!("(at_s: {at_s}, what: {faults})");
-            let (ended, _) = flown(&channel(&fault, 80.0));
+            let (ended, _) = flown(&channel(&fault, 120.0));
             assert!(ended.t_s > 0.0, "{faults}");
         }
     }

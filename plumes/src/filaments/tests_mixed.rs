@@ -9,9 +9,9 @@ use world::seeds::Stream;
 use world::terrain::Terrain;
 
 pub(super) const DEPTH: f64 = 6.0;
-const FILAMENTS: usize = 30_000;
+const FILAMENTS: usize = 60_000;
 pub(super) const BINS: usize = 24;
-/// Filaments expected in a bin: a standard error of 3 %.
+/// Filaments expected in a bin: a standard error of 2 %.
 const EVEN: f64 = FILAMENTS as f64 / BINS as f64;
 
 /// Steps as in a mission, s.
@@ -131,7 +131,7 @@ fn water_with_a_gap_in_its_mixing_stays_mixed() {
 #[test]
 fn known_limit_a_wedge_as_narrow_as_one_kick_is_left_unmixed_by_less_than_a_fifth() {
     // Six times the mixing of the gap above, K' up to 8 cm/s, and kicks of 25 cm in a step of 1 s beside a wedge 40 cm
-    // wide. This case is NOT mixed; the bound is the one that `kernel.rs` states. A bin has a standard error of 3 %.
+    // wide. This case is NOT mixed; the bound is the one that `kernel.rs` states. A bin has a standard error of 2 %.
     let off = bins(gap(3e-2), 600.0, 1.0);
     let worst = off.iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max);
     assert!(worst < 0.2, "{off:?}");

@@ -30,7 +30,7 @@ fn ln_gamma_by_hand(p: &[Vec<f64>], mu: f64) -> Vec<f64> {
 }
 
 proptest! {
-    #![proptest_config(fixed(24))]
+    #![proptest_config(fixed(96))]
 
     #[test]
     fn the_map_equals_the_product_written_out(

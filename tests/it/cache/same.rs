@@ -45,8 +45,8 @@ fn state(trial: &Trial) -> String {
 /// Scenario, seconds of spin-up and of the mission, and what it is here for. The missions last beyond the next
 /// evaluation of the flow, if there is one, and beyond the next solution round obstacles.
 const OCEANS: [(&str, f64, f64, &str); 8] = [
-    ("duck_st", 60.0, 15.0, "meander, layers, a long plume"),
-    ("duck_mt", 60.0, 15.0, "two sources"),
+    ("duck_st", 120.0, 15.0, "meander, layers, a long plume"),
+    ("duck_mt", 120.0, 15.0, "two sources"),
     ("dalian_bay", 60.0, 12.0, "tide, waves"),
     ("flume_crab", 5.0, 2.0, "eddies, walls"),
     ("block_in_channel", 25.0, 12.0, "unsteady water, a block"),

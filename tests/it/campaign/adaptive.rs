@@ -67,8 +67,13 @@ fn shares_wait_for_each_other_and_come_to_the_same_rows() {
     };
     let run = |out: &str, code: i32, shard: &str| in_blocks(out, code, shard, "16");
     run("alone", 0, "1/1");
-    // How many runs are enough does not hang on the length of blocks.
+    // How many runs are enough does not hang on the length of blocks, nor on what they cost.
     in_blocks("long", 0, "1/1", "1000");
+    ends(
+        dir.path(),
+        0,
+        &["run", "c.ron", "--out", "by_cost", "--quiet"],
+    );
     // The first share cannot know whether 20 seeds are enough; the third sees them all and goes on with its
     // part of the next ones, for which the others have to come again.
     run("shared", 75, "1/3");
@@ -79,6 +84,8 @@ fn shares_wait_for_each_other_and_come_to_the_same_rows() {
     let (alone, shared) = (dir.path().join("alone"), dir.path().join("shared"));
     assert_eq!(rows(&alone), rows(&shared));
     assert_eq!(rows(&alone).len(), 4 * 35);
-    assert_eq!(rows(&alone), rows(&dir.path().join("long")));
-    ends(dir.path(), 0, &["status", "long"]);
+    for other in ["long", "by_cost"] {
+        assert_eq!(rows(&alone), rows(&dir.path().join(other)), "{other}");
+        ends(dir.path(), 0, &["status", other]);
+    }
 }

@@ -9,6 +9,8 @@ use std::collections::BTreeSet;
 use std::net::TcpListener;
 use std::sync::Arc;
 use std::time::Duration;
+use zenoh::bytes::Encoding;
+use zenoh::{Config, Wait};
 
 fn at(live: &Live, key: Option<&str>) -> Listener {
     let options = ListenOptions {
@@ -104,6 +106,55 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     let last = all.last().expect("some");
     assert_eq!(last["key"], "rheotaxis/heard_1/clock");
     assert_eq!(last["message"]["ended"], true);
+}
+
+/// A run keeps a message before it sends it: who asks between the two is answered, and then hears the same.
+#[test]
+fn a_message_that_is_answered_and_then_sent_is_heard_once() {
+    let port = TcpListener::bind("127.0.0.1:0").and_then(|l| l.local_addr());
+    let endpoint = format!("tcp/{}", port.expect("a free port"));
+    let config = format!(
+        r#"{{ mode: "peer", listen: {{ endpoints: ["{endpoint}"] }}, scouting: {{ multicast: {{ enabled: false }} }} }}"#
+    );
+    let run = zenoh::open(Config::from_json5(&config).unwrap()).wait();
+    let run = run.unwrap();
+    let sends = run.clone();
+    let truth = "rheotaxis/between_1/auv/auv0/truth";
+    let _queryable = run
+        .declare_queryable("rheotaxis/between_1/**")
+        .callback(move |query| {
+            let say = |key: &str, text: &str| {
+                let put = sends.put(key, text).encoding(Encoding::APPLICATION_JSON);
+                put.wait().unwrap();
+            };
+            let reply = query.reply(truth, r#"{"t_s": 1}"#);
+            let reply = reply.encoding(Encoding::APPLICATION_JSON);
+            reply.wait().unwrap();
+            drop(query);
+            for text in [r#"{"t_s": 1}"#, r#"{"t_s": 2}"#, r#"{"t_s": 2}"#] {
+                say(truth, text);
+            }
+            say("rheotaxis/between_1/clock", r#"{"ended": true}"#);
+        })
+        .wait()
+        .unwrap();
+    let token = run
+        .liveliness()
+        .declare_token("rheotaxis/between_1/@live/sim");
+    let _alive = token.wait().unwrap();
+    let options = ListenOptions {
+        connect: Some(endpoint),
+        ..ListenOptions::default()
+    };
+    let mut listener = Listener::open(&options).unwrap();
+    assert_eq!(next(&mut listener), News::Begun("between_1".to_owned()));
+    let (lines, end) = to_the_end(&mut listener);
+    assert_eq!(end, News::Ended("between_1".to_owned()));
+    let truths: Vec<&Value> = (lines.iter().filter(|line| line["key"] == truth))
+        .map(|line| &line["message"]["t_s"])
+        .collect();
+    // What is sent twice is heard twice.
+    assert_eq!(truths, [1, 2, 2]);
 }
 
 #[test]

@@ -218,7 +218,7 @@ pub(super) fn unit(from: &mut Format<'_, '_>, name: &'static str) -> Result<()> 
 }
 
 /// What a type asks a format for.
-pub(super) enum Ask {
+pub(super) enum Request {
     Option,
     Newtype(&'static str),
     Seq,
@@ -229,17 +229,21 @@ pub(super) enum Ask {
     Enum(&'static str, &'static [&'static str]),
 }
 
-pub(super) fn ask<'de>(from: &mut Format<'_, 'de>, what: Ask, take: Take<'_, 'de>) -> Result<()> {
+pub(super) fn request<'de>(
+    from: &mut Format<'_, 'de>,
+    what: Request,
+    take: Take<'_, 'de>,
+) -> Result<()> {
     let pass = Pass(take);
     let given = match what {
-        Ask::Option => from.deserialize_option(pass),
-        Ask::Newtype(name) => from.deserialize_newtype_struct(name, pass),
-        Ask::Seq => from.deserialize_seq(pass),
-        Ask::Tuple(len) => from.deserialize_tuple(len, pass),
-        Ask::TupleStruct(name, len) => from.deserialize_tuple_struct(name, len, pass),
-        Ask::Map => from.deserialize_map(pass),
-        Ask::Struct(name, legal) => from.deserialize_struct(name, legal, pass),
-        Ask::Enum(name, legal) => from.deserialize_enum(name, legal, pass),
+        Request::Option => from.deserialize_option(pass),
+        Request::Newtype(name) => from.deserialize_newtype_struct(name, pass),
+        Request::Seq => from.deserialize_seq(pass),
+        Request::Tuple(len) => from.deserialize_tuple(len, pass),
+        Request::TupleStruct(name, len) => from.deserialize_tuple_struct(name, len, pass),
+        Request::Map => from.deserialize_map(pass),
+        Request::Struct(name, legal) => from.deserialize_struct(name, legal, pass),
+        Request::Enum(name, legal) => from.deserialize_enum(name, legal, pass),
     };
     given.map_err(SourceError::custom)
 }

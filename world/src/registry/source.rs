@@ -5,7 +5,9 @@
 //! for each type and for the names of its fields, a quarter of all code of the robots. What a type asks for reaches the
 //! format, and its errors keep their kind.
 
-use super::given::{Ask, Elements, Format, Given, Pairs, Result, Variants, ask, unit, word};
+use super::given::{
+    Elements, Format, Given, Pairs, Request, Result, Variants, request, unit, word,
+};
 use super::source_error::SourceError;
 use serde::Deserialize;
 use serde::de::{
@@ -58,13 +60,13 @@ impl<F, T> Taker<F, T> {
 }
 
 /// What `take` makes of what the format gives.
-fn asked<'de, T>(
+fn value_of<'de, T>(
     from: &mut Format<'_, 'de>,
-    what: Ask,
+    what: Request,
     take: impl FnOnce(Given<'_, 'de>) -> Result<T>,
 ) -> Result<T> {
     let mut taker = Taker::new(take);
-    ask(from, what, &mut |given| taker.give(given))?;
+    request(from, what, &mut |given| taker.give(given))?;
     taker.value()
 }
 
@@ -129,7 +131,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
     as_the_format_does! { deserialize_any deserialize_i128 deserialize_u128 deserialize_bytes deserialize_byte_buf }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        asked(self.0, Ask::Option, |given| match given {
+        value_of(self.0, Request::Option, |given| match given {
             Given::Nothing => visitor.visit_none(),
             Given::Inner(from) => visitor.visit_some(Source(from)),
             other => Err(other.unfit(&visitor)),
@@ -155,7 +157,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value> {
-        asked(self.0, Ask::Newtype(name), |given| match given {
+        value_of(self.0, Request::Newtype(name), |given| match given {
             Given::Text(text) => visitor.visit_str(text),
             Given::Inner(from) => visitor.visit_newtype_struct(Source(from)),
             other => Err(other.unfit(&visitor)),
@@ -163,11 +165,13 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        asked(self.0, Ask::Seq, |given| in_sequence(visitor, given))
+        value_of(self.0, Request::Seq, |given| in_sequence(visitor, given))
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, len: usize, visitor: V) -> Result<V::Value> {
-        asked(self.0, Ask::Tuple(len), |given| in_sequence(visitor, given))
+        value_of(self.0, Request::Tuple(len), |given| {
+            in_sequence(visitor, given)
+        })
     }
 
     fn deserialize_tuple_struct<V: Visitor<'de>>(
@@ -176,13 +180,13 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         len: usize,
         visitor: V,
     ) -> Result<V::Value> {
-        asked(self.0, Ask::TupleStruct(name, len), |given| {
+        value_of(self.0, Request::TupleStruct(name, len), |given| {
             in_sequence(visitor, given)
         })
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value> {
-        asked(self.0, Ask::Map, |given| in_map(visitor, given))
+        value_of(self.0, Request::Map, |given| in_map(visitor, given))
     }
 
     fn deserialize_struct<V: Visitor<'de>>(
@@ -191,7 +195,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        asked(self.0, Ask::Struct(name, legal), |given| {
+        value_of(self.0, Request::Struct(name, legal), |given| {
             in_map(visitor, given)
         })
     }
@@ -202,7 +206,7 @@ impl<'de> Deserializer<'de> for Source<'_, 'de> {
         legal: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value> {
-        asked(self.0, Ask::Enum(name, legal), |given| match given {
+        value_of(self.0, Request::Enum(name, legal), |given| match given {
             Given::Choice(of) => visitor.visit_enum(Access(of)),
             other => Err(other.unfit(&visitor)),
         })

@@ -183,7 +183,7 @@ fn the_surface_has_the_variance_of_its_significant_height() {
         trains: vec![],
         ..wind_sea()
     };
-    let n = 1000;
+    let n = 3000;
     let mut sum = 0.0;
     for seed in 0..n {
         let waves = spec.build("w", DEPTH, seed).unwrap();

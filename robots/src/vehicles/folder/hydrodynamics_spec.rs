@@ -6,8 +6,9 @@ use world::ranges::{Finite, Positive};
 
 /// What still and moving water does to a hull.
 ///
-/// Forces are −D ν − D_q |ν|∘ν − |u| D_u ν, with ν = (surge, sway, heave, roll, pitch, yaw) at the origin of the body's
-/// link, relative to the water. So damping that resists has positive numbers on its diagonal.
+/// Forces and moments, at the origin of the body's link, are −D ν − D_q |ν|∘ν − |u| D_u ν, for a velocity ν = (surge,
+/// sway, heave, roll, pitch, yaw) there, relative to the water. Therefore, damping that resists has positive numbers on
+/// its diagonal.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct HydrodynamicsSpec {

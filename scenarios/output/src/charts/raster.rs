@@ -24,16 +24,24 @@ fn scaled(svg: &str, scale: impl Fn(f32) -> f32) -> Result<Vec<u8>, String> {
 }
 
 /// A picture as PNG bytes. `write_to` of `image` would bring the encoders of all formats into each crate that asks it.
+///
+/// # Errors
+/// If it has no pixels.
 pub fn picture_png(picture: &RgbImage) -> ImageResult<Vec<u8>> {
-    let mut png = Vec::new();
-    picture.write_with_encoder(PngEncoder::new(&mut png))?;
-    Ok(png)
+    encoded(picture, picture.dimensions(), ExtendedColorType::Rgb8)
 }
 
 /// A mask as PNG bytes.
+///
+/// # Errors
+/// If it has no pixels.
 pub fn mask_png(mask: &GrayImage) -> ImageResult<Vec<u8>> {
+    encoded(mask, mask.dimensions(), ExtendedColorType::L8)
+}
+
+fn encoded(pixels: &[u8], (w, h): (u32, u32), colour: ExtendedColorType) -> ImageResult<Vec<u8>> {
     let mut png = Vec::new();
-    mask.write_with_encoder(PngEncoder::new(&mut png))?;
+    PngEncoder::new(&mut png).write_image(pixels, w, h, colour)?;
     Ok(png)
 }
 

@@ -68,7 +68,6 @@ impl<'a> Tree<'a> {
     /// Sends and keeps a message. If it does not fit into a subscriber's queue at once, that subscriber loses it.
     pub(super) fn say(&self, message: Message) -> Result<()> {
         let key = self.key(&message)?;
-        // Kept first: who subscribes in between and asks for what was said hears it at least once.
         keep(&self.kept, key.clone(), message.clone());
         let put = self
             .session
@@ -90,6 +89,7 @@ impl<'a> Tree<'a> {
     }
 }
 
+/// Before it is sent: who subscribes in between, and then asks for what was said, hears it at least once.
 fn keep(kept: &Kept, key: OwnedKeyExpr, message: Message) {
     kept.lock()
         .unwrap_or_else(PoisonError::into_inner)
@@ -113,8 +113,8 @@ fn keep_published(
         .cache(CacheConfig::default().max_samples(1))
         .publisher_detection()
         .wait()?;
-    publisher.put(message.payload.clone()).wait()?;
-    keep(kept, key, message);
+    keep(kept, key, message.clone());
+    publisher.put(message.payload).wait()?;
     Ok(publisher)
 }
 
@@ -158,5 +158,39 @@ fn encoding(message: &Message) -> Encoding {
         Payload::Json | Payload::Schema => Encoding::APPLICATION_JSON,
         Payload::PackedF32 => Encoding::APPLICATION_OCTET_STREAM,
         Payload::Jpeg => Encoding::IMAGE_JPEG,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{LiveCounts, message};
+    use super::*;
+    use zenoh::Config;
+
+    #[test]
+    fn what_reaches_a_subscriber_is_already_kept() {
+        let alone = r#"{ mode: "peer", listen: { endpoints: [] }, scouting: { multicast: { enabled: false } } }"#;
+        let session = zenoh::open(Config::from_json5(alone).unwrap()).wait();
+        let session = session.unwrap();
+        let options = LiveOptions::new("order_1".to_owned());
+        let mut tree = Tree::grow(&session, &options, Vec::new()).unwrap();
+        let kept = Arc::clone(&tree.kept);
+        let (told, heard) = std::sync::mpsc::channel();
+        // A subscriber of the session that sends hears before the call that sends returns.
+        let _subscriber = session
+            .declare_subscriber("rheotaxis/order_1/**")
+            .callback(move |sample| {
+                let key = sample.key_expr().as_str()["rheotaxis/order_1/".len()..].to_owned();
+                let there = kept.lock().unwrap().contains_key(&key);
+                told.send((key, there)).unwrap();
+            })
+            .wait()
+            .unwrap();
+        let clock = message::clock(0.1, 1, false, LiveCounts::default());
+        tree.say(clock).unwrap();
+        tree.say_for_good(message::digest("d1")).unwrap();
+        let heard: Vec<(String, bool)> = heard.try_iter().collect();
+        let both = ["clock", "meta/digest"].map(|key| (key.to_owned(), true));
+        assert_eq!(heard, both);
     }
 }

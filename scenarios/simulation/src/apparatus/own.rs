@@ -22,7 +22,7 @@ pub(crate) trait Own: Send + Sync + Sized {
 /// only runs with frames use, which stay where they are.
 macro_rules! own {
     (
-        $(#[$doc:meta])* $own:ident as $parts:ident of $each:ident {
+        $(#[$doc:meta])* $own:ident as $parts:ident with $bundle:ident {
             $($field:ident: $component:ty,)*
         } some {
             $($other:ident: $optional:ty,)*
@@ -32,13 +32,13 @@ macro_rules! own {
     ) => {
         $(#[$doc])*
         pub(crate) struct $own {
-            each: $each,
+            bundle: $bundle,
             $($other: Option<$optional>,)*
         }
 
         /// What each of them has: taken from a world in one go.
         #[derive(bevy_ecs::bundle::Bundle)]
-        struct $each {
+        struct $bundle {
             $($field: $component,)*
         }
 
@@ -56,7 +56,7 @@ macro_rules! own {
             fn take(world: &mut bevy_ecs::prelude::World, machine: bevy_ecs::prelude::Entity) -> Self {
                 let mut machine = world.entity_mut(machine);
                 let own = Self {
-                    each: machine.take().expect(concat!("each has all of ", stringify!($each))),
+                    bundle: machine.take().expect(concat!("each has all of ", stringify!($bundle))),
                     $($other: machine.take(),)*
                 };
                 $(machine.remove::<$shown>();)*
@@ -75,7 +75,7 @@ macro_rules! own {
                 machine: bevy_ecs::prelude::Entity,
             ) {
                 let mut here = parts.get_mut(world, machine).expect("machines stay");
-                $(std::mem::swap(&mut *here.$field, &mut self.each.$field);)*
+                $(std::mem::swap(&mut *here.$field, &mut self.bundle.$field);)*
                 $(if let (Some(here), Some(own)) = (&mut here.$other, &mut self.$other) {
                     std::mem::swap(&mut **here, own);
                 })*

@@ -16,7 +16,7 @@ use world::frames::Truth;
 
 own! {
     /// All components of a robot.
-    RobotOwn as RobotParts of RobotEach {
+    RobotOwn as RobotParts with RobotBundle {
         id: SearcherId,
         truth: Truth,
         now: Now,

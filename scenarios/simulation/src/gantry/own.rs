@@ -8,7 +8,7 @@ use robots::handoff::{GantryDecision, GantryReadings};
 
 own! {
     /// All components of a gantry.
-    GantryOwn as GantryParts of GantryEach {
+    GantryOwn as GantryParts with GantryBundle {
         id: SearcherId,
         rig: Rig,
         head: Head,

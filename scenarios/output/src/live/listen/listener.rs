@@ -12,6 +12,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::path::PathBuf;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, SyncSender, sync_channel};
 use std::time::Duration;
+use zenoh::bytes::ZBytes;
 use zenoh::key_expr::{OwnedKeyExpr, keyexpr};
 use zenoh::query::{ConsolidationMode, Reply};
 use zenoh::sample::{Sample, SampleKind};
@@ -44,7 +45,7 @@ struct Known {
     /// Keys of the messages heard so far.
     heard: BTreeSet<String>,
     /// What runs have answered, by key: a run keeps a message before it sends it, so the next one may be the same.
-    answers: BTreeMap<String, Vec<u8>>,
+    answers: BTreeMap<String, ZBytes>,
     asked: bool,
     answered: bool,
     ended: bool,
@@ -179,12 +180,11 @@ impl Listener {
         if answer && known.heard.contains(key.as_str()) {
             return;
         }
-        let payload = sample.payload().to_bytes();
         if answer {
-            (known.answers).insert(key.as_str().to_owned(), payload.into_owned());
+            (known.answers).insert(key.as_str().to_owned(), sample.payload().clone());
         } else {
             known.heard.insert(key.as_str().to_owned());
-            if (known.answers.remove(key.as_str())).is_some_and(|same| *same == *payload) {
+            if known.answers.remove(key.as_str()).as_ref() == Some(sample.payload()) {
                 return;
             }
         }
