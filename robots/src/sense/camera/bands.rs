@@ -52,8 +52,13 @@ const MIDDLE_NM: Rgb = [600.0, 530.0, 460.0];
 
 /// The same for each wavelength.
 #[must_use]
-pub(super) fn each(f: impl FnMut(usize) -> f64) -> Spectrum {
-    [0, 1, 2, 3, 4, 5, 6, 7].map(f)
+pub(super) fn each(mut f: impl FnMut(usize) -> f64) -> Spectrum {
+    // A loop is compiled in place, `map` of an array is not.
+    let mut all = [0.0; N];
+    for (i, one) in all.iter_mut().enumerate() {
+        *one = f(i);
+    }
+    all
 }
 
 /// The camera's response to a spectrum.

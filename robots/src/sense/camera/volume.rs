@@ -168,6 +168,13 @@ impl Volume {
             parted |= rho > 0.0;
             let before = passes;
             let from_lamp = each(|i| lamp.map_or(0.0, |(lx, p)| lx[i] * p));
+            // What the dye of this step takes along the way, and what that above it has taken of the sun's light.
+            let taken = d.absorption.map(|a| rho * a);
+            let under = if rho > 0.0 {
+                d.absorption.map(|a| math::exp(-a * above))
+            } else {
+                [1.0; N]
+            };
             for i in 0..N {
                 let (b, c) = (w.scattering[i], w.attenuation[i]);
                 let got = left[i] * (1.0 - clear[i]) / c;
@@ -179,21 +186,27 @@ impl Volume {
                     dyed[i] += got * before[i] * b * lit;
                 } else {
                     // Light from the camera's side has come along the line of sight, the rest from the sun.
-                    let taken = d.absorption.map(|a| rho * a);
                     let all = c + taken[i] + rho * d.scattering;
-                    let along = |rate: f64| (1.0 - math::exp(-rate * length)) / rate;
-                    let shade = |j: usize| math::exp(-d.absorption[j] * above) * along(all);
-                    let ahead = |j: usize| before[j] * along(all + taken[j]);
-                    let day_on = |j: usize| day[j] * (front * ahead(j) + (1.0 - front) * shade(j));
-                    let lamp_on = |j: usize| lamp.map_or(0.0, |(lx, _)| lx[j] * ahead(j));
+                    let passed = math::exp(-all * length);
+                    let back = (1.0 - passed) / all;
+                    let ahead = |j: usize| {
+                        let rate = all + taken[j];
+                        before[j] * ((1.0 - math::exp(-rate * length)) / rate)
+                    };
+                    let day_on = |j: usize, ahead: f64| {
+                        day[j] * (front * ahead + (1.0 - front) * (under[j] * back))
+                    };
+                    let lamp_on = |j: usize, ahead: f64| lamp.map_or(0.0, |(lx, _)| lx[j] * ahead);
                     let evenly = rho / (4.0 * PI);
-                    let mut sum = b * from_lamp[i] * ahead(i)
-                        + (b * thrown + d.scattering * evenly) * day_on(i);
+                    let own = ahead(i);
+                    let mut sum = b * from_lamp[i] * own
+                        + (b * thrown + d.scattering * evenly) * day_on(i, own);
                     for j in (0..N).filter(|j| d.glow[i][*j] > 0.0) {
-                        sum += evenly * d.glow[i][j] * (day_on(j) + lamp_on(j));
+                        let there = ahead(j);
+                        sum += evenly * d.glow[i][j] * (day_on(j, there) + lamp_on(j, there));
                     }
                     dyed[i] += left[i] * before[i] * sum;
-                    passes[i] *= math::exp(-all * length) / clear[i];
+                    passes[i] *= passed / clear[i];
                 }
                 left[i] *= clear[i];
             }
