@@ -187,12 +187,9 @@ impl Volume {
                 } else {
                     // Light from the camera's side has come along the line of sight, the rest from the sun.
                     let all = c + taken[i] + rho * d.scattering;
-                    let passed = math::exp(-all * length);
-                    let back = (1.0 - passed) / all;
-                    let ahead = |j: usize| {
-                        let rate = all + taken[j];
-                        before[j] * ((1.0 - math::exp(-rate * length)) / rate)
-                    };
+                    let along = |rate: f64| (1.0 - math::exp(-rate * length)) / rate;
+                    let back = along(all);
+                    let ahead = |j: usize| before[j] * along(all + taken[j]);
                     let day_on = |j: usize, ahead: f64| {
                         day[j] * (front * ahead + (1.0 - front) * (under[j] * back))
                     };
@@ -206,7 +203,7 @@ impl Volume {
                         sum += evenly * d.glow[i][j] * (day_on(j, there) + lamp_on(j, there));
                     }
                     dyed[i] += left[i] * before[i] * sum;
-                    passes[i] *= passed / clear[i];
+                    passes[i] *= math::exp(-all * length) / clear[i];
                 }
                 left[i] *= clear[i];
             }
