@@ -49,7 +49,7 @@ fn room(n: [usize; 3], cell_m: [f64; 3], blocks: usize) -> Room {
         n,
     };
     let mut room = Room::new(lattice, 0.5, 4.0);
-    room.chart(&Obstacles(solids), &bed, |_, _| -size[2] / 2.0);
+    room.chart(&Obstacles(solids), &bed, &|_, _| -size[2] / 2.0);
     room
 }
 
@@ -135,6 +135,6 @@ fn million_voxels_between_walls(bencher: divan::Bencher, north: f64) {
         n,
     };
     let mut room = Room::new(lattice, 0.5, 4.0);
-    room.chart(&solids, &bed, |_, _| -size[2] / 2.0);
+    room.chart(&solids, &bed, &|_, _| -size[2] / 2.0);
     plan(bencher, &room, &AStarParams::default(), [0.98, north, 0.5]);
 }

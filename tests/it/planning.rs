@@ -103,7 +103,7 @@ fn paths_are_free_for_the_inflated_hull_in_ten_thousand_random_worlds() {
         };
         let mut room = Room::new(lattice, HULL_M, 4.0);
         let level = -0.5 * size[2];
-        room.chart(&solids, &bed, |_, _| level);
+        room.chart(&solids, &bed, &|_, _| level);
         let mut place = || {
             let [x, y, z] = [rng.uniform(), rng.uniform(), rng.uniform()];
             let z = if n[2] == 1 {

@@ -88,7 +88,7 @@ impl Room {
         &mut self,
         solids: &Obstacles,
         terrain: &Terrain,
-        level: impl Fn(f64, f64) -> f64,
+        level: &dyn Fn(f64, f64) -> f64,
     ) {
         let plane = self.plane();
         let boxes: Vec<_> = solids.0.iter().map(|o| (o, o.bounds())).collect();

@@ -32,7 +32,7 @@ pub(crate) fn block(id: &str, east_m: f64, north_m: f64, size_m: [f64; 3]) -> Ob
 pub(crate) fn room(n: [usize; 3], cell_m: [f64; 3], blocks: Vec<Obstacle>) -> Room {
     let mut room = Room::new(lattice(n, cell_m), 0.4, 10.0);
     let bed = Terrain::Level { depth_m: 8.0 };
-    room.chart(&Obstacles(blocks), &bed, |_, _| -4.0);
+    room.chart(&Obstacles(blocks), &bed, &|_, _| -4.0);
     room
 }
 

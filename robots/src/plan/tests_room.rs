@@ -13,7 +13,7 @@ fn room() -> Room {
 fn chart_gives_clearances_and_inflation() {
     let mut r = room();
     let solids = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 8.0])]);
-    r.chart(&solids, &Terrain::Level { depth_m: 8.0 }, |_, _| -4.0);
+    r.chart(&solids, &Terrain::Level { depth_m: 8.0 }, &|_, _| -4.0);
     let at = |x: f64, y: f64| r.lattice().cell(&Vector3::new(x, y, 0.0)).unwrap();
     assert!(r.solid(at(10.5, 10.5)) && !r.free(at(10.5, 10.5)));
     assert!((r.clearance_m(at(14.5, 10.5)) - 2.5).abs() < 1e-6);
@@ -22,7 +22,7 @@ fn chart_gives_clearances_and_inflation() {
     // Above the block's top the plane is free.
     let mut high = room();
     let low = Obstacles(vec![block("b", 10.0, 10.0, [4.0, 4.0, 2.0])]);
-    high.chart(&low, &Terrain::Level { depth_m: 8.0 }, |_, _| -4.0);
+    high.chart(&low, &Terrain::Level { depth_m: 8.0 }, &|_, _| -4.0);
     assert!(high.free(at(10.5, 10.5)));
 }
 
@@ -74,7 +74,7 @@ proptest! {
         let solid = Obstacles(vec![block("b", 4.0, 4.0, [2.0, 3.0, 8.0])]);
         let make = || {
             let mut r = Room::new(lattice([12, 9, deep], [1.0, 1.5, 0.7]), 0.5, reach);
-            r.chart(&solid, &Terrain::Level { depth_m: 8.0 }, |_, _| -4.0);
+            r.chart(&solid, &Terrain::Level { depth_m: 8.0 }, &|_, _| -4.0);
             r
         };
         let mut lifted = make();

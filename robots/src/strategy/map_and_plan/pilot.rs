@@ -75,7 +75,7 @@ impl Pilot {
         let cells = spec.room.cells(setting)?;
         let vertical = Vertical::from(spec.vertical);
         let mut room = Room::new(cells, spec.hull_m.get(), spec.planner.reach().1);
-        room.chart(&setting.chart, &setting.bed, |x, y| {
+        room.chart(&setting.chart, &setting.bed, &|x, y| {
             level(vertical, &setting.bed, x, y)
         });
         let lattice = room.lattice();
