@@ -20,9 +20,10 @@ impl<N: Number> LayeredColumn<'_, N> {
 
     /// The share of the layer above an interface in the water at a height.
     fn share(&self, face: usize, z: N) -> N {
-        // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle.
+        // ½(1 + tanh(2x)) = 1/(1 + e^(−4x)), one exponential; its slope is 1/thickness in the middle. Far below, where
+        // the share is less than 1e-152, the exponential and its slope would overflow.
         let x = (z - self.faces[face].z) / self.of.faces[face].thickness;
-        N::from(1.0) / ((x * -4.0).exp() + 1.0)
+        N::from(1.0) / ((x * -4.0).least(N::from(350.0)).exp() + 1.0)
     }
 
     /// Horizontal velocity at a height, m/s: that of [`LayeredColumn::profile`], without the rest.
