@@ -222,10 +222,10 @@ fn drift_round(bencher: Bencher, (n, led): (usize, bool)) {
 /// Points where a filament is within a metre or two: a track through the plume.
 fn near(plume: &Plume) -> Vec<Vector3<f64>> {
     let mut r = Stream::new(1, "bench", "near");
-    let all: Vec<[f32; 5]> = plume.iter().collect();
+    let all: Vec<[f64; 5]> = plume.iter().collect();
     (0..4096)
         .map(|_| {
-            let f = all[(r.uniform() * all.len() as f64) as usize].map(f64::from);
+            let f = all[(r.uniform() * all.len() as f64) as usize];
             let p = Vector3::new(
                 f[0] + r.normal(),
                 f[1] + r.normal(),
@@ -239,7 +239,7 @@ fn near(plume: &Plume) -> Vec<Vector3<f64>> {
 /// Points anywhere in the box that holds all filaments.
 fn in_box(plume: &Plume) -> Vec<Vector3<f64>> {
     let mut r = Stream::new(1, "bench", "box");
-    let (mut lo, mut hi) = ([f32::MAX; 3], [f32::MIN; 3]);
+    let (mut lo, mut hi) = ([f64::MAX; 3], [f64::MIN; 3]);
     for f in plume.iter() {
         for d in 0..3 {
             lo[d] = lo[d].min(f[d]);
@@ -247,17 +247,17 @@ fn in_box(plume: &Plume) -> Vec<Vector3<f64>> {
         }
     }
     (0..4096)
-        .map(|_| Vector3::from_fn(|d, _| f64::from(lo[d]) + r.uniform() * f64::from(hi[d] - lo[d])))
+        .map(|_| Vector3::from_fn(|d, _| lo[d] + r.uniform() * (hi[d] - lo[d])))
         .collect()
 }
 
 /// Points along straight tracks at 2 m/s and 10 Hz, 40 m long, across the plume at random places.
 fn tracks(plume: &Plume) -> Vec<Vector3<f64>> {
     let mut r = Stream::new(1, "bench", "tracks");
-    let all: Vec<[f32; 5]> = plume.iter().collect();
+    let all: Vec<[f64; 5]> = plume.iter().collect();
     let mut points = Vec::new();
     for _ in 0..64 {
-        let f = all[(r.uniform() * all.len() as f64) as usize].map(f64::from);
+        let f = all[(r.uniform() * all.len() as f64) as usize];
         let course = Heading::from_deg(360.0 * r.uniform()).unit();
         for k in -100..100 {
             let q = Vector2::new(f[0], f[1]) + course * (0.2 * f64::from(k));

@@ -197,7 +197,7 @@ fn another_scenario_campaign_or_block_size_is_refused_by_name() {
     let (_, said) = ends(dir, 1, &[&run[..], &["--block", "4"]].concat());
     let scenario = rheotaxis::scenario::load(&dir.join("pond.ron"))
         .unwrap()
-        .hash;
+        .hash();
     let differs = format!(
         "out holds runs of another campaign: scenario {} there, {scenario} here; block size 2 there, 4 here",
         was("scenario_hash")

@@ -3,9 +3,9 @@
 //! Every specification whose size or work depends on numbers in the file has a method `cost` beside `build`. All
 //! numbers are `f64`: a product that is too large becomes infinite, and [`Cost::fits`] treats NaN as too much.
 //!
-//! *Calibration*: times are for one core of an AMD EPYC in a virtual machine. They come from README's benchmarks and
-//! from runs of duck_st, uniform_channel, flume_crab_paper, harbour_3d, wp_laminar and moth_eyes. The time of a whole run
-//! was within a factor of two of its estimate. Missions that end before `time.limit_s` take less.
+//! *Calibration*: times are for one core of an AMD EPYC in a virtual machine, from runs of duck_st, uniform_channel,
+//! flume_crab_paper, harbour_3d, wp_laminar and moth_eyes. They weigh parts against each other and tell hours from
+//! seconds. They are not shown: on another machine, and for inputs unlike these, they may be far off.
 
 use crate::limits::shown;
 use crate::math;
@@ -37,7 +37,12 @@ impl Times {
     /// Number of steps of the plume.
     #[must_use]
     pub fn drifts(&self) -> f64 {
-        self.spin_up_s / self.spin_up_period_s + self.mission_s / self.drift_period_s
+        // A step ends where the flow is renewed.
+        let step = |period_s: f64| match self.flow_period_s > 0.0 {
+            true => period_s.min(self.flow_period_s),
+            false => period_s,
+        };
+        self.spin_up_s / step(self.spin_up_period_s) + self.mission_s / step(self.drift_period_s)
     }
 
     /// How often the flow is evaluated for the plume.

@@ -88,9 +88,9 @@ pub trait Flow: Send + Sync {
         }
     }
 
-    /// Moves places (ENU, m) with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place by
-    /// `dt_s[n]`. The default has no eddies.
-    fn carry(&self, _t_s: f64, _dt_s: &[f32], _places: [&mut [f32]; 3]) {}
+    /// Moves places with the eddies that [`Flow::column`] leaves out, up to `t_s`; the n-th place by `dt_s[n]`. Places
+    /// are east and north of the `datum` (east, north) and upwards, m. The default has no eddies.
+    fn carry(&self, _t_s: f64, _dt_s: &[f32], _datum: Vector2<f64>, _places: [&mut [f32]; 3]) {}
 
     /// Fills in the face velocities that carry mean places through the cells in which the water was computed, and
     /// returns true; returns false if there are no cells. For each cell, the six values are the velocities at its lower

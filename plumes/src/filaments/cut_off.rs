@@ -39,7 +39,7 @@ pub fn cut_off(
     let cells = Cells::new(blockage, area, &Ground::new(terrain), obstacles, walled)?;
     let grid = FlowGrid::new(area, terrain, BlockageSpec::grid_shape(blockage));
     let (mut room, lookup) = (Room::new(&grid), Lookup::new(&grid));
-    room.solids = Solids::new(obstacles.clone());
+    room.solids = Solids::new(obstacles.clone(), grid.datum);
     room.lead_round(Arc::new(cells));
     let placed = specs.iter().enumerate().filter_map(|(n, spec)| {
         let mut placed = place(std::slice::from_ref(spec), area, terrain).ok()?;
@@ -47,25 +47,25 @@ pub fn cut_off(
     });
     Ok(placed
         .filter(|(_, source)| obstacles.containing(&source.p_W).is_none())
-        .filter_map(|(n, source)| problem(&room, &lookup, n, &source))
+        .filter_map(|(n, source)| problem(&grid, &room, &lookup, n, &source))
         .collect())
 }
 
 /// What is wrong with the n-th source, if anything is.
 pub(super) fn problem(
+    grid: &FlowGrid,
     room: &Room,
     lookup: &Lookup,
     n: usize,
     source: &Source,
 ) -> Option<PlumeError> {
-    let p = source.p_W.map(|v| v as f32);
-    let at = room.place(lookup, p.into())?;
+    let at = room.place(lookup, grid.local(&source.p_W))?;
     let free = room.open(lookup, &at, true);
     if free.is_some_and(|free| free.q == at.q) {
         return None;
     }
     let cure = free.map_or("bring it into open water".to_owned(), |free| {
-        let p = room.point(&free);
+        let p = (grid.datum + room.horizontal(free.q)).push(free.z());
         format!(
             "take a smaller water.blockage.cell_m, or bring it to open water, say east {:.2} m, north {:.2} m, depth {:.2} m",
             p[0], p[1], -p[2]

@@ -19,7 +19,6 @@ use super::lookup::Lookup;
 use super::room::Room;
 use super::store::Store;
 use crate::path::Path;
-use nalgebra::Vector3;
 use std::sync::OnceLock;
 
 /// The groups of every band of every store.
@@ -79,9 +78,9 @@ impl Index {
         }
     }
 
-    /// Concentration at a point, kg/m³; zero above the surface. In a solid it is that of the nearest water.
-    pub(super) fn at(&self, q: &Question, p: &Vector3<f64>) -> f64 {
-        let p = [p.x as f32, p.y as f32, p.z as f32];
+    /// Concentration at a point from the datum, kg/m³; zero above the surface. In a solid it is that of the nearest
+    /// water.
+    pub(super) fn at(&self, q: &Question, p: [f32; 3]) -> f64 {
         if p[2] > 0.0 {
             return 0.0;
         }

@@ -116,7 +116,13 @@ impl Labels {
     }
 
     /// Brings the coordinates of the water at the source to a time.
-    fn pass_source(&mut self, small: &Small, flow: &dyn Flow, p_W: Vector3<f64>, t_s: f64) {
+    fn pass_source(
+        &mut self,
+        small: &Small,
+        flow: &dyn Flow,
+        (p_W, local): (Vector3<f64>, [f32; 3]),
+        t_s: f64,
+    ) {
         let u = flow.velocity(&p_W, t_s).map(|v| v as f32);
         let passed = (t_s - self.since_s) as f32;
         for ((at, number), life) in
@@ -128,7 +134,7 @@ impl Labels {
                 }
             } else {
                 *number = life.number;
-                *at = std::array::from_fn(|d| p_W[d] as f32 - life.age_s * u[d]);
+                *at = std::array::from_fn(|d| local[d] - life.age_s * u[d]);
             }
         }
         (self.since_s, self.source_m_s) = (t_s, u.into());
@@ -147,12 +153,13 @@ impl Labels {
     }
 }
 
-/// Carries filaments with the small eddies through a step, or from their release on, and the water at the source, `p_W`.
+/// Carries filaments with the small eddies through a step, or from their release on, and the water at the source, which
+/// is given in the world and from the datum.
 pub(super) fn carry(
     path: Path,
     small: &Small,
     flow: &dyn Flow,
-    p_W: Vector3<f64>,
+    source: (Vector3<f64>, [f32; 3]),
     store: &mut Store,
     range: Range<usize>,
     span: Span,
@@ -167,7 +174,7 @@ pub(super) fn carry(
         #[cfg(target_arch = "x86_64")]
         Path::Avx2 | Path::Avx512 => unsafe { moved_avx2(&mut labels, small, store, range, span) },
     }
-    labels.pass_source(small, flow, p_W, span.to_s);
+    labels.pass_source(small, flow, source, span.to_s);
     store.labels = Some(labels);
 }
 

@@ -39,6 +39,8 @@ mod tally;
 #[cfg(test)]
 mod tests_bands;
 #[cfg(test)]
+mod tests_datum;
+#[cfg(test)]
 mod tests_drift;
 #[cfg(test)]
 mod tests_even;

@@ -168,8 +168,8 @@ impl Plume {
     /// `sources[0].release.buoyancy.solutes[0].g_l`.
     pub fn with_buoyancy(mut self, flow: &dyn Flow) -> Result<Self, PlumeError> {
         for (n, (store, source)) in self.stores.iter_mut().zip(&self.sources).enumerate() {
-            let p = source.p_W.map(|v| v as f32);
-            let bed_m = f64::from(self.cells.bed(self.cells.column(p.x, p.y)));
+            let [x, y, _] = self.grid.local(&source.p_W);
+            let bed_m = f64::from(self.cells.bed(self.cells.column(x, y)));
             store.rise = Rise::new(flow, n, source, bed_m)?;
         }
         Ok(self)
@@ -181,7 +181,7 @@ impl Plume {
     /// If a source stands inside a solid.
     pub fn with_obstacles(mut self, obstacles: Obstacles) -> Result<Self, PlumeError> {
         clear(&self.sources, &obstacles)?;
-        self.room.solids = Solids::new(obstacles);
+        self.room.solids = Solids::new(obstacles, self.grid.datum);
         Ok(self)
     }
 
@@ -208,7 +208,8 @@ impl Plume {
         self.room.lead_round(cells.clone());
         self.carrier = Some(Carrier::new(blocked));
         for (n, source) in self.sources.iter().enumerate() {
-            if let Some(problem) = cut_off::problem(&self.room, &self.cells, n, source) {
+            if let Some(problem) = cut_off::problem(&self.grid, &self.room, &self.cells, n, source)
+            {
                 return Err(problem);
             }
         }
@@ -226,6 +227,6 @@ impl Concentration for Plume {
             path: self.path,
             now_s: self.now_s,
         };
-        self.index.at(&query, p)
+        self.index.at(&query, self.grid.local(p))
     }
 }

@@ -44,6 +44,8 @@ impl Place {
 /// Everything that filaments cannot pass.
 #[derive(Clone, Debug)]
 pub(super) struct Room {
+    /// World (east, north) of the datum from which filaments are placed, m.
+    pub(super) datum: Vector2<f64>,
     origin: Vector2<f64>,
     axes: [Vector2<f64>; 2],
     pub(super) spacing: [f64; 2],
@@ -79,6 +81,7 @@ impl Room {
             }
         }
         Self {
+            datum: grid.datum,
             origin: axis(grid.origin),
             axes: [axis(grid.along), axis(grid.across)],
             spacing,
@@ -98,7 +101,7 @@ impl Room {
     }
 
     pub(super) fn between(&mut self, walls: &SideWalls) {
-        let middle = (walls.centre - self.origin).dot(&self.axes[1]);
+        let middle = (walls.centre - self.datum - self.origin).dot(&self.axes[1]);
         self.sides = Some([middle - walls.half_width_m, middle + walls.half_width_m]);
     }
 
@@ -133,7 +136,7 @@ impl Room {
         })
     }
 
-    /// East, north, up of a place, m.
+    /// East, north (from the datum), up of a place, m.
     pub(super) fn point(&self, p: &Place) -> [f32; 3] {
         let xy = self.horizontal(p.q);
         [xy.x as f32, xy.y as f32, p.z() as f32]

@@ -6,20 +6,28 @@
 //!
 //! *Deviations*: none.
 
-use nalgebra::Vector3;
+use nalgebra::{Vector2, Vector3};
 use world::obstacles::{Obstacle, Obstacles};
 
-/// The solids.
+/// The solids, asked in coordinates from the datum of the filaments.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Solids {
     obstacles: Obstacles,
+    /// Where the datum of all points here lies in the world, m.
+    datum: Vector3<f64>,
     boxes: Vec<[Vector3<f64>; 2]>,
 }
 
 impl Solids {
-    pub(super) fn new(obstacles: Obstacles) -> Self {
-        let boxes = obstacles.0.iter().map(|o| o.bounds().into()).collect();
-        Self { obstacles, boxes }
+    pub(super) fn new(obstacles: Obstacles, datum: Vector2<f64>) -> Self {
+        let datum = datum.push(0.0);
+        let bounds = |o: &Obstacle| <[_; 2]>::from(o.bounds()).map(|p| p - datum);
+        let boxes = obstacles.0.iter().map(bounds).collect();
+        Self {
+            obstacles,
+            datum,
+            boxes,
+        }
     }
 
     pub(super) fn is_empty(&self) -> bool {
@@ -55,7 +63,8 @@ impl Solids {
     pub(super) fn ray(&self, from: &Vector3<f64>, along: &Vector3<f64>, most: f64) -> Option<f64> {
         let to = from + along * most;
         let hits = self.meeting(from.inf(&to), from.sup(&to));
-        hits.filter_map(|o| o.ray(from, along, most))
+        let from = from + self.datum;
+        hits.filter_map(|o| o.ray(&from, along, most))
             .min_by(f64::total_cmp)
     }
 
@@ -63,20 +72,22 @@ impl Solids {
     pub(super) fn sees(&self, from: &Vector3<f64>, to: &Vector3<f64>) -> bool {
         let way = to - from;
         let far = way.norm();
+        let eye = from + self.datum;
         far == 0.0
             || self
                 .meeting(from.inf(to), from.sup(to))
-                .all(|o| o.contains(from) || o.ray(from, &way, far).is_none())
+                .all(|o| o.contains(&eye) || o.ray(&eye, &way, far).is_none())
     }
 
     /// The obstacle that contains a point.
     pub(super) fn containing(&self, p: &Vector3<f64>) -> Option<&Obstacle> {
-        self.meeting(*p, *p).find(|o| o.contains(p))
+        let at = p + self.datum;
+        self.meeting(*p, *p).find(|o| o.contains(&at))
     }
 
     /// The nearest free point; see [`Obstacles::way_out`].
     pub(super) fn way_out(&self, p: &Vector3<f64>) -> Vector3<f64> {
-        self.obstacles.way_out(p)
+        self.obstacles.way_out(&(p + self.datum)) - self.datum
     }
 }
 

@@ -16,7 +16,6 @@ use super::plume::Plume;
 use super::store::Store;
 use super::sweep::{Sweep, hold};
 use super::walls::{carry, fold, keep_between};
-use nalgebra::Vector3;
 use std::ops::Range;
 use std::sync::Arc;
 use world::fields::{Flow, SideWalls};
@@ -216,17 +215,18 @@ impl Plume {
             let before = self.room.has_solids().then(|| places_of(store, &range));
             store.rise(self.path, range.clone(), span);
             if walls.is_some() {
-                carry(flow, store, range.clone(), span);
+                carry(flow, self.grid.datum, store, range.clone(), span);
             }
             if let Some(small) = &self.small {
                 let p_W = self.sources[n].p_W;
-                labels::carry(self.path, small, flow, p_W, store, range.clone(), span);
+                let source = (p_W, self.grid.local(&p_W));
+                labels::carry(self.path, small, flow, source, store, range.clone(), span);
                 fold(store, range.clone());
             }
             self.keep_out(n, before, range.start);
         }
         if let Some(walls) = walls {
-            keep_between(walls, &mut self.stores[n], range);
+            keep_between(walls, self.grid.datum, &mut self.stores[n], range);
         }
     }
 
@@ -241,12 +241,13 @@ impl Plume {
                 store.size.stirred_by(flow.stirring(&p_W, size.get(), t0_s));
             }
             let (cells, room, sampled) = (&self.cells, &self.room, &mut self.sampled);
-            let (start, bed) = released(cells, p_W);
+            let grid = &self.grid;
+            let (start, bed) = released(cells, grid.local(&p_W));
             self.releases[n].until(t0_s, t1_s, |t| {
                 let (start, bed) = match flow.displacement(&p_W, t) {
                     None => (start, bed),
                     Some(way) => {
-                        let (start, bed) = released(cells, p_W - way);
+                        let (start, bed) = released(cells, grid.local(&(p_W - way)));
                         (room.in_water(cells, start), bed)
                     }
                 };
@@ -298,12 +299,12 @@ impl Plume {
             }
         }
         for source in &self.sources {
-            let p = source.p_W.map(|v| v as f32);
-            self.sampled.note(self.cells.column(p.x, p.y).at);
+            let [x, y, _] = self.grid.local(&source.p_W);
+            self.sampled.note(self.cells.column(x, y).at);
         }
         for (store, source) in self.stores.iter_mut().zip(&self.sources) {
             if let Some(rise) = &mut store.rise {
-                let (_, bed) = released(&self.cells, source.p_W);
+                let (_, bed) = released(&self.cells, self.grid.local(&source.p_W));
                 rise.renew(flow, source.p_W, f64::from(bed), self.grid.t_s);
             }
         }
@@ -324,9 +325,8 @@ fn places_of(store: &Store, range: &Range<usize>) -> [Vec<f32>; 3] {
     [&store.x, &store.y, &store.z].map(|v| v[range.clone()].to_vec())
 }
 
-/// Where a source at a point releases filaments, and the height of the bed there, m.
-fn released(cells: &Lookup, p_W: Vector3<f64>) -> ([f32; 3], f32) {
-    let p = p_W.map(|v| v as f32);
-    let bed = cells.bed(cells.column(p.x, p.y));
-    ([p.x, p.y, folded(p.z, bed, -1.0 / bed)], bed)
+/// Where a source at a point from the datum releases filaments, and the height of the bed there, m.
+fn released(cells: &Lookup, [x, y, z]: [f32; 3]) -> ([f32; 3], f32) {
+    let bed = cells.bed(cells.column(x, y));
+    ([x, y, folded(z, bed, -1.0 / bed)], bed)
 }

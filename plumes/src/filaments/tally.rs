@@ -91,7 +91,7 @@ impl Plume {
 
     /// x, y, z (m, ENU), horizontal size (m) and mass (kg) of every filament: by source, oldest first. In blocked
     /// water, cells may leave a part of an obstacle open; a filament in it is shown at the nearest free place.
-    pub fn iter(&self) -> impl Iterator<Item = [f32; 5]> + '_ {
+    pub fn iter(&self) -> impl Iterator<Item = [f64; 5]> + '_ {
         self.stores
             .iter()
             .flat_map(move |s| (0..self.count(s)).map(move |n| self.filament(s, n)))
@@ -101,7 +101,7 @@ impl Plume {
     /// source); the same ones for the same state. As [`Self::iter`], but with the mass (kg) of all filaments that it
     /// stands for, so that the masses of a source sum to its mass in the water; and with the number of those filaments.
     #[must_use]
-    pub fn decimated(&self, max_n: usize) -> Vec<[f32; 6]> {
+    pub fn decimated(&self, max_n: usize) -> Vec<[f64; 6]> {
         let shown = |every: usize| -> usize {
             (self.stores.iter())
                 .map(|s| self.count(s).div_ceil(every))
@@ -114,7 +114,7 @@ impl Plume {
         }
         let of = |s: &Store| {
             let count = self.count(s);
-            let stands_for = count as f32 / count.div_ceil(every).max(1) as f32;
+            let stands_for = count as f64 / count.div_ceil(every).max(1) as f64;
             let shown = (0..count).step_by(every);
             let rows = shown.map(|n| {
                 let [x, y, z, size, mass] = self.filament(s, n);
@@ -125,12 +125,13 @@ impl Plume {
         self.stores.iter().flat_map(of).collect()
     }
 
-    fn filament(&self, s: &Store, n: usize) -> [f32; 5] {
+    fn filament(&self, s: &Store, n: usize) -> [f64; 5] {
         let size = s.horizontal(n, self.now_s - s.born_s[n]);
         let band = s.band_of(n, &self.bands);
         let place = s.place(n, &self.bands.moment(band, self.now_s));
-        let [x, y, z] = self.room.shown(place.expect("it is released"));
-        [x, y, z, size, s.filament_kg as f32]
+        let shown = self.room.shown(place.expect("it is released"));
+        let p = self.grid.world(shown);
+        [p.x, p.y, p.z, size.into(), s.filament_kg]
     }
 
     /// Takes the whole state into a digest: every filament at the end of the step that it takes.
@@ -147,7 +148,7 @@ impl Plume {
         }
     }
 
-    /// East, north, up of every filament at its mean place.
+    /// East, north (from the datum), up of every filament at its mean place.
     #[cfg(test)]
     pub(super) fn all(&self) -> impl Iterator<Item = [f32; 3]> + '_ {
         let of = |s: &Store, n: usize| [s.x[n], s.y[n], s.z[n]];

@@ -52,8 +52,8 @@ fn off_duck(threads: usize, ask: bool) -> (String, f64) {
         water.advance(t_s);
         plume.advance(&water, t_s);
         if ask && n % 7 == 0 {
-            let all: Vec<[f32; 5]> = plume.iter().collect();
-            let f = all[all.len() / 2].map(f64::from);
+            let all: Vec<[f64; 5]> = plume.iter().collect();
+            let f = all[all.len() / 2];
             felt += plume.at(&Vector3::new(f[0], f[1], f[2]));
         }
     }
@@ -78,8 +78,8 @@ fn while_it_rests_it_can_be_looked_at_in_any_order() {
     plume.pace(0.0, f64::INFINITY, 5.0);
     let feel = |plume: &Plume, t_s: f64| {
         assert_eq!(plume.now_s().to_bits(), t_s.to_bits());
-        let all: Vec<[f32; 5]> = plume.iter().collect();
-        let near = all.iter().step_by(all.len() / 20).map(|f| f.map(f64::from));
+        let all: Vec<[f64; 5]> = plume.iter().collect();
+        let near = all.iter().step_by(all.len() / 20);
         let felt = near.map(|f| plume.at(&Vector3::new(f[0], f[1], f[2])).to_bits());
         felt.collect::<Vec<u64>>()
     };
@@ -157,7 +157,7 @@ fn spread_is_2kt_in_all_bands_at_once() {
         for (t_s, lacks) in [(400.0, 0.0), (402.5, 0.125 * 0.001 / 0.04)] {
             p.advance(&water, t_s);
             let born = p.stores_mut()[0].born_s.clone();
-            let ratio = |(f, b): ([f32; 5], &f64)| f64::from(f[1]).powi(2) / (0.04 * (t_s - b));
+            let ratio = |(f, b): ([f64; 5], &f64)| f[1].powi(2) / (0.04 * (t_s - b));
             let n = p.len() as f64;
             let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
             let slack = 5.0 * (2.0 / n).sqrt();
@@ -168,7 +168,7 @@ fn spread_is_2kt_in_all_bands_at_once() {
             // Carried for exactly their age: within 6 sigma of the kicks.
             for (f, b) in p.iter().zip(&born) {
                 let age = t_s - b;
-                let off = f64::from(f[0]) + 90.0 - 0.2 * age;
+                let off = f[0] + 90.0 - 0.2 * age;
                 assert!(off.abs() < 6.0 * (0.04 * age).sqrt() + 1e-4);
             }
         }
@@ -186,7 +186,7 @@ fn the_profile_of_a_steady_plume_does_not_depend_on_the_longest_step() {
         for k in 0..40 {
             p.advance(&water, 500.0 + 13.7 * f64::from(k));
             let slice = p.iter().filter(|f| (f[0] + 30.0).abs() < 5.0);
-            across.extend(slice.map(|f| f64::from(f[1])));
+            across.extend(slice.map(|f| f[1]));
         }
         // 60 m down-stream, 300 s old: variance 2·0.02·300 = 12 m². Each of some 2000 independent filaments counts
         // about three times.

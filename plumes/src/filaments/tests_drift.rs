@@ -26,9 +26,9 @@ fn spread_is_2kt_whatever_the_step() {
         for k in 0..(100.0 / dt) as usize {
             p.drift(&water, k as f64 * dt, (k + 1) as f64 * dt);
         }
-        let all: Vec<[f32; 5]> = p.iter().collect();
+        let all: Vec<[f64; 5]> = p.iter().collect();
         for (d, mean, k) in [(0, -40.0, 0.02), (1, 0.0, 0.02), (2, -20.0, 0.005)] {
-            let (m, v) = moments(all.iter().map(|f| f64::from(f[d])));
+            let (m, v) = moments(all.iter().map(|f| f[d]));
             let exact = 2.0 * k * 100.0;
             assert!(
                 (v / exact - 1.0).abs() < 0.0316,
@@ -56,7 +56,7 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
         }
         let n = p.len() as f64;
         let born = p.stores_mut()[0].born_s.clone();
-        let ratio = |(f, b): ([f32; 5], &f64)| f64::from(f[1]).powi(2) / (0.04 * (100.0 - b));
+        let ratio = |(f, b): ([f64; 5], &f64)| f[1].powi(2) / (0.04 * (100.0 - b));
         let mean = p.iter().zip(&born).map(ratio).sum::<f64>() / n;
         assert!(
             (mean - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
@@ -65,7 +65,7 @@ fn spread_of_filaments_released_within_a_step_counts_from_their_release() {
         // Carried for exactly their age: x + 90 = U·age within 6σ of the kicks.
         for (f, b) in p.iter().zip(&born) {
             let age = 100.0 - b;
-            assert!((f64::from(f[0]) + 90.0 - 0.5 * age).abs() < 6.0 * (0.04 * age).sqrt() + 1e-4);
+            assert!((f[0] + 90.0 - 0.5 * age).abs() < 6.0 * (0.04 * age).sqrt() + 1e-4);
         }
     }
 }
@@ -85,22 +85,13 @@ fn shear_stretches_a_cloud_by_its_exact_law_whatever_the_step() {
         for i in 0..(t / dt) as usize {
             p.drift(&water, i as f64 * dt, (i + 1) as f64 * dt);
         }
-        let (_, v) = moments(
-            p.iter()
-                .map(|f| f64::from(f[0]))
-                .collect::<Vec<_>>()
-                .into_iter(),
-        );
+        let (_, v) = moments(p.iter().map(|f| f[0]).collect::<Vec<_>>().into_iter());
         let exact = 2.0 / 3.0 * k * shear * shear * t * t * t;
         assert!(
             (v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
             "step {dt}: {v} for {exact}"
         );
-        let c = p
-            .iter()
-            .map(|f| f64::from(f[0]) * f64::from(f[2] + 20.0))
-            .sum::<f64>()
-            / n;
+        let c = p.iter().map(|f| f[0] * f64::from(f[2] + 20.0)).sum::<f64>() / n;
         let exact = k * shear * t * t;
         assert!(
             (c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(),
@@ -130,12 +121,13 @@ fn nobody_is_in_the_bed_or_the_air_and_nobody_is_lost() {
     for k in 0..600 {
         p.drift(&Wild, f64::from(k), f64::from(k + 1));
         for f in p.iter() {
-            let bed = p.grid().at(f[0], f[1], f[2]).bed_z;
+            let [x, y, z] = [f[0], f[1], f[2]].map(|v| v as f32);
+            let bed = f64::from(p.grid().at(x, y, z).bed_z);
             assert!(f[2] <= 0.0 && f[2] >= bed - 1e-5, "{f:?} over {bed}");
             // Where the bed bends, at the edges of the area, the grid spreads the bend over a cell of 20 m.
-            let true_bed = terrain.bed_z(f64::from(f[0]), f64::from(f[1]));
+            let true_bed = terrain.bed_z(f[0], f[1]);
             assert!(
-                f[1].abs() > 40.0 || f64::from(f[2]) >= true_bed - 1e-4,
+                f[1].abs() > 40.0 || f[2] >= true_bed - 1e-4,
                 "{f:?} over {true_bed}"
             );
         }

@@ -92,7 +92,8 @@ impl Scene {
 
     fn fill(&mut self, cells: &Cells, [i, j, k]: [usize; 3]) {
         let bed = |p: Vector2<f64>, plume: &Plume| {
-            f64::from(plume.grid().at(p.x as f32, p.y as f32, 0.0).bed_z)
+            let [x, y, z] = plume.grid().local(&p.push(0.0));
+            f64::from(plume.grid().at(x, y, z).bed_z)
         };
         let ds = cells.s[k + 1] - cells.s[k];
         let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
@@ -103,7 +104,7 @@ impl Scene {
             let p = cells.place(i as f64 + a, j as f64 + b);
             let bed = bed(p, &self.plume);
             let z = bed * (1.0 - cells.s[k] - c * ds);
-            let p = [p.x, p.y, z].map(|v| v as f32);
+            let p = self.plume.grid().local(&p.push(z));
             self.plume.stores_mut()[0].push(p, bed as f32, 0.0);
         }
     }
@@ -117,10 +118,11 @@ impl Scene {
                 .map(|n| [s.x[n], s.y[n], s.z[n], s.bed[n]])
                 .collect()
         };
+        let grid = self.plume.grid().clone();
         let store = &mut self.plume.stores_mut()[0];
         store.truncate(0);
         for [x, y, z, bed] in keep {
-            let c = cells.in_cells(Vector2::new(x, y).map(f64::from));
+            let c = cells.in_cells(grid.world([x, y, z]).xy());
             let f = self.frame as f64;
             let inside = (0..2).all(|d| c[d] >= f && c[d] < cells.n[d] as f64 - f);
             if inside {
@@ -140,7 +142,7 @@ impl Scene {
         let cells = self.cells();
         counts.resize(cells.open.len(), 0.0);
         for f in self.plume.all() {
-            let c = cells.in_cells(Vector2::new(f[0], f[1]).map(f64::from));
+            let c = cells.in_cells(self.plume.grid().world(f).xy());
             let bed = self.plume.grid().at(f[0], f[1], f[2]).bed_z;
             let s = f64::from((1.0 - f[2] / bed).clamp(0.0, 1.0));
             let of = |d: usize| (c[d].max(0.0) as usize).min(cells.n[d] - 1);

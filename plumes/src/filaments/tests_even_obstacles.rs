@@ -51,14 +51,15 @@ fn beside_an_obstacle_without_blockage() {
         if let Some(r) = ring(&p) {
             before[r] += 1.0;
         }
-        plume.stores_mut()[0].push([p.x, p.y, p.z].map(|v| v as f32), -5.0, 0.0);
+        let place = plume.grid().local(&p);
+        plume.stores_mut()[0].push(place, -5.0, 0.0);
         poured += 1;
     }
     for n in 0..4 {
         plume.drift(&water, f64::from(n), f64::from(n + 1));
     }
     for f in plume.iter() {
-        let p = Vector3::new(f[0], f[1], f[2]).map(f64::from);
+        let p = Vector3::new(f[0], f[1], f[2]);
         assert!(solids.containing(&p).is_none());
         if let Some(r) = ring(&p) {
             after[r] += 1.0;

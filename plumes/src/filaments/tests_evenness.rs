@@ -34,7 +34,7 @@ fn sampled(k_z: impl Fn(f64) -> f64 + Send + Sync, dt_s: f64, t_s: f64) -> f64 {
     }
     let mut counts = [0.0; BINS];
     for f in p.iter() {
-        let bin = (-f64::from(f[2]) / DEPTH * BINS as f64) as usize;
+        let bin = (-f[2] / DEPTH * BINS as f64) as usize;
         counts[bin.min(BINS - 1)] += BINS as f64 / FILAMENTS as f64;
     }
     counts.iter().map(|c| (c - 1.0).abs()).fold(0.0, f64::max)

@@ -75,7 +75,7 @@ fn nobody_leaves_but_down_stream_and_mass_is_kept() {
 
 /// A cloud that is even over the whole channel, for 30 s, as long as its middle is still between the ends; `t` is when
 /// it was poured.
-fn mixed(water: &Water, seed: u64, dt_s: f64) -> Vec<[f32; 5]> {
+fn mixed(water: &Water, seed: u64, dt_s: f64) -> Vec<[f64; 5]> {
     let mut plume = plume(8.0, seed).carried_by(water.small());
     plume.drift(water, -1e-9, 0.0);
     let mut r = Stream::new(seed, "test", "even");
@@ -104,10 +104,10 @@ fn mixed_water_stays_mixed() {
     let fine = tests_small::water(8.0, 0.00625, 3);
     for (water, dt) in [(&coarse, 0.1), (&coarse, 0.25), (&fine, 0.2)] {
         let cloud = mixed(water, 3, dt);
-        for (axis, low, high, bins) in [(1, -0.535_f32, 0.535_f32, 10), (2, -0.2, 0.0, 10)] {
+        for (axis, low, high, bins) in [(1, -0.535, 0.535, 10), (2, -0.2, 0.0, 10)] {
             let mut counts = vec![0.0_f64; bins];
             for f in &cloud {
-                let s = (f[axis] - low) / (high - low) * bins as f32;
+                let s = (f[axis] - low) / (high - low) * bins as f64;
                 counts[(s as usize).min(bins - 1)] += 1.0;
             }
             let even = cloud.len() as f64 / bins as f64;
@@ -154,7 +154,7 @@ fn spread_is_that_of_open_channels() {
             let t = 0.25 * n as f64;
             plume.drift(&water, t, t + 0.25);
         }
-        let went = plume.iter().zip(&start).map(|(f, y)| f64::from(f[1]) - y);
+        let went = plume.iter().zip(&start).map(|(f, y)| f[1] - y);
         variance[k] = went.map(|d| d * d).sum::<f64>() / n as f64;
     }
     // From 20 to 40 s. About 350 eddies of 12 cm fill the 5 m by 1 m: a standard error of 8 % of each variance, about

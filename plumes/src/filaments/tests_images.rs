@@ -49,7 +49,8 @@ fn at(along: f64, across: f64, z: f64) -> Vector3<f64> {
 
 fn put(plume: &mut Plume, p: &Vector3<f64>) {
     let bed = -4.0;
-    plume.stores_mut()[0].push([p.x, p.y, p.z].map(|v| v as f32), bed, 0.0);
+    let place = plume.grid.local(p);
+    plume.stores_mut()[0].push(place, bed, 0.0);
 }
 
 /// A block with a corner, one that hangs above a gap, and a wall of 2 cm; the blocks' faces coincide with faces of 1 m
@@ -108,7 +109,7 @@ fn even(plume: &mut Plume, free: impl Fn(&Vector3<f64>) -> bool) -> f64 {
         }
     }
     let f = plume.iter().next().expect("filaments");
-    f64::from(f[4]) / (h * h * h)
+    f[4] / (h * h * h)
 }
 
 /// Within 0.5 % at walls, corners and under the gap. The requirement is 5 % for filaments and kernel together.
@@ -163,7 +164,7 @@ fn mass(plume: &Plume, p: [f64; 3], solids: &Obstacles) -> f64 {
             }
         }
     }
-    sum * h * h * h / f64::from(plume.iter().next().expect("it")[4])
+    sum * h * h * h / plume.iter().next().expect("it")[4]
 }
 
 #[test]
@@ -262,7 +263,7 @@ fn side_walls_mirror_the_kernel() {
                 }
             }
         }
-        let want = f64::from(plume.iter().next().expect("one")[4]) / (h * h * h);
+        let want = plume.iter().next().expect("one")[4] / (h * h * h);
         for north in [-0.99, -0.5, 1.0, 2.5, 2.99] {
             for z in [-0.01, -2.0, -3.99] {
                 let got = plume.at(&Vector3::new(0.0, north, z)) / want;

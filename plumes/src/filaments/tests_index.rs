@@ -69,7 +69,7 @@ impl Scene {
             path,
             now_s,
         };
-        index.at(&query, p)
+        index.at(&query, p.map(|v| v as f32).into())
     }
 
     /// All filaments in leaves, in the order of release.

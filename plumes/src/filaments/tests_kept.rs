@@ -56,7 +56,7 @@ fn kept(plume: &Plume) -> Vec<u8> {
 
 /// Concentrations beside some filaments, by their bits.
 fn felt(plume: &Plume) -> Vec<u64> {
-    let beside = |f: [f32; 5]| Vector3::new(f[0] + 0.01, f[1], f[2]).map(f64::from);
+    let beside = |f: [f64; 5]| Vector3::new(f[0] + 0.01, f[1], f[2]);
     let some = plume.iter().step_by(50).map(beside);
     some.map(|p| plume.at(&p).to_bits()).collect()
 }

@@ -17,7 +17,7 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
     // The source itself is far away, so that its own releases have no effect at the datum.
     p.drift(&still, 0.0, age_s);
     let f = p.iter().next().expect("the filament");
-    let size = f64::from(f[3]);
+    let size = f[3];
     let (cells, layers) = (40, (8.0 * depth / size.min(0.5 * depth)).ceil() as usize);
     let (side, height) = (9.0 * size / f64::from(cells), depth / layers as f64);
     let mut sum = 0.0;
@@ -31,7 +31,7 @@ fn integral(age_s: f64, depth: f64, z: f64) -> f64 {
             }
         }
     }
-    sum * side * side * height / f64::from(f[4])
+    sum * side * side * height / f[4]
 }
 
 #[test]
@@ -68,7 +68,7 @@ fn released_is_here_or_has_left() {
         p.drift(&water, 0.7 * f64::from(k), 0.7 * f64::from(k + 1));
         let (released, here, left) = (p.mass_released_kg(), p.mass_in_kg(), p.mass_left_kg());
         assert!((released - here - left).abs() <= 1e-6 * released);
-        let listed: f64 = p.iter().map(|f| f64::from(f[4])).sum();
+        let listed: f64 = p.iter().map(|f| f[4]).sum();
         assert!((listed - here).abs() <= 1e-6 * here);
     }
     // 1 g/s for 1050 s, within five times the root of 38850 portions of 1/37 g.
@@ -82,7 +82,7 @@ fn released_is_here_or_has_left() {
     for most in [1, 37, 500, 1_000_000] {
         let few = p.decimated(most);
         assert!(few.len() <= most && few == p.decimated(most));
-        let sum = |k: usize| few.iter().map(|f| f64::from(f[k])).sum::<f64>();
+        let sum = |k: usize| few.iter().map(|f| f[k]).sum::<f64>();
         assert!((sum(4) / p.mass_in_kg() - 1.0).abs() < 1e-5, "{most}");
         assert!((sum(5) / p.len() as f64 - 1.0).abs() < 1e-5, "{most}");
     }

@@ -38,7 +38,7 @@ fn depths(mut p: Plume, water: &impl Flow, t_s: f64, dt_s: f64) -> Vec<f64> {
     for i in 0..(t_s / dt_s) as usize {
         p.drift(water, i as f64 * dt_s, (i + 1) as f64 * dt_s);
     }
-    p.iter().map(|f| -f64::from(f[2])).collect()
+    p.iter().map(|f| -f[2]).collect()
 }
 
 /// Filaments in equal bins, divided by the expected number, after an even start.

@@ -66,7 +66,7 @@ fn carried(blocked: bool, heading_deg: f64, k_h_m2_s: f64) -> u64 {
     for n in 0..500 {
         plume.drift(&water, f64::from(n) * 0.5, f64::from(n + 1) * 0.5);
         for f in plume.iter() {
-            let p = Vector3::new(f[0], f[1], f[2]).map(f64::from);
+            let p = Vector3::new(f[0], f[1], f[2]);
             assert!(solids.containing(&p).is_none(), "{p}");
         }
         past = plume.iter().filter(|f| f[0] > -50.0).count();

@@ -67,11 +67,11 @@ pub(super) fn plume(spec: SourceSpec, terrain: &Terrain) -> Plume {
     Plume::new(&[spec], &basin(), terrain, 11, settings).expect("a legal source")
 }
 
-/// Adds `n` filaments at time 0, as if released; the k-th is at `at(k)`.
+/// Adds `n` filaments at time 0, as if released; the k-th is at `at(k)` of the world.
 pub(super) fn pour(plume: &mut Plume, n: usize, bed: f64, mut at: impl FnMut(usize) -> [f64; 3]) {
-    let store = &mut plume.stores_mut()[0];
     for k in 0..n {
-        store.push(at(k).map(|v| v as f32), bed as f32, 0.0);
+        let place = plume.grid.local(&at(k).into());
+        plume.stores_mut()[0].push(place, bed as f32, 0.0);
     }
 }
 

@@ -11,11 +11,18 @@
 use super::bands::Span;
 use super::kernel::folded;
 use super::store::Store;
+use nalgebra::Vector2;
 use std::ops::Range;
 use world::fields::{Flow, SideWalls};
 
 /// Carries filaments with the eddies through a step, or from their release on.
-pub(super) fn carry(flow: &dyn Flow, store: &mut Store, range: Range<usize>, span: Span) {
+pub(super) fn carry(
+    flow: &dyn Flow,
+    datum: Vector2<f64>,
+    store: &mut Store,
+    range: Range<usize>,
+    span: Span,
+) {
     let mut dt = vec![(span.to_s - span.from_s) as f32; range.len()];
     // The newest filaments come last.
     for (dt, born) in dt.iter_mut().zip(&store.born_s[range.clone()]).rev() {
@@ -25,7 +32,7 @@ pub(super) fn carry(flow: &dyn Flow, store: &mut Store, range: Range<usize>, spa
         *dt = (span.to_s - born) as f32;
     }
     let places = [&mut store.x, &mut store.y, &mut store.z].map(|v| &mut v[range.clone()]);
-    flow.carry(span.to_s, &dt, places);
+    flow.carry(span.to_s, &dt, datum, places);
     fold(store, range);
 }
 
@@ -37,9 +44,15 @@ pub(super) fn fold(store: &mut Store, range: Range<usize>) {
 }
 
 /// Mirrors filaments that passed a wall back into the water.
-pub(super) fn keep_between(walls: &SideWalls, store: &mut Store, range: Range<usize>) {
+pub(super) fn keep_between(
+    walls: &SideWalls,
+    datum: Vector2<f64>,
+    store: &mut Store,
+    range: Range<usize>,
+) {
     let (ax, ay) = (walls.across.x as f32, walls.across.y as f32);
-    let (cx, cy) = (walls.centre.x as f32, walls.centre.y as f32);
+    let centre = walls.centre - datum;
+    let (cx, cy) = (centre.x as f32, centre.y as f32);
     let half = walls.half_width_m as f32;
     for (x, y) in (store.x[range.clone()].iter_mut()).zip(&mut store.y[range]) {
         let side = (*x - cx) * ax + (*y - cy) * ay;

@@ -80,7 +80,10 @@ impl GridShape {
 /// Flow and diffusivities at the grid's nodes at one time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlowGrid {
-    /// World (east, north) of node (0, 0), m.
+    /// World (east, north) of the area's centre, m. All that is single precision is relative to it, because single
+    /// precision resolves only half a metre at the distance of a chart's datum.
+    pub datum: Vector2<f64>,
+    /// Node (0, 0) from there (east, north), m.
     pub origin: [f32; 2],
     /// Unit vector (east, north) of increasing i.
     pub along: [f32; 2],
@@ -147,10 +150,11 @@ impl FlowGrid {
         }
         let a = area.axis.unit();
         let r = area.axis.turned(std::f64::consts::FRAC_PI_2).unit();
-        let o = at(0, 0);
+        let o = at(0, 0) - area.centre;
         let nz = shape.levels;
         let levels = (0..nz).map(|k| shape.level(k) as f32);
         Self {
+            datum: area.centre,
             origin: [o.x as f32, o.y as f32],
             along: [a.x as f32, a.y as f32],
             across: [r.x as f32, r.y as f32],
@@ -173,7 +177,8 @@ impl FlowGrid {
             j as f64 * f64::from(self.spacing[1]),
         );
         let xy = |d: usize| {
-            f64::from(self.origin[d])
+            self.datum[d]
+                + f64::from(self.origin[d])
                 + di * f64::from(self.along[d])
                 + dj * f64::from(self.across[d])
         };
@@ -181,7 +186,21 @@ impl FlowGrid {
         Vector3::new(xy(0), xy(1), b * (1.0 - f64::from(self.levels[k])))
     }
 
-    /// Trilinear values at a world point, m; the point is first moved into the grid.
+    /// A world point from the datum, m.
+    #[must_use]
+    pub fn local(&self, p: &Vector3<f64>) -> [f32; 3] {
+        let [x, y] = [0, 1].map(|d| (p[d] - self.datum[d]) as f32);
+        [x, y, p.z as f32]
+    }
+
+    /// A point from the datum in the world, m.
+    #[must_use]
+    pub fn world(&self, [x, y, z]: [f32; 3]) -> Vector3<f64> {
+        let [x, y, z] = [x, y, z].map(f64::from);
+        Vector3::new(self.datum.x + x, self.datum.y + y, z)
+    }
+
+    /// Trilinear values at a point from the datum, m; the point is first moved into the grid.
     #[inline]
     #[must_use]
     pub fn at(&self, x: f32, y: f32, z: f32) -> GridSample {

@@ -98,7 +98,7 @@ pub struct WaveSpec {
     pub period_s: Positive,
     /// Where the wave travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
-    /// Phase at the datum at time zero, degrees; drawn from the seed if absent.
+    /// Phase at the area's centre at time zero, degrees; drawn from the seed if absent.
     #[serde(default)]
     pub phase_deg: Option<Finite>,
 }
@@ -133,6 +133,14 @@ impl Layered {
     /// Whether no wave moves its interfaces.
     pub(crate) fn is_steady(&self) -> bool {
         self.faces.iter().all(|f| f.waves.is_empty())
+    }
+
+    /// With phases that are those at a place (east, north), and not at the datum: they must not depend on where that is.
+    pub(crate) fn with_phases_at(mut self, place: Vector2<f64>) -> Self {
+        for wave in self.faces.iter_mut().flat_map(|f| &mut f.waves) {
+            wave.phase -= wave.k.dot(&place);
+        }
+        self
     }
 }
 

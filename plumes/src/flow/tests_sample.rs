@@ -7,11 +7,12 @@ use world::math;
 use world::ranges::{Finite, HeadingDeg, NonNegative, Positive};
 use world::terrain::Terrain;
 
-use super::tests_water::{duck, duck_area, duck_bed, places};
+use super::tests_water::{duck, duck_area, duck_bed, layer, places, wave};
 use crate::flow::catalogue::{CurrentSpec, PlaneCurrent};
+use crate::flow::layered::{InterfaceSpec, LayeredSpec};
 use crate::flow::tide::{ConstituentSpec, TideSpec};
 use crate::flow::uniform::UniformSpec;
-use crate::flow::water::Water;
+use crate::flow::water::{Water, WaterSpec};
 
 /// A current of which the water knows nothing but its values.
 #[derive(Debug)]
@@ -81,6 +82,44 @@ fn sample_agrees_with_differences() {
                 "{p}: {} {}",
                 a.rate,
                 b.rate
+            );
+        }
+    }
+}
+
+#[test]
+fn layers_are_numbers_however_far_from_a_thin_interface() {
+    for (depth_m, interface_m, thickness_m) in
+        [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)]
+    {
+        let layers = LayeredSpec {
+            layers: vec![layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)],
+            interfaces: vec![InterfaceSpec {
+                depth_m: Positive::new(interface_m),
+                thickness_m: Positive::new(thickness_m),
+                waves: vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))],
+            }],
+        };
+        let spec = WaterSpec {
+            currents: vec![CurrentSpec::new(layers)],
+            ..WaterSpec::default()
+        };
+        let bed = Terrain::Level { depth_m };
+        let water = spec.build(&duck_area(), &bed, 7).unwrap();
+        for k in 0..=1000 {
+            let z = -depth_m * f64::from(k) / 1000.0;
+            let s = water.sample(&Vector3::new(3.0, 4.0, z), 5.0);
+            let all =
+                (s.velocity.iter().chain(&s.gradient).chain(&s.rate)).chain([&s.density_kg_m3]);
+            assert!(
+                all.into_iter().all(|v| v.is_finite()),
+                "{s:?} at {z} m of {depth_m} m"
+            );
+            let far = (z + interface_m).abs() > 1.0 + 10.0 * thickness_m;
+            let density = if z > -interface_m { 1023.0 } else { 1026.0 };
+            assert!(
+                !far || (s.density_kg_m3 - density).abs() < 1e-9,
+                "{s:?} at {z} m"
             );
         }
     }

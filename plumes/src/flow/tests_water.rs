@@ -30,7 +30,7 @@ pub(crate) fn duck_bed() -> Terrain {
     Terrain::sloping_over(&duck_area(), Heading::from_deg(250.0), 4.0, 8.0)
 }
 
-fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
+pub(super) fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
     LayerSpec {
         speed_m_s: NonNegative::new(speed),
         heading_deg: HeadingDeg::new(heading),
@@ -38,7 +38,13 @@ fn layer(speed: f64, heading: f64, density: f64) -> LayerSpec {
     }
 }
 
-fn wave(amplitude: f64, length: f64, period: f64, heading: f64, phase: Option<f64>) -> WaveSpec {
+pub(super) fn wave(
+    amplitude: f64,
+    length: f64,
+    period: f64,
+    heading: f64,
+    phase: Option<f64>,
+) -> WaveSpec {
     WaveSpec {
         amplitude_m: NonNegative::new(amplitude),
         length_m: Positive::new(length),
@@ -115,44 +121,6 @@ fn by_default_the_water_is_still() {
     assert_eq!(w.velocity(&p, 5.0), Vector3::zeros());
     assert_eq!(w.density(&p, 5.0), 1026.0);
     assert_eq!(w.mixing(&p, 5.0).k_z_m2_s, 0.0);
-}
-
-#[test]
-fn layers_are_numbers_however_far_from_a_thin_interface() {
-    for (depth_m, interface_m, thickness_m) in
-        [(200.0, 10.0, 1.0), (10.0, 1.0, 0.03), (400.0, 9.0, 1e-4)]
-    {
-        let layers = LayeredSpec {
-            layers: vec![layer(0.2, 90.0, 1023.0), layer(0.1, 90.0, 1026.0)],
-            interfaces: vec![InterfaceSpec {
-                depth_m: Positive::new(interface_m),
-                thickness_m: Positive::new(thickness_m),
-                waves: vec![wave(0.1, 50.0, 100.0, 90.0, Some(20.0))],
-            }],
-        };
-        let spec = WaterSpec {
-            currents: vec![CurrentSpec::new(layers)],
-            ..WaterSpec::default()
-        };
-        let bed = Terrain::Level { depth_m };
-        let water = spec.build(&duck_area(), &bed, 7).unwrap();
-        for k in 0..=1000 {
-            let z = -depth_m * f64::from(k) / 1000.0;
-            let s = water.sample(&Vector3::new(3.0, 4.0, z), 5.0);
-            let all =
-                (s.velocity.iter().chain(&s.gradient).chain(&s.rate)).chain([&s.density_kg_m3]);
-            assert!(
-                all.into_iter().all(|v| v.is_finite()),
-                "{s:?} at {z} m of {depth_m} m"
-            );
-            let far = (z + interface_m).abs() > 1.0 + 10.0 * thickness_m;
-            let density = if z > -interface_m { 1023.0 } else { 1026.0 };
-            assert!(
-                !far || (s.density_kg_m3 - density).abs() < 1e-9,
-                "{s:?} at {z} m"
-            );
-        }
-    }
 }
 
 #[test]

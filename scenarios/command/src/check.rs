@@ -4,6 +4,7 @@ use super::args::CheckArgs;
 use super::exit::Exit;
 use super::say;
 use rheotaxis::scenario::{cost, load};
+use world::cost::memory;
 
 /// Checks every file, also after one with mistakes.
 pub(super) fn check(args: &CheckArgs) -> Exit {
@@ -23,7 +24,10 @@ pub(super) fn check(args: &CheckArgs) -> Exit {
                     count(s.obstacles.len(), "obstacle")
                 ));
                 let cost = cost::cost(s);
-                say::line(format_args!("  a run takes {}", cost::estimate(&cost)));
+                say::line(format_args!(
+                    "  a run takes about {} of memory; memory and time go into",
+                    memory(cost.bytes())
+                ));
                 for part in cost::greatest(&cost) {
                     say::line(format_args!("    {part}"));
                 }

@@ -122,7 +122,10 @@ impl Work<'_> {
     fn take_kept(&mut self, dir: &Path) -> Result<(), ReproduceError> {
         let args = self.args;
         for (reference, row) in self.references.iter().zip(&mut self.rows) {
-            let mut table = Table::read(dir, reference)?.unwrap_or_default();
+            let mut table = match Table::read(dir, reference) {
+                Err(_) if args.anew => Table::default(),
+                read => read?.unwrap_or_default(),
+            };
             if !table.is_empty() {
                 if args.check > 0 && !args.quiet {
                     eprintln!(

@@ -16,6 +16,7 @@ use rheotaxis::trial::{NotControlled, consulted, controlled};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
+use world::cost::memory;
 
 /// Why a run could not start or finish.
 #[derive(Debug, thiserror::Error)]
@@ -122,8 +123,8 @@ fn together(
     let mut lanes = Lanes::default().with_threads(args.threads);
     for (loaded, folder) in group {
         if !args.quiet {
-            let estimate = cost::estimate(&cost::cost(&loaded.scenario));
-            eprintln!("{}: takes at most {estimate}", loaded.name);
+            let bytes = cost::cost(&loaded.scenario).bytes();
+            eprintln!("{}: takes about {} of memory", loaded.name, memory(bytes));
         }
         let onlooker = || Onlooker::new(loaded, args, folder, &mut company, stop);
         let added = lanes.add(loaded, args.key.seed(args.seed), onlooker);

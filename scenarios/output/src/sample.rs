@@ -287,12 +287,13 @@ pub(crate) fn plume() -> PlumeFrame {
             let across = 0.03 * s * math::sin(s / 90.0) + scatter * (1.0 + 0.05 * s);
             let p = source().position.xy() + flow.unit() * s + side * across;
             let size = (0.001 + 0.001 * s / 0.1).sqrt();
-            [p.x as f32, p.y as f32, -5.5, size as f32, 5e-5, 10.0]
+            [p.x, p.y, -5.5, size, 5e-5, 10.0]
         })
         .collect();
     PlumeFrame {
         t_s: 600.0,
         total: 40_000,
         points,
+        ..PlumeFrame::default()
     }
 }

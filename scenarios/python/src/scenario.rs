@@ -8,6 +8,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
 use rheotaxis::explain as explained;
 use rheotaxis::scenario::{CATALOG, Loaded, ScenarioError, load, load_text, parse, put};
+use std::borrow::Cow;
 use std::path::PathBuf;
 use std::sync::Arc;
 use world::registry::Registry;
@@ -48,7 +49,7 @@ impl PyScenario {
     }
 
     fn changed(&self, py: Python<'_>, changes: &Bound<'_, PyDict>) -> PyResult<Loaded> {
-        let mut text = self.loaded.text.clone();
+        let mut text = self.loaded.text().into_owned();
         for (path, value) in changes {
             let path: String = path.extract()?;
             let path = bracketed(parts(&path).filter(|p| !p.starts_with(char::is_uppercase)));
@@ -95,12 +96,15 @@ impl PyScenario {
         let loaded = &slf.get().loaded;
         let folder = loaded.base_dir.clone();
         let restored = slf.get_type().getattr("_restored")?;
-        Ok((restored, (loaded.text.clone(), loaded.path.clone(), folder)))
+        Ok((
+            restored,
+            (loaded.text().into_owned(), loaded.path.clone(), folder),
+        ))
     }
 
     #[getter]
-    fn text(&self) -> &str {
-        &self.loaded.text
+    fn text(&self) -> Cow<'_, str> {
+        self.loaded.text()
     }
 
     #[getter]
@@ -153,11 +157,11 @@ impl PyScenario {
     fn __eq__(&self, other: &Bound<'_, PyAny>) -> bool {
         other
             .cast::<Self>()
-            .is_ok_and(|other| other.get().loaded.text == self.loaded.text)
+            .is_ok_and(|other| other.get().loaded.text() == self.loaded.text())
     }
 
     fn __hash__(&self) -> u64 {
-        u64::from_str_radix(&self.loaded.hash[..15], 16).unwrap_or_default()
+        u64::from_str_radix(&self.loaded.hash()[..15], 16).unwrap_or_default()
     }
 
     fn __repr__(&self) -> String {

@@ -256,6 +256,16 @@ impl<W: Watch> Lanes<W> {
     }
 }
 
+/// The first 32 hexadecimal digits of the fingerprint of the running program's file; `unknown` if it cannot be read.
+/// Programs with other algorithms of their own have another one, even if they call themselves by one version.
+#[must_use]
+pub fn program_mark() -> String {
+    program().map_or_else(
+        |_| "unknown".to_string(),
+        |print| Fingerprint::hex(print)[..32].to_string(),
+    )
+}
+
 /// Fingerprint of the running program's file, made once in a process.
 fn program() -> Result<&'static [u8; 32], &'static io::Error> {
     static PROGRAM: OnceLock<io::Result<[u8; 32]>> = OnceLock::new();

@@ -14,6 +14,7 @@ pub use robot::{PictureFrame, PingFrame, RobotFrame};
 
 use crate::abnormal::Abnormal;
 use crate::topic::Published;
+use nalgebra::Vector2;
 
 /// The run at one instant.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +42,9 @@ pub struct PlumeFrame {
     pub total: usize,
     /// For each filament shown: x, y, z (m, ENU), size (m), the mass (kg) of all filaments that it stands for, and
     /// their number. The masses sum to the mass in the water.
-    pub points: Vec<[f32; 6]>,
+    pub points: Vec<[f64; 6]>,
+    /// Centre of the area (east, north), m. Clouds of single precision are relative to it.
+    pub centre: Vector2<f64>,
 }
 
 /// The flow of the water at one instant, on a coarse grid of places and heights.
@@ -50,5 +53,28 @@ pub struct WaterFrame {
     /// Simulated time, s.
     pub t_s: f64,
     /// x, y, z (m, ENU) and the velocity there, east, north, up (m/s).
-    pub points: Vec<[f32; 6]>,
+    pub points: Vec<[f64; 6]>,
+    /// Centre of the area (east, north), m. Clouds of single precision are relative to it.
+    pub centre: Vector2<f64>,
+}
+
+impl PlumeFrame {
+    /// The points in single precision, east and north relative to the centre of the area.
+    #[must_use]
+    pub fn local(&self) -> Vec<[f32; 6]> {
+        local(&self.points, self.centre)
+    }
+}
+
+impl WaterFrame {
+    /// The points in single precision, east and north relative to the centre of the area.
+    #[must_use]
+    pub fn local(&self) -> Vec<[f32; 6]> {
+        local(&self.points, self.centre)
+    }
+}
+
+fn local(points: &[[f64; 6]], centre: Vector2<f64>) -> Vec<[f32; 6]> {
+    let near = |&[x, y, a, b, c, d]: &[f64; 6]| [x - centre.x, y - centre.y, a, b, c, d];
+    points.iter().map(|p| near(p).map(|v| v as f32)).collect()
 }

@@ -298,11 +298,13 @@ impl Trial {
                 *sum += self.simulation.velocity(p_W);
             }
             if watch.sees_plume() {
-                let plume = self.simulation.ocean().plume();
+                let ocean = self.simulation.ocean();
+                let plume = ocean.plume();
                 watch.plume(&PlumeFrame {
                     t_s,
                     total: plume.len(),
                     points: plume.decimated(most),
+                    centre: ocean.area.centre,
                 });
             }
             water::show(&self.simulation, t_s, &mut self.progress.water_shown, watch);

@@ -16,8 +16,8 @@ use world::seeds::Key;
 /// Concentration near every hundredth filament, and velocity there, by their bits.
 fn seen(trial: &Trial) -> Vec<[u64; 4]> {
     let ocean = trial.simulation.ocean();
-    let at = |[x, y, z, ..]: [f32; 5]| {
-        let p = Vector3::new(f64::from(x) + 0.01, f64::from(y), f64::from(z));
+    let at = |[x, y, z, ..]: [f64; 5]| {
+        let p = Vector3::new(x + 0.01, y, z);
         let v = ocean.velocity(&p, 0.0);
         [ocean.plume().at(&p), v.x, v.y, v.z].map(f64::to_bits)
     };

@@ -43,7 +43,7 @@ fn row_alone(loaded: &Loaded, name: &RunName, first: bool) -> RunRow {
 /// One seed under each condition, with a short spin-up and mission.
 fn cut_campaign(name: &str) -> Campaign {
     let whole = load(Path::new(name)).unwrap();
-    let base = with_fields(&whole.base.text, &[("spin_up_s", "15"), ("limit_s", "8")]);
+    let base = with_fields(&whole.base.text(), &[("spin_up_s", "15"), ("limit_s", "8")]);
     let base = load_text(&Registry::default(), &whole.base.name, &base).unwrap();
     let seeds = format!("seeds: {},", whole.spec.seeds.count());
     assert_eq!(whole.text.matches(&seeds).count(), 1, "{name}");

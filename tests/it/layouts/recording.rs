@@ -48,7 +48,7 @@ impl Recording {
         let message = self.topics[topic].messages.last().expect("a message");
         let mut at = 4 + 8;
         let frame = string(message, &mut at);
-        assert_eq!(frame, "world");
+        assert_eq!(frame, "world/area");
         // Height and width.
         number(message, &mut at);
         number(message, &mut at);

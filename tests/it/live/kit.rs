@@ -225,6 +225,7 @@ pub(super) fn plume(points: usize) -> PlumeFrame {
         t_s: 0.5,
         total: 10 * points,
         points: vec![[1.0, 2.0, -3.0, 0.5, 1e-5, 10.0]; points],
+        ..PlumeFrame::default()
     }
 }
 
@@ -233,6 +234,7 @@ pub(super) fn water() -> WaterFrame {
     WaterFrame {
         t_s: 0.5,
         points: vec![[1.0, 2.0, -3.0, 0.25, 0.0, -0.5]; 2],
+        ..WaterFrame::default()
     }
 }
 

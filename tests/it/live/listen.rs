@@ -96,16 +96,18 @@ fn a_listener_hears_what_was_published_what_comes_and_the_end() {
     };
     assert_eq!(of("/auv0/truth").len(), 2, "before and after it came");
     assert_eq!(of("/truth")[1]["message"]["t_s"], 0.2);
-    assert_eq!(of("/meta/scene")[0]["message"]["version"], 1);
+    assert_eq!(of("/meta/scene")[0]["message"]["version"], 2);
     assert_eq!(of("/meta/digest")[0]["message"], json!({"digest": "d1"}));
     assert!(of("schema/clock").is_empty(), "schemas only if asked for");
     let masses = &of("/plume")[0]["packed"]["mass"];
     let equal = json!({"count": 100, "min": 1e-5, "max": 1e-5, "mean": 1e-5});
     assert_eq!((of("/plume").len(), masses), (1, &equal));
     assert!(of("/picture")[0]["jpeg"]["bytes"].as_u64() > Some(100));
-    let last = all.last().expect("some");
-    assert_eq!(last["key"], "rheotaxis/heard_1/clock");
-    assert_eq!(last["message"]["ended"], true);
+    // The run answers and sends at the same time, so the last answers may come after the last clock.
+    assert_eq!(
+        of("heard_1/clock").last().unwrap()["message"]["ended"],
+        true
+    );
 }
 
 /// A run keeps a message before it sends it: who asks between the two is answered, and then hears the same.

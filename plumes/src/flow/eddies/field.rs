@@ -249,10 +249,12 @@ impl Eddies {
         sample.rate += (at(Vector3::zeros(), WHILE) - at(Vector3::zeros(), 0.0)) / WHILE;
     }
 
-    /// Carries places (ENU, m) from `t_s - dt_s` to `t_s`, the n-th for `dt_s[n]`.
-    pub fn carry(&self, t_s: f64, dt_s: &[f32], [x, y, z]: [&mut [f32]; 3]) {
+    /// Carries places from `t_s - dt_s` to `t_s`, the n-th for `dt_s[n]`: see [`Flow::carry`].
+    ///
+    /// [`Flow::carry`]: world::fields::Flow::carry
+    pub fn carry(&self, t_s: f64, dt_s: &[f32], datum: Vector2<f64>, [x, y, z]: [&mut [f32]; 3]) {
         let turned = Turned {
-            centre: self.centre.map(|v| v as f32),
+            centre: (self.centre - datum).map(|v| v as f32),
             along: self.along.map(|v| v as f32),
             left: self.left.map(|v| v as f32),
         };

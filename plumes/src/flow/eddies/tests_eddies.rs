@@ -265,7 +265,7 @@ fn places_are_carried_with_the_velocity_there() {
     let (_, eddies) = parts(6);
     let p = Vector3::new(0.3, -0.2, -0.08);
     let (mut x, mut y, mut z) = ([p.x as f32], [p.y as f32], [p.z as f32]);
-    eddies.carry(33.0, &[0.05], [&mut x, &mut y, &mut z]);
+    eddies.carry(33.0, &[0.05], Vector2::zeros(), [&mut x, &mut y, &mut z]);
     let v = eddies.velocity(&p, 33.0) * 0.05;
     let went = Vector3::new(f64::from(x[0]), f64::from(y[0]), f64::from(z[0])) - p;
     // Half a step ahead the water is 0.1 mm further on, with gradients of 0.5 1/s: 3e-6 m; f32 at 0.3 m: 3e-8 m.

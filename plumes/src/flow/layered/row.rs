@@ -24,7 +24,8 @@ impl CurrentParams for LayeredSpec {
                 "only one Layered current can fix the water's layers; add the second one's layers to the first",
             );
         }
-        water.layered = Some(self.build(place.field, place.seed)?);
+        let layered = self.build(place.field, place.seed)?;
+        water.layered = Some(layered.with_phases_at(place.area.centre));
         Ok(())
     }
 

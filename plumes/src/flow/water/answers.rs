@@ -35,9 +35,9 @@ impl Flow for Water {
         self.waves().map_or(0.0, |waves| waves.head(p, t_s))
     }
 
-    fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
+    fn carry(&self, t_s: f64, dt_s: &[f32], datum: Vector2<f64>, places: [&mut [f32]; 3]) {
         if let Some(eddies) = self.eddies() {
-            eddies.carry(t_s, dt_s, places);
+            eddies.carry(t_s, dt_s, datum, places);
         }
     }
 

@@ -80,6 +80,11 @@ impl Airy {
         }
     }
 
+    /// Makes its phase that at a place (east, north).
+    pub(super) fn begin_at(&mut self, place: Vector2<f64>) {
+        self.phase -= self.along.dot(&place) * self.k;
+    }
+
     /// Energy over ρg: variance of the surface, m².
     pub(super) fn variance(&self) -> f64 {
         0.5 * self.amplitude * self.amplitude

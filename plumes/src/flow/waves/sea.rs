@@ -6,7 +6,7 @@
 //! from dye (1967, Phys. Fluids 10(9), S270): a secondary source, see (6).
 //!
 //! *Parameters*: `trains` (regular waves: `height_m` from trough to crest, `period_s`, `heading_deg` of their travel,
-//! `phase_deg` at the datum at time zero, drawn if absent), `spectrum` (file `spectrum`), `stokes` drift on or off
+//! `phase_deg` at the area's centre at time zero, drawn if absent), `spectrum` (file `spectrum`), `stokes` drift on or off
 //! (on), `mixing` Ichiye's coefficient (0.028; 0 omits it).
 //!
 //! *Deviations*: (1) the plume's grid of currents is evaluated every few seconds and would alias waves of seconds, so
@@ -75,7 +75,7 @@ pub struct TrainSpec {
     pub period_s: Positive,
     /// Where the train travels, degrees clockwise from north.
     pub heading_deg: HeadingDeg,
-    /// Phase at the datum at time zero, degrees; 0 is a crest. Drawn from the seed if absent.
+    /// Phase at the area's centre at time zero, degrees; 0 is a crest. Drawn from the seed if absent.
     #[serde(default)]
     pub phase_deg: Option<Finite>,
 }
@@ -104,7 +104,8 @@ impl CurrentParams for WavesSpec {
             );
         }
         let depth_m = -water.ground.floor(place.area.centre).z;
-        water.waves = Some(self.build(place.field, depth_m, place.seed)?);
+        let waves = self.build(place.field, depth_m, place.seed)?;
+        water.waves = Some(waves.with_phases_at(place.area.centre));
         Ok(())
     }
 
@@ -120,6 +121,16 @@ pub struct Waves {
     depth: f64,
     // Stokes' drift (east, north) and K_z at evenly spaced heights from bed to surface.
     profile: Vec<(Vector2<f64>, f64)>,
+}
+
+impl Waves {
+    /// With phases that are those at a place (east, north), and not at the datum: they must not depend on where that is.
+    fn with_phases_at(mut self, place: Vector2<f64>) -> Self {
+        for wave in &mut self.waves {
+            wave.begin_at(place);
+        }
+        self
+    }
 }
 
 /// Levels of the profile, which is linear between them.

@@ -126,7 +126,7 @@ fn one(
     if let Some(plume) = &s.plume {
         // A dot is a stroke of length zero with a round end, so that all dots form one shape.
         let dots: Vec<_> = (plume.points.iter())
-            .map(|[x, y, ..]| panel.at([f64::from(*x), f64::from(*y)]))
+            .map(|[x, y, ..]| panel.at([*x, *y]))
             .map(|p| vec![p, [p[0] + 0.05, p[1]]])
             .collect();
         c.lines(&dots, false, &Style::line("#333333", 1.3).faint(0.45));

@@ -40,10 +40,9 @@ impl PlumeLoad {
             values: vec![0.0; n[0] * n[1]],
         };
         for &[x, y, _, size, mass, _] in &plume.points {
-            let p = [f64::from(x), f64::from(y)];
-            let sd = f64::from(size).max(LEAST_PX * per_px);
-            let load = f64::from(mass) * 1e6 / (TAU * sd * sd);
-            grid.add(p, sd, load);
+            let sd = size.max(LEAST_PX * per_px);
+            let load = mass * 1e6 / (TAU * sd * sd);
+            grid.add([x, y], sd, load);
         }
         Self::on(grid)
     }
@@ -135,6 +134,7 @@ mod tests {
             total: 20,
             // Two shown, each for ten of a gram.
             points: vec![[0.0, 0.0, -5.0, 8.0, 1e-2, 10.0]; 2],
+            ..PlumeFrame::default()
         };
         let load = PlumeLoad::of(&plume, &panel()).unwrap();
         let g = &load.grid;
@@ -154,6 +154,7 @@ mod tests {
             t_s: 0.0,
             total: 1,
             points: vec![[1e6, 0.0, 0.0, 1.0, 1.0, 1.0]],
+            ..PlumeFrame::default()
         };
         assert!(PlumeLoad::of(&away, &panel()).is_none());
     }

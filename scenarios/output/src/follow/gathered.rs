@@ -84,7 +84,7 @@ impl Gathered {
                 .collect(),
             obstacles: outlines(trial.simulation.ocean(), &scenario.permeable),
             out: whose.out,
-            scenario_text: whose.loaded.text,
+            scenario_text: whose.loaded.text().into_owned(),
             track: gathered.track.finish(),
             gantries: gathered.probes.finish(),
             beliefs: gathered.beliefs,

@@ -53,7 +53,7 @@ impl Follower {
             scenario_name: loaded.name.clone(),
             title: scenario.title.clone(),
             success: scenario.success.words(),
-            scenario_text: loaded.text.clone(),
+            scenario_text: loaded.text().into_owned(),
             seed,
             version: env!("CARGO_PKG_VERSION").to_string(),
         };

@@ -62,12 +62,13 @@ pub(super) fn state(frame: &Frame) -> Vec<Message> {
 /// A plume, evenly thinned if it is too large for one message.
 pub(super) fn plume(p: &PlumeFrame) -> Message {
     let stride = p.points.len().div_ceil(MOST_FILAMENTS).max(1);
-    let shown = p.points.iter().step_by(stride);
+    let local = p.local();
+    let shown = local.iter().step_by(stride);
     // The filaments that are shown also stand for those omitted here, as they already do for those omitted before.
     let times = p.points.len() as f32 / shown.len().max(1) as f32;
     let shown = shown.map(|&[x, y, z, size, mass, n]| [x, y, z, size, mass * times, n * times]);
     let header = json!({
-        "t_s": p.t_s, "total": p.total, "shown": shown.len(),
+        "t_s": p.t_s, "total": p.total, "shown": shown.len(), "origin_m": p.centre.as_slice(),
         "fields": ["x", "y", "z", "size", "mass", "stands_for"], "dtype": "<f4",
     });
     Message::numbers("plume", shown.flatten(), &header)
@@ -76,9 +77,10 @@ pub(super) fn plume(p: &PlumeFrame) -> Message {
 /// The flow of the water.
 pub(super) fn water(w: &WaterFrame) -> Message {
     let header = json!({
-        "t_s": w.t_s, "shown": w.points.len(), "fields": ["x", "y", "z", "vx", "vy", "vz"], "dtype": "<f4",
+        "t_s": w.t_s, "shown": w.points.len(), "origin_m": w.centre.as_slice(),
+        "fields": ["x", "y", "z", "vx", "vy", "vz"], "dtype": "<f4",
     });
-    Message::numbers("water", w.points.iter().copied().flatten(), &header)
+    Message::numbers("water", w.local().into_iter().flatten(), &header)
 }
 
 /// Messages known before the run starts: scenario, version and schemas of the topics.
@@ -213,12 +215,13 @@ pub(super) mod tests {
     fn a_plume_is_packed_in_order_and_thinned_evenly() {
         let n = 2 * MOST_FILAMENTS + 1;
         let points = (0..n)
-            .map(|i| [i as f32, 1.0, 2.0, 3.0, 4.0, 10.0])
+            .map(|i| [i as f64 + 1e7, 1.0, 2.0, 3.0, 4.0, 10.0])
             .collect();
         let message = plume(&PlumeFrame {
             t_s: 1.5,
             total: 99_999,
             points,
+            centre: Vector2::new(1e7, 0.0),
         });
         let header: Value = serde_json::from_slice(&message.attachment.unwrap()).unwrap();
         let shown = header["shown"].as_u64().unwrap() as usize;

@@ -4,6 +4,7 @@
 //! colour points by a field, in the plane and in space. They show small probabilities, which an `OccupancyGrid` of
 //! whole per cents would lose. Cells below a millionth of the largest are omitted.
 
+use nalgebra::Vector2;
 use robots::handoff::Belief;
 
 /// Cells below this share of the largest are omitted.
@@ -12,8 +13,9 @@ const LEAST_SHARE: f64 = 1e-6;
 /// Names of a point's values.
 pub(super) const FIELDS: [&str; 5] = ["x", "y", "z", "probability", "share_of_largest"];
 
-/// One point for each cell: place (ENU, m), probability, and probability as a share of the largest.
-pub(super) fn points(b: &Belief) -> Vec<[f32; 5]> {
+/// One point for each cell: place (east and north of the centre of the area, up; m), probability, and probability as a
+/// share of the largest.
+pub(super) fn points(b: &Belief, centre: Vector2<f64>) -> Vec<[f32; 5]> {
     let most = b.p[b.best];
     let kept =
         b.p.iter()
@@ -21,7 +23,7 @@ pub(super) fn points(b: &Belief) -> Vec<[f32; 5]> {
             .filter(|(_, p)| **p >= LEAST_SHARE * most);
     kept.map(|(i, p)| {
         let c = b.grid.centre(i);
-        [c.x, c.y, c.z, *p, p / most].map(|v| v as f32)
+        [c.x - centre.x, c.y - centre.y, c.z, *p, p / most].map(|v| v as f32)
     })
     .collect()
 }
@@ -78,7 +80,7 @@ mod tests {
     #[test]
     fn points_carry_the_probability_of_their_cell() {
         let b = belief(50.0);
-        let points = points(&b);
+        let points = points(&b, Vector2::zeros());
         let most = points.iter().max_by(|a, b| a[3].total_cmp(&b[3])).unwrap();
         let c = b.grid.centre(b.best);
         assert_eq!(most[..3], [c.x as f32, c.y as f32, c.z as f32]);

@@ -22,6 +22,8 @@ use std::sync::Arc;
 
 /// Frame of all poses.
 pub(super) const WORLD: &str = "world";
+/// Frame of clouds, at the centre of the area: their numbers of single precision would be coarse far from the datum.
+pub(super) const AREA: &str = "world/area";
 
 /// The recording of one run. If it is dropped without [`Recorder::finish`], it stays under its temporary name and is
 /// readable.
@@ -35,7 +37,7 @@ pub struct Recorder {
     gantries: Vec<GantryRecorder>,
     maps: Vec<(String, MapTimes)>,
     map_period_s: f64,
-    scene: SceneRecorder,
+    pub(super) scene: SceneRecorder,
     pub(super) ways: WayRecorder,
     log: LogRecorder,
     newest_ns: u64,
@@ -44,7 +46,10 @@ pub struct Recorder {
 /// Meaning of the numbers of `/plume`; the schema has only their names.
 const PLUME: [(&str, &str); 7] = [
     ("topic", "/plume"),
-    ("x, y, z", "middle of a filament (ENU), m"),
+    (
+        "x, y, z",
+        "middle of a filament, east and north of the centre of the area (frame world/area), up, m",
+    ),
     ("size", "its horizontal size, m"),
     (
         "mass",
@@ -311,8 +316,8 @@ impl Recorder {
 
     fn write_map(&mut self, id: &str, belief: &Belief) -> Result<(), RecordError> {
         let t = nanoseconds(belief.t_s);
-        let rows = map_record::points(belief);
-        let cloud = point_cloud(t, WORLD, map_record::FIELDS, &rows);
+        let rows = map_record::points(belief, self.scene.centre());
+        let cloud = point_cloud(t, AREA, map_record::FIELDS, &rows);
         let topic = format!("/{id}/map");
         self.file.write(&topic, MessageKind::PointCloud2, t, &cloud)
     }

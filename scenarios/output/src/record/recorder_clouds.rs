@@ -1,7 +1,7 @@
 //! Plume, water, sidescan and pictures in a recording.
 
 use super::Recorder;
-use super::recorder::WORLD;
+use super::recorder::AREA;
 use crate::files::ReportError;
 use crate::results::Echoes;
 use crate::ros::{
@@ -17,7 +17,7 @@ impl Recorder {
     /// # Errors
     /// If the file cannot be written.
     pub fn water(&mut self, water: &WaterFrame) -> Result<(), ReportError> {
-        let (t, cloud) = (nanoseconds(water.t_s), water_cloud(water, WORLD));
+        let (t, cloud) = (nanoseconds(water.t_s), water_cloud(water, AREA));
         self.file
             .write("/water", MessageKind::PointCloud2, t, &cloud)?;
         Ok(())
@@ -28,7 +28,7 @@ impl Recorder {
     /// # Errors
     /// If the file cannot be written.
     pub fn plume(&mut self, plume: &PlumeFrame) -> Result<(), ReportError> {
-        let (t, cloud) = (nanoseconds(plume.t_s), plume_cloud(plume, WORLD));
+        let (t, cloud) = (nanoseconds(plume.t_s), plume_cloud(plume, AREA));
         self.file
             .write("/plume", MessageKind::PointCloud2, t, &cloud)?;
         self.ways.whole(&mut self.file, t)?;
@@ -42,16 +42,17 @@ impl Recorder {
     /// If the file cannot be written.
     pub fn echo(&mut self, robot: &str, line: &Row) -> Result<(), ReportError> {
         let t = nanoseconds(line.t_s);
+        let centre = self.scene.centre();
         let mut rows: Vec<[f32; 4]> = Vec::new();
         for port in [true, false] {
             for (k, level) in line.side(port).iter().enumerate() {
-                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M);
+                let p = line.at(port, (k as f64 + 0.5) * Echoes::CELL_M) - centre;
                 if level.is_finite() {
                     rows.push([p.x as f32, p.y as f32, line.bed_z as f32, *level]);
                 }
             }
         }
-        let cloud = point_cloud(t, WORLD, ["x", "y", "z", "level"], &rows);
+        let cloud = point_cloud(t, AREA, ["x", "y", "z", "level"], &rows);
         let topic = format!("/{robot}/sidescan");
         self.file
             .write(&topic, MessageKind::PointCloud2, t, &cloud)?;

@@ -1,11 +1,11 @@
 //! A scene's part of a recording: the document, surfaces, URDFs, frames of links, and the joints that move.
 
-use super::recorder::WORLD;
+use super::recorder::{AREA, WORLD};
 use crate::mcap::{McapFile, RecordError};
 use crate::ros::{MessageKind, Transform, marker_array, text, transforms};
 use crate::scene::frames::{BODY, Names, fixed, slid, transform};
 use crate::scene::{Machine, Scene};
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::frame::Frame;
 use robots::handoff::Actuation;
 use robots::vehicles::JointKind;
@@ -41,7 +41,7 @@ impl SceneRecorder {
         file.attach("scene.json", "application/json", document.as_bytes())?;
         let surfaces = marker_array(0, WORLD, &scene.markers());
         file.write("/scene", MessageKind::MarkerArray, 0, &surfaces)?;
-        let mut still = Vec::new();
+        let mut still = vec![scene.area_frame(WORLD, AREA)];
         for machine in &scene.machines {
             let names = names(machine);
             let moved = moved(machine, &names);
@@ -66,6 +66,11 @@ impl SceneRecorder {
             turns: BTreeMap::new(),
             last_ns: None,
         })
+    }
+
+    /// Centre of the area (east, north), m.
+    pub(super) fn centre(&self) -> Vector2<f64> {
+        self.scene.centre()
     }
 
     /// Adds the joints of a frame that move. A link that has a frame of its own in the URDF replaces one of that name.

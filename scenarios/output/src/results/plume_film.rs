@@ -6,11 +6,11 @@ use rheotaxis::frame::PlumeFrame;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wisp {
     /// Its place (ENU), m.
-    pub p: [f32; 3],
+    pub p: [f64; 3],
     /// Its size, m.
-    pub size_m: f32,
+    pub size_m: f64,
     /// Concentration at its middle, kg/m³.
-    pub dense_kg_m3: f32,
+    pub dense_kg_m3: f64,
 }
 
 /// The plume at some moments, evenly thinned if the run is long.
@@ -52,7 +52,7 @@ impl PlumeFilm {
 }
 
 /// `None` for a filament with a number that is not finite, or without size.
-fn wisp(&[x, y, z, size_m, mass, n]: &[f32; 6]) -> Option<Wisp> {
+fn wisp(&[x, y, z, size_m, mass, n]: &[f64; 6]) -> Option<Wisp> {
     // A Gaussian of standard deviation `size` holds mass / n; its middle has that over (2 pi)^1.5 size^3.
     let dense_kg_m3 = mass / n.max(1e-9) / (15.75 * size_m.powi(3));
     let sound = [x, y, z, size_m, dense_kg_m3].iter().all(|v| v.is_finite());
@@ -72,6 +72,7 @@ mod tests {
             t_s: f64::from(k) * 10.0,
             total: n,
             points: vec![[1.0, 2.0, -3.0, 0.5, 1e-6, 2.0]; n],
+            ..PlumeFrame::default()
         }
     }
 
@@ -91,7 +92,7 @@ mod tests {
     #[test]
     fn what_is_not_a_number_is_left_out() {
         let mut one = frame(0, 3);
-        one.points[0][0] = f32::NAN;
+        one.points[0][0] = f64::NAN;
         one.points[1][3] = 0.0;
         let mut film = PlumeFilm::default();
         film.push(&one);

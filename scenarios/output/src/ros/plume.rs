@@ -1,4 +1,4 @@
-//! A plume and the flow of the water as clouds of points.
+//! A plume and the flow of the water as clouds of points, in a frame at the centre of the area.
 
 use super::{nanoseconds, point_cloud};
 use rheotaxis::frame::{PlumeFrame, WaterFrame};
@@ -9,8 +9,8 @@ use std::f64::consts::TAU;
 #[must_use]
 pub fn plume_cloud(plume: &PlumeFrame, frame: &str) -> Vec<u8> {
     let shape = (TAU * TAU.sqrt()) as f32;
-    let rows: Vec<[f32; 7]> = plume
-        .points
+    let local = plume.local();
+    let rows: Vec<[f32; 7]> = local
         .iter()
         .map(|&[x, y, z, size, mass, n]| {
             let volume = shape * size * size * size;
@@ -26,5 +26,5 @@ pub fn plume_cloud(plume: &PlumeFrame, frame: &str) -> Vec<u8> {
 #[must_use]
 pub fn water_cloud(water: &WaterFrame, frame: &str) -> Vec<u8> {
     let names = ["x", "y", "z", "vx", "vy", "vz"];
-    point_cloud(nanoseconds(water.t_s), frame, names, &water.points)
+    point_cloud(nanoseconds(water.t_s), frame, names, &water.local())
 }

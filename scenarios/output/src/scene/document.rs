@@ -14,14 +14,15 @@ use world::frames::Pose;
 use world::physics::Shape;
 
 /// Version of the document. It grows when a reader of the old form would misread the new one.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 impl Scene {
     /// The document of a run of this scenario.
     #[must_use]
     pub fn document(&self, seed: u64) -> String {
+        let centre = self.centre().push(0.0);
         let solids = self.solids.iter().map(|s| {
-            let (vertices, triangles) = mesh(&s.mesh);
+            let (vertices, triangles) = mesh(&s.mesh, centre);
             json!({"name": s.name, "color": s.colour, "vertices_m": vertices, "triangles": triangles})
         });
         let sources = (self.sources.iter())
@@ -36,7 +37,8 @@ impl Scene {
             "title": self.title,
             "seed": seed,
             "area": {"corners_m": corners},
-            "bed": {"shape": [self.bed.rows, self.bed.columns], "points_m": points(&self.bed.points)},
+            "origin_m": centre.xy().as_slice(),
+            "bed": {"shape": [self.bed.rows, self.bed.columns], "points_m": points(&self.bed.points, centre)},
             "surface": self.surface,
             "solids": solids.collect::<Vec<_>>(),
             "sources": sources.collect::<Vec<_>>(),
@@ -87,10 +89,10 @@ fn shape(look: &Look) -> Value {
         Form::Solid(Shape::Sphere { radius_m }) => json!({"kind": "sphere", "radius_m": radius_m}),
         Form::Solid(Shape::Hull { points_m }) => {
             // A hull comes from a mesh file, which is drawn as a mesh: only its corners are left.
-            json!({"kind": "mesh", "vertices_m": points(points_m), "triangles": ""})
+            json!({"kind": "mesh", "vertices_m": points(points_m, Vector3::zeros()), "triangles": ""})
         }
         Form::Mesh(triangles) => {
-            let (vertices, triangles) = mesh(&Mesh::of(triangles));
+            let (vertices, triangles) = mesh(&Mesh::of(triangles), Vector3::zeros());
             json!({"kind": "mesh", "vertices_m": vertices, "triangles": triangles})
         }
     };
@@ -135,17 +137,19 @@ fn fields(value: Value) -> Map<String, Value> {
     }
 }
 
-/// Points as base64 of f32.
-fn points(all: &[Vector3<f64>]) -> String {
-    let numbers = all.iter().flat_map(|p| p.iter().map(|v| *v as f32));
+/// Points as base64 of f32, relative to an origin.
+fn points(all: &[Vector3<f64>], origin: Vector3<f64>) -> String {
+    let numbers = all
+        .iter()
+        .flat_map(|p| (p - origin).map(|v| v as f32).data.0[0]);
     STANDARD.encode(numbers.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())
 }
 
 /// Corners and triangles of a mesh as base64 of f32 and of u32.
-fn mesh(mesh: &Mesh) -> (String, String) {
+fn mesh(mesh: &Mesh, origin: Vector3<f64>) -> (String, String) {
     let numbers = mesh.triangles.as_flattened().iter();
     let bytes: Vec<u8> = numbers.flat_map(|k| k.to_le_bytes()).collect();
-    (points(&mesh.vertices), STANDARD.encode(bytes))
+    (points(&mesh.vertices, origin), STANDARD.encode(bytes))
 }
 
 #[cfg(test)]

@@ -1,13 +1,15 @@
 //! The scene of a scenario.
 
 use super::bed::Bed;
+use super::frames::transform;
 use super::machine::Machine;
 use super::mesh::Mesh;
-use crate::ros::Marker;
-use nalgebra::{Vector2, Vector3};
+use crate::ros::{Marker, Transform};
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 use rheotaxis::error::AssembleError;
 use rheotaxis::scenario::{Beside, Loaded, Scenario};
 use std::path::Path;
+use world::frames::Pose;
 use world::obstacles::Obstacle;
 
 /// Colour of solid things, and of those that the water passes through: red, green, blue, opacity.
@@ -49,6 +51,23 @@ pub struct Solid {
 }
 
 impl Scene {
+    /// Centre of the operating area (east, north), m.
+    #[must_use]
+    pub fn centre(&self) -> Vector2<f64> {
+        let all = self.corners.len().max(1) as f64;
+        self.corners.iter().sum::<Vector2<f64>>() / all
+    }
+
+    /// The frame of clouds, whose numbers of single precision are relative to the centre of the area.
+    #[must_use]
+    pub fn area_frame(&self, parent: &str, child: &str) -> Transform {
+        let pose = Pose {
+            p_WB: self.centre().push(0.0),
+            R_WB: UnitQuaternion::identity(),
+        };
+        transform(0, parent, child.to_owned(), &pose)
+    }
+
     /// That of a scenario.
     ///
     /// # Errors

@@ -264,8 +264,8 @@ impl Flow for Ocean {
         let t_s = t_s + self.spin_up_s;
         Flow::column(&self.water, place, heights_m, t_s, out);
     }
-    fn carry(&self, t_s: f64, dt_s: &[f32], places: [&mut [f32]; 3]) {
-        Flow::carry(&self.water, t_s + self.spin_up_s, dt_s, places);
+    fn carry(&self, t_s: f64, dt_s: &[f32], datum: Vector2<f64>, places: [&mut [f32]; 3]) {
+        Flow::carry(&self.water, t_s + self.spin_up_s, dt_s, datum, places);
     }
     fn rates(&self, t_s: f64, cells: &mut Vec<[f32; 6]>) -> bool {
         self.water.rates(t_s + self.spin_up_s, cells)

@@ -49,6 +49,13 @@ pub(super) fn times(scenario: &Scenario, found: &mut Vec<Found>) {
             ));
         }
     }
+    let flow_s = t.flow_period_s.get();
+    if flow_s > 0.0 && flow_s < step {
+        let problem = format!(
+            "must be 0 (at each step of the plume) or at least time.step_s, {step}, got {flow_s}"
+        );
+        found.push(Found::error("time.flow_period_s", problem));
+    }
     let robots = scenario.robots.iter().map(|r| r.strategy.consulted());
     let gantries = scenario.gantries.iter().map(|g| g.tracker.consulted());
     let asked = (robots

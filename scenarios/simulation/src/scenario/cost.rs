@@ -3,7 +3,7 @@
 use super::fault::Found;
 use super::schema::{RobotSpec, Scenario, TerrainSpec};
 use std::sync::atomic::{AtomicU64, Ordering};
-use world::cost::{Cost, Part, Times, duration, memory};
+use world::cost::{Cost, Part, Times, memory};
 use world::limits::shown;
 
 /// Memory that a run may use unless another limit is given, bytes. It is half of what a common machine has.
@@ -145,18 +145,7 @@ fn recording(scenario: &Scenario, times: &Times) -> [Part; 2] {
     ]
 }
 
-/// The cost in words: "about 12 s, 60 MB".
-#[must_use]
-pub fn estimate(cost: &Cost) -> String {
-    format!(
-        "about {}, {}",
-        duration(cost.seconds()),
-        memory(cost.bytes())
-    )
-}
-
-/// The parts that take most time or memory, largest first, as in
-/// "1.6e4 nodes of the plume's flow (area): 8 s, 2 MB".
+/// The parts that take most time or memory, largest first, as in "1.6e4 nodes of the plume's flow (area): 2 MB".
 #[must_use]
 pub fn greatest(cost: &Cost) -> Vec<String> {
     let share =
@@ -169,12 +158,11 @@ pub fn greatest(cost: &Cost) -> Vec<String> {
         } else {
             format!(" ({})", p.path)
         };
-        format!(
-            "{}{path}: {}, {}",
-            p.what,
-            duration(p.seconds),
-            memory(p.bytes)
-        )
+        let memory = match p.bytes > 0.0 {
+            true => format!(": {}", memory(p.bytes)),
+            false => String::new(),
+        };
+        format!("{}{path}{memory}", p.what)
     };
     parts.iter().take(NAMED).map(said).collect()
 }
@@ -213,12 +201,7 @@ pub(super) fn patience(cost: &Cost, found: &mut Vec<Found>) {
     if !(cost.seconds() <= LONG_S)
         && let Some(part) = cost.slowest()
     {
-        let problem = format!(
-            "the run is estimated to take {}, most of it for {}: {}",
-            duration(cost.seconds()),
-            part.what,
-            duration(part.seconds)
-        );
+        let problem = format!("the run will take hours, most of them for {}", part.what);
         found.push(Found::warning(&part.path, problem));
     }
 }

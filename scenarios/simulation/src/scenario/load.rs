@@ -8,6 +8,8 @@ use super::outline::Outline;
 use super::reader;
 use super::schema::Scenario;
 use super::version::version_first;
+use ron::extensions::Extensions;
+use std::borrow::Cow;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
@@ -20,23 +22,76 @@ const LONGEST: u64 = 1 << 20;
 /// A scenario with the text it was read from.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Loaded {
-    /// What the file says.
+    /// What the file says. If it is changed, [`Self::text`] and [`Self::hash`] follow.
     pub scenario: Scenario,
-    /// The text of the file.
-    pub text: String,
+    // What was read, and from which text.
+    read: Scenario,
+    text: String,
     /// The file, as it was asked for.
     pub path: PathBuf,
     /// Name: the file's name without its ending.
     pub name: String,
     /// Folder to which paths in the scenario are relative.
     pub base_dir: PathBuf,
-    /// Hash of the text, 32 hexadecimal digits.
-    pub hash: String,
     /// The registry under which it was read; runs of it take up the systems and topics that this carries.
     pub registry: Registry,
 }
 
 impl Loaded {
+    /// A scenario of a text, under the present registry, with the mistakes of form only. Errors call it by its path.
+    ///
+    /// # Errors
+    /// If it is not a scenario: all mistakes of form.
+    pub fn of_text(
+        path: PathBuf,
+        name: String,
+        base_dir: PathBuf,
+        text: String,
+    ) -> Result<Self, ScenarioError> {
+        let scenario = parse(&path.display().to_string(), &text)?;
+        Ok(Self::of(scenario, path, name, base_dir, text))
+    }
+
+    fn of(
+        scenario: Scenario,
+        path: PathBuf,
+        name: String,
+        base_dir: PathBuf,
+        text: String,
+    ) -> Self {
+        Self {
+            read: scenario.clone(),
+            scenario,
+            text,
+            path,
+            name,
+            base_dir,
+            registry: Registry::now(),
+        }
+    }
+
+    /// The text of the file; if the scenario was changed since, its own text, without the comments of the file.
+    #[must_use]
+    pub fn text(&self) -> Cow<'_, str> {
+        if self.scenario == self.read {
+            return Cow::Borrowed(&self.text);
+        }
+        let pretty = ron::ser::PrettyConfig::new()
+            .struct_names(false)
+            .extensions(Extensions::IMPLICIT_SOME | Extensions::UNWRAP_VARIANT_NEWTYPES);
+        let text = ron::ser::to_string_pretty(&self.scenario, pretty);
+        let text = text.expect("a scenario is written as it is read");
+        // Files have these extensions without saying so.
+        let whole = text.find("\n(").map_or(0, |at| at + 1);
+        Cow::Owned(text[whole..].to_owned())
+    }
+
+    /// Hash of the text, 32 hexadecimal digits.
+    #[must_use]
+    pub fn hash(&self) -> String {
+        hash(&self.text())
+    }
+
     /// The same scenario with another text. Paths in it are relative to the same folder.
     ///
     /// # Errors
@@ -52,11 +107,12 @@ impl Loaded {
     /// All mistakes that stop a run. If there are none, the warnings are returned.
     pub fn check(&self) -> Result<Vec<Fault>, ScenarioError> {
         let found = check(&self.scenario, &self.base_dir);
-        let outline = Outline::of(&self.text);
+        let text = self.text();
+        let outline = Outline::of(&text);
         let path = self.path.display().to_string();
         let (faults, mut warnings): (Vec<Fault>, Vec<Fault>) = found
             .into_iter()
-            .map(|f| Fault::located(&path, &self.text, &outline, f))
+            .map(|f| Fault::located(&path, &text, &outline, f))
             .partition(|f| f.severity == Severity::Error);
         if faults.is_empty() {
             warnings.sort_by_key(|f| (f.line, f.column));
@@ -139,18 +195,18 @@ fn loaded(
     base_dir: PathBuf,
     text: String,
 ) -> Result<Loaded, ScenarioError> {
-    let mut digest = Digest::default();
-    digest.text(&text);
     let shown = path.display().to_string();
-    Ok(Loaded {
-        scenario: read_whole(&shown, &text, &|s| check(s, &base_dir))?,
-        name,
-        base_dir,
-        path: path.to_path_buf(),
-        hash: digest.hex(),
-        text,
-        registry: Registry::now(),
-    })
+    let scenario = read_whole(&shown, &text, &|s| check(s, &base_dir))?;
+    let path = path.to_path_buf();
+    Ok(Loaded::of(scenario, path, name, base_dir, text))
+}
+
+/// Hash of a scenario's text, 32 hexadecimal digits.
+#[must_use]
+pub fn hash(text: &str) -> String {
+    let mut digest = Digest::default();
+    digest.text(text);
+    digest.hex()
 }
 
 /// The same for a scenario that uses what a registry adds.
@@ -235,4 +291,26 @@ fn read(path: &Path) -> Result<String, Unread> {
             Some("save it as UTF-8"),
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scenario::CATALOG;
+    use world::ranges::Positive;
+
+    /// Whatever a program changes, the text is that of what runs.
+    #[test]
+    fn the_text_of_a_changed_scenario_reads_back_as_it() {
+        for template in CATALOG {
+            let unpacked = load(Path::new(template.name)).unwrap();
+            assert_eq!(unpacked.text(), template.text);
+            let mut changed = unpacked.clone();
+            changed.scenario.time.limit_s = Positive::new(17.25);
+            assert_ne!(changed.hash(), unpacked.hash());
+            let back = unpacked.with_text(changed.text().into_owned()).unwrap();
+            assert_eq!(back.scenario, changed.scenario, "{}", template.name);
+            assert_eq!(back.hash(), changed.hash());
+        }
+    }
 }

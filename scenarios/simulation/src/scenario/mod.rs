@@ -34,7 +34,7 @@ pub use change::put;
 pub use check::{check, check_within};
 pub use fault::{Fault, Found, ScenarioError, Severity};
 pub use gantry::{GantryBlock, HeadSpec, PlaceSpec};
-pub use load::{Loaded, load, load_text, load_text_in, load_with, parse, parse_with};
+pub use load::{Loaded, hash, load, load_text, load_text_in, load_with, parse, parse_with};
 pub use outline::{Node, Outline};
 pub use reader::read;
 pub use schema::{

@@ -37,13 +37,14 @@ pub const RUN: &[Topic] = &[
     Topic {
         name: "plume",
         key: "plume",
-        what: "Some of the plume's filaments: of each x y z (m, ENU), size (m), mass (kg) of all filaments it stands for, how many those are; packed little-endian f32. The masses sum to what is in the water.",
+        what: "Some of the plume's filaments: of each x y z (m, ENU, x and y from origin_m), size (m), mass (kg) of all filaments it stands for, how many those are; packed little-endian f32. The masses sum to what is in the water.",
         rate: "at most 2 a second",
         payload: Payload::PackedF32,
         fields: &[
             T,
             Field::always("total", FieldKind::Count, "How many filaments there are in all."),
             Field::always("shown", FieldKind::Count, "How many are in the payload."),
+            Field::always("origin_m", FieldKind::Vector(2), "Centre of the area (east, north), m; x and y are relative to it."),
             Field::always("fields", FieldKind::Words, "What the numbers of a filament are, in their order."),
             Field::always("dtype", FieldKind::Word(&["<f4"]), "How a number is packed."),
         ],
@@ -51,12 +52,13 @@ pub const RUN: &[Topic] = &[
     Topic {
         name: "water",
         key: "water",
-        what: "Flow of the water on a coarse grid at three heights: of each place x y z (m, ENU) and velocity east, north, up (m/s), packed little-endian f32.",
+        what: "Flow of the water on a coarse grid at three heights: of each place x y z (m, ENU, x and y from origin_m) and velocity east, north, up (m/s), packed little-endian f32.",
         rate: "with the plume; once if the flow is steady",
         payload: Payload::PackedF32,
         fields: &[
             T,
             Field::always("shown", FieldKind::Count, "How many places are in the payload."),
+            Field::always("origin_m", FieldKind::Vector(2), "Centre of the area (east, north), m; x and y are relative to it."),
             Field::always("fields", FieldKind::Words, "What the numbers of a place are, in their order."),
             Field::always("dtype", FieldKind::Word(&["<f4"]), "How a number is packed."),
         ],
@@ -93,6 +95,7 @@ pub const RUN: &[Topic] = &[
         Field::always("title", FieldKind::Text, "Its title."),
         Field::always("seed", FieldKind::Count, "The seed."),
         Field::always("area", FieldKind::Object, "Operating area: corners_m (east, north), m."),
+        Field::always("origin_m", FieldKind::Vector(2), "Its centre (east, north), m; bed and solids are placed from there."),
         Field::always("bed", FieldKind::Object, "Bed as a grid: shape [rows, columns]; points_m, base64 of f32 (east, north, up), m."),
         Field::always("surface", FieldKind::Flag, "Whether the surface of the water is worth drawing."),
         Field::always("solids", FieldKind::Objects, "Obstacles: name, color, vertices_m (base64 of f32), triangles (base64 of u32)."),

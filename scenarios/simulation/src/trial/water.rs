@@ -18,8 +18,8 @@ const HEIGHTS: [f64; 3] = [0.12, 0.5, 0.92];
 const PLACES_A_M: f64 = 1024.0;
 const STEPS_A_M_S: f64 = 8192.0;
 
-fn rounded(number: f64, parts: f64) -> f32 {
-    ((number * parts).round() / parts) as f32
+fn rounded(number: f64, parts: f64) -> f64 {
+    (number * parts).round() / parts
 }
 
 /// Offers the flow at a time of the mission, s; a steady one only if it was not `shown` before.
@@ -57,5 +57,9 @@ fn pictured(ocean: &Ocean, t_s: f64) -> WaterFrame {
             }
         }
     }
-    WaterFrame { t_s, points }
+    WaterFrame {
+        t_s,
+        points,
+        centre: area.centre,
+    }
 }

@@ -84,19 +84,16 @@ fn watched(origin: &Origin, base_dir: &Path) -> Result<Side, Box<dyn Error>> {
         plume.advance(&water, t_s);
         if t_s > spin_up_s {
             for f in plume.iter() {
-                let slice = (f64::from(f[0]) / SLICE_M) as usize;
+                let slice = (f[0] / SLICE_M) as usize;
                 if slice < SLICES && f[0] >= 0.0 {
                     count[slice] += 1.0;
-                    sum[slice] += f64::from(f[2]) + bed_m;
+                    sum[slice] += f[2] + bed_m;
                 }
             }
         }
     }
     Ok(Side {
-        filaments: plume
-            .iter()
-            .map(|f| [f64::from(f[0]), f64::from(f[2]) + bed_m])
-            .collect(),
+        filaments: plume.iter().map(|f| [f[0], f[2] + bed_m]).collect(),
         heights_m: sum.iter().zip(&count).map(|(s, n)| s / n).collect(),
     })
 }

@@ -36,6 +36,19 @@ pub(super) fn csv_fields<T: Record>(record: &T) -> impl Iterator<Item = String> 
     })
 }
 
+/// Columns that say where in a table a run stands, and how long it took.
+const OF_THE_TABLE: [&str; 4] = ["run", "seed_index", "spin_up_wall_s", "mission_wall_s"];
+
+/// The first column in which two records of the same run differ, with both values.
+pub(crate) fn difference<T: Record>(a: &T, b: &T) -> Option<(&'static str, [String; 2])> {
+    let names = T::COLUMNS.iter().map(|(info, ..)| info.name);
+    let values = csv_fields(a).zip(csv_fields(b));
+    names.zip(values).find_map(|(name, (a, b))| {
+        let differs = a != b && !OF_THE_TABLE.contains(&name);
+        differs.then_some((name, [a, b]))
+    })
+}
+
 fn csv<'a, T: Record>(records: impl IntoIterator<Item = &'a T>) -> String {
     let names: Vec<&str> = T::COLUMNS.iter().map(|(info, ..)| info.name).collect();
     csv_text(&names.join(","), records.into_iter().map(csv_fields))

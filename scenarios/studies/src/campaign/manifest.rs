@@ -3,12 +3,12 @@
 use super::error::CampaignError;
 use super::plan::{Campaign, hash};
 use super::seeds::MOST;
-use rheotaxis::scenario::{Loaded, parse};
+use rheotaxis::cache::program_mark;
+use rheotaxis::scenario::Loaded;
 use serde::{Deserialize, Serialize};
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use world::files::{self, write_new, write_on_disk};
-use world::registry::Registry;
 
 /// Its name in the folder.
 pub(super) const FILE: &str = "campaign.json";
@@ -33,6 +33,9 @@ pub struct Manifest {
     pub name: String,
     /// Version of the program that runs it.
     pub version: String,
+    /// Mark of that program's file: two builds with other algorithms may have one version.
+    #[serde(default)]
+    pub program: String,
     /// Hash of the campaign's text.
     pub campaign_hash: String,
     /// Hash of the base scenario's text.
@@ -66,8 +69,9 @@ impl Manifest {
             format: FORMAT,
             name: campaign.name.clone(),
             version: env!("CARGO_PKG_VERSION").to_string(),
+            program: program_mark(),
             campaign_hash: campaign.hash.clone(),
-            scenario_hash: base.hash.clone(),
+            scenario_hash: base.hash(),
             block,
             runs: campaign.n_runs(),
             seeds: campaign.spec.seeds.words(),
@@ -75,7 +79,7 @@ impl Manifest {
             scenario_name: base.name.clone(),
             base_dir: std::path::absolute(&base.base_dir).unwrap_or_else(|_| base.base_dir.clone()),
             campaign_text: campaign.text.clone(),
-            scenario_text: base.text.clone(),
+            scenario_text: base.text().into_owned(),
         }
     }
 
@@ -161,15 +165,12 @@ impl Manifest {
                 return Err(unlike(problem));
             }
         }
-        let base = Loaded {
-            scenario: parse(&self.scenario_name, &self.scenario_text)?,
-            text: self.scenario_text.clone(),
-            path: PathBuf::from(&self.scenario_name),
-            name: self.scenario_name.clone(),
-            base_dir: self.base_dir.clone(),
-            hash: self.scenario_hash.clone(),
-            registry: Registry::now(),
-        };
+        let (path, name) = (
+            PathBuf::from(&self.scenario_name),
+            self.scenario_name.clone(),
+        );
+        let text = self.scenario_text.clone();
+        let base = Loaded::of_text(path, name, self.base_dir.clone(), text)?;
         let campaign = Campaign::new(&self.name, &self.name, &self.campaign_text, base)?;
         let (runs, arms) = (campaign.n_runs(), campaign.n_arms());
         if self.runs != runs {
@@ -212,6 +213,7 @@ impl Manifest {
             ("scenario", &self.scenario_hash, &ours.scenario_hash),
             ("campaign", &self.campaign_hash, &ours.campaign_hash),
             ("version", &self.version, &ours.version),
+            ("program", &self.program, &ours.program),
             (
                 "block size",
                 &self.block.to_string(),
@@ -278,6 +280,18 @@ mod tests {
         let (first, second) = (write(4, false).unwrap(), write(8, false).unwrap());
         let said = write(8, true).unwrap_err().to_string();
         assert!(said.contains("block size 4 there, 8 here"), "{said}");
+        // The same version with another strategy of somebody's own.
+        let built_anew = Manifest {
+            program: "0".repeat(32),
+            ..Manifest::new(&campaign, 4)
+        };
+        let refused = built_anew.write_first(dir.path(), true).unwrap_err();
+        let ours = program_mark();
+        let said = refused.to_string();
+        assert!(
+            said.contains(&format!("program {ours} there, 0000")),
+            "{said}"
+        );
         assert_eq!((first.block, second.block), (4, 4));
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
         assert_eq!(first.seeds, "seeds 1 to 10");

@@ -30,7 +30,7 @@ mod work;
 
 pub use block::{BlockState, block_path, declarations_path, read_block};
 pub use columns::tables;
-pub(crate) use columns::{as_csv, from_csv};
+pub(crate) use columns::{as_csv, difference, from_csv};
 pub use cost::{LONGEST, block_of};
 pub use enough::{Wanted, wanted};
 pub use error::CampaignError;

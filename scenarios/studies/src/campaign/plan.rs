@@ -3,11 +3,10 @@
 use super::error::CampaignError;
 use super::spec::{Arm, CampaignSpec, Conditions, Draw};
 use rayon::prelude::*;
-use rheotaxis::scenario::{Fault, Loaded, Outline, parse_with, put};
+pub(super) use rheotaxis::scenario::hash;
+use rheotaxis::scenario::{Fault, Loaded, Outline, put};
 use rheotaxis::trial::controlled;
 use std::collections::BTreeSet;
-use std::path::PathBuf;
-use world::digest::Digest;
 use world::math;
 use world::seeds::{Key, Seed, Stream};
 
@@ -155,15 +154,9 @@ impl Campaign {
     /// If a path leads nowhere, or the scenario does not allow a value; both name the arm.
     pub fn loaded(&self, condition: u64, arm: usize) -> Result<Loaded, CampaignError> {
         let (shown, text) = self.text_of(condition, arm)?;
-        Ok(Loaded {
-            scenario: parse_with(&self.base.registry, &shown, &text)?,
-            path: PathBuf::from(shown),
-            name: self.base.name.clone(),
-            base_dir: self.base.base_dir.clone(),
-            hash: hash(&text),
-            text,
-            registry: self.base.registry.clone(),
-        })
+        let (name, base_dir) = (self.base.name.clone(), self.base.base_dir.clone());
+        let read = || Loaded::of_text(shown.into(), name, base_dir, text);
+        Ok(self.base.registry.scope(read)?)
     }
 
     /// What errors call the scenario of an arm under a condition, and its text.
@@ -174,7 +167,7 @@ impl Campaign {
             shown.push_str(&format!(", {named}"));
         }
         shown.push(')');
-        let mut text = self.base.text.clone();
+        let mut text = self.base.text().into_owned();
         let condition = self.condition(condition);
         for (path, value) in condition.iter().chain(&self.arm(arm).set) {
             text = put(&text, path, value).map_err(|problem| CampaignError::Override {
@@ -238,12 +231,6 @@ fn drawn(draw: &Draw, u: f64) -> String {
         }
         Draw::Choice(values) => values[(u * values.len() as f64) as usize].clone(),
     }
-}
-
-pub(super) fn hash(text: &str) -> String {
-    let mut digest = Digest::default();
-    digest.text(text);
-    digest.hex()
 }
 
 #[cfg(test)]

@@ -1,9 +1,8 @@
 //! Values of a row's scenario that are drawn anew for every seed.
 
-use rheotaxis::scenario::{Loaded, parse, put};
+use rheotaxis::scenario::{Loaded, put};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
-use std::path::PathBuf;
 use world::math;
 use world::seeds::{Seed, Stream};
 
@@ -121,7 +120,7 @@ fn changed<'a>(
     loaded: &'a Loaded,
     number: &dyn Fn(&str) -> f64,
 ) -> Result<Cow<'a, Loaded>, String> {
-    let mut text = Cow::Borrowed(loaded.text.as_str());
+    let mut text = loaded.text();
     for d in draws.iter().filter(|d| d.in_arm(arm)) {
         let value = d.of.at(number(&d.path));
         let said = |problem| format!("draw `{}`: {problem}", d.path);
@@ -130,14 +129,14 @@ fn changed<'a>(
     let Cow::Owned(text) = text else {
         return Ok(Cow::Borrowed(loaded));
     };
-    let shown = loaded.path.display().to_string();
-    let scenario = parse(&shown, &text).map_err(|e| e.to_string())?;
-    Ok(Cow::Owned(Loaded {
-        scenario,
-        path: PathBuf::from(shown),
-        text,
-        ..loaded.clone()
-    }))
+    let (path, name, base_dir) = (
+        loaded.path.clone(),
+        loaded.name.clone(),
+        loaded.base_dir.clone(),
+    );
+    let read = || Loaded::of_text(path, name, base_dir, text);
+    let changed = loaded.registry.scope(read);
+    changed.map(Cow::Owned).map_err(|e| e.to_string())
 }
 
 #[cfg(test)]

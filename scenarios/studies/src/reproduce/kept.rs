@@ -1,17 +1,20 @@
 //! Tables of the runs behind printed rows: kept in a folder, resumed from, added to, and checked by running some again.
 //!
 //! A row has two files of CSV: `<row>.csv` holds a line for each run (seed, outcome, digest and all that is measured),
-//! `<row>-declarations.csv` a line for each declaration. The first line of the former names scenario and hash. Wall
-//! times are left out, so the same runs give the same bytes on any machine.
+//! `<row>-declarations.csv` a line for each declaration. The first line of the former names scenario and hash, and holds
+//! a fingerprint of all lines of both. Wall times are left out, so the same runs give the same bytes on any machine.
 
 use super::draw::drawn;
 use super::row::{Reference, ReproduceError};
 use super::run::Reproduced;
-use crate::campaign::{DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, from_csv, in_lanes};
+use crate::campaign::{
+    DeclarationRow, Heed, Planned, RunName, RunRow, as_csv, difference, from_csv, in_lanes,
+};
 use output::files::{ReportError, make_folder, write_whole};
 use std::collections::{BTreeMap, BTreeSet};
 use std::hash::{BuildHasher, RandomState};
 use std::path::{Path, PathBuf};
+use world::digest::Fingerprint;
 use world::files;
 use world::seeds::Seed;
 
@@ -48,14 +51,27 @@ impl Table {
         };
         let runs = text(&path)?;
         let (head, lines) = runs.split_once('\n').unwrap_or((&runs, ""));
-        let hash = (head.strip_prefix(HEAD)).and_then(|rest| rest.split_once(", hash "));
-        let Some((_, hash)) = hash else {
-            let problem = format!("line 1: must be `{HEAD}NAME, hash HASH`, got `{head}`");
+        let said = (head.strip_prefix(HEAD)).and_then(|rest| rest.split_once(", hash "));
+        let Some((hash, rows)) = said.and_then(|(_, rest)| rest.split_once(", rows ")) else {
+            let problem =
+                format!("line 1: must be `{HEAD}NAME, hash HASH, rows HASH`, got `{head}`");
             return Err(wrong(&path, problem));
         };
+        let declarations = text(&beside)?;
+        let is = of_rows(lines, &declarations);
+        let changed = (rows.trim() != is).then(|| {
+            let problem = format!(
+                "the table was changed after it was written: its rows and declarations have hash {is}, line 1 says {}; make its runs anew (--anew)",
+                rows.trim()
+            );
+            wrong(&path, problem)
+        });
         let rows: Vec<RunRow> = from_csv(lines, 1).map_err(|e| wrong(&path, e))?;
         let declared: Vec<DeclarationRow> =
-            from_csv(&text(&beside)?, 0).map_err(|e| wrong(&beside, e))?;
+            from_csv(&declarations, 0).map_err(|e| wrong(&beside, e))?;
+        if let Some(changed) = changed {
+            return Err(changed);
+        }
         let mut runs: BTreeMap<_, _> = rows
             .into_iter()
             .map(|r| ((r.seed, r.arm.clone()), r))
@@ -67,7 +83,7 @@ impl Table {
             };
             run.declarations.push(d);
         }
-        let hash = hash.trim().to_string();
+        let hash = hash.to_string();
         Ok(Some(Self { hash, runs }))
     }
 
@@ -106,7 +122,9 @@ impl Table {
             }
         }
         let [rows, declarations] = as_csv(&runs);
-        let rows = format!("{HEAD}{}, hash {}\n{rows}", row.scenario.0, self.hash);
+        let of_rows = of_rows(&rows, &declarations);
+        let (name, hash) = (&row.scenario.0, &self.hash);
+        let rows = format!("{HEAD}{name}, hash {hash}, rows {of_rows}\n{rows}");
         let [path, beside] = paths(dir, &row.row.id);
         // Declarations first: runs without theirs would be read as runs that declared nothing.
         write_whole(&beside, declarations.as_bytes())?;
@@ -141,12 +159,12 @@ impl Table {
         all.map(|(_, run)| run.clone()).collect()
     }
 
-    /// What shows that the program no longer gives these runs: another scenario, or another digest when `n` of the
-    /// seeds, drawn at random, are run again. `None` if nothing does.
+    /// What shows that the program no longer gives these runs: another scenario, or another digest or measure when `n`
+    /// of the seeds, drawn at random, are run again. `None` if nothing does.
     #[must_use]
     pub fn stale(&self, reference: &Reference, n: usize) -> Option<String> {
-        if self.hash != reference.loaded.hash {
-            let (was, is) = (&self.hash, &reference.loaded.hash);
+        let (was, is) = (&self.hash, reference.loaded.hash());
+        if *was != is {
             return Some(format!(
                 "its scenario has hash {is}, that of the table {was}"
             ));
@@ -194,17 +212,31 @@ impl Table {
         };
         let mut found = None;
         in_lanes(&runs, None, heed, &mut |is| {
-            let was = was(&is.arm).map_or("", |run| &run.digest);
-            if is.digest != was {
+            let is = &is;
+            let was = was(&is.arm).expect("only arms of the table are run");
+            let counts = [is, was].map(|run| run.declarations.len());
+            let of_declarations = || is.declarations.iter().zip(&was.declarations);
+            let differs = (counts[0] != counts[1])
+                .then(|| ("number of declarations", counts.map(|n| n.to_string())))
+                .or_else(|| difference(is, was))
+                .or_else(|| of_declarations().find_map(|(is, was)| difference(is, was)));
+            if let Some((column, [now, before])) = differs {
                 let arm = &is.arm;
                 found = Some(format!(
-                    "seed {seed} of arm `{arm}` now has digest {}, in the table {was}",
-                    is.digest
+                    "seed {seed} of arm `{arm}` now has {column} {now}, in the table {before}"
                 ));
             }
         });
         found
     }
+}
+
+/// Fingerprint of the lines of a table, of those of its runs and those of its declarations.
+fn of_rows(rows: &str, declarations: &str) -> String {
+    let mut all = Fingerprint::default();
+    all.part(rows.as_bytes());
+    all.part(declarations.as_bytes());
+    Fingerprint::hex(&all.finish())[..32].to_string()
 }
 
 fn paths(dir: &Path, id: &str) -> [PathBuf; 2] {
@@ -218,7 +250,9 @@ fn paths(dir: &Path, id: &str) -> [PathBuf; 2] {
 mod tests {
     use super::super::row::wanted;
     use super::*;
-    use crate::reproduce::compare;
+    use crate::reproduce::{Plan, compare, reproduce};
+    use std::sync::atomic::AtomicBool;
+    use world::seeds::Key;
 
     fn reference() -> Reference {
         wanted(&["wp_laminar".into()], &[]).unwrap().remove(0)
@@ -282,10 +316,50 @@ mod tests {
         table.put(&reproduced(&reference, 1..3));
         assert_eq!(table.stale(&reference, 0), None);
         let said = table.stale(&reference, 1).unwrap();
-        assert!(said.contains("now has digest"), "{said}");
+        assert!(said.contains("in the table"), "{said}");
         table.hash = "another".to_string();
         let said = table.stale(&reference, 0).unwrap();
         assert!(said.contains("that of the table another"), "{said}");
+    }
+
+    /// A false figure is not seen by its digest.
+    #[test]
+    fn every_measure_of_a_run_and_of_its_declarations_is_checked() {
+        let (dir, reference) = (tempfile::tempdir().unwrap(), reference());
+        let stop = AtomicBool::new(false);
+        let plan = Plan {
+            n: 1,
+            first_seed: 4,
+            key: Key::public(),
+            until_half_width: None,
+            jobs: 1,
+        };
+        let begun = Reproduced::begin(&reference);
+        let row = reproduce(&reference, begun, plan, None, &stop, |_, _| {}, |_| Ok(())).unwrap();
+        let mut table = Table::default();
+        table.put(&row);
+        table.write(dir.path(), &row).unwrap();
+        let mut table = Table::read(dir.path(), &reference).unwrap().unwrap();
+        assert_eq!(table.stale(&reference, 1), None);
+        let changed = |table: &mut Table, change: &dyn Fn(&mut RunRow), column: &str| {
+            let (was, runs) = (table.runs.clone(), table.runs.values_mut());
+            runs.for_each(change);
+            let said = table.stale(&reference, 1).expect(column);
+            assert!(said.contains(&format!("now has {column} ")), "{said}");
+            table.runs = was;
+        };
+        changed(&mut table, &|run| run.error_m = Some(0.25), "error_m");
+        changed(&mut table, &|run| run.outcome = "found!".into(), "outcome");
+        let none = |run: &mut RunRow| run.declarations.push(DeclarationRow::default());
+        changed(&mut table, &none, "number of declarations");
+        let text = std::fs::read_to_string(dir.path().join("wp_laminar.csv")).unwrap();
+        std::fs::write(
+            dir.path().join("wp_laminar.csv"),
+            text.replacen("4,", "5,", 1),
+        )
+        .unwrap();
+        let said = Table::read(dir.path(), &reference).unwrap_err().to_string();
+        assert!(said.contains("changed after it was written"), "{said}");
     }
 
     #[test]

@@ -7,15 +7,13 @@ use super::measure::RunEvent;
 use super::quantity::Quantity;
 use crate::campaign::Arm;
 use output::files::ReportError;
-use rheotaxis::scenario::{Loaded, ScenarioError, load, parse, put, template};
+use rheotaxis::scenario::{Loaded, ScenarioError, load, put, template};
 use ron::extensions::Extensions;
 use serde::{Deserialize, Serialize};
 use shipped::ROWS;
 use std::num::NonZeroU64;
 use std::path::{Path, PathBuf};
-use world::digest::Digest;
 use world::files;
-use world::registry::Registry;
 
 /// Longest file read, bytes: a row is text of a few kilobytes.
 const LONGEST: u64 = 1 << 20;
@@ -273,17 +271,14 @@ impl Reference {
                 name: name.to_string(),
                 problem: format!("arm `{}`: {path}: {problem}", arm.name),
             };
-            let mut text = loaded.text.clone();
+            let mut text = loaded.text().into_owned();
             for (path, value) in &arm.set {
                 text = put(&text, path, value).map_err(|problem| wrong(path, problem))?;
             }
             let shown = format!("{} (arm {})", loaded.name, arm.name);
-            let changed = Loaded {
-                scenario: parse(&shown, &text)?,
-                path: PathBuf::from(shown),
-                text,
-                ..loaded.clone()
-            };
+            let (name, base_dir) = (loaded.name.clone(), loaded.base_dir.clone());
+            let read = || Loaded::of_text(shown.into(), name, base_dir, text);
+            let changed = loaded.registry.scope(read)?;
             changed.check()?;
             arms.push((arm.name.clone(), changed));
         }
@@ -322,17 +317,13 @@ fn scenario(name: &str, row: &Row) -> Result<Loaded, ReproduceError> {
         name: name.to_string(),
         problem: format!("there is no scenario `{}`", row.scenario),
     })?;
-    let mut digest = Digest::default();
-    digest.text(template.text);
-    Ok(Loaded {
-        scenario: parse(template.name, template.text)?,
-        text: template.text.to_string(),
-        path: PathBuf::from(template.name),
-        name: template.name.to_string(),
-        base_dir: PathBuf::new(),
-        hash: digest.hex(),
-        registry: Registry::now(),
-    })
+    let (path, name) = (PathBuf::from(template.name), template.name.to_string());
+    Ok(Loaded::of_text(
+        path,
+        name,
+        PathBuf::new(),
+        template.text.to_string(),
+    )?)
 }
 
 fn read(name: &str, text: &str) -> Result<Row, ReproduceError> {

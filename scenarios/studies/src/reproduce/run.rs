@@ -49,7 +49,7 @@ impl Reproduced {
     pub fn begin(reference: &Reference) -> Self {
         Self {
             row: reference.row.clone(),
-            scenario: (reference.loaded.name.clone(), reference.loaded.hash.clone()),
+            scenario: (reference.loaded.name.clone(), reference.loaded.hash()),
             runs: Vec::new(),
             figures: Vec::new(),
         }

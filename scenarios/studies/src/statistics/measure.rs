@@ -210,11 +210,11 @@ impl Watch {
     fn look(&mut self, water: &Water, plume: &Plume, t_s: f64) {
         let slice = 0.05 * self.distances[0];
         for f in plume.iter() {
-            let d = Vector2::new(f64::from(f[0]), f64::from(f[1])) - self.source.xy();
+            let d = Vector2::new(f[0], f[1]) - self.source.xy();
             let x = d.dot(&self.along);
             for (sums, at) in self.slices.iter_mut().zip(&self.distances) {
                 if (x - at).abs() < slice {
-                    let (y, size, mass) = (d.dot(&self.left), f64::from(f[3]), f64::from(f[4]));
+                    let (y, size, mass) = (d.dot(&self.left), f[3], f[4]);
                     sums[0] += mass;
                     sums[1] += mass * y;
                     sums[2] += mass * (y * y + size * size);

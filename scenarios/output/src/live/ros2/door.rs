@@ -4,7 +4,7 @@ use super::node::Node;
 use super::state::names;
 use super::state::{Message, Spoken};
 use super::topics::{self, RosTopic};
-use super::{MAP, Ros2};
+use super::{AREA, MAP, Ros2};
 use crate::live::slots::Numbered;
 use crate::ros::{
     clock, compressed_image, marker_array, nanoseconds, plume_cloud, text, transforms,
@@ -33,7 +33,8 @@ impl<'a> Door<'a> {
         };
         let scene = Arc::clone(&ros2.scene);
         let machines = scene.machines.iter();
-        let still: Vec<_> = machines.flat_map(|m| fixed(m, &names(m))).collect();
+        let mut still = vec![scene.area_frame(MAP, AREA)];
+        still.extend(machines.flat_map(|m| fixed(m, &names(m))));
         let fixed = [
             (&topics::TF_STATIC, transforms(&still)),
             (&topics::SCENE, marker_array(0, MAP, &scene.markers())),
@@ -59,7 +60,7 @@ impl<'a> Door<'a> {
 
     /// Says a plume.
     pub(in crate::live) fn plume(&mut self, plume: &PlumeFrame) {
-        self.world(&topics::PLUME, plume_cloud(plume, MAP));
+        self.world(&topics::PLUME, plume_cloud(plume, AREA));
     }
 
     /// Says a picture that is already a JPEG file.

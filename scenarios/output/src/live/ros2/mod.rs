@@ -38,6 +38,9 @@ use std::sync::Arc;
 /// The frame of the world: east, north, up; z = 0 at the still surface.
 #[cfg(feature = "live")]
 const MAP: &str = "map";
+/// The frame of clouds, at the centre of the area: their numbers of single precision would be coarse far from the datum.
+#[cfg(feature = "live")]
+const AREA: &str = "map/area";
 
 /// How to publish for ROS 2.
 #[derive(Clone, Debug, PartialEq)]

@@ -24,7 +24,7 @@ pub(super) fn of(film: &PlumeFilm, plan: &Plan) -> Value {
     let wide = |r: [f64; 2]| [r[0] - 0.1 * (r[1] - r[0]), r[1] + 0.1 * (r[1] - r[0])];
     let (u, v) = (wide(plan.u), wide(plan.v));
     let inside = |w: &Wisp| {
-        let p = plan.at([f64::from(w.p[0]), f64::from(w.p[1])]);
+        let p = plan.at([w.p[0], w.p[1]]);
         (u[0] <= p[0] && p[0] <= u[1] && v[0] <= p[1] && p[1] <= v[1]).then_some((p, *w))
     };
     let shown = SHOWN.min(ALL / film.moments.len().max(1));
@@ -36,8 +36,8 @@ pub(super) fn of(film: &PlumeFilm, plan: &Plan) -> Value {
         })
         .collect();
     let all = || moments.iter().flat_map(|m| &m.1).map(|(_, w)| w);
-    let logs = |of: fn(&Wisp) -> f32| range_of(all().map(|w| math::ln(f64::from(of(w)))), 0.0);
-    let heights = range_of(all().map(|w| f64::from(w.p[2])), 0.0);
+    let logs = |of: fn(&Wisp) -> f64| range_of(all().map(|w| math::ln(of(w))), 0.0);
+    let heights = range_of(all().map(|w| w.p[2]), 0.0);
     let (Some(z), Some(size), Some(dense)) = (heights, logs(|w| w.size_m), logs(|w| w.dense_kg_m3))
     else {
         return Value::Null;
@@ -53,9 +53,9 @@ pub(super) fn of(film: &PlumeFilm, plan: &Plan) -> Value {
             bytes.extend(share(p[0], u, 65_535.0).to_le_bytes());
             bytes.extend(share(p[1], v, 65_535.0).to_le_bytes());
             let byte = |x: f64, r| share(x, r, 255.0) as u8;
-            bytes.push(byte(f64::from(w.p[2]), z));
-            bytes.push(byte(math::ln(f64::from(w.size_m)), size));
-            bytes.push(byte(math::ln(f64::from(w.dense_kg_m3)), dense));
+            bytes.push(byte(w.p[2], z));
+            bytes.push(byte(math::ln(w.size_m), size));
+            bytes.push(byte(math::ln(w.dense_kg_m3), dense));
             bytes.push(0);
         }
         STANDARD.encode(bytes)

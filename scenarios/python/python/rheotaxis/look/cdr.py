@@ -178,9 +178,9 @@ _TYPES = {1: "i1", 2: "u1", 3: "<i2", 4: "<u2", 5: "<i4", 6: "<u4", 7: "<f4", 8:
 
 
 def point_cloud(data):
-    """`sensor_msgs/PointCloud2`: a dictionary of one array for each field."""
+    """`sensor_msgs/PointCloud2`: its frame, and a dictionary of one array for each field."""
     c = Cdr(data)
-    c.header()
+    _t, frame = c.header()
     height, width = c.u32(), c.u32()
     names, formats, offsets = [], [], []
     for _ in range(c.u32()):
@@ -193,7 +193,7 @@ def point_cloud(data):
     raw = c.raw(c.u32())
     kind = np.dtype({"names": names, "formats": formats, "offsets": offsets, "itemsize": step})
     rows = np.frombuffer(raw, kind, count=height * width)
-    return {name: rows[name] for name in names}
+    return frame, {name: rows[name] for name in names}
 
 
 def points(fields):

@@ -145,8 +145,10 @@ class Recording:
         return above, position, quaternion
 
     def _cloud(self, t, machine, name, data):
-        fields = cdr.point_cloud(data)
+        frame, fields = cdr.point_cloud(data)
         points = cdr.points(fields)
+        if frame.startswith("world/"):
+            points += self._seen_from(frame, machine)[1]
         values = {k: v for k, v in fields.items() if k not in ("x", "y", "z")}
         return Cloud(t, machine, name, points, values)
 

@@ -15,7 +15,7 @@ import numpy as np
 from .errors import LookError
 
 #: Version of the document that this module reads.
-VERSION = 1
+VERSION = 2
 
 
 @dataclass
@@ -99,17 +99,18 @@ def _read(said):
     corners = (said.get("area") or {}).get("corners_m")
     if corners:
         scene.corners = np.asarray(corners, np.float64).reshape(-1, 2)
+    centre = np.array([*said["origin_m"], 0.0])
     if said.get("bed"):
         rows, columns = said["bed"]["shape"]
         points = array(said["bed"]["points_m"], "<f4", 3, "bed.points_m").astype(np.float64)
         if len(points) != rows * columns:
             raise LookError(f"scene.json: bed.points_m holds {len(points)} points, bed.shape {rows} x {columns}.")
-        scene.bed = points.reshape(rows, columns, 3)
+        scene.bed = points.reshape(rows, columns, 3) + centre
     scene.surface = bool(said.get("surface", True))
     for n, solid in enumerate(said.get("solids") or []):
         vertices, triangles = mesh(solid, f"solids[{n}]")
         color = solid.get("color") or [0.5, 0.5, 0.5, 1.0]
-        scene.solids.append({"name": solid.get("name") or str(n), "color": color, "mesh": (vertices, triangles)})
+        scene.solids.append({"name": solid.get("name") or str(n), "color": color, "mesh": (vertices + centre, triangles)})
     scene.sources = [
         {"name": s["name"], "position": np.asarray(s["position_m"], float)} for s in said.get("sources") or []
     ]

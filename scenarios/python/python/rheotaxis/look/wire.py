@@ -35,7 +35,8 @@ class Wire:
             )
             rows = numbers.reshape(-1, len(head.get("fields") or names))
             values = {n: rows[:, k] for k, n in enumerate(names) if k > 2 and k < rows.shape[1]}
-            yield Cloud(t, None, kind, rows[:, :3].astype(float), values)
+            east_m, north_m = head.get("origin_m") or (0.0, 0.0)
+            yield Cloud(t, None, kind, rows[:, :3].astype(float) + [east_m, north_m, 0.0], values)
         elif kind == "map":
             yield from self._map(key[1], t, head, payload)
         elif kind == "auv":
