@@ -164,7 +164,8 @@ impl Scene {
             for j in 0..cells.n[1] {
                 let middle = cells.place(i as f64 + 0.5, j as f64 + 0.5);
                 let grid = self.plume.grid();
-                let depth = -f64::from(grid.at(middle.x as f32, middle.y as f32, 0.0).bed_z);
+                let [x, y, z] = grid.local(&middle.push(0.0));
+                let depth = -f64::from(grid.at(x, y, z).bed_z);
                 for k in 0..cells.n[2] {
                     let at = cells.cell([i, j, k]);
                     if !cells.open[at] {
