@@ -91,7 +91,7 @@ fn shear_stretches_a_cloud_by_its_exact_law_whatever_the_step() {
             (v / exact - 1.0).abs() < 5.0 * (2.0 / n).sqrt(),
             "step {dt}: {v} for {exact}"
         );
-        let c = p.iter().map(|f| f[0] * f64::from(f[2] + 20.0)).sum::<f64>() / n;
+        let c = p.iter().map(|f| f[0] * (f[2] + 20.0)).sum::<f64>() / n;
         let exact = k * shear * t * t;
         assert!(
             (c / exact - 1.0).abs() < 5.0 * ((1.0 + 4.0 / 3.0) / n).sqrt(),

@@ -120,9 +120,7 @@ fn gaps_of_a_random_release_are_poisson() {
         if k < 200 {
             continue;
         }
-        let gap = p
-            .iter()
-            .all(|f| (f64::from(f[0]) - probe.x).abs() > 3.0 * size);
+        let gap = p.iter().all(|f| (f[0] - probe.x).abs() > 3.0 * size);
         empty += f64::from(u8::from(gap));
         faint += f64::from(u8::from(p.at(&probe) < alone));
         // The concentration agrees with the positions: there cannot be no filament within 3σ and more than two at 3σ.
