@@ -9,6 +9,7 @@ mod inspect;
 mod kit;
 mod page;
 mod physics;
+mod published;
 mod refused;
 mod thrust;
 mod trajectories;

@@ -10,6 +10,7 @@ pub mod catalogue;
 pub mod clock;
 pub mod cost;
 pub mod digest;
+pub mod encoding;
 pub mod error;
 pub mod fields;
 pub mod files;

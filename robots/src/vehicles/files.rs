@@ -7,6 +7,7 @@ use super::folder::VehicleFile;
 use crate::error::RobotError;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
+use world::encoding;
 
 /// Gives the content of a file by its name. Names are relative to the scenario file, or absolute.
 pub trait Files {
@@ -66,7 +67,7 @@ impl Files for InMemory {
 
     fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
         let bytes = self.bytes(name, most_bytes)?;
-        String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text: {e}"))
+        encoding::text(&bytes)
     }
 }
 

@@ -100,6 +100,8 @@ pub(super) struct Motion {
     pub(super) unit: &'static str,
     pub(super) kind: JointKind,
     pub(super) axis: Vector3<f64>,
+    /// Whether the joint's own axis counts instead.
+    pub(super) by_joint: bool,
 }
 
 /// Those of a vehicle with a rudder, a stern plane and a propeller. The trailing edge of the rudder goes to starboard
@@ -111,6 +113,7 @@ pub(super) fn of_fins() -> Vec<Motion> {
         unit,
         kind,
         axis,
+        by_joint: false,
     };
     use JointKind::{Continuous, Revolute};
     vec![
@@ -142,6 +145,7 @@ pub(super) fn of_drives(drives: &[DriveSpec]) -> Vec<Motion> {
             unit,
             kind,
             axis,
+            by_joint: true,
         })
     };
     drives.iter().enumerate().filter_map(motion).collect()

@@ -9,8 +9,11 @@
 
 use super::remus100::Coefficients;
 use super::urdf_mass::Ballast;
-use super::urdf_parts::{UrdfText, check_tree, finite, joined, parse, place, pose_of, root, shape};
+use super::urdf_parts::{
+    UrdfText, axes, check_tree, finite, joined, parse, place, pose_of, root, shape,
+};
 use crate::error::RobotError;
+use nalgebra::Vector3;
 use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::physics::Shape;
@@ -22,6 +25,8 @@ pub(super) struct Shell {
     pub(super) shapes: Vec<(Pose, Shape)>,
     /// Pose of each link in body axes.
     pub(super) links: BTreeMap<String, Pose>,
+    /// Axis of each link that turns or slides on its parent, in its own axes.
+    pub(super) axes: BTreeMap<String, Vector3<f64>>,
     /// Name of the link that is its body.
     pub(super) body: String,
     /// Its mass.
@@ -74,7 +79,8 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     check_tree(&robot).map_err(fail)?;
     let body = root(&robot).map_err(fail)?.name.clone();
     let links = place(&robot, &body).map_err(fail)?;
-    let ballast = Ballast::of(&robot, &body, &links).map_err(fail)?;
+    let axes = axes(&robot).map_err(fail)?;
+    let ballast = Ballast::of(&robot, &links).map_err(fail)?;
     let mut shapes = Vec::new();
     for link in &robot.links {
         let pose = &links[&link.name];
@@ -120,6 +126,7 @@ pub(super) fn shell(urdf: &UrdfText) -> Result<Shell, RobotError> {
     Ok(Shell {
         shapes,
         links,
+        axes,
         body,
         ballast,
         visuals,

@@ -31,20 +31,15 @@ pub(super) struct Ballast {
 }
 
 impl Ballast {
-    /// Sum over all links.
-    pub(super) fn of(
-        robot: &Robot,
-        body: &str,
-        links: &BTreeMap<String, Pose>,
-    ) -> Result<Self, String> {
+    /// Sum over all links: a link may be a frame without mass, the whole may not.
+    pub(super) fn of(robot: &Robot, links: &BTreeMap<String, Pose>) -> Result<Self, String> {
         let mut pieces = Vec::new();
         for link in &robot.links {
             let (name, inertial) = (&link.name, &link.inertial);
             let mass = inertial.mass.value;
-            let least = if name == body { "> 0" } else { ">= 0" };
-            if !((mass > 0.0 || (mass == 0.0 && name != body)) && mass.is_finite()) {
+            if !(mass >= 0.0 && mass.is_finite()) {
                 return Err(format!(
-                    "link \"{name}\": <mass> must be {least} kg, got {mass}"
+                    "link \"{name}\": <mass> must be >= 0 kg, got {mass}"
                 ));
             }
             finite(&inertial.origin, &format!("link \"{name}\", inertial"))?;
@@ -62,6 +57,9 @@ impl Ballast {
             pieces.push((mass, at.p_WB, turn * own * turn.inverse()));
         }
         let mass_kg: f64 = pieces.iter().map(|p| p.0).sum();
+        if mass_kg <= 0.0 {
+            return Err("no link has a <mass> > 0: give one of them an <inertial>".into());
+        }
         let moments = pieces.iter().map(|(m, p, _)| p * *m);
         let p_BG = moments.sum::<Vector3<f64>>() / mass_kg;
         let about_G = pieces.iter().map(|(m, p, own)| {

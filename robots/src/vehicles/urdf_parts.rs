@@ -12,7 +12,7 @@ use crate::error::RobotError;
 use nalgebra::{UnitQuaternion, Vector3};
 use std::collections::BTreeMap;
 use std::path::Path;
-use urdf_rs::{Geometry, Link, Robot};
+use urdf_rs::{Geometry, Joint, JointType, Link, Robot};
 use world::frames::Pose;
 use world::physics::Shape;
 
@@ -102,8 +102,57 @@ pub(super) fn as_file<'a>(text: &str, path: &str, files: &'a dyn Files) -> UrdfT
     }
 }
 
+/// Deepest nesting of elements that is read: a URDF has some five levels, and the reader of XML calls itself for each.
+const DEEPEST: usize = 64;
+/// Most links of a vehicle.
+const MOST_LINKS: usize = 1000;
+
+/// Checks that elements are not nested deeper than the reader of XML can follow.
+fn check_depth(text: &str) -> Result<(), String> {
+    let (mut depth, mut rest) = (0_usize, text);
+    while let Some(at) = rest.find('<') {
+        rest = &rest[at..];
+        let end = |mark: &str| rest.find(mark).map_or(rest.len(), |n| n + mark.len());
+        let (length, opens) = if rest.starts_with("<!--") {
+            (end("-->"), false)
+        } else if rest.starts_with("<![CDATA[") {
+            (end("]]>"), false)
+        } else {
+            let length = end(">");
+            depth = depth.saturating_sub(usize::from(rest.starts_with("</")));
+            let named = rest[1..].starts_with(|c: char| c.is_alphabetic() || c == '_');
+            (length, named && !rest[..length].ends_with("/>"))
+        };
+        depth += usize::from(opens);
+        if depth > DEEPEST {
+            let line = 1 + text[..text.len() - rest.len()].matches('\n').count();
+            return Err(format!(
+                "line {line}: elements are nested more than {DEEPEST} deep, which no URDF is"
+            ));
+        }
+        rest = &rest[length..];
+    }
+    Ok(())
+}
+
+/// What a file is that is no URDF, and what to do with it.
+fn other_format(text: &str) -> Option<&'static str> {
+    if text.contains("<xacro:") || (text.contains("xmlns:xacro") && text.contains("${")) {
+        return Some(
+            "it is xacro that has not been processed: write `xacro FILE > vehicle.urdf`, and name that file",
+        );
+    }
+    (text.contains("<sdf") && !text.contains("<robot")).then_some(
+        "it is SDF, which Gazebo reads: take the URDF from which it was made, or describe its links and joints in one",
+    )
+}
+
 /// Parses links and joints, and checks that the links of every joint exist.
 pub(super) fn parse(text: &str) -> Result<Robot, String> {
+    check_depth(text).map_err(|why| format!("not a URDF file: {why}"))?;
+    if let Some(what) = other_format(text) {
+        return Err(format!("not a URDF file: {what}"));
+    }
     let robot = urdf_rs::read_from_string(text).map_err(|e| {
         // In all these cases the XML reader reports only that it finds nothing.
         let why = if !text.contains("<robot") {
@@ -115,6 +164,12 @@ pub(super) fn parse(text: &str) -> Result<Robot, String> {
         };
         format!("not a URDF file: {why}")
     })?;
+    if robot.links.len() > MOST_LINKS {
+        let got = robot.links.len();
+        return Err(format!(
+            "a vehicle has at most {MOST_LINKS} links, got {got}"
+        ));
+    }
     for joint in &robot.joints {
         for end in [&joint.parent.link, &joint.child.link] {
             if !robot.links.iter().any(|l| &l.name == end) {
@@ -139,16 +194,56 @@ pub(super) fn root(robot: &Robot) -> Result<&Link, String> {
 pub(super) fn place(robot: &Robot, body: &str) -> Result<BTreeMap<String, Pose>, String> {
     let mut links = BTreeMap::new();
     links.insert(body.to_string(), pose_of(&urdf_rs::Pose::default()));
-    // Each round places at least one more link, unless the rest is not connected to the body.
-    for _ in &robot.joints {
-        for joint in &robot.joints {
-            if let Some(parent) = links.get(&joint.parent.link).copied() {
-                let pose = joined(&parent, &pose_of(&joint.origin));
-                links.entry(joint.child.link.clone()).or_insert(pose);
-            }
+    // Each round places at least one more link, until the rest is not connected to the body.
+    let mut rest: Vec<&Joint> = robot.joints.iter().collect();
+    loop {
+        let before = rest.len();
+        rest.retain(|joint| {
+            let Some(parent) = links.get(&joint.parent.link).copied() else {
+                return true;
+            };
+            let pose = joined(&parent, &pose_of(&joint.origin));
+            links.entry(joint.child.link.clone()).or_insert(pose);
+            false
+        });
+        if rest.len() == before {
+            return Ok(links);
         }
     }
-    Ok(links)
+}
+
+/// Axis of the joint of every link that turns or slides on its parent, in the link's axes, of length 1.
+///
+/// # Errors
+/// If an axis has no direction.
+pub(super) fn axes(robot: &Robot) -> Result<BTreeMap<String, Vector3<f64>>, String> {
+    use JointType::{Continuous, Prismatic, Revolute};
+    let moves = |joint: &&Joint| matches!(joint.joint_type, Continuous | Prismatic | Revolute);
+    let axis = |joint: &Joint| {
+        let given = Vector3::from(joint.axis.xyz.0);
+        let axis = given
+            .try_normalize(1e-6)
+            .filter(|a| a.iter().all(|v| v.is_finite()));
+        let axis = axis.ok_or_else(|| {
+            let [x, y, z] = joint.axis.xyz.0;
+            format!(
+                "joint \"{}\": <axis> must be a direction, got {x} {y} {z}",
+                joint.name
+            )
+        })?;
+        Ok((joint.child.link.clone(), axis))
+    };
+    robot.joints.iter().filter(moves).map(axis).collect()
+}
+
+/// The axis about or along which a drive moves its link, in the link's axes: that of the link's joint. Fins turn about
+/// y and all else moves along x where the joint is fixed, and a fin also where the joint has URDF's own axis, x: about
+/// it, it would do nothing.
+pub(super) fn drive_axis(usual: Vector3<f64>, given: Option<&Vector3<f64>>) -> Vector3<f64> {
+    given
+        .filter(|axis| usual != Vector3::y() || **axis != Vector3::x())
+        .copied()
+        .unwrap_or(usual)
 }
 
 /// Checks that every link but one is the child of exactly one joint, that names are unique, and that numbers are
@@ -218,6 +313,14 @@ pub(super) fn shape(geometry: &Geometry, urdf: &UrdfText) -> Result<Shape, Strin
         Geometry::Sphere { radius } => Shape::Sphere {
             radius_m: positive(*radius, "sphere radius")?,
         },
+        Geometry::Mesh { filename, .. }
+            if filename.starts_with("package://") || filename.starts_with("model://") =>
+        {
+            return Err(format!(
+                "mesh \"{filename}\" is an address in a ROS or Gazebo workspace, which is not looked into: copy the \
+                 file beside the URDF and name it relative to the URDF"
+            ));
+        }
         Geometry::Mesh { filename, scale } => {
             let file = filename.strip_prefix("file://").unwrap_or(filename);
             let points =

@@ -138,7 +138,7 @@ fn what_is_no_tree_is_told() {
 fn wrong_masses_are_told() {
     assert_eq!(
         fails("value=\"31.029385\"", "value=\"0\""),
-        "/no/such/place/auv.urdf: link \"base_link\": <mass> must be > 0 kg, got 0"
+        "/no/such/place/auv.urdf: no link has a <mass> > 0: give one of them an <inertial>"
     );
     assert_eq!(
         fails("value=\"31.029385\"", "value=\"40\""),

@@ -153,7 +153,14 @@ fn print(vehicle: &Described) {
     for line in capabilities(&able) {
         say::line(format_args!("  {line}"));
     }
-    for (k, (drive, link)) in plant.drives.iter().zip(vehicle.drives()).enumerate() {
+    let acting = vehicle.acting();
+    for (k, ((drive, link), (at, way))) in plant
+        .drives
+        .iter()
+        .zip(vehicle.drives())
+        .zip(acting)
+        .enumerate()
+    {
         let [least, most] = drive.limits;
         let does = match &drive.does {
             Does::Pushes(_, table) => {
@@ -169,6 +176,12 @@ fn print(vehicle: &Described) {
             Does::Shifts(_, kg) => format!("moving mass of {kg} kg, {least} to {most} m"),
         };
         say::line(format_args!("  drive {:<2} {link:<24} {does}", k + 1));
+        // Without negative zeros.
+        let [at, way] = [at, way].map(|v| v.map(|x| (x * 1000.0).round() / 1000.0 + 0.0));
+        say::line(format_args!(
+            "           at ({:.3}, {:.3}, {:.3}) m, acts along ({:.3}, {:.3}, {:.3}): ahead, to port, up",
+            at.x, at.y, at.z, way.x, way.y, way.z
+        ));
     }
 }
 

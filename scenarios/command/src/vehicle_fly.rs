@@ -53,6 +53,15 @@ pub(super) fn flown(args: &VehicleFlyArgs) -> Result<(), Wrong> {
         lasts_s: args.lasts_s,
     };
     let rows = fly(&vehicle, &flight);
+    if let Some(row) = rows
+        .iter()
+        .find(|row| !row.truth.pose.p_WB.sum().is_finite())
+    {
+        return Err((
+            format!("after {} s its motion is no longer a number", row.t_s),
+            Some("see what `rheotaxis vehicle check` doubts: mass, added mass or damping cannot be right".into()),
+        ));
+    }
     write_whole(&args.out, written(&rows, &links).as_bytes()).map_err(plainly)?;
     say::line(args.out.display());
     Ok(())

@@ -92,11 +92,11 @@ fn masses_that_no_body_has_are_refused() {
     );
     says(
         &refused(&[], &[(&mass, "<mass value=\"0\"")]),
-        &["my_auv/lauv.urdf", "<mass> must be > 0"],
+        &["my_auv/lauv.urdf", "no link has a <mass> > 0"],
     );
     says(
         &refused(&[], &[(&mass, "<mass value=\"-3\"")]),
-        &["<mass> must be > 0", "-3"],
+        &["<mass> must be >= 0", "-3"],
     );
     let ixx = urdf.split("ixx=\"").nth(1).expect("an inertia");
     let ixx = format!("ixx=\"{}\"", ixx.split('"').next().expect("a number"));

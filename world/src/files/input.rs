@@ -4,6 +4,8 @@ use std::fs::{self, File, FileType};
 use std::io::{self, ErrorKind, Read};
 use std::path::Path;
 
+use crate::encoding;
+
 /// What a special file is, in words; `None` for a regular file.
 pub(super) fn special(kind: FileType) -> Option<&'static str> {
     if kind.is_file() {
@@ -64,17 +66,12 @@ pub fn read(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Reads a text file in UTF-8 of at most `most` bytes.
+/// Reads a text file in UTF-8 of at most `most` bytes, without the mark of its encoding.
 ///
 /// # Errors
 /// As [`read`]; also if the text is not UTF-8, with the line.
 pub fn read_text(path: &Path, most: u64) -> io::Result<String> {
-    String::from_utf8(read(path, most)?).map_err(|e| {
-        let good = &e.as_bytes()[..e.utf8_error().valid_up_to()];
-        let line = 1 + good.iter().filter(|&&b| b == b'\n').count();
-        let problem = format!("it is not UTF-8 text: line {line}, byte {}", good.len());
-        io::Error::new(ErrorKind::InvalidData, problem)
-    })
+    encoding::text(&read(path, most)?).map_err(|why| io::Error::new(ErrorKind::InvalidData, why))
 }
 
 #[cfg(test)]
@@ -90,6 +87,11 @@ mod tests {
         assert_eq!(read(&path, 6).unwrap().len(), 6);
         assert_eq!(read(&path, 5).unwrap_err().kind(), ErrorKind::FileTooLarge);
         assert_eq!(read_text(&path, 6).unwrap(), "abc\né");
+        fs::write(&path, "\u{feff}abc").unwrap();
+        assert_eq!(read_text(&path, 6).unwrap(), "abc");
+        fs::write(&path, b"\xff\xfea\0").unwrap();
+        let said = read_text(&path, 6).unwrap_err().to_string();
+        assert!(said.ends_with("save it as UTF-8"), "{said}");
         fs::write(&path, b"abc\n\xff").unwrap();
         let said = read_text(&path, 6).unwrap_err().to_string();
         assert_eq!(said, "it is not UTF-8 text: line 2, byte 4");

@@ -7,7 +7,7 @@
 //!
 //! *Deviations*: heights stand at the centres of the raster's cells and are joined by triangles, so the surface is one
 //! cell smaller than the raster. The position in the file is ignored: the scenario places the surface by its centre. A
-//! missing height is an error, not a hole.
+//! missing height is an error, not a hole; without the line `NODATA_value` it is the format's own, -9999.
 
 use super::mesh_file::{Triangle, Wrong};
 use crate::error::WorldError;
@@ -20,6 +20,9 @@ pub(super) const SKIRT_M: f64 = 1.0;
 const MOST: usize = 500_000;
 /// Longest file read, bytes: enough for that many heights with all their digits.
 const LONGEST: u64 = 32 << 20;
+
+/// What stands for a missing height in a file that does not say.
+const MISSING: f64 = -9999.0;
 
 /// Heights on a grid.
 #[derive(Debug, PartialEq)]
@@ -65,11 +68,16 @@ fn parse(text: &str) -> Result<Heights, Wrong> {
         }
         for word in words {
             match word.parse::<f64>() {
-                Ok(v) if header.missing == Some(v) => {
+                Ok(v) if v == header.missing.unwrap_or(MISSING) => {
                     let at = z.len().checked_rem(header.columns).unwrap_or(0) + 1;
-                    let problem = format!(
-                        "height {at} of the row is missing (NODATA_value {v}): fill the gap first"
-                    );
+                    let by = match header.missing {
+                        Some(v) => format!("NODATA_value {v}"),
+                        None => format!(
+                            "{v}, which is the format's NODATA_value if no line says another"
+                        ),
+                    };
+                    let problem =
+                        format!("height {at} of the row is missing ({by}): fill the gap first");
                     return Err((here, problem));
                 }
                 Ok(v) if v.is_finite() => z.push(v),
@@ -233,6 +241,17 @@ mod tests {
         assert_eq!(
             says(format!("{HEAD}1 2 3\n4 -9999 6\n")),
             ":8: height 2 of the row is missing (NODATA_value -9999): fill the gap first"
+        );
+        let unsaid = HEAD.replace("NODATA_value -9999\n", "");
+        assert_eq!(
+            says(format!("{unsaid}1 2 3\n4 5 -9999.0\n")),
+            ":7: height 3 of the row is missing (-9999, which is the format's NODATA_value if no line says another): \
+             fill the gap first"
+        );
+        let other = format!("{unsaid}NODATA_value 0\n1 2 3\n4 5 -9999\n");
+        assert!(
+            parse(&other).is_ok(),
+            "a height where another number stands for gaps"
         );
         assert_eq!(
             says(HEAD.replace('3', "1")),

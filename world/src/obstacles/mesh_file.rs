@@ -8,6 +8,7 @@
 //! *Deviations:* normals, colours, texture coordinates and groups are not read; faces of more than
 //! three corners are cut into a fan.
 
+use crate::encoding::unmarked;
 use crate::error::WorldError;
 use crate::files;
 use std::path::Path;
@@ -55,6 +56,7 @@ pub fn mesh_triangles(bytes: &[u8], name: &Path) -> Result<Vec<[[f64; 3]; 3]>, W
 }
 
 fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
+    let bytes = unmarked(bytes);
     if ending != "obj" {
         return Ok(parse(bytes, ending)?.into_iter().flatten().collect());
     }
@@ -73,6 +75,7 @@ fn corners(bytes: &[u8], ending: &str) -> Result<Vec<[f64; 3]>, Wrong> {
 }
 
 fn parse(bytes: &[u8], ending: &str) -> Result<Vec<Triangle>, Wrong> {
+    let bytes = unmarked(bytes);
     let triangles = match ending {
         "stl" if is_ascii_stl(bytes) => ascii_stl(bytes)?,
         "stl" => binary_stl(bytes)?,

@@ -30,6 +30,9 @@ pub struct Remark {
     pub hint: String,
 }
 
+/// How many times higher than the water is deep a body may be.
+const TOO_HIGH: f64 = 5.0;
+
 fn remark(wrong: bool, problem: String, hint: &str) -> Remark {
     Remark {
         wrong,
@@ -99,6 +102,13 @@ impl Obstacle {
                 .fold(f64::INFINITY, f64::min);
             if high.z <= deepest {
                 found.push(remark(false, format!("obstacle \"{id}\" lies wholly under the bed: its top is {:.2} m below the surface", -high.z), "give a smaller depth in base"));
+            }
+            let (high_m, depth_m) = (high.z - low.z, -deepest);
+            if high_m > TOO_HIGH * depth_m {
+                let problem =
+                    format!("obstacle \"{id}\" is {high_m:.0} m high in water of {depth_m:.1} m");
+                let hint = "look at its scale, and at heights in a file that stand for gaps";
+                found.push(remark(false, problem, hint));
             }
         }
         found

@@ -127,6 +127,20 @@ fn a_wrong_scale_is_noticed() {
 }
 
 #[test]
+fn a_body_far_higher_than_the_water_is_deep_is_noticed() {
+    // A height that stands for a gap in some other way than by the format's number.
+    let (spec, built) = field(&ramp().replace("22", "222"), 1.0, 90.0);
+    let remarks = built.unwrap().remarks(&spec, &area(), &LEVEL);
+    let [remark] = &remarks[..] else {
+        panic!("one remark: {remarks:?}");
+    };
+    assert!(
+        !remark.wrong && remark.problem.contains(" m high in water of "),
+        "{remark:?}"
+    );
+}
+
+#[test]
 fn odd_places_are_noticed() {
     let says = |base: Base, east_m: f64| {
         let mut spec = spec(block(3.0), base, 90.0);

@@ -36,6 +36,12 @@ pub(super) struct Rates {
 }
 
 impl Rates {
+    /// Bound of all of them at a velocity.
+    fn at(&self, nu: &Vector6<f64>) -> f64 {
+        let fast = self.rest + self.coriolis(nu);
+        (self.by_speed.iter().zip(nu.iter())).fold(fast, |sum, (rate, v)| sum + rate * v.abs())
+    }
+
     /// Rate of the Coriolis forces: twice the norm of C(ν) between inverse roots of the mass, for they are quadratic.
     fn coriolis(&self, nu: &Vector6<f64>) -> f64 {
         let [mass, root] = &self.mass;
@@ -236,32 +242,26 @@ impl Described {
         now
     }
 
-    /// Whether a step can be cut finely enough for its motion at rest.
+    /// Whether a step can be cut finely enough for its motion at its usual speeds.
     #[must_use]
     pub fn follows(&self, step_s: f64) -> bool {
-        step_s * self.rates.rest <= FASTEST * MOST_PARTS
+        step_s <= FASTEST * MOST_PARTS * self.shortest_s()
     }
 
-    /// Time in which its fastest motion at rest decays or swings, s.
+    /// Time in which its fastest motion decays or swings at its top speed, or at 1 m/s or 1 rad/s another way, s.
     #[must_use]
     pub fn shortest_s(&self) -> f64 {
-        1.0 / self.rates.rest
+        let top_m_s = self.capabilities.top_speed_m_s.max(1.0);
+        1.0 / self
+            .rates
+            .at(&Vector6::new(top_m_s, 1.0, 1.0, 1.0, 1.0, 1.0))
     }
 
     /// Into how many parts a step is cut.
     fn parts(&self, truth: &Truth, water: &WaterSample, dt_s: f64) -> u32 {
         let v = truth.v_WB_B - truth.pose.R_WB.inverse() * water.velocity;
         let w = truth.w_WB_B;
-        let by_speed = &self.rates.by_speed;
-        let nu = Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z);
-        let fast = self.rates.rest
-            + self.rates.coriolis(&nu)
-            + by_speed[0] * v.x.abs()
-            + by_speed[1] * v.y.abs()
-            + by_speed[2] * v.z.abs()
-            + by_speed[3] * w.x.abs()
-            + by_speed[4] * w.y.abs()
-            + by_speed[5] * w.z.abs();
+        let fast = self.rates.at(&Vector6::new(v.x, v.y, v.z, w.x, w.y, w.z));
         (dt_s * fast / FASTEST).ceil().clamp(1.0, MOST_PARTS) as u32
     }
 }

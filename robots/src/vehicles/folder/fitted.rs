@@ -1,4 +1,4 @@
-//! Puts the drives of a vehicle's file on the links of its URDF.
+//! Puts the drives of a vehicle's file on the links of its URDF, along the axes of their joints.
 //!
 //! *Source:* none.
 //!
@@ -9,16 +9,14 @@
 use crate::handoff::MOST_DRIVES;
 use crate::vehicles::drives::{Drive, DriveSpec, Fin, Follows, Kind, Thruster, table};
 use crate::vehicles::dynamics::flip;
+use crate::vehicles::urdf::Shell;
+use crate::vehicles::urdf_parts::drive_axis;
 use nalgebra::Vector3;
-use std::collections::BTreeMap;
 use world::frames::Pose;
 use world::spelling::choose;
 
 /// The drives on their links.
-pub(super) fn drives(
-    specs: &[DriveSpec],
-    links: &BTreeMap<String, Pose>,
-) -> Result<Vec<Drive>, String> {
+pub(super) fn drives(specs: &[DriveSpec], shell: &Shell) -> Result<Vec<Drive>, String> {
     if specs.len() > MOST_DRIVES {
         return Err(format!(
             "drives: at most {MOST_DRIVES}, got {}",
@@ -28,19 +26,20 @@ pub(super) fn drives(
     specs
         .iter()
         .enumerate()
-        .map(|(k, spec)| drive(spec, links).map_err(|problem| format!("drives[{k}].{problem}")))
+        .map(|(k, spec)| drive(spec, shell).map_err(|problem| format!("drives[{k}].{problem}")))
         .collect()
 }
 
-fn drive(spec: &DriveSpec, links: &BTreeMap<String, Pose>) -> Result<Drive, String> {
+fn drive(spec: &DriveSpec, shell: &Shell) -> Result<Drive, String> {
     let at = |link: &str| {
-        links.get(link).copied().ok_or_else(|| {
-            let near: Vec<&str> = links.keys().map(String::as_str).collect();
+        shell.links.get(link).copied().ok_or_else(|| {
+            let near: Vec<&str> = shell.links.keys().map(String::as_str).collect();
             let hint = choose(link, &near, "links");
             format!("link: no link \"{link}\" in the URDF; {hint}")
         })
     };
     let axis = |pose: &Pose, axis: Vector3<f64>| flip(pose.R_WB * axis);
+    let along = |link: &str| drive_axis(Vector3::x(), shell.axes.get(link));
     Ok(match spec {
         DriveSpec::Thruster(t) => {
             let pose = at(&t.link)?;
@@ -51,7 +50,7 @@ fn drive(spec: &DriveSpec, links: &BTreeMap<String, Pose>) -> Result<Drive, Stri
                 follows: Follows::Lag(t.lag_s.get()),
                 kind: Kind::Thruster(Thruster {
                     r: flip(pose.p_WB),
-                    axis: axis(&pose, Vector3::x()),
+                    axis: axis(&pose, along(&t.link)),
                     curve,
                     runs_free_m_s: t.runs_free_m_s.map(|v| v.get()),
                     torque_m: t.torque_m.get(),
@@ -62,14 +61,22 @@ fn drive(spec: &DriveSpec, links: &BTreeMap<String, Pose>) -> Result<Drive, Stri
         DriveSpec::Fin(f) => {
             let pose = at(&f.link)?;
             let limit = f.limit_deg.get().to_radians();
+            let hinge = drive_axis(Vector3::y(), shell.axes.get(&f.link));
+            let chord = Vector3::x() - hinge * hinge.x;
+            let chord = chord.try_normalize(0.1).ok_or_else(|| {
+                format!(
+                    "link: the joint of \"{}\" turns it about its chord, x, which does nothing",
+                    f.link
+                )
+            })?;
             Drive {
                 link: f.link.clone(),
                 limits: [-limit, limit],
                 follows: Follows::Lag(f.lag_s.get()),
                 kind: Kind::Fin(Fin {
                     r: flip(pose.p_WB),
-                    chord: axis(&pose, Vector3::x()),
-                    lift: axis(&pose, Vector3::z()),
+                    chord: axis(&pose, chord),
+                    lift: axis(&pose, chord.cross(&hinge)),
                     area_m2: f.area_m2.get(),
                     slope: f.lift_slope.get(),
                     drag_0: f.drag_0.get(),
@@ -96,7 +103,11 @@ fn drive(spec: &DriveSpec, links: &BTreeMap<String, Pose>) -> Result<Drive, Stri
                 link: m.link.clone(),
                 limits: [-travel, travel],
                 follows: Follows::Rate(m.rate_m_s.get()),
-                kind: Kind::Mass(axis(&pose, Vector3::x()), m.mass_kg.get(), m.power_w.get()),
+                kind: Kind::Mass(
+                    axis(&pose, along(&m.link)),
+                    m.mass_kg.get(),
+                    m.power_w.get(),
+                ),
             }
         }
     })

@@ -23,6 +23,9 @@ use crate::vehicles::urdf_parts::UrdfText;
 use nalgebra::{Matrix3, Matrix6, SymmetricEigen, Vector3};
 use std::path::Path;
 
+/// Shortest time in which the motion of a hull decays, s; those that come with the program take ten times as long.
+const QUICKEST_S: f64 = 1e-3;
+
 impl Described {
     /// Builds a vehicle from the text of its `vehicle.ron`, which stands in a folder of `files`.
     ///
@@ -44,7 +47,7 @@ impl Described {
         let mut told = Vec::new();
         let given = given(&file.hydrodynamics, &text, mass.kg, &mut told)?;
         let (body, mut damping) = hull(&given, &mass, &shell, &mut told).map_err(wrong)?;
-        let drives = drives(&file.drives, &shell.links).map_err(wrong)?;
+        let drives = drives(&file.drives, &shell).map_err(wrong)?;
         let equation = Equation::new(body).ok_or_else(|| {
             wrong("hydrodynamics: mass and added mass are singular together".into())
         })?;
@@ -76,7 +79,7 @@ impl Described {
         let capabilities = plant::capabilities(&plant, &file.autopilot);
         plant::doubts(&file.autopilot, &plant, &capabilities, &mut told).map_err(wrong)?;
         debug_assert!(n <= MOST_DRIVES);
-        Ok(Self {
+        let mut vehicle = Self {
             name: file.name.clone(),
             shell,
             equation,
@@ -88,7 +91,15 @@ impl Described {
             told,
             plant,
             capabilities,
-        })
+        };
+        let shortest_s = vehicle.shortest_s();
+        if shortest_s < QUICKEST_S {
+            vehicle.told.push(format!(
+                "hydrodynamics: its motion decays within {shortest_s:.1e} s at its usual speeds, and no hull's does in \
+                 less than {QUICKEST_S} s: look at the units of damping and added mass"
+            ));
+        }
+        Ok(vehicle)
     }
 }
 

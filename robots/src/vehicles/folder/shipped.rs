@@ -6,6 +6,7 @@ use crate::error::RobotError;
 use crate::vehicles::files::Files;
 use crate::vehicles::urdf_parts::UrdfText;
 use std::path::{Path, PathBuf};
+use world::encoding;
 
 /// A vehicle that comes with the program.
 #[derive(Clone, Copy, Debug)]
@@ -70,7 +71,7 @@ impl Files for BuiltIn<'_> {
 
     fn text(&self, name: &Path, most_bytes: u64) -> Result<String, String> {
         let bytes = self.bytes(name, most_bytes)?;
-        String::from_utf8(bytes).map_err(|e| format!("it is not UTF-8 text: {e}"))
+        encoding::text(&bytes)
     }
 
     fn vehicle(&self, path: &str, text: &str) -> Result<VehicleFile, RobotError> {

@@ -13,6 +13,7 @@ use std::borrow::Cow;
 use std::io::{ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use world::digest::Digest;
+use world::encoding;
 use world::files;
 use world::registry::Registry;
 
@@ -280,9 +281,7 @@ fn read(path: &Path) -> Result<String, Unread> {
             Some("a scenario is text of a few kilobytes; is this the right file?"),
         ));
     }
-    // Some editors begin a file with a mark of its encoding.
-    let marked = bytes.starts_with("\u{feff}".as_bytes());
-    let text = bytes.split_off(if marked { 3 } else { 0 });
+    let text = encoding::unmarked(&bytes).to_vec();
     String::from_utf8(text).map_err(|e| {
         let good = e.utf8_error().valid_up_to();
         let line = 1 + e.as_bytes()[..good].iter().filter(|&&b| b == b'\n').count();
