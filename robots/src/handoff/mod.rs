@@ -13,6 +13,7 @@ mod gantry;
 mod goal;
 mod layers;
 mod lcdp;
+mod need;
 mod pictures;
 mod pilot_spec;
 mod rates;
@@ -40,6 +41,7 @@ pub use gantry::{
 pub use goal::{Goal, GuidanceStatus, Manoeuvre, Vertical};
 pub use layers::{Layer, LayerState};
 pub use lcdp::Lcdp;
+pub use need::Need;
 pub use pictures::{Picture, SidescanPing};
 pub use pilot_spec::{GliderSpec, PilotSpec, ThrustersSpec, TorpedoSpec};
 pub use rates::{RateCommand, RateLimits, TurnLimit};

@@ -98,6 +98,12 @@ pub trait SensorParams: Spec {
     /// If a mount is missing, or if a parameter is out of range.
     fn build(&self, on: &Fitting) -> Result<Box<dyn Sensor>, RobotError>;
 
+    /// The instruments of the program whose readings it gives, too: an instrument of another crate that says so is one of
+    /// those that a strategy may need.
+    fn stands_for(&self) -> &'static [&'static str] {
+        &[]
+    }
+
     /// Its memory and time among so many obstacles, if it is used for a share `used` of the mission; paths below its
     /// field.
     fn cost(&self, _obstacles: f64, _used: f64, _times: &Times) -> Cost {
