@@ -5,6 +5,7 @@
 
 mod answer;
 mod belief;
+mod bounds;
 mod command;
 mod control;
 mod decision;
@@ -18,6 +19,7 @@ mod pictures;
 mod pilot_spec;
 mod rates;
 mod readings;
+mod readings_fault;
 mod regions;
 mod setting;
 mod side;
@@ -25,6 +27,7 @@ mod zone;
 
 pub use answer::{Answer, Consulted, HeadOrder, MoveOrder, Order, Told};
 pub use belief::{Belief, BeliefGrid, Odour};
+pub use bounds::Bounds;
 pub use command::{Actuation, ActuatorCommand, Command, MoveSetpoint, Setpoint};
 pub use control::{
     Capabilities, Control, Does, DriveCommand, DriveUnit, MOST_DRIVES, NamedDrive, Plant,
